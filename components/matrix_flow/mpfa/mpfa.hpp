@@ -1,0 +1,19 @@
+// The multi-point flux approximation (MPFA-O) on triangles.
+#pragma once
+
+#include <vector>
+
+#include "components/matrix_flow/flux_operators.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// `mobility`: permeability tensor over viscosity of every cell (m^2/(Pa s)). `conditions`: one a face.
+/// `nodes`: the nodes whose interaction regions are to be discretized; empty means all. Rows of faces with an end
+/// outside `nodes` are then incomplete and must not be used.
+/// Exact for linear pressures on any mesh of triangles, with any (also discontinuous, anisotropic) mobility whose
+/// solution is linear. Aavatsmark 2002; continuity points as in Klausen, Radu, Eigestad 2008 (1/3 of the half face from
+/// its centre; the centre itself on the boundary).
+FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
+                              const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
+
+}  // namespace sprekk::matrix_flow

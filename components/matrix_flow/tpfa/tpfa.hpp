@@ -1,0 +1,14 @@
+// The two-point flux approximation on triangles.
+#pragma once
+
+#include <vector>
+
+#include "components/matrix_flow/flux_operators.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// Arguments as for discretize_mpfa. Monotone; consistent only on meshes orthogonal to the permeability.
+FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
+                              const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
+
+}  // namespace sprekk::matrix_flow

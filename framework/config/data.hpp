@@ -1,0 +1,65 @@
+// Properties, sources, boundary and initial values: anything that may vary in space and time.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+/// Where and when a datum is evaluated. `region` indexes Mesh::region_names.
+struct Place {
+  Point x = Point::Zero();
+  int region = 0;
+  double t = 0;
+};
+
+/// A scalar in SI units: a number, an expression of x, y, t, a value per region, or a table (CSV).
+class Data {
+ public:
+  Data(double constant = 0);  // NOLINT: a number is a datum
+  using Function = std::function<double(const Place&)>;
+  Data(Function function, bool depends_on_time, bool depends_on_space);
+
+  double at(const Place& place) const { return function_ ? function_(place) : constant_; }
+  bool is_constant() const { return !function_; }
+  bool is_zero() const { return !function_ && constant_ == 0; }
+  bool depends_on_time() const { return depends_on_time_; }
+  bool depends_on_space() const { return depends_on_space_; }
+
+ private:
+  double constant_ = 0;
+  Function function_;
+  bool depends_on_time_ = false;
+  bool depends_on_space_ = false;
+};
+
+/// A vector (x, y) of data.
+struct VectorData {
+  std::array<Data, dimension> component;
+  Point at(const Place& place) const { return {component[0].at(place), component[1].at(place)}; }
+  bool is_zero() const { return component[0].is_zero() && component[1].is_zero(); }
+  bool depends_on_time() const { return component[0].depends_on_time() || component[1].depends_on_time(); }
+};
+
+/// A symmetric tensor (xx, yy, xy) of data: written as a scalar (isotropic), {xx:, yy:, xy:}, or
+/// {along:, across:, angle:} (principal values and the direction of the first).
+struct TensorData {
+  Data xx, yy, xy;
+  TensorData(double isotropic = 0) : xx(isotropic), yy(isotropic), xy(0) {}  // NOLINT: a number is isotropic
+  TensorData(Data xx_, Data yy_, Data xy_) : xx(std::move(xx_)), yy(std::move(yy_)), xy(std::move(xy_)) {}
+  Tensor at(const Place& place) const {
+    const double off_diagonal = xy.at(place);
+    Tensor tensor;
+    tensor << xx.at(place), off_diagonal, off_diagonal, yy.at(place);
+    return tensor;
+  }
+  bool is_zero() const { return xx.is_zero() && yy.is_zero() && xy.is_zero(); }
+  bool depends_on_time() const { return xx.depends_on_time() || yy.depends_on_time() || xy.depends_on_time(); }
+};
+
+}  // namespace sprekk

@@ -1,0 +1,34 @@
+// The user's mistakes, as opposed to failures of a run or of the program.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+/// Where a piece of input stands. `line` and `column` count from 1; 0 when the source has none (`--set`).
+struct Origin {
+  std::string source;  ///< a file's name as the user gave it, or "--set"
+  int line = 0;
+  int column = 0;
+  std::string text() const;  ///< "scene.yaml:12:5"
+};
+
+/// Wrong input: the command line answers with exit code 2 and has written nothing.
+/// Message grammar: problem (why) suggestion.
+class InputError : public std::runtime_error {
+ public:
+  InputError(const Origin& where, const std::string& problem, const std::string& why = "",
+             const std::string& suggestion = "");
+  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+};
+
+/// The nearest of `names` to `word` by edit distance, or "" when none is near enough to be meant.
+std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
+
+/// "unknown X 'wrod' (it is not one of: a, b, word) did you mean 'word'?" for any kind of name.
+InputError unknown_name(const Origin& where, const std::string& what, const std::string& word,
+                        const std::vector<std::string>& allowed);
+
+}  // namespace sprekk

@@ -1,0 +1,51 @@
+// The scene as a tree in which every key and value knows where it was written.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/config/input_error.hpp"
+
+namespace sprekk {
+
+class Node {
+ public:
+  enum class Kind { null, scalar, list, map };
+  struct Entry;
+
+  Kind kind = Kind::null;
+  Origin origin;              ///< of the value
+  std::string path;           ///< "components.pore.permeability", for messages and `--set`
+  std::string scalar;         ///< the text of a scalar, unparsed
+  std::vector<Node> items;    ///< of a list
+  std::vector<Entry> entries; ///< of a map, in the order in which they were written
+
+  bool is_null() const { return kind == Kind::null; }
+  bool is_scalar() const { return kind == Kind::scalar; }
+  bool is_list() const { return kind == Kind::list; }
+  bool is_map() const { return kind == Kind::map; }
+  const Node* find(const std::string& key) const;  ///< the value of a key of a map, or nullptr
+  std::vector<std::string> keys() const;
+};
+
+struct Node::Entry {
+  std::string key;
+  Origin origin;  ///< of the key
+  Node value;
+};
+
+/// One `--set a.b.c=value`; the value is parsed as YAML.
+struct Override {
+  std::string path;
+  std::string value;
+};
+
+/// Reads and merges scene files (later files win, maps merge key by key, lists and scalars replace) and applies the
+/// overrides. Throws InputError for unreadable, binary, malformed or oversized input and for duplicate keys.
+Node load_scene(const std::vector<std::string>& files, const std::vector<Override>& overrides);
+
+/// Parses one YAML text, for tests and generated scenes.
+Node parse_yaml(const std::string& text, const std::string& source_name);
+
+}  // namespace sprekk

@@ -1,0 +1,138 @@
+// The declarative parameter spec: one declaration per parameter, from which come parsing, validation, `explain`,
+// `show`, the reference pages and the JSON schema.
+//
+//   struct Options { Data permeability; double eta = 1.0 / 3; };
+//   Options options;
+//   Spec spec("matrix_flow/mpfa", "Darcy flow in the matrix, multi-point flux approximation.");
+//   spec.data("permeability", options.permeability,
+//             {.unit = "m^2", .range = positive(), .doc = "Permeability of the rock.", .source = "Eq. 6", .material = true});
+//   spec.read(node, context);
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/data.hpp"
+#include "framework/config/node.hpp"
+
+namespace sprekk {
+
+/// The values that a number may take; bounds in SI units.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_allowed = true;
+  bool high_allowed = true;
+  bool contains(double value) const;
+  std::string text() const;  ///< "> 0", "from 0 to 1", …
+};
+Range positive();
+Range non_negative();
+Range between(double low, double high);            ///< both ends allowed
+Range strictly_between(double low, double high);   ///< neither end allowed
+
+/// What is said about a parameter besides its name and its target.
+struct About {
+  std::string unit = "";     ///< SI unit, "" for a plain number; the scene may use any unit of this dimension
+  Range range = {};
+  std::string doc;           ///< one sentence
+  std::string source = "";   ///< equation or paper
+  bool required = false;     ///< else the target's value at declaration is the default
+  bool material = false;     ///< may also stand in the scene's `materials:` section, shared by all components
+  /// A pattern for the value of tensors and data where a number per region or a table is not meaningful.
+  bool constant_only = false;
+};
+
+/// What a scene's names mean, gathered before the components are read.
+struct ReadContext {
+  const Node* materials = nullptr;         ///< the `materials:` map or nullptr
+  std::vector<std::string> region_names;   ///< for values per region, by index
+  std::string folder = ".";                ///< of the scene file: tables are found relative to it
+  /// Records "path = value (origin)" of every parameter read or defaulted, for `show`; may be null.
+  std::function<void(const std::string& path, const std::string& value, const std::string& origin)> record;
+  /// Receives every key of `materials:` that some spec has used.
+  std::function<void(const std::string& key)> material_used;
+};
+
+/// One declared parameter, as `explain` and the schema see it.
+struct Parameter {
+  std::string name;
+  std::string kind;                    ///< "quantity", "data", "vector", "tensor", "integer", "flag", "text", "choice", "list", "section", "named sections"
+  About about;
+  std::string default_text;            ///< "" when there is none
+  std::vector<std::pair<std::string, std::string>> choices;  ///< value, doc
+  std::shared_ptr<const class Spec> inner;                   ///< of sections
+};
+
+class Spec {
+ public:
+  Spec(std::string name, std::string doc);
+
+  // Each target must outlive `read`. An std::optional target is absent unless it is given.
+  Spec& quantity(const std::string& name, double& target, About about);
+  Spec& quantity(const std::string& name, std::optional<double>& target, About about);
+  Spec& data(const std::string& name, Data& target, About about);
+  Spec& data(const std::string& name, std::optional<Data>& target, About about);
+  Spec& vector(const std::string& name, VectorData& target, About about);
+  Spec& vector(const std::string& name, std::optional<VectorData>& target, About about);
+  Spec& tensor(const std::string& name, TensorData& target, About about);
+  Spec& tensor(const std::string& name, std::optional<TensorData>& target, About about);
+  Spec& point(const std::string& name, Point& target, About about);                      ///< [x, y]
+  Spec& point(const std::string& name, std::optional<Point>& target, About about);
+  Spec& points(const std::string& name, std::vector<Point>& target, About about);        ///< [[x, y], …]
+  Spec& quantities(const std::string& name, std::vector<double>& target, About about);   ///< [a, b, …]
+  Spec& integer(const std::string& name, int& target, About about);
+  Spec& flag(const std::string& name, bool& target, About about);
+  Spec& text(const std::string& name, std::string& target, About about);
+  Spec& text(const std::string& name, std::optional<std::string>& target, About about);
+  Spec& texts(const std::string& name, std::vector<std::string>& target, About about);   ///< one text or a list of them
+  Spec& choice(const std::string& name, std::string& target,
+               std::vector<std::pair<std::string, std::string>> values_and_docs, About about);
+  /// A nested map with a fixed set of keys. `given`, if not null, becomes whether the scene has it.
+  Spec& section(const std::string& name, Spec inner, About about, bool* given = nullptr);
+  /// A nested map whose keys the user chooses (boundary sides, fractures, probes): for each entry `add` is called with
+  /// the key and its origin; it returns the spec to read the entry with, whose targets `add` has created.
+  using AddEntry = std::function<Spec(const std::string& key, const Origin& origin)>;
+  Spec& named_sections(const std::string& name, const Spec& example, AddEntry add, About about);
+  /// A list of maps: for each item `add` is called with its index.
+  using AddItem = std::function<Spec(int index, const Origin& origin)>;
+  Spec& list_of_sections(const std::string& name, const Spec& example, AddItem add, About about);
+  /// A value that the declarer reads itself from the tree (schedules).
+  Spec& custom(const std::string& name, std::function<void(const Node&)> read, About about);
+  /// A check across parameters, made after all are read; throws InputError.
+  Spec& check(std::function<void(const Node& whole)> check);
+  /// Keys that somebody else reads (for example `type`): allowed and ignored.
+  Spec& ignore(const std::string& name);
+
+  /// Reads all parameters into their targets. Unknown keys, missing required ones, wrong dimensions, values out of
+  /// range and malformed values throw InputError, with the origin, the reason, and the nearest or allowed names.
+  void read(const Node& node, const ReadContext& context) const;
+
+  const std::string& name() const { return name_; }
+  const std::string& doc() const { return doc_; }
+  const std::vector<Parameter>& parameters() const { return parameters_; }
+
+ private:
+  using Reader = std::function<void(const Node& value, const ReadContext& context)>;
+  Spec& add(Parameter parameter, Reader reader);
+
+  std::string name_, doc_;
+  std::vector<Parameter> parameters_;
+  std::vector<Reader> readers_;  ///< one a parameter
+  std::vector<std::function<void(const Node&)>> checks_;
+  std::vector<std::string> ignored_;
+};
+
+/// The text that `sprekk explain` prints.
+std::string explain(const Spec& spec);
+/// The same as Markdown, for docs/reference.
+std::string reference_page(const Spec& spec);
+/// The JSON schema (draft 2020-12) of a map read by `spec`, as JSON text.
+std::string json_schema(const Spec& spec);
+
+}  // namespace sprekk

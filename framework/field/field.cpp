@@ -1,0 +1,41 @@
+#include "framework/field/field.hpp"
+
+#include <stdexcept>
+
+namespace sprekk {
+
+int entity_count(const Mesh& mesh, Location location) {
+  switch (location) {
+    case Location::cell: return mesh.cell_count();
+    case Location::face: return mesh.face_count();
+    case Location::node: return mesh.node_count();
+    case Location::fracture_cell: return mesh.fracture_cell_count();
+    case Location::wall: return mesh.wall_count();
+  }
+  throw std::logic_error("unknown location");
+}
+
+Field::Field(FieldSpec spec, int entities)
+    : spec_(std::move(spec)),
+      entities_(entities),
+      now_(Vector::Zero(entities * spec_.components)),
+      accepted_(now_) {}
+
+void Field::set(Vector values) {
+  if (values.size() != size()) throw std::logic_error("field " + name() + ": wrong number of values");
+  now_ = std::move(values);
+  ++version_;
+}
+
+void Field::set_both(Vector values) {
+  set(std::move(values));
+  accept();
+}
+
+void Field::determine(const std::string& coupler) {
+  if (!determined_by_.empty())
+    throw std::logic_error(name() + " is determined by " + determined_by_ + " already, and again by " + coupler);
+  determined_by_ = coupler;
+}
+
+}  // namespace sprekk

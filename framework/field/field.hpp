@@ -1,0 +1,66 @@
+// Fields: named values on the entities of the mesh, at two time levels.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "framework/mesh/mesh.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+/// The entities that carry a field's values. Walls are numbered 2 i + side for fracture cell i.
+enum class Location { cell, face, node, fracture_cell, wall };
+int entity_count(const Mesh& mesh, Location location);
+
+/// unknown: determined by its owner's balance law. input: given to its owner; a coupler may determine it, else it keeps
+/// its initial value. derived: follows from the others, kept because its accepted value is needed or for output.
+enum class Role { unknown, input, derived };
+
+struct FieldSpec {
+  std::string owner;  ///< the component's name in the scene
+  std::string name;
+  Location location;
+  int components = 1;
+  Role role = Role::unknown;
+  std::string unit;
+  std::string doc;
+  /// How a preconditioner smooths the block of an unknown: "scalar_elliptic", "elasticity" or "local".
+  std::string smoothing = "local";
+  std::string full_name() const { return owner + "." + name; }
+};
+
+/// Values are entity-major: value c of entity i is values[i * components + c].
+class Field {
+ public:
+  Field(FieldSpec spec, int entities);
+
+  const FieldSpec& spec() const { return spec_; }
+  std::string name() const { return spec_.full_name(); }
+  int entities() const { return entities_; }
+  int size() const { return entities_ * spec_.components; }
+
+  const Vector& now() const { return now_; }            ///< the current iterate
+  const Vector& accepted() const { return accepted_; }  ///< at the end of the last accepted step
+  std::uint64_t version() const { return version_; }    ///< changes whenever `now` does
+
+  void set(Vector values);  ///< throws std::logic_error if the size differs
+  void set_both(Vector values);
+  void accept() { accepted_ = now_; }
+  void rewind() { set(accepted_); }
+
+  /// For inputs: the coupler that determines it, "" when it keeps its given value.
+  const std::string& determined_by() const { return determined_by_; }
+  void determine(const std::string& coupler);  ///< throws std::logic_error if another coupler does already
+  /// Whether the field is solved for somewhere: an unknown, or an input that a coupler determines.
+  bool is_solved() const { return spec_.role == Role::unknown || (spec_.role == Role::input && !determined_by_.empty()); }
+
+ private:
+  FieldSpec spec_;
+  int entities_;
+  Vector now_, accepted_;
+  std::uint64_t version_ = 0;
+  std::string determined_by_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,69 @@
+// Linear solvers behind one interface, for one process or several.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+/// What a preconditioner may know of one block of unknowns. The framework knows no physics: whoever declares the field
+/// says how its block is best smoothed.
+struct UnknownBlock {
+  std::string name;     ///< of the field, "rock.displacement"
+  int first = 0;        ///< first unknown
+  int entities = 0;     ///< cells, fracture cells, …; unknowns are entity-major: first + entity * components + c
+  int components = 1;
+  enum class Kind { scalar_elliptic, elasticity, local } kind = Kind::local;  ///< local: few, on fractures; solve exactly
+  std::vector<Point> coordinates;  ///< one an entity, for rigid-body modes and partitioning
+  Vector stabilization;  ///< one an unknown: diagonal to add to the block in a preconditioner or split (fixed stress), or empty
+};
+
+/// A square system of which this process holds some rows. `rows` are global row numbers in ascending order; column
+/// indices of `local` are global. In a single process `rows` is 0 … n-1.
+struct LinearSystem {
+  std::vector<int> rows;
+  SparseMatrix local;
+  std::vector<UnknownBlock> blocks;
+};
+
+struct LinearReport {
+  bool solved = false;
+  std::string reason;         ///< why not
+  int iterations = 0;         ///< of an iterative method
+  double relative_residual = 0;  ///< ||b - A x|| / ||b|| after the solve, in the solver's own (equilibrated) scaling
+};
+
+/// Keeps what can be kept between calls: a new matrix with the same pattern reuses the ordering.
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  /// Factorizes (or sets up a preconditioner for) the system. Collective. Returns a report with `solved` false and a
+  /// reason, naming the block and entity if it can, for a singular matrix.
+  virtual LinearReport factor(const LinearSystem& system) = 0;
+  /// Solves for one right-hand side, given on this process's rows; `x` becomes the whole solution on every process.
+  /// The true residual is checked after every solve, and improved by iterative refinement where a direct solver needs it.
+  virtual LinearReport solve(const Vector& b_rows, Vector& x) = 0;
+  virtual std::string name() const = 0;
+};
+
+struct LinearOptions {
+  std::string type = "auto";   ///< auto, umfpack, mumps, belos
+  double tolerance = 1e-10;    ///< relative residual of iterative methods
+  int max_iterations = 500;
+};
+
+/// `auto`: UMFPACK in one process and MUMPS in several, Belos with the block preconditioner above a size.
+/// Throws std::invalid_argument for an unknown type.
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
+
+/// The name of the BLAS in use and whether it is the slow reference one.
+struct BlasInfo {
+  std::string name;
+  bool is_reference;
+};
+BlasInfo blas_in_use();
+
+}  // namespace sprekk

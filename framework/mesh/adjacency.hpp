@@ -1,0 +1,19 @@
+// A list of lists in two arrays: the items of entity i are items[offsets[i]] … items[offsets[i+1]-1].
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace sprekk {
+
+struct Adjacency {
+  std::vector<int> offsets{0};
+  std::vector<int> items;
+
+  int size() const { return static_cast<int>(offsets.size()) - 1; }
+  std::span<const int> operator[](int i) const {
+    return {items.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
+  }
+};
+
+}  // namespace sprekk

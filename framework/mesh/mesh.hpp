@@ -1,0 +1,89 @@
+// The conforming mixed-dimensional mesh: the triangles of the matrix, the line cells of the fractures that lie on its
+// faces, and the two walls of every fracture cell.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "framework/mesh/adjacency.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+inline constexpr int none = -1;
+
+/// The two sides of a fracture, as seen by its normal, which points from `plus` to `minus` (paper, sec. 2.2).
+enum class Wall { plus = 0, minus = 1 };
+
+/// One cell of a fracture grid. The matrix is split along it: it has two matrix faces with equal end points.
+struct FractureCell {
+  int fracture;               ///< index into Mesh::fractures
+  std::array<int, 2> faces;   ///< the matrix faces that are its walls, by Wall; each has one cell, face_cells[f][0]
+  std::array<int, 2> points;  ///< its ends, indices into Mesh::fracture_points, along the polyline's direction
+  Point center;
+  double length;
+  Point normal;   ///< unit, from the plus to the minus side
+  Point tangent;  ///< unit, from points[0] to points[1]; (normal, tangent) is right-handed: tangent = (-n_y, n_x)
+};
+
+/// A point between fracture cells, or an end of a fracture.
+struct FracturePoint {
+  enum class Kind { inside, tip, on_boundary };
+  Point position;
+  std::vector<int> cells;  ///< the fracture cells that meet here, one or two
+  Kind kind;               ///< inside: two cells; tip: ends in the rock; on_boundary: ends on the outer boundary
+  int side;                ///< the boundary side (index into Mesh::side_names) for on_boundary, else none
+};
+
+struct Fracture {
+  std::string name;
+  int first_cell;  ///< its cells are first_cell … first_cell + cell_count - 1, along the polyline
+  int cell_count;
+};
+
+/// All of the topology and geometry that discretizations read. Lengths in m, areas in m^2.
+struct Mesh {
+  // Matrix. Nodes, faces and cells are numbered from 0; nodes on fractures exist once per side (tips exist once).
+  std::vector<Point> nodes;
+  std::vector<std::array<int, 3>> cell_nodes;  ///< counter-clockwise
+  std::vector<std::array<int, 3>> cell_faces;  ///< face k of a cell joins its nodes k and k+1 (mod 3)
+  std::vector<std::array<int, 2>> face_nodes;  ///< counter-clockwise as seen from face_cells[f][0]
+  std::vector<std::array<int, 2>> face_cells;  ///< [1] is none on the outer boundary and on walls
+  std::vector<Point> cell_center;
+  std::vector<double> cell_area;
+  std::vector<Point> face_center;
+  std::vector<double> face_length;
+  std::vector<Point> face_normal;  ///< unit, out of face_cells[f][0]
+  Adjacency node_cells;            ///< the cells at a node, in ascending order
+  Adjacency node_faces;            ///< the faces at a node, in ascending order
+
+  std::vector<int> face_side;  ///< index into side_names on the outer boundary; none inside and on walls
+  std::vector<std::string> side_names;
+  std::vector<int> cell_region;  ///< index into region_names
+  std::vector<std::string> region_names;
+
+  // Fractures.
+  std::vector<Fracture> fractures;
+  std::vector<FractureCell> fracture_cells;
+  std::vector<FracturePoint> fracture_points;
+  std::vector<int> face_fracture_cell;  ///< the fracture cell whose wall the face is, or none
+
+  // Distribution: the rank that owns (assembles the rows of) each cell. All 0 in a single process.
+  std::vector<int> cell_rank;
+
+  std::uint64_t version = 0;  ///< changes whenever the mesh does
+
+  int node_count() const { return static_cast<int>(nodes.size()); }
+  int cell_count() const { return static_cast<int>(cell_nodes.size()); }
+  int face_count() const { return static_cast<int>(face_nodes.size()); }
+  int fracture_cell_count() const { return static_cast<int>(fracture_cells.size()); }
+  /// Walls are numbered 2 i + side for fracture cell i.
+  int wall_count() const { return 2 * fracture_cell_count(); }
+  int wall_face(int wall) const { return fracture_cells[wall / 2].faces[wall % 2]; }
+  /// A fracture cell belongs to the rank of the matrix cell on its plus side.
+  int fracture_cell_rank(int i) const { return cell_rank[face_cells[fracture_cells[i].faces[0]][0]]; }
+};
+
+}  // namespace sprekk

@@ -1,0 +1,25 @@
+// The processes of a run. MPI is started only when the program was launched by mpirun, or by the first solver that
+// needs it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/types.hpp"
+
+namespace sprekk::parallel {
+
+int rank();
+int size();
+bool is_root();  ///< rank() == 0
+
+double sum(double value);
+double max(double value);
+bool any(bool value);
+void sum(Vector& values);  ///< entrywise over all ranks
+void barrier();
+void start_mpi();  ///< idempotent; solvers that always need MPI call it
+/// Ends every process of the run after an error on one of them.
+[[noreturn]] void abort_all(int exit_code);
+
+}  // namespace sprekk::parallel
