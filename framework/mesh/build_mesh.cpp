@@ -1,0 +1,410 @@
+#include "framework/mesh/build_mesh.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <string>
+
+#include "framework/config/input_error.hpp"
+#include "framework/mesh/planar.hpp"
+#include "framework/mesh/triangle_edges.hpp"
+
+namespace sprekk {
+namespace {
+
+/// Twice the area over the square of the longest edge, about the smallest angle in rad, below which geometry is lost
+/// to rounding.
+constexpr double smallest_flatness = 1e-10;
+
+std::vector<std::array<int, 3>> counter_clockwise(const RawMesh& raw) {
+  auto triangles = raw.triangles;
+  const int count = static_cast<int>(raw.nodes.size());
+  for (auto& [a, b, c] : triangles) {
+    if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= count) {
+      throw InputError("a triangle names a node that does not exist (there are " + std::to_string(count) + " nodes)");
+    }
+    const Point &p = raw.nodes[a], &q = raw.nodes[b], &r = raw.nodes[c];
+    const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
+    const double twice_area = 2 * signed_area(p, q, r);
+    // Negated, so that NaN is refused too.
+    if (!(std::abs(twice_area) > smallest_flatness * longest)) {
+      throw InputError("the triangle at " + to_text((p + q + r) / 3) + " is degenerate (it has no area)");
+    }
+    if (twice_area < 0) std::swap(b, c);
+  }
+  return triangles;
+}
+
+/// Builds one mesh; its members are what the steps hand to each other.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const RawMesh& raw)
+      : raw_(raw),
+        triangles_(counter_clockwise(raw)),
+        edges_(raw.nodes, triangles_),
+        edge_side_(edges_.size(), none),
+        edge_fracture_cell_(edges_.size(), none),
+        outer_edges_at_node_(raw.nodes.size(), 0),
+        fracture_of_node_(raw.nodes.size(), none) {}
+
+  Mesh build() {
+    name_sides_and_regions();
+    read_boundary();
+    read_fractures();
+    number_nodes();
+    number_faces();
+    place_fracture_cells();
+    list_neighbours_of_nodes();
+    compute_geometry();
+    mesh_.cell_rank.assign(mesh_.cell_count(), 0);
+    mesh_.version = next_mesh_version();
+    return std::move(mesh_);
+  }
+
+ private:
+  void name_sides_and_regions() {
+    if (raw_.regions.size() != raw_.triangles.size()) {
+      throw std::logic_error("raw mesh: " + std::to_string(raw_.regions.size()) + " regions for " +
+                             std::to_string(raw_.triangles.size()) + " triangles");
+    }
+    for (const int region : raw_.regions) {
+      if (region < 0 || region >= static_cast<int>(raw_.region_names.size())) {
+        throw std::logic_error("raw mesh: region " + std::to_string(region) + " has no name");
+      }
+    }
+    mesh_.side_names = raw_.side_names;
+    mesh_.region_names = raw_.region_names;
+    mesh_.cell_region = raw_.regions;
+  }
+
+  void read_boundary() {
+    for (const auto& [nodes, side] : raw_.boundary_edges) {
+      if (side < 0 || side >= static_cast<int>(raw_.side_names.size())) {
+        throw std::logic_error("raw mesh: side " + std::to_string(side) + " has no name");
+      }
+      const std::string name = "side '" + raw_.side_names[side] + "'";
+      const int edge = edges_.find(nodes[0], nodes[1]);
+      if (edge == none)
+        throw InputError(name + " has an edge that no triangle has (between nodes " + std::to_string(nodes[0]) +
+                         " and " + std::to_string(nodes[1]) + ")");
+      if (!edges_.is_outer(edge)) throw InputError(name + " has an edge inside the mesh at " + middle(edge));
+      if (edge_side_[edge] != none && edge_side_[edge] != side) {
+        throw InputError("the edge at " + middle(edge) + " belongs to two sides ('" +
+                         raw_.side_names[edge_side_[edge]] + "' and '" + raw_.side_names[side] + "')");
+      }
+      edge_side_[edge] = side;
+    }
+    for (int edge = 0; edge < edges_.size(); ++edge) {
+      if (!edges_.is_outer(edge)) continue;
+      if (edge_side_[edge] == none) throw InputError("the outer edge at " + middle(edge) + " belongs to no side");
+      for (const int node : edges_.nodes(edge)) ++outer_edges_at_node_[node];
+    }
+    for (std::size_t node = 0; node < raw_.nodes.size(); ++node) {
+      if (outer_edges_at_node_[node] > 2) {
+        throw InputError("the outer boundary touches itself at " + to_text(raw_.nodes[node]) +
+                         " (triangles meet there in one node only)");
+      }
+    }
+  }
+
+  void read_fractures() {
+    for (int fracture = 0; fracture < static_cast<int>(raw_.fractures.size()); ++fracture) {
+      const auto& [name, chain] = raw_.fractures[fracture];
+      if (chain.size() < 2) throw InputError("fracture '" + name + "' has no edge");
+      for (std::size_t i = 0; i < chain.size(); ++i) claim_node(fracture, chain, i);
+      mesh_.fractures.push_back({name, mesh_.fracture_cell_count(), static_cast<int>(chain.size()) - 1});
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        const int edge = edges_.find(chain[i], chain[i + 1]);
+        if (edge == none) {
+          throw InputError("fracture '" + name + "' leaves the edges of the mesh between " +
+                           to_text(raw_.nodes[chain[i]]) + " and " + to_text(raw_.nodes[chain[i + 1]]));
+        }
+        if (edges_.is_outer(edge)) {
+          throw InputError("fracture '" + name + "' runs along the outer boundary at " + middle(edge));
+        }
+        edge_fracture_cell_[edge] = mesh_.fracture_cell_count();
+        mesh_.fracture_cells.push_back({fracture, {}, {}, Point::Zero(), 0, Point::Zero(), Point::Zero()});
+      }
+    }
+  }
+
+  void claim_node(int fracture, const std::vector<int>& chain, std::size_t i) {
+    const std::string& name = raw_.fractures[fracture].name;
+    const int node = chain[i];
+    if (node < 0 || node >= static_cast<int>(raw_.nodes.size())) {
+      throw InputError("fracture '" + name + "' names node " + std::to_string(node) + ", which does not exist");
+    }
+    const std::string where = " at " + to_text(raw_.nodes[node]);
+    if (fracture_of_node_[node] == fracture) {
+      throw InputError("fracture '" + name + "' meets itself" + where +
+                       " (loops and branches are not supported) leave a gap or make it two fractures");
+    }
+    if (fracture_of_node_[node] != none) {
+      throw InputError("fractures '" + raw_.fractures[fracture_of_node_[node]].name + "' and '" + name + "' meet" +
+                       where + " (crossing and touching fractures are not supported) leave a gap between them");
+    }
+    const bool is_end = i == 0 || i + 1 == chain.size();
+    if (!is_end && outer_edges_at_node_[node] > 0) {
+      throw InputError("fracture '" + name + "' touches the outer boundary" + where +
+                       " (only its ends may lie on the boundary)");
+    }
+    fracture_of_node_[node] = fracture;
+  }
+
+  void number_nodes() {
+    std::vector<int> number(raw_.nodes.size(), none);
+    for (const auto& triangle : triangles_) {
+      for (const int node : triangle) number[node] = 0;
+    }
+    for (std::size_t node = 0; node < raw_.nodes.size(); ++node) {
+      if (number[node] == none) continue;
+      number[node] = mesh_.node_count();
+      mesh_.nodes.push_back(raw_.nodes[node]);
+    }
+    mesh_.cell_nodes = triangles_;
+    for (auto& cell : mesh_.cell_nodes) {
+      for (int& node : cell) node = number[node];
+    }
+    split_nodes();
+  }
+
+  void split_nodes() {
+    std::vector<int> place(raw_.nodes.size(), none);
+    std::vector<std::vector<int>> cells_at;
+    for (const auto& [name, chain] : raw_.fractures) {
+      for (const int node : chain) {
+        place[node] = static_cast<int>(cells_at.size());
+        cells_at.emplace_back();
+      }
+    }
+    if (cells_at.empty()) return;
+    for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
+      for (const int node : triangles_[cell]) {
+        if (place[node] != none) cells_at[place[node]].push_back(cell);
+      }
+    }
+    for (const auto& [name, chain] : raw_.fractures) {
+      for (const int node : chain) split_node(node, cells_at[place[node]]);
+    }
+  }
+
+  /// `cells` are those at the raw node, ascending.
+  void split_node(int node, const std::vector<int>& cells) {
+    std::vector<int> group(cells.size(), none);
+    for (std::size_t first = 0, groups = 0; first < cells.size(); ++first) {
+      if (group[first] != none) continue;
+      const int copy = groups++ == 0 ? none : mesh_.node_count();
+      if (copy != none) mesh_.nodes.push_back(raw_.nodes[node]);
+      std::vector<std::size_t> front{first};
+      group[first] = static_cast<int>(groups);
+      while (!front.empty()) {
+        const int cell = cells[front.back()];
+        front.pop_back();
+        for (int k = 0; k < 3; ++k) {
+          if (triangles_[cell][k] != node) {
+            if (triangles_[cell][(k + 1) % 3] != node) continue;
+          } else if (copy != none) {
+            mesh_.cell_nodes[cell][k] = copy;
+          }
+          const int edge = edges_.of_triangle(cell)[k];
+          if (edge_fracture_cell_[edge] != none || edges_.is_outer(edge)) continue;
+          const auto [one, other] = edges_.triangles(edge);
+          const auto next = std::lower_bound(cells.begin(), cells.end(), one == cell ? other : one) - cells.begin();
+          if (group[next] != none) continue;
+          group[next] = static_cast<int>(groups);
+          front.push_back(next);
+        }
+      }
+    }
+  }
+
+  void number_faces() {
+    std::vector<int> face_of_edge(edges_.size(), none);
+    mesh_.cell_faces.resize(mesh_.cell_count());
+    const std::size_t expected = edges_.size() + mesh_.fracture_cells.size();
+    mesh_.face_nodes.reserve(expected);
+    mesh_.face_cells.reserve(expected);
+    for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
+      for (int k = 0; k < 3; ++k) {
+        const int edge = edges_.of_triangle(cell)[k];
+        const bool is_wall = edge_fracture_cell_[edge] != none;
+        int face = is_wall ? none : face_of_edge[edge];
+        if (face == none) {
+          face = face_of_edge[edge] = mesh_.face_count();
+          mesh_.face_nodes.push_back({mesh_.cell_nodes[cell][k], mesh_.cell_nodes[cell][(k + 1) % 3]});
+          mesh_.face_cells.push_back({cell, none});
+          mesh_.face_side.push_back(edge_side_[edge]);
+          mesh_.face_fracture_cell.push_back(edge_fracture_cell_[edge]);
+        } else {
+          mesh_.face_cells[face][1] = cell;
+        }
+        mesh_.cell_faces[cell][k] = face;
+      }
+    }
+  }
+
+  void place_fracture_cells() {
+    for (const auto& [name, chain] : raw_.fractures) {
+      const int first_cell = mesh_.fractures[fracture_of_node_[chain[0]]].first_cell;
+      const int first_point = static_cast<int>(mesh_.fracture_points.size());
+      const int last = static_cast<int>(chain.size()) - 1;
+      for (int i = 0; i <= last; ++i) mesh_.fracture_points.push_back(fracture_point(chain[i], first_cell, i, last));
+      for (int i = 0; i < last; ++i) {
+        FractureCell& cell = mesh_.fracture_cells[first_cell + i];
+        const Point &from = raw_.nodes[chain[i]], &to = raw_.nodes[chain[i + 1]];
+        cell.points = {first_point + i, first_point + i + 1};
+        cell.center = 0.5 * (from + to);
+        cell.length = (to - from).norm();
+        cell.tangent = (to - from) / cell.length;
+        cell.normal = {cell.tangent.y(), -cell.tangent.x()};
+        const int edge = edges_.find(chain[i], chain[i + 1]);
+        for (const int triangle : edges_.triangles(edge)) {
+          for (int k = 0; k < 3; ++k) {
+            if (edges_.of_triangle(triangle)[k] != edge) continue;
+            // The triangle that runs along the edge in the chain's direction lies to its left: the plus side.
+            const Wall wall = triangles_[triangle][k] == chain[i] ? Wall::plus : Wall::minus;
+            cell.faces[static_cast<int>(wall)] = mesh_.cell_faces[triangle][k];
+          }
+        }
+      }
+    }
+  }
+
+  FracturePoint fracture_point(int node, int first_cell, int i, int last) const {
+    FracturePoint point{raw_.nodes[node], {}, FracturePoint::Kind::inside, none};
+    if (i > 0) point.cells.push_back(first_cell + i - 1);
+    if (i < last) point.cells.push_back(first_cell + i);
+    if (point.cells.size() == 2) return point;
+    point.kind = outer_edges_at_node_[node] > 0 ? FracturePoint::Kind::on_boundary : FracturePoint::Kind::tip;
+    if (point.kind == FracturePoint::Kind::on_boundary) point.side = side_at(node);
+    return point;
+  }
+
+  /// At a corner between two sides: the one with the smaller index.
+  int side_at(int node) const {
+    int side = none;
+    for (const auto& edge : raw_.boundary_edges) {
+      if (edge.nodes[0] != node && edge.nodes[1] != node) continue;
+      if (side == none || edge.side < side) side = edge.side;
+    }
+    return side;
+  }
+
+  template <class Lists>
+  Adjacency invert(const Lists& nodes_of) const {
+    Adjacency at_node;
+    at_node.offsets.assign(mesh_.nodes.size() + 1, 0);
+    for (const auto& nodes : nodes_of) {
+      for (const int node : nodes) ++at_node.offsets[node + 1];
+    }
+    std::partial_sum(at_node.offsets.begin(), at_node.offsets.end(), at_node.offsets.begin());
+    at_node.items.resize(at_node.offsets.back());
+    auto next = at_node.offsets;
+    for (int i = 0; i < static_cast<int>(nodes_of.size()); ++i) {
+      for (const int node : nodes_of[i]) at_node.items[next[node]++] = i;
+    }
+    return at_node;
+  }
+
+  void list_neighbours_of_nodes() {
+    mesh_.node_cells = invert(mesh_.cell_nodes);
+    mesh_.node_faces = invert(mesh_.face_nodes);
+  }
+
+  void compute_geometry() {
+    mesh_.cell_center.reserve(mesh_.cell_count());
+    mesh_.cell_area.reserve(mesh_.cell_count());
+    for (const auto& [a, b, c] : mesh_.cell_nodes) {
+      const Point &p = mesh_.nodes[a], &q = mesh_.nodes[b], &r = mesh_.nodes[c];
+      mesh_.cell_center.push_back((p + q + r) / 3);
+      mesh_.cell_area.push_back(signed_area(p, q, r));
+    }
+    mesh_.face_center.reserve(mesh_.face_count());
+    mesh_.face_length.reserve(mesh_.face_count());
+    mesh_.face_normal.reserve(mesh_.face_count());
+    for (const auto& [a, b] : mesh_.face_nodes) {
+      const Point along = mesh_.nodes[b] - mesh_.nodes[a];
+      mesh_.face_center.push_back(0.5 * (mesh_.nodes[a] + mesh_.nodes[b]));
+      mesh_.face_length.push_back(along.norm());
+      mesh_.face_normal.push_back(Point(along.y(), -along.x()) / along.norm());
+    }
+  }
+
+  std::string middle(int edge) const {
+    return to_text(0.5 * (raw_.nodes[edges_.nodes(edge)[0]] + raw_.nodes[edges_.nodes(edge)[1]]));
+  }
+
+  const RawMesh& raw_;
+  const std::vector<std::array<int, 3>> triangles_;  ///< counter-clockwise, with raw nodes
+  const TriangleEdges edges_;
+  std::vector<int> edge_side_;
+  std::vector<int> edge_fracture_cell_;
+  std::vector<int> outer_edges_at_node_;
+  std::vector<int> fracture_of_node_;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+Mesh build_mesh(const RawMesh& raw) { return MeshBuilder(raw).build(); }
+
+RawMesh to_raw_mesh(const Mesh& mesh, std::vector<int>* merged) {
+  // The copies of a node are tied to each other across the fracture cells that end there.
+  std::vector<int> root(mesh.nodes.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int node) {
+    while (root[node] != node) node = root[node] = root[root[node]];
+    return node;
+  };
+  const auto tie = [&](int a, int b) {
+    a = find(a), b = find(b);
+    root[std::max(a, b)] = std::min(a, b);
+  };
+  for (const FractureCell& cell : mesh.fracture_cells) {
+    const auto &plus = mesh.face_nodes[cell.faces[0]], &minus = mesh.face_nodes[cell.faces[1]];
+    tie(plus[0], minus[1]);
+    tie(plus[1], minus[0]);
+  }
+
+  RawMesh raw;
+  std::vector<int> number(mesh.nodes.size());
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    if (find(node) == node) {
+      number[node] = static_cast<int>(raw.nodes.size());
+      raw.nodes.push_back(mesh.nodes[node]);
+    } else {
+      number[node] = number[find(node)];  // the root has the smaller index
+    }
+  }
+  raw.triangles = mesh.cell_nodes;
+  for (auto& triangle : raw.triangles) {
+    for (int& node : triangle) node = number[node];
+  }
+  raw.regions = mesh.cell_region;
+  raw.region_names = mesh.region_names;
+  raw.side_names = mesh.side_names;
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    if (mesh.face_side[face] == none) continue;
+    raw.boundary_edges.push_back(
+        {{number[mesh.face_nodes[face][0]], number[mesh.face_nodes[face][1]]}, mesh.face_side[face]});
+  }
+  for (const Fracture& fracture : mesh.fractures) {
+    RawMesh::Chain chain{fracture.name, {}};
+    for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
+      // The plus wall runs along the chain.
+      const auto& plus = mesh.face_nodes[mesh.fracture_cells[i].faces[0]];
+      if (chain.nodes.empty()) chain.nodes.push_back(number[plus[0]]);
+      chain.nodes.push_back(number[plus[1]]);
+    }
+    raw.fractures.push_back(std::move(chain));
+  }
+  if (merged) *merged = std::move(number);
+  return raw;
+}
+
+std::uint64_t next_mesh_version() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+}  // namespace sprekk

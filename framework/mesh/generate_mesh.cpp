@@ -1,0 +1,45 @@
+#include "framework/mesh/generate_mesh.hpp"
+
+#include "framework/mesh/build_mesh.hpp"
+#include "framework/mesh/distort_mesh.hpp"
+#include "framework/mesh/read_msh.hpp"
+#include "framework/mesh/regions.hpp"
+#include "framework/mesh/single_cell_corners.hpp"
+#include "framework/mesh/structured_mesh.hpp"
+#include "framework/mesh/unstructured_mesh.hpp"
+
+namespace sprekk {
+namespace {
+
+RawMesh triangulate(const Geometry& geometry, const MeshOptions& options) {
+  if (geometry.is_imported()) return read_msh(geometry.file, geometry.file_origin);
+  if (options.kind == MeshOptions::Kind::structured) return structured_mesh(geometry, options);
+  return unstructured_mesh(geometry, options);
+}
+
+}  // namespace
+
+Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options) {
+  validate_geometry(geometry, options);
+  RawMesh raw = triangulate(geometry, options);
+  avoid_single_cell_corners(raw);
+  distort_mesh(raw, options.distortion, options.seed);
+  return build_mesh(raw);
+}
+
+MeshNames mesh_names(const Geometry& geometry) {
+  MeshNames names;
+  if (geometry.is_imported()) {
+    const RawMesh raw = read_msh(geometry.file, geometry.file_origin);
+    names.regions = raw.region_names;
+    names.sides = raw.side_names;
+    for (const auto& fracture : raw.fractures) names.fractures.push_back(fracture.name);
+    return names;
+  }
+  names.regions = region_names(geometry);
+  names.sides.assign(box_sides.begin(), box_sides.end());
+  for (const FractureGeometry& fracture : geometry.fractures) names.fractures.push_back(fracture.name);
+  return names;
+}
+
+}  // namespace sprekk

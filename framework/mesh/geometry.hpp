@@ -1,0 +1,73 @@
+// What is to be meshed, and how.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/input_error.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+struct Box {
+  Point low = Point::Zero(), high = Point::Zero();
+  Origin origin;
+  Point size() const { return high - low; }
+};
+
+/// A polyline. Its plus side is to the left when one walks from the first point to the last.
+struct FractureGeometry {
+  std::string name;
+  std::vector<Point> points;   ///< m
+  std::optional<double> size;  ///< length of its cells, m; default MeshOptions::fracture_size
+  Origin origin;
+};
+
+struct RegionGeometry {
+  std::string name;
+  std::vector<Point> polygon;  ///< m, simple, either orientation, not closed by a repeated point
+  Origin origin;
+};
+
+inline const char* const default_region = "rock";
+inline constexpr std::array<const char*, 4> box_sides = {"left", "right", "bottom", "top"};
+
+/// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is `rock`; where
+/// polygons overlap the later one counts.
+struct Geometry {
+  Box box;
+  std::string file;  ///< a mesh that gmsh reads, or "" for a box
+  Origin file_origin;
+  std::vector<FractureGeometry> fractures;
+  std::vector<RegionGeometry> regions;
+
+  bool is_imported() const { return !file.empty(); }
+};
+
+struct MeshOptions {
+  enum class Kind { unstructured, structured };
+  Kind kind = Kind::unstructured;
+  std::optional<double> size;           ///< edge length away from fractures, m; default a fiftieth of the longer side
+  std::optional<double> fracture_size;  ///< edge length at fractures, m; default `size`
+  std::optional<double> tip_size;       ///< edge length at fracture ends, m; default that of the fracture
+  double growth = 0.3;                  ///< by how many m the edge length grows per m of distance
+  std::array<int, 2> cells = {0, 0};    ///< structured: squares along x and y; 0 means as `size` asks
+  double distortion = 0;                ///< moves inner nodes by up to this part of the shortest edge there, 0 to 0.4
+  int seed = 1;                         ///< of the distortion
+  Origin origin;
+};
+
+/// The edge length away from fractures, with the default resolved.
+double far_size(const Geometry& geometry, const MeshOptions& options);
+
+/// Points nearer than this are one point.
+double point_tolerance(const Box& box);
+
+/// Throws InputError, with origin, for everything that cannot be meshed: an empty box, fractures or polygons outside
+/// of it or degenerate, fractures that meet each other, themselves or the boundary (other than with an end), sizes
+/// that are not positive numbers, and meshes of more than 20 million triangles.
+void validate_geometry(const Geometry& geometry, const MeshOptions& options);
+
+}  // namespace sprekk

@@ -1,0 +1,19 @@
+// Figures about a mesh for run.json and for tests.
+#pragma once
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+struct MeshQuality {
+  int cells = 0, faces = 0, nodes = 0, fractures = 0, fracture_cells = 0;
+  double area = 0;                                                        ///< m^2
+  double fracture_length = 0;                                             ///< m
+  double smallest_angle = 0, mean_smallest_angle = 0, largest_angle = 0;  ///< rad; the mean is over cells
+  double shortest_face = 0, mean_face = 0, longest_face = 0;              ///< m
+  int cells_with_one_neighbour = 0;  ///< cells with two faces on the outer boundary or on walls
+};
+
+MeshQuality mesh_quality(const Mesh& mesh);
+
+}  // namespace sprekk

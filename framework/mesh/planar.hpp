@@ -1,0 +1,42 @@
+// Plane geometry on points and segments.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+struct Segment {
+  Point from, to;
+  double length() const { return (to - from).norm(); }
+};
+
+inline double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Positive when a, b, c turn counter-clockwise.
+inline double signed_area(const Point& a, const Point& b, const Point& c) { return 0.5 * cross(b - a, c - a); }
+
+/// Positive when the polygon is counter-clockwise.
+double signed_area(const std::vector<Point>& polygon);
+
+double distance(const Point& point, const Segment& segment);
+
+/// The smallest distance between two segments; 0 when they cross.
+double distance(const Segment& a, const Segment& b);
+
+/// Whether the segments cross in the inside of both, and then where.
+bool cross_inside(const Segment& a, const Segment& b, Point& crossing);
+
+/// Whether a point lies inside of a simple polygon (even-odd rule; points on its edges may go either way).
+bool is_inside(const Point& point, const std::vector<Point>& polygon);
+
+/// The smallest angle of a triangle, in rad; 0 or less when it is degenerate or clockwise.
+double smallest_angle(const Point& a, const Point& b, const Point& c);
+
+/// "(0.5, 1)" for messages, in m.
+std::string to_text(const Point& point);
+
+}  // namespace sprekk

@@ -1,0 +1,97 @@
+#include "framework/mesh/point_location.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk {
+namespace {
+
+struct Extent {
+  Point low = Point::Constant(std::numeric_limits<double>::infinity());
+  Point high = -low;
+  void add(const Point& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+};
+
+Extent extent_of(const Mesh& mesh, int cell) {
+  Extent extent;
+  for (const int node : mesh.cell_nodes[cell]) extent.add(mesh.nodes[node]);
+  return extent;
+}
+
+}  // namespace
+
+PointLocation::PointLocation(const Mesh& mesh) : mesh_(&mesh) {
+  Extent whole;
+  for (const Point& node : mesh.nodes) whole.add(node);
+  const Point size = whole.high - whole.low;
+  low_ = whole.low;
+  slack_ = 1e-10 * size.norm();
+  // About one cell a bucket.
+  width_ = std::sqrt(size.x() * size.y() / std::max(1, mesh.cell_count()));
+  for (int axis = 0; axis < 2; ++axis) counts_[axis] = 1 + static_cast<int>(size[axis] / width_);
+
+  const auto for_each_bucket = [&](int cell, auto&& visit) {
+    const Extent extent = extent_of(mesh, cell);
+    for (int j = bucket(1, extent.low.y() - slack_); j <= bucket(1, extent.high.y() + slack_); ++j) {
+      for (int i = bucket(0, extent.low.x() - slack_); i <= bucket(0, extent.high.x() + slack_); ++i) {
+        visit(j * counts_[0] + i);
+      }
+    }
+  };
+  cells_.offsets.assign(static_cast<std::size_t>(counts_[0]) * counts_[1] + 1, 0);
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    for_each_bucket(cell, [&](int b) { ++cells_.offsets[b + 1]; });
+  }
+  std::partial_sum(cells_.offsets.begin(), cells_.offsets.end(), cells_.offsets.begin());
+  cells_.items.resize(cells_.offsets.back());
+  auto next = cells_.offsets;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    for_each_bucket(cell, [&](int b) { cells_.items[next[b]++] = cell; });
+  }
+}
+
+int PointLocation::bucket(int axis, double coordinate) const {
+  return static_cast<int>(std::clamp((coordinate - low_[axis]) / width_, 0.0, counts_[axis] - 1.0));
+}
+
+int PointLocation::cell_at(const Point& x) const {
+  if (!x.allFinite()) return none;
+  for (const int cell : cells_[bucket(1, x.y()) * counts_[0] + bucket(0, x.x())]) {
+    bool is_in = true;
+    for (int k = 0; k < 3 && is_in; ++k) {
+      const Point &a = mesh_->nodes[mesh_->cell_nodes[cell][k]],
+                  &b = mesh_->nodes[mesh_->cell_nodes[cell][(k + 1) % 3]];
+      is_in = cross(b - a, x - a) >= -slack_ * (b - a).norm();
+    }
+    if (is_in) return cell;
+  }
+  return none;
+}
+
+int find_fracture(const Mesh& mesh, const std::string& name) {
+  for (std::size_t i = 0; i < mesh.fractures.size(); ++i) {
+    if (mesh.fractures[i].name == name) return static_cast<int>(i);
+  }
+  return none;
+}
+
+int nearest_fracture_cell(const Mesh& mesh, int fracture, const Point& x) {
+  const auto& [name, first, count] = mesh.fractures[fracture];
+  int nearest = none;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = first; i < first + count; ++i) {
+    const auto [from, to] = mesh.fracture_cells[i].points;
+    const double d = distance(x, Segment{mesh.fracture_points[from].position, mesh.fracture_points[to].position});
+    if (d < least) least = d, nearest = i;
+  }
+  return nearest;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,36 @@
+// Which cell holds a point.
+#pragma once
+
+#include <string>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// Looks points up in a grid of buckets over the mesh. Keeps a pointer to the mesh, which must outlive it unchanged.
+class PointLocation {
+ public:
+  explicit PointLocation(const Mesh& mesh);
+
+  /// The cell that holds the point, or none outside of the mesh. A point on a face gives the adjacent cell with the
+  /// smallest index; points outside by less than 1e-10 of the mesh's extent still count as inside.
+  int cell_at(const Point& x) const;
+
+ private:
+  int bucket(int axis, double coordinate) const;
+
+  const Mesh* mesh_;
+  Point low_;
+  double width_ = 1;  ///< of a bucket, m
+  std::array<int, 2> counts_{1, 1};
+  Adjacency cells_;  ///< the cells whose bounding box meets a bucket; bucket (i, j) is entry j * counts_[0] + i
+  double slack_ = 0;
+};
+
+/// The index of a fracture, or none.
+int find_fracture(const Mesh& mesh, const std::string& name);
+
+/// The cell of a fracture (by index) that is nearest to a point; of equally near ones the first.
+int nearest_fracture_cell(const Mesh& mesh, int fracture, const Point& x);
+
+}  // namespace sprekk

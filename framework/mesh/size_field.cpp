@@ -1,0 +1,57 @@
+#include "framework/mesh/size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sprekk {
+
+SizeField::SizeField(const Geometry& geometry, const MeshOptions& options)
+    : far_size_(far_size(geometry, options)),
+      growth_(options.growth),
+      box_area_(geometry.box.size().x() * geometry.box.size().y()) {
+  const double near_boundary = point_tolerance(geometry.box);
+  const auto is_on_boundary = [&](const Point& x) {
+    return (x - geometry.box.low).minCoeff() < near_boundary || (geometry.box.high - x).minCoeff() < near_boundary;
+  };
+  for (const FractureGeometry& fracture : geometry.fractures) {
+    const double size = fracture.size.value_or(options.fracture_size.value_or(far_size_));
+    for (std::size_t i = 0; i + 1 < fracture.points.size(); ++i) {
+      add_source({fracture.points[i], fracture.points[i + 1]}, size);
+    }
+    for (const Point& end : {fracture.points.front(), fracture.points.back()}) {
+      if (!is_on_boundary(end)) add_source({end, end}, options.tip_size.value_or(size));
+    }
+  }
+}
+
+void SizeField::add_source(const Segment& segment, double size) {
+  if (size < far_size_) sources_.push_back({segment, size, (far_size_ - size) / growth_});
+}
+
+double SizeField::at(const Point& x) const {
+  double size = far_size_;
+  for (const Source& source : sources_) {
+    const Point &a = source.segment.from, &b = source.segment.to;
+    const double reach = (size - source.size) / growth_;
+    if (x.x() < std::min(a.x(), b.x()) - reach || x.x() > std::max(a.x(), b.x()) + reach ||
+        x.y() < std::min(a.y(), b.y()) - reach || x.y() > std::max(a.y(), b.y()) + reach) {
+      continue;
+    }
+    size = std::min(size, source.size + growth_ * distance(x, source.segment));
+  }
+  return size;
+}
+
+double SizeField::estimated_triangles() const {
+  const double per_area = 4 / std::sqrt(3.0);
+  double integral = box_area_ / (far_size_ * far_size_);
+  for (const auto& [segment, size, reach] : sources_) {
+    // With h = size + growth * distance: a strip on either side of a segment, and a disc around a point.
+    integral += 2 * segment.length() * (1 / size - 1 / far_size_) / growth_;
+    integral += 2 * std::numbers::pi / (growth_ * growth_) * (std::log(far_size_ / size) - 1 + size / far_size_);
+  }
+  return per_area * integral;
+}
+
+}  // namespace sprekk

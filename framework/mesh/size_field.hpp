@@ -1,0 +1,36 @@
+// The edge length that a mesh shall have, as a function of place.
+#pragma once
+
+#include <vector>
+
+#include "framework/mesh/geometry.hpp"
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk {
+
+/// The smallest of: the far size; at each fracture its size plus growth times the distance from it; at each of its
+/// ends inside the box the tip size plus growth times the distance from the end.
+class SizeField {
+ public:
+  /// The geometry is that of a box and valid, except that sizes may still be absurdly small.
+  SizeField(const Geometry& geometry, const MeshOptions& options);
+
+  double at(const Point& x) const;
+
+  /// An upper estimate of the number of triangles that the size field asks for: the integral of 4 / (sqrt(3) h^2),
+  /// separately for the box, the fractures and their ends.
+  double estimated_triangles() const;
+
+ private:
+  struct Source {
+    Segment segment;  ///< a point when from == to
+    double size;
+    double reach;  ///< the distance at which the far size is reached
+  };
+  void add_source(const Segment& segment, double size);
+
+  double far_size_, growth_, box_area_;
+  std::vector<Source> sources_;
+};
+
+}  // namespace sprekk

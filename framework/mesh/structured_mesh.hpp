@@ -1,0 +1,14 @@
+// Squares cut into triangles with alternating diagonals.
+#pragma once
+
+#include "framework/mesh/geometry.hpp"
+#include "framework/mesh/raw_mesh.hpp"
+
+namespace sprekk {
+
+/// Rectangles of equal size, cut by diagonals whose direction alternates like a chess board ("union jack"). Fractures
+/// must lie on grid lines and diagonals, else InputError; triangles take the region of their centre. The geometry is a
+/// valid one.
+RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options);
+
+}  // namespace sprekk

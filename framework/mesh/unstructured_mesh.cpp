@@ -1,0 +1,140 @@
+#include "framework/mesh/unstructured_mesh.hpp"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <map>
+
+#include "framework/mesh/arrangement.hpp"
+#include "framework/mesh/gmsh_model.hpp"
+#include "framework/mesh/regions.hpp"
+#include "framework/mesh/size_field.hpp"
+
+namespace sprekk {
+namespace {
+
+constexpr int box_segments = 4;
+
+/// The box's outline first, counter-clockwise from the lower left corner; then the fractures, then the polygons.
+std::vector<Segment> all_segments(const Geometry& geometry) {
+  const auto [low, high] = std::pair(geometry.box.low, geometry.box.high);
+  const Point corners[] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+  std::vector<Segment> segments;
+  for (int i = 0; i < box_segments; ++i) segments.push_back({corners[i], corners[(i + 1) % 4]});
+  for (const FractureGeometry& fracture : geometry.fractures) {
+    for (std::size_t i = 0; i + 1 < fracture.points.size(); ++i) {
+      segments.push_back({fracture.points[i], fracture.points[i + 1]});
+    }
+  }
+  for (const RegionGeometry& region : geometry.regions) {
+    const auto& polygon = region.polygon;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      segments.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+    }
+  }
+  return segments;
+}
+
+/// The curves between neighbouring points of an arrangement, numbered as gmsh knows them.
+class Curves {
+ public:
+  explicit Curves(const Arrangement& arrangement) : arrangement_(arrangement) {
+    for (std::size_t i = 0; i < arrangement.points.size(); ++i) {
+      const Point& x = arrangement.points[i];
+      gmsh::model::geo::addPoint(x.x(), x.y(), 0, 0, static_cast<int>(i) + 1);
+    }
+    std::vector<int> outline, inner;
+    for (std::size_t s = 0; s < arrangement.chains.size(); ++s) {
+      const auto& chain = arrangement.chains[s];
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        const auto key = std::minmax(chain[i], chain[i + 1]);
+        if (tags_.count(key)) continue;
+        const int tag = gmsh::model::geo::addLine(chain[i] + 1, chain[i + 1] + 1);
+        tags_[key] = tag;
+        (s < box_segments ? outline : inner).push_back(tag);
+      }
+    }
+    const int loop = gmsh::model::geo::addCurveLoop(outline);
+    const int surface = gmsh::model::geo::addPlaneSurface({loop});
+    gmsh::model::geo::synchronize();
+    if (!inner.empty()) gmsh::model::mesh::embed(1, inner, 2, surface);
+  }
+
+  /// gmsh's numbers of the nodes along a segment, from its beginning to its end, after meshing.
+  std::vector<std::size_t> nodes_along(int segment) const {
+    const auto& chain = arrangement_.chains[segment];
+    std::vector<std::size_t> nodes;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      std::vector<std::size_t> tags;
+      std::vector<double> coordinates, parameters;
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters, 1, tags_.at(std::minmax(chain[i], chain[i + 1])), true,
+                                  false);
+      const Point from = arrangement_.points[chain[i]], along = arrangement_.points[chain[i + 1]] - from;
+      std::vector<std::pair<double, std::size_t>> ordered;
+      for (std::size_t n = 0; n < tags.size(); ++n) {
+        ordered.emplace_back((Point(coordinates[3 * n], coordinates[3 * n + 1]) - from).dot(along), tags[n]);
+      }
+      std::sort(ordered.begin(), ordered.end());
+      for (std::size_t n = i == 0 ? 0 : 1; n < ordered.size(); ++n) nodes.push_back(ordered[n].second);
+    }
+    return nodes;
+  }
+
+ private:
+  const Arrangement& arrangement_;
+  std::map<std::pair<int, int>, int> tags_;  ///< by the numbers of the end points, smaller one first
+};
+
+void fetch_mesh(const Geometry& geometry, const Curves& curves, RawMesh& mesh) {
+  std::vector<std::size_t> tags, elements;
+  std::vector<double> coordinates, parameters;
+  gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
+  std::vector<int> number(tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()) + 1);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    number[tags[i]] = static_cast<int>(i);
+    mesh.nodes.emplace_back(coordinates[3 * i], coordinates[3 * i + 1]);
+  }
+  tags.clear();
+  constexpr int three_node_triangle = 2;
+  gmsh::model::mesh::getElementsByType(three_node_triangle, elements, tags);
+  for (std::size_t i = 0; i + 2 < tags.size(); i += 3) {
+    mesh.triangles.push_back({number[tags[i]], number[tags[i + 1]], number[tags[i + 2]]});
+  }
+
+  mesh.side_names.assign(box_sides.begin(), box_sides.end());
+  constexpr int side_of_segment[box_segments] = {2, 1, 3, 0};  // bottom, right, top, left
+  for (int s = 0; s < box_segments; ++s) {
+    const auto nodes = curves.nodes_along(s);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      mesh.boundary_edges.push_back({{number[nodes[i]], number[nodes[i + 1]]}, side_of_segment[s]});
+    }
+  }
+  int segment = box_segments;
+  for (const FractureGeometry& fracture : geometry.fractures) {
+    RawMesh::Chain chain{fracture.name, {}};
+    for (std::size_t i = 0; i + 1 < fracture.points.size(); ++i) {
+      const auto nodes = curves.nodes_along(segment++);
+      for (std::size_t n = i == 0 ? 0 : 1; n < nodes.size(); ++n) chain.nodes.push_back(number[nodes[n]]);
+    }
+    mesh.fractures.push_back(std::move(chain));
+  }
+}
+
+}  // namespace
+
+RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options) {
+  const SizeField sizes(geometry, options);
+  const Arrangement arrangement = arrange(all_segments(geometry), point_tolerance(geometry.box));
+  RawMesh mesh;
+  const GmshModel model;
+  model.run("mesh the geometry", [&] {
+    const Curves curves(arrangement);
+    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) { return sizes.at(Point(x, y)); });
+    gmsh::model::mesh::generate(2);
+    fetch_mesh(geometry, curves, mesh);
+  });
+  assign_regions(geometry, mesh);
+  return mesh;
+}
+
+}  // namespace sprekk
