@@ -27,6 +27,11 @@ void Field::set(Vector values) {
   ++version_;
 }
 
+void Field::set_accepted(Vector values) {
+  if (values.size() != size()) throw std::logic_error("field " + name() + ": wrong number of values");
+  accepted_ = std::move(values);
+}
+
 void Field::set_both(Vector values) {
   set(std::move(values));
   accept();

@@ -27,6 +27,11 @@ struct FieldSpec {
   std::string doc;
   /// How a preconditioner smooths the block of an unknown: "scalar_elliptic", "elasticity" or "local".
   std::string smoothing = "local";
+  /// Of an input that makes no sense unless a coupler determines it: the type of coupler that would; else "".
+  std::string needs_coupler = "";
+  /// Of a derived field that keeps the books of another (what has been stored, what has flowed out): that field's full
+  /// name. Both are accepted together, also after a substep.
+  std::string accepted_with = "";
   std::string full_name() const { return owner + "." + name; }
 };
 
@@ -47,6 +52,7 @@ class Field {
   void set(Vector values);  ///< throws std::logic_error if the size differs
   void set_both(Vector values);
   void accept() { accepted_ = now_; }
+  void set_accepted(Vector values);
   void rewind() { set(accepted_); }
 
   /// For inputs: the coupler that determines it, "" when it keeps its given value.

@@ -1,0 +1,34 @@
+// Capabilities of the flow in the matrix.
+#pragma once
+
+#include "framework/assembly/linear_expression.hpp"
+#include "framework/field/field.hpp"
+
+namespace sprekk {
+
+/// "I determine the pressure of the matrix from a balance of fluid volume."
+class MatrixFluid {
+ public:
+  static constexpr const char* promise = "determines the pressure of the matrix";
+  virtual ~MatrixFluid() = default;
+  /// Pa, one a cell. Its equation is the volume of fluid that entered each cell during the step, less what it stores (m^2).
+  virtual Field& pressure() = 0;
+  /// The pressure (Pa) of the reference state, one a cell: the initial one.
+  virtual const Vector& initial_pressure() const = 0;
+  /// The porosity, one a cell, if the storage is to be completed by the compressibility of the grains, (alpha − phi)/K
+  /// (below Eq. 7); nullptr if the storage was given as a whole.
+  virtual const Vector* porosity_for_storage() const = 0;
+};
+
+/// "I accept a flux through the walls of fractures, and give the pressure there."
+class MatrixWalls {
+ public:
+  static constexpr const char* promise = "accepts a fluid flux through the walls of fractures and gives the pressure there";
+  virtual ~MatrixWalls() = default;
+  /// Input, m/s, one a wall: lambda of Eq. 9, the flux from the fracture into the matrix.
+  virtual Field& wall_flux() = 0;
+  /// tr p, Pa, one a wall.
+  virtual const LinearExpression& wall_pressure() const = 0;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,155 @@
+#include "components/contact/coulomb/coulomb.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::contact {
+
+Spec Options::spec() {
+  Spec spec("contact/coulomb",
+            "Frictional contact of fracture walls with dilation (Eqs. 2, 3): each cell sticks, slips or is open.");
+  spec.ignore("type");
+  spec.data("friction", friction,
+            {.range = non_negative(), .doc = "Coefficient of friction.", .source = "mu_s of Eq. 3", .required = true, .material = true});
+  spec.data("dilation_angle", dilation_angle,
+            {.unit = "rad", .range = between(0, 1.5), .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
+             .source = "psi below Eq. 2", .material = true});
+  return spec;
+}
+
+Coulomb::Coulomb(const ComponentContext& context, const Options& options)
+    : Component(context.name),
+      mesh_(context.mesh),
+      traction_(context.fields.add(mesh_, {.owner = context.name,
+                                           .name = "traction",
+                                           .location = Location::fracture_cell,
+                                           .components = 2,
+                                           .unit = "Pa",
+                                           .doc = "Contact traction on the plus wall, normal and tangential (f of Eqs. 2-4)"})),
+      jump_(context.fields.add(mesh_, {.owner = context.name,
+                                       .name = "jump",
+                                       .location = Location::fracture_cell,
+                                       .components = 2,
+                                       .role = Role::input,
+                                       .unit = "m",
+                                       .doc = "Displacement jump, normal (opening) and tangential (slip) (Eq. 1)",
+                                       .needs_coupler = "wall_traction"})) {
+  const int count = mesh_.fracture_cell_count();
+  if (count == 0)
+    throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
+                     "add fractures to `geometry:` or remove the component");
+  friction_.resize(count);
+  dilation_.resize(count);
+  for (int i = 0; i < count; ++i) {
+    const FractureCell& cell = mesh_.fracture_cells[i];
+    const Place place{cell.center, mesh_.cell_region[mesh_.face_cells[cell.faces[0]][0]], context.start_time};
+    friction_[i] = options.friction.at(place);
+    dilation_[i] = std::tan(options.dilation_angle.at(place));
+  }
+  stiffness_ = Vector::Ones(2 * count);
+}
+
+Coulomb::Trial Coulomb::trial(int i) const {
+  const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
+  const double u_n = jump_.now()[2 * i], u_t = jump_.now()[2 * i + 1];
+  Trial t;
+  t.gap = u_n - std::abs(u_t) * dilation_[i];
+  t.normal = f_n + stiffness_[2 * i] * t.gap;
+  t.tangential = f_t + stiffness_[2 * i + 1] * (u_t - jump_.accepted()[2 * i + 1]);
+  t.bound = -friction_[i] * std::min(0.0, t.normal);
+  // At the very start of slip, |slip| has the slope of the side that it is about to take.
+  t.slip_sign = u_t > 0 ? 1 : u_t < 0 ? -1 : t.tangential > 0 ? 1 : -1;
+  return t;
+}
+
+State Coulomb::state(int i) const {
+  const Trial t = trial(i);
+  if (t.normal > 0) return State::open;
+  return std::abs(t.tangential) <= t.bound ? State::stick : State::slip;
+}
+
+std::uint64_t Coulomb::discrete_state() const {
+  std::uint64_t hash = 0;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    hash = hash * 1000003 + static_cast<std::uint64_t>(state(i)) * 2 + (trial(i).tangential > 0);
+  return hash;
+}
+
+void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
+  if (!assembly.has_row(traction_)) return;
+  const int count = mesh_.fracture_cell_count();
+  Vector residual(2 * count);
+  // The blocks have the same pattern in every state, so that the sparsity of the system never changes.
+  std::vector<Triplet> by_traction, by_jump;
+  for (int i = 0; i < count; ++i) {
+    const Trial t = trial(i);
+    const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
+    const double c_n = stiffness_[2 * i], c_t = stiffness_[2 * i + 1];
+    const double gap_by_t = -t.slip_sign * dilation_[i];  // d gap / d [u]_t; d gap / d [u]_n is 1
+    double n_fn = 0, n_un = 0, n_ut = 0;                  // derivatives of the normal residual
+    double t_fn = 0, t_ft = 0, t_un = 0, t_ut = 0;        // and of the tangential one
+    if (t.normal > 0) {
+      residual[2 * i] = f_n;
+      residual[2 * i + 1] = f_t;
+      n_fn = 1;
+      t_ft = 1;
+    } else {
+      residual[2 * i] = -c_n * t.gap;
+      n_un = -c_n;
+      n_ut = -c_n * gap_by_t;
+      if (std::abs(t.tangential) <= t.bound) {
+        residual[2 * i + 1] = f_t - t.tangential;
+        t_ut = -c_t;
+      } else {
+        const double direction = t.tangential > 0 ? 1 : -1;
+        residual[2 * i + 1] = f_t - direction * t.bound;
+        const double by_normal = direction * friction_[i];
+        t_ft = 1;
+        t_fn = by_normal;
+        t_un = by_normal * c_n;
+        t_ut = by_normal * c_n * gap_by_t;
+      }
+    }
+    by_traction.insert(by_traction.end(), {{2 * i, 2 * i, n_fn},
+                                           {2 * i + 1, 2 * i, t_fn},
+                                           {2 * i + 1, 2 * i + 1, t_ft}});
+    by_jump.insert(by_jump.end(), {{2 * i, 2 * i, n_un},
+                                   {2 * i, 2 * i + 1, n_ut},
+                                   {2 * i + 1, 2 * i, t_un},
+                                   {2 * i + 1, 2 * i + 1, t_ut}});
+  }
+  assembly.add(traction_, residual);
+  // What the residual is small against: the tractions, and where all is open those that would undo the jumps.
+  assembly.compare_with(traction_, traction_.now().lpNorm<Eigen::Infinity>());
+  assembly.compare_with(traction_, stiffness_.cwiseProduct(jump_.now()).lpNorm<Eigen::Infinity>());
+  if (!assembly.wants_derivatives()) return;
+  SparseMatrix tractions(2 * count, 2 * count), jumps(2 * count, 2 * count);
+  tractions.setFromTriplets(by_traction.begin(), by_traction.end());
+  jumps.setFromTriplets(by_jump.begin(), by_jump.end());
+  assembly.derivative(traction_, traction_, std::move(tractions));
+  assembly.derivative(traction_, jump_, std::move(jumps));
+}
+
+void Coulomb::report(std::vector<Quantity>& quantities) const {
+  int counts[3] = {0, 0, 0};
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) ++counts[static_cast<int>(state(i))];
+  quantities.push_back({name() + ".cells_stick", "1", static_cast<double>(counts[0])});
+  quantities.push_back({name() + ".cells_slip", "1", static_cast<double>(counts[1])});
+  quantities.push_back({name() + ".cells_open", "1", static_cast<double>(counts[2])});
+}
+
+void Coulomb::output(std::vector<OutputField>& fields) const {
+  Vector states(mesh_.fracture_cell_count());
+  for (int i = 0; i < states.size(); ++i) states[i] = static_cast<double>(state(i));
+  fields.push_back({name() + ".state_0_stick_1_slip_2_open", "1", Location::fracture_cell, 1, std::move(states)});
+}
+
+namespace {
+
+const RegisterComponent<Coulomb, Options> registration("contact/coulomb");
+
+}  // namespace
+
+}  // namespace sprekk::contact

@@ -1,0 +1,58 @@
+// Frictional contact with dilation (Eqs. 2 and 3), cell by cell.
+#pragma once
+
+#include <vector>
+
+#include "components/capabilities/fracture_contact.hpp"
+#include "framework/config/spec.hpp"
+#include "framework/scene/component.hpp"
+
+namespace sprekk::contact {
+
+struct Options {
+  Data friction;        ///< mu_s
+  Data dilation_angle;  ///< psi, rad
+  Spec spec();
+};
+
+enum class State { stick, slip, open };
+
+/// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. With the
+/// gap h = [u]_n − |[u]_t| tan psi, the slip of the step d = [u]_t − [u]_t,old, and the stiffness c of the walls:
+///   f_n = min(0, f_n + c_n h)                              (Eq. 2)
+///   f_t = projection of f_t + c_t d onto [−b, b],  b = −mu_s min(0, f_n + c_n h)   (Eq. 3)
+/// which hold for any c > 0 exactly when the conditions do (Alart and Curnier 1991; Hüeber, Stadler, Wohlmuth 2008), and
+/// are solved by a semismooth Newton method. f acts on the plus wall, [u] = u(minus) − u(plus), so friction makes f_t
+/// point along the slip: power −f·[u]' ≤ 0 is drawn from the walls. (Eq. 3 of the paper has the opposite sign.)
+class Coulomb : public Component, public FractureContact {
+ public:
+  Coulomb(const ComponentContext& context, const Options& options);
+
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly& assembly, const StepTime& step) const override;
+  bool is_nonlinear() const override { return true; }
+  std::uint64_t discrete_state() const override;
+  void report(std::vector<Quantity>& quantities) const override;
+  void output(std::vector<OutputField>& fields) const override;
+
+  Field& traction() override { return traction_; }
+  Field& jump() override { return jump_; }
+  void set_wall_stiffness(const Vector& stiffness) override { stiffness_ = stiffness; }
+
+  State state(int cell) const;
+
+ private:
+  struct Trial {
+    double gap, normal, tangential, bound;
+    double slip_sign;  ///< of d gap / d [u]_t
+  };
+  Trial trial(int cell) const;
+
+  const Mesh& mesh_;
+  Field& traction_;
+  Field& jump_;
+  Vector friction_, dilation_;  ///< mu_s, tan psi
+  Vector stiffness_;            ///< c, Pa/m, (normal, tangential) of each cell
+};
+
+}  // namespace sprekk::contact

@@ -1,0 +1,293 @@
+#include "components/fracture_flow/tpfa/fracture_flow.hpp"
+
+#include <algorithm>
+
+#include "framework/mesh/point_location.hpp"
+
+namespace sprekk::fracture_flow {
+
+namespace {
+
+Vector evaluate_on_cells(const Mesh& mesh, const Data& data, double time) {
+  Vector values(mesh.fracture_cell_count());
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+    const FractureCell& cell = mesh.fracture_cells[i];
+    values[i] = data.at({cell.center, mesh.cell_region[mesh.face_cells[cell.faces[0]][0]], time});
+  }
+  return values;
+}
+
+double rate_time(const Data& rate, const StepTime& step) {
+  return rate.switch_times().empty() ? step.end : 0.5 * (step.start + step.end);
+}
+
+}  // namespace
+
+FractureFlow::FractureFlow(const ComponentContext& context, const Options& options)
+    : Component(context.name),
+      mesh_(context.mesh),
+      options_(options),
+      pressure_(context.fields.add(mesh_, {.owner = context.name,
+                                           .name = "pressure",
+                                           .location = Location::fracture_cell,
+                                           .unit = "Pa",
+                                           .doc = "Fluid pressure in the fractures"})),
+      aperture_(context.fields.add(mesh_, {.owner = context.name,
+                                           .name = "aperture",
+                                           .location = Location::fracture_cell,
+                                           .role = Role::input,
+                                           .unit = "m",
+                                           .doc = "Aperture of the fractures (below Eq. 8)"})),
+      books_(context.fields.add(mesh_, {.owner = context.name,
+                                        .name = "fluid_books",
+                                        .location = Location::fracture_cell,
+                                        .components = 3,
+                                        .role = Role::derived,
+                                        .unit = "m^2",
+                                        .doc = "Fluid stored, injected, and flowed out through the outer boundary",
+                                        .accepted_with = pressure_.name()})) {
+  if (mesh_.fracture_cell_count() == 0)
+    throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
+                     "add fractures to `geometry:` or remove the component");
+  check_names();
+  initial_aperture_ = evaluate_on_cells(mesh_, options_.initial_aperture, context.start_time);
+  aperture_.set_both(initial_aperture_);
+  pressure_.set_both(evaluate_on_cells(mesh_, options_.initial_pressure, context.start_time));
+  viscosity_ = evaluate_on_cells(mesh_, options_.viscosity, context.start_time);
+  compressibility_ = evaluate_on_cells(mesh_, options_.fluid_compressibility, context.start_time);
+  if (options_.transmissivity_value)
+    given_transmissivity_ = evaluate_on_cells(mesh_, *options_.transmissivity_value, context.start_time);
+  if (options_.normal_permeability_value)
+    given_normal_permeability_ = evaluate_on_cells(mesh_, *options_.normal_permeability_value, context.start_time);
+}
+
+void FractureFlow::check_names() const {
+  std::vector<std::string> names;
+  for (const Fracture& fracture : mesh_.fractures) names.push_back(fracture.name);
+  const auto check = [&](const Where& where) {
+    if (!where.fracture.empty() && find_fracture(mesh_, where.fracture) == none)
+      throw unknown_name(where.origin, "fracture", where.fracture, names);
+  };
+  for (const auto& [name, injection] : options_.injections) check(injection.where);
+  for (const auto& [name, prescribed] : options_.prescribed) check(prescribed.where);
+  for (const auto& [side, origin] : options_.boundary_origins)
+    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
+      throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
+}
+
+namespace {
+
+std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
+  std::vector<int> cells;
+  if (where.at) {
+    int nearest = none;
+    for (int f = 0; f < static_cast<int>(mesh.fractures.size()); ++f) {
+      if (!where.fracture.empty() && mesh.fractures[f].name != where.fracture) continue;
+      const int candidate = nearest_fracture_cell(mesh, f, *where.at);
+      const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *where.at).norm(); };
+      if (nearest == none || distance(candidate) < distance(nearest)) nearest = candidate;
+    }
+    return {nearest};
+  }
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i)
+    if (where.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == where.fracture)
+      cells.push_back(i);
+  return cells;
+}
+
+}  // namespace
+
+void FractureFlow::make_links() {
+  if (linked_ && linked_version_ == mesh_.version) return;
+  linked_ = true;
+  linked_version_ = mesh_.version;
+  links_.clear();
+  for (const FracturePoint& point : mesh_.fracture_points)
+    if (point.cells.size() == 2) links_.push_back({point.cells[0], point.cells[1]});
+  if (options_.gravity.is_zero()) return;
+  for (Link& link : links_) {
+    const Point &a = mesh_.fracture_cells[link.first].center, &b = mesh_.fracture_cells[link.second].center;
+    link.gravity = options_.fluid_density * options_.gravity.at({a, 0, 0}).dot(a - b);
+  }
+}
+
+void FractureFlow::begin_step(const StepTime& step) {
+  make_links();
+  links_.erase(std::remove_if(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; }),
+               links_.end());
+  for (const FracturePoint& point : mesh_.fracture_points) {
+    if (point.kind != FracturePoint::Kind::on_boundary) continue;
+    const auto found = options_.boundary.find(mesh_.side_names[point.side]);
+    if (found == options_.boundary.end()) continue;
+    const int cell = point.cells[0];
+    Link link{cell, none};
+    link.boundary_pressure = found->second.at({point.position, 0, step.end});
+    if (!options_.gravity.is_zero())
+      link.gravity = options_.fluid_density * options_.gravity.at({point.position, 0, 0})
+                                                  .dot(mesh_.fracture_cells[cell].center - point.position);
+    links_.push_back(link);
+  }
+  prescribe(step);
+}
+
+void FractureFlow::prescribe(const StepTime& step) {
+  source_ = Vector::Zero(mesh_.fracture_cell_count());
+  for (const auto& [name, injection] : options_.injections) {
+    const std::vector<int> cells = cells_at(mesh_, injection.where);
+    double length = 0;
+    for (const int cell : cells) length += mesh_.fracture_cells[cell].length;
+    for (const int cell : cells) {
+      const FractureCell& at = mesh_.fracture_cells[cell];
+      source_[cell] += injection.rate.at({at.center, 0, rate_time(injection.rate, step)}) * at.length / length;
+    }
+  }
+  prescribed_.clear();
+  for (const auto& [name, given] : options_.prescribed)
+    for (const int cell : cells_at(mesh_, given.where)) {
+      const FractureCell& at = mesh_.fracture_cells[cell];
+      const double storage = at.length * initial_aperture_[cell] * compressibility_[cell];
+      prescribed_.push_back({cell, given.pressure.at({at.center, 0, step.end}), storage > 0 ? storage : at.length});
+    }
+}
+
+double FractureFlow::hydraulic_aperture(int cell) const {
+  return std::max(aperture_.now()[cell], options_.aperture_floor);
+}
+
+FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
+  const double viscosity = viscosity_[cell];
+  if (options_.transmissivity == "constant") return {given_transmissivity_[cell] / viscosity, 0};
+  const double a = hydraulic_aperture(cell);
+  const bool floored = aperture_.now()[cell] < options_.aperture_floor;
+  return {a * a * a / (12 * viscosity), floored ? 0 : a * a / (4 * viscosity)};
+}
+
+FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
+  const int count = mesh_.fracture_cell_count();
+  NormalPermeability kappa{Vector(count), Vector::Zero(count)};
+  for (int i = 0; i < count; ++i) {
+    if (options_.normal_permeability == "constant") {
+      kappa.value[i] = given_normal_permeability_[i];
+      continue;
+    }
+    const double a = hydraulic_aperture(i);
+    const Transmissivity t = transmissivity(i);
+    kappa.value[i] = 2 * t.value / (a * a);
+    if (aperture_.now()[i] >= options_.aperture_floor)
+      kappa.by_aperture[i] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a);
+  }
+  return kappa;
+}
+
+FractureFlow::Flux FractureFlow::flux(const Link& link) const {
+  // Resistances in series: half a cell on each side.
+  const Transmissivity first = transmissivity(link.first);
+  const double half = 0.5 * mesh_.fracture_cells[link.first].length;
+  const double p_first = pressure_.now()[link.first];
+  if (link.second == none) {
+    const double drop = p_first - link.boundary_pressure - link.gravity;
+    return {first.value / half * drop, first.value / half, first.by_aperture / half * drop, 0};
+  }
+  const Transmissivity second = transmissivity(link.second);
+  const double other_half = 0.5 * mesh_.fracture_cells[link.second].length;
+  const double drop = p_first - pressure_.now()[link.second] - link.gravity;
+  if (first.value == 0 || second.value == 0) return {0, 0, 0, 0};
+  const double conductance = 1 / (half / first.value + other_half / second.value);
+  const double by_first = conductance * conductance * half / (first.value * first.value) * first.by_aperture;
+  const double by_second = conductance * conductance * other_half / (second.value * second.value) * second.by_aperture;
+  return {conductance * drop, conductance, by_first * drop, by_second * drop};
+}
+
+void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
+  if (!assembly.has_row(pressure_)) return;
+  const int count = mesh_.fracture_cell_count();
+  Vector stored(count), capacity(count), stored_by_aperture(count);
+  for (int i = 0; i < count; ++i) {
+    const double length = mesh_.fracture_cells[i].length;
+    const double change = pressure_.now()[i] - pressure_.accepted()[i];
+    capacity[i] = length * aperture_.now()[i] * compressibility_[i];
+    stored[i] = length * (aperture_.now()[i] - aperture_.accepted()[i]) + capacity[i] * change;
+    stored_by_aperture[i] = length * (1 + compressibility_[i] * change);
+  }
+  assembly.add(pressure_, stored);
+  assembly.diagonal(pressure_, pressure_, capacity);
+  assembly.diagonal(pressure_, aperture_, stored_by_aperture);
+  assembly.add(pressure_, -step.dt * source_);
+
+  Vector outflow = Vector::Zero(count);
+  std::vector<Triplet> by_pressure, by_aperture;
+  for (const Link& link : links_) {
+    const Flux f = flux(link);
+    const int a = link.first, b = link.second;
+    outflow[a] += f.value;
+    by_pressure.emplace_back(a, a, step.dt * f.by_pressure);
+    by_aperture.emplace_back(a, a, step.dt * f.by_first);
+    if (b == none) continue;
+    outflow[b] -= f.value;
+    by_pressure.emplace_back(a, b, -step.dt * f.by_pressure);
+    by_pressure.emplace_back(b, a, -step.dt * f.by_pressure);
+    by_pressure.emplace_back(b, b, step.dt * f.by_pressure);
+    by_aperture.emplace_back(a, b, step.dt * f.by_second);
+    by_aperture.emplace_back(b, a, -step.dt * f.by_first);
+    by_aperture.emplace_back(b, b, -step.dt * f.by_second);
+  }
+  assembly.add(pressure_, step.dt * outflow);
+  if (!assembly.wants_derivatives()) return;
+  SparseMatrix pressures(count, count), apertures(count, count);
+  pressures.setFromTriplets(by_pressure.begin(), by_pressure.end());
+  apertures.setFromTriplets(by_aperture.begin(), by_aperture.end());
+  assembly.derivative(pressure_, pressure_, std::move(pressures));
+  assembly.derivative(pressure_, aperture_, std::move(apertures));
+}
+
+void FractureFlow::constrain(Assembly& assembly) const {
+  for (const Prescribed& p : prescribed_) assembly.fix(pressure_, p.cell, p.pressure, p.scale);
+}
+
+void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
+  if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
+  Vector books = books_.accepted();
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const double length = mesh_.fracture_cells[i].length;
+    books[3 * i] += length * (aperture_.now()[i] - aperture_.accepted()[i]) +
+                    length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);
+    books[3 * i + 1] += step.dt * source_[i];
+  }
+  for (const Link& link : links_)
+    if (link.second == none) books[3 * link.first + 2] += step.dt * flux(link).value;
+  books_.set(std::move(books));
+}
+
+void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
+  Balance& fluid = balances["fluid"];
+  fluid.unit = "m^2";
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    fluid.stored += books_.now()[3 * i];
+    fluid.injected += books_.now()[3 * i + 1];
+    fluid.outflow += books_.now()[3 * i + 2];
+  }
+}
+
+bool FractureFlow::is_nonlinear() const {
+  return aperture_.is_solved() && (options_.transmissivity == "cubic_law" || compressibility_.maxCoeff() > 0);
+}
+
+std::vector<double> FractureFlow::switch_times() const {
+  std::vector<double> times;
+  const auto append = [&](const Data& data) {
+    times.insert(times.end(), data.switch_times().begin(), data.switch_times().end());
+  };
+  for (const auto& [name, injection] : options_.injections) append(injection.rate);
+  for (const auto& [name, given] : options_.prescribed) append(given.pressure);
+  for (const auto& [side, pressure] : options_.boundary) append(pressure);
+  return times;
+}
+
+void FractureFlow::report(std::vector<Quantity>& quantities) const {
+  int floored = 0;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    if (aperture_.now()[i] < options_.aperture_floor) ++floored;
+  quantities.push_back({name() + ".cells_at_aperture_floor", "1", static_cast<double>(floored)});
+}
+
+}  // namespace sprekk::fracture_flow

@@ -1,0 +1,93 @@
+#include "components/fracture_flow/tpfa/options.hpp"
+
+namespace sprekk::fracture_flow {
+
+namespace {
+
+void add_where(Spec& spec, Where& where) {
+  spec.text("fracture", where.fracture, {.doc = "Name of the fracture; all fractures without it."});
+  spec.point("at", where.at, {.unit = "m", .doc = "The nearest cell to this point; the whole fracture without it."});
+}
+
+Spec injection_spec(Injection& injection) {
+  Spec spec("injection", "Fluid injected into a fracture; extracted with a negative rate.");
+  add_where(spec, injection.where);
+  spec.data("rate", injection.rate,
+            {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth, in all.", .source = "q_i of Eq. 8", .required = true});
+  return spec;
+}
+
+Spec prescribed_spec(PrescribedPressure& prescribed) {
+  Spec spec("prescribed pressure", "A part of a fracture whose pressure is given instead of its balance of fluid.");
+  add_where(spec, prescribed.where);
+  spec.data("pressure", prescribed.pressure, {.unit = "Pa", .doc = "The pressure.", .required = true});
+  return spec;
+}
+
+Spec side_spec(Data& pressure) {
+  Spec spec("boundary condition of flow in fractures", "For fractures that end on this side.");
+  spec.data("pressure", pressure, {.unit = "Pa", .doc = "Pressure where fractures meet this side.", .required = true});
+  return spec;
+}
+
+}  // namespace
+
+Spec Options::spec() {
+  Spec spec("fracture_flow/tpfa",
+            "Flow in fractures (Eq. 8): two-point flux approximation along piecewise linear fractures.");
+  spec.ignore("type");
+  spec.data("viscosity", viscosity,
+            {.unit = "Pa*s", .range = positive(), .doc = "Viscosity of the fluid.", .source = "Eq. 8", .required = true, .material = true});
+  spec.data("fluid_compressibility", fluid_compressibility,
+            {.unit = "1/Pa", .range = non_negative(), .doc = "Compressibility of the fluid.", .source = "c_p of Eq. 8", .required = true, .material = true});
+  spec.data("initial_aperture", initial_aperture,
+            {.unit = "m", .range = positive(), .doc = "Aperture of the undeformed fracture.", .source = "a^0 below Eq. 8", .required = true});
+  spec.data("initial_pressure", initial_pressure, {.unit = "Pa", .doc = "Pressure at the start."});
+  spec.quantity("aperture_floor", aperture_floor,
+                {.unit = "m", .range = positive(), .doc = "The hydraulic aperture does not fall below this."});
+  spec.choice("transmissivity", transmissivity,
+              {{"cubic_law", "a^3/12"}, {"constant", "the value given as transmissivity_value"}},
+              {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below Eq. 8"});
+  spec.data("transmissivity_value", transmissivity_value,
+            {.unit = "m^3", .range = non_negative(), .doc = "Of a constant transmissivity."});
+  spec.choice("normal_permeability", normal_permeability,
+              {{"cubic_law", "2 K_i/(mu a^2), which with the cubic law is a/(6 mu)"},
+               {"constant", "the value given as normal_permeability_value"}},
+              {.doc = "How kappa follows from the aperture.", .source = "below Eq. 9"});
+  spec.data("normal_permeability_value", normal_permeability_value,
+            {.unit = "m/(Pa*s)", .range = non_negative(), .doc = "Of a constant normal permeability."});
+  spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Acceleration of gravity.", .material = true});
+  spec.quantity("fluid_density", fluid_density,
+                {.unit = "kg/m^3", .range = non_negative(), .doc = "Density of the fluid; matters with gravity only.", .material = true});
+  static Injection example_injection;
+  spec.named_sections("injection", injection_spec(example_injection),
+                      [this](const std::string& key, const Origin& origin) {
+                        injections[key].where.origin = origin;
+                        return injection_spec(injections[key]);
+                      },
+                      {.doc = "Injections by name."});
+  static PrescribedPressure example_prescribed;
+  spec.named_sections("prescribed", prescribed_spec(example_prescribed),
+                      [this](const std::string& key, const Origin& origin) {
+                        prescribed[key].where.origin = origin;
+                        return prescribed_spec(prescribed[key]);
+                      },
+                      {.doc = "Prescribed pressures by name."});
+  static Data example_pressure;
+  spec.named_sections("boundary", side_spec(example_pressure),
+                      [this](const std::string& key, const Origin& origin) {
+                        boundary_origins[key] = origin;
+                        return side_spec(boundary[key]);
+                      },
+                      {.doc = "Pressures where fractures end on a side; else no fluid flows out there."});
+  spec.check([this](const Node& node) {
+    if (transmissivity == "constant" && !transmissivity_value)
+      throw InputError(node.origin, "'transmissivity_value' is missing", "the transmissivity is constant", "give it in m^3");
+    if (normal_permeability == "constant" && !normal_permeability_value)
+      throw InputError(node.origin, "'normal_permeability_value' is missing", "the normal permeability is constant",
+                       "give it in m/(Pa*s)");
+  });
+  return spec;
+}
+
+}  // namespace sprekk::fracture_flow

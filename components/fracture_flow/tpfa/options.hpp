@@ -1,0 +1,48 @@
+// The parameters of the flow in fractures.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "framework/config/spec.hpp"
+
+namespace sprekk::fracture_flow {
+
+/// A place on the fractures: the cell of a fracture that is nearest to a point, a whole fracture, or all of them.
+struct Where {
+  Origin origin;
+  std::string fracture;     ///< "" for all
+  std::optional<Point> at;  ///< m
+};
+
+struct Injection {
+  Where where;
+  Data rate;  ///< m^2/s in all, spread evenly over the length
+};
+
+struct PrescribedPressure {
+  Where where;
+  Data pressure;  ///< Pa
+};
+
+struct Options {
+  Data viscosity;              ///< Pa s
+  Data fluid_compressibility;  ///< 1/Pa
+  Data initial_aperture;       ///< m
+  Data initial_pressure;       ///< Pa
+  double aperture_floor = 1e-7;  ///< m
+  std::string transmissivity = "cubic_law";
+  std::optional<Data> transmissivity_value;       ///< m^3
+  std::string normal_permeability = "cubic_law";
+  std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
+  VectorData gravity;         ///< m/s^2
+  double fluid_density = 1000;  ///< kg/m^3
+  std::map<std::string, Injection> injections;
+  std::map<std::string, PrescribedPressure> prescribed;
+  std::map<std::string, Data> boundary;  ///< pressure by side, Pa
+  std::map<std::string, Origin> boundary_origins;
+  Spec spec();
+};
+
+}  // namespace sprekk::fracture_flow

@@ -1,0 +1,230 @@
+#include "components/matrix_flow/matrix_flow.hpp"
+
+#include <algorithm>
+
+#include "framework/field/ownership.hpp"
+#include "framework/mesh/cell_sums.hpp"
+#include "framework/mesh/point_location.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::matrix_flow {
+
+namespace {
+
+Vector evaluate_on_cells(const Mesh& mesh, const Data& data, double time) {
+  Vector values(mesh.cell_count());
+  for (int c = 0; c < mesh.cell_count(); ++c) values[c] = data.at({mesh.cell_center[c], mesh.cell_region[c], time});
+  return values;
+}
+
+/// Rates that jump are constant over a step, because steps end where they jump; others are taken at the step's end.
+double rate_time(const Data& rate, const StepTime& step) {
+  return rate.switch_times().empty() ? step.end : 0.5 * (step.start + step.end);
+}
+
+}  // namespace
+
+MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize)
+    : Component(context.name),
+      mesh_(context.mesh),
+      options_(options),
+      discretize_(discretize),
+      pressure_(context.fields.add(mesh_, {.owner = context.name,
+                                           .name = "pressure",
+                                           .location = Location::cell,
+                                           .unit = "Pa",
+                                           .doc = "Fluid pressure of the matrix",
+                                           .smoothing = "scalar_elliptic"})),
+      books_(context.fields.add(mesh_, {.owner = context.name,
+                                        .name = "fluid_books",
+                                        .location = Location::cell,
+                                        .components = 3,
+                                        .role = Role::derived,
+                                        .unit = "m^2",
+                                        .doc = "Fluid stored, injected, and flowed out through the outer boundary",
+                                        .accepted_with = pressure_.name()})) {
+  if (mesh_.wall_count() > 0)
+    wall_flux_ = &context.fields.add(mesh_, {.owner = context.name,
+                                             .name = "wall_flux",
+                                             .location = Location::wall,
+                                             .role = Role::input,
+                                             .unit = "m/s",
+                                             .doc = "Flux from the fracture into the matrix (lambda of Eq. 9)"});
+  check_sides();
+  initial_pressure_ = evaluate_on_cells(mesh_, options_.initial_pressure, context.start_time);
+  pressure_.set_both(initial_pressure_);
+  if (options_.porosity) porosity_ = evaluate_on_cells(mesh_, *options_.porosity, 0);
+  storage_ = options_.storage
+                 ? evaluate_on_cells(mesh_, *options_.storage, 0)
+                 : porosity_.cwiseProduct(evaluate_on_cells(mesh_, *options_.fluid_compressibility, 0)).eval();
+
+  const auto potential = [&](const Point& x) {
+    return options_.gravity.is_zero() ? 0.0 : options_.fluid_density * options_.gravity.at({x, 0, 0}).dot(x);
+  };
+  gravity_potential_cell_.resize(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) gravity_potential_cell_[c] = potential(mesh_.cell_center[c]);
+  gravity_potential_face_.resize(mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) gravity_potential_face_[f] = potential(mesh_.face_center[f]);
+}
+
+void MatrixFlow::check_sides() const {
+  for (const auto& [side, condition] : options_.boundary)
+    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
+      throw unknown_name(condition.origin, "side of the boundary", side, mesh_.side_names);
+  const PointLocation location(mesh_);
+  for (const auto& [name, well] : options_.wells)
+    if (location.cell_at(well.at) == none)
+      throw InputError(well.origin, "well '" + name + "' lies outside the rock", "there is no cell at its position",
+                       "move it inside");
+}
+
+void MatrixFlow::discretize() {
+  if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
+  discretized_version_ = mesh_.version;
+  ++discretizations_;
+  std::vector<Tensor> mobility(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
+    mobility[c] = options_.permeability.at(place) / options_.viscosity.at(place);
+  }
+  conditions_.assign(mesh_.face_count(), FlowCondition::none);
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    if (mesh_.face_cells[f][1] != none) continue;
+    conditions_[f] = FlowCondition::flux;
+    if (mesh_.face_side[f] == none) continue;
+    const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
+    if (condition != options_.boundary.end() && condition->second.pressure) conditions_[f] = FlowCondition::pressure;
+  }
+  operators_ = discretize_(mesh_, mobility, conditions_, nodes_to_discretize(mesh_));
+  const int rank = parallel::rank();
+  outflow_of_pressure_ = cell_sums(mesh_, operators_.flux_cell, 1, rank);
+  if (!wall_flux_) return;
+
+  // The flux out of the rock through a wall is −lambda times its length.
+  std::vector<Triplet> entries;
+  for (int w = 0; w < mesh_.wall_count(); ++w)
+    entries.emplace_back(mesh_.wall_face(w), w, -mesh_.face_length[mesh_.wall_face(w)]);
+  SparseMatrix boundary_of_wall_flux(mesh_.face_count(), mesh_.wall_count());
+  boundary_of_wall_flux.setFromTriplets(entries.begin(), entries.end());
+  outflow_of_wall_flux_ = cell_sums(mesh_, SparseMatrix(operators_.flux_boundary * boundary_of_wall_flux), 1, rank);
+
+  entries.clear();
+  for (int w = 0; w < mesh_.wall_count(); ++w)
+    if (is_owned(mesh_, Location::wall, w)) entries.emplace_back(w, mesh_.wall_face(w), 1.0);
+  SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
+  pick_walls.setFromTriplets(entries.begin(), entries.end());
+  wall_pressure_.terms = {{&pressure_, SparseMatrix(pick_walls * operators_.trace_cell)},
+                          {wall_flux_, SparseMatrix(pick_walls * operators_.trace_boundary * boundary_of_wall_flux)}};
+}
+
+void MatrixFlow::evaluate_boundary(double time) {
+  boundary_values_ = Vector::Zero(mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    if (mesh_.face_side[f] == none) continue;
+    const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
+    if (found == options_.boundary.end()) continue;
+    const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], time};
+    if (found->second.pressure) boundary_values_[f] = found->second.pressure->at(place) - gravity_potential_face_[f];
+    if (found->second.flux) boundary_values_[f] = found->second.flux->at(place) * mesh_.face_length[f];
+  }
+  outflow_constant_ = cell_sums(mesh_, Vector(operators_.flux_boundary * boundary_values_), 1) -
+                      outflow_of_pressure_ * gravity_potential_cell_;
+  if (!wall_flux_) return;
+  const Vector trace = operators_.trace_boundary * boundary_values_ - operators_.trace_cell * gravity_potential_cell_ +
+                       gravity_potential_face_;
+  wall_pressure_.constant.resize(mesh_.wall_count());
+  for (int w = 0; w < mesh_.wall_count(); ++w) wall_pressure_.constant[w] = trace[mesh_.wall_face(w)];
+}
+
+void MatrixFlow::evaluate_sources(const StepTime& step) {
+  source_ = Vector::Zero(mesh_.cell_count());
+  if (!options_.source.is_zero())
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      source_[c] = mesh_.cell_area[c] *
+                   options_.source.at({mesh_.cell_center[c], mesh_.cell_region[c], rate_time(options_.source, step)});
+  if (options_.wells.empty()) return;
+  const PointLocation location(mesh_);
+  for (const auto& [name, well] : options_.wells)
+    source_[location.cell_at(well.at)] += well.rate.at({well.at, 0, rate_time(well.rate, step)});
+}
+
+void MatrixFlow::begin_step(const StepTime& step) {
+  discretize();
+  evaluate_boundary(step.end);
+  evaluate_sources(step);
+}
+
+void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
+  if (!assembly.has_row(pressure_)) return;
+  const Vector capacity =
+      storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
+  assembly.add(pressure_, capacity.cwiseProduct(pressure_.now() - pressure_.accepted()));
+  assembly.diagonal(pressure_, pressure_, capacity);
+  assembly.linear(pressure_, outflow_of_pressure_, pressure_, step.dt);
+  if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
+  assembly.add(pressure_, step.dt * outflow_constant_);
+  assembly.add(pressure_, -step.dt * source_);
+}
+
+Vector MatrixFlow::face_fluxes() const {
+  Vector values = boundary_values_;
+  if (wall_flux_)
+    for (int w = 0; w < mesh_.wall_count(); ++w) {
+      const int face = mesh_.wall_face(w);
+      values[face] = -wall_flux_->now()[w] * mesh_.face_length[face];
+    }
+  return operators_.flux_cell * (pressure_.now() - gravity_potential_cell_) + operators_.flux_boundary * values;
+}
+
+void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
+  if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
+  const Vector fluxes = face_fluxes();
+  Vector books = books_.accepted();
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    books[3 * c] += storage_[c] * mesh_.cell_area[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
+    books[3 * c + 1] += step.dt * source_[c];
+    for (const int face : mesh_.cell_faces[c])
+      if (mesh_.face_side[face] != none) books[3 * c + 2] += step.dt * fluxes[face];
+  }
+  replicate(mesh_, Location::cell, 3, books);
+  books_.set(std::move(books));
+}
+
+void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
+  Balance& fluid = balances["fluid"];
+  fluid.unit = "m^2";
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    fluid.stored += books_.now()[3 * c];
+    fluid.injected += books_.now()[3 * c + 1];
+    fluid.outflow += books_.now()[3 * c + 2];
+  }
+}
+
+std::vector<double> MatrixFlow::switch_times() const {
+  std::vector<double> times = options_.source.switch_times();
+  const auto append = [&](const Data& data) {
+    times.insert(times.end(), data.switch_times().begin(), data.switch_times().end());
+  };
+  for (const auto& [name, well] : options_.wells) append(well.rate);
+  for (const auto& [side, condition] : options_.boundary) {
+    if (condition.pressure) append(*condition.pressure);
+    if (condition.flux) append(*condition.flux);
+  }
+  return times;
+}
+
+void MatrixFlow::output(std::vector<OutputField>& fields) const {
+  // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant one.
+  if (discretizations_ == 0) return;
+  const Vector fluxes = face_fluxes();
+  Vector velocity = Vector::Zero(2 * mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    for (const int face : mesh_.cell_faces[c]) {
+      const double out = mesh_.face_cells[face][0] == c ? fluxes[face] : -fluxes[face];
+      velocity.segment<2>(2 * c) += out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_area[c];
+    }
+  replicate(mesh_, Location::cell, 2, velocity);
+  fields.push_back({name() + ".velocity", "m/s", Location::cell, 2, std::move(velocity)});
+}
+
+}  // namespace sprekk::matrix_flow

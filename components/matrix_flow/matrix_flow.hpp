@@ -1,0 +1,98 @@
+// Flow of a slightly compressible fluid in the matrix (Eq. 6), for any discretization of the flux.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/capabilities/matrix_fluid.hpp"
+#include "components/matrix_flow/flux_operators.hpp"
+#include "framework/config/spec.hpp"
+#include "framework/scene/component.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// What is prescribed on one side of the outer boundary; nothing means that no fluid flows through it.
+struct SideCondition {
+  Origin origin;
+  std::optional<Data> pressure;  ///< Pa
+  std::optional<Data> flux;      ///< m/s, out of the rock
+};
+
+struct Well {
+  Origin origin;
+  Point at = Point::Zero();
+  Data rate;  ///< m^2/s, into the rock
+};
+
+struct Options {
+  TensorData permeability;                 ///< m^2
+  Data viscosity;                          ///< Pa s
+  std::optional<Data> storage;             ///< 1/Pa
+  std::optional<Data> porosity;
+  std::optional<Data> fluid_compressibility;  ///< 1/Pa
+  VectorData gravity;                      ///< m/s^2
+  double fluid_density = 1000;             ///< kg/m^3
+  Data initial_pressure;                   ///< Pa
+  Data source;                             ///< 1/s
+  std::map<std::string, SideCondition> boundary;
+  std::map<std::string, Well> wells;
+  Spec spec(const std::string& type, const std::string& doc);
+};
+
+/// A discretization of the flux: see discretize_mpfa.
+using Discretize = FluxOperators (*)(const Mesh&, const std::vector<Tensor>&, const std::vector<FlowCondition>&,
+                                     const std::vector<char>&);
+
+/// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):
+///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
+/// Gravity enters through the potential p − rho g·x, which is exact for a constant density.
+class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
+ public:
+  MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize);
+
+  void begin_step(const StepTime& step) override;
+  void assemble(Assembly& assembly, const StepTime& step) const override;
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
+  void balance(std::map<std::string, Balance>& balances) const override;
+  std::vector<double> switch_times() const override;
+  void output(std::vector<OutputField>& fields) const override;
+  std::map<std::string, long> counts() const override { return {{"flux discretizations", discretizations_}}; }
+
+  Field& pressure() override { return pressure_; }
+  const Vector& initial_pressure() const override { return initial_pressure_; }
+  const Vector* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
+  Field& wall_flux() override { return *wall_flux_; }
+  const LinearExpression& wall_pressure() const override { return wall_pressure_; }
+
+  /// The flux through every face, out of face_cells[f][0], integrated over it (m^2/s); for tests and output.
+  Vector face_fluxes() const;
+
+ private:
+  void check_sides() const;
+  void discretize();
+  void evaluate_boundary(double time);
+  void evaluate_sources(const StepTime& step);
+
+  const Mesh& mesh_;
+  Options options_;
+  Discretize discretize_;
+  Field& pressure_;
+  Field* wall_flux_ = nullptr;  ///< exists with fractures only
+  Field& books_;                ///< (stored, injected, outflow) of each cell since the start, m^2
+  Vector initial_pressure_, porosity_, storage_, gravity_potential_cell_, gravity_potential_face_;
+
+  std::uint64_t discretized_version_ = 0;
+  long discretizations_ = 0;
+  FluxOperators operators_;
+  std::vector<FlowCondition> conditions_;
+  SparseMatrix outflow_of_pressure_;   ///< cells × cells: sum of fluxes out of each cell
+  SparseMatrix outflow_of_wall_flux_;  ///< cells × walls
+  Vector boundary_values_;             ///< one a face, see FluxOperators
+  Vector outflow_constant_;            ///< m^2/s, one a cell
+  LinearExpression wall_pressure_;
+  Vector source_;                      ///< m^2/s, one a cell
+};
+
+}  // namespace sprekk::matrix_flow

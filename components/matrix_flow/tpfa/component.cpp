@@ -1,0 +1,23 @@
+// matrix_flow/tpfa: flow in the matrix with this flux approximation.
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "components/matrix_flow/tpfa/tpfa.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+struct TpfaOptions : Options {
+  Spec spec() {
+    return Options::spec("matrix_flow/tpfa", "Flow in the matrix (Eq. 6): two-point flux approximation, monotone; consistent on orthogonal meshes only.");
+  }
+};
+
+class Tpfa : public MatrixFlow {
+ public:
+  Tpfa(const ComponentContext& context, const TpfaOptions& options) : MatrixFlow(context, options, discretize_tpfa) {}
+};
+
+const RegisterComponent<Tpfa, TpfaOptions> registration("matrix_flow/tpfa");
+
+}  // namespace
+}  // namespace sprekk::matrix_flow

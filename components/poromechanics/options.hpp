@@ -1,0 +1,49 @@
+// The parameters of the deformation of the rock.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "framework/config/spec.hpp"
+
+namespace sprekk::poromechanics {
+
+/// What is prescribed on one side: per direction a displacement or a traction; a direction without either is free of
+/// traction. A normal stress acts in addition to tractions.
+struct SideCondition {
+  Origin origin;
+  std::optional<VectorData> displacement;                 ///< m
+  std::array<std::optional<Data>, 2> displacement_along;  ///< m; displacement_x, displacement_y
+  std::optional<VectorData> traction;                     ///< Pa
+  std::array<std::optional<Data>, 2> traction_along;      ///< Pa
+  std::optional<Data> normal_stress;                      ///< Pa, tension positive
+
+  /// The displacement of a direction (0: x, 1: y), if it is prescribed.
+  const Data* displacement_of(int direction) const;
+  /// The total traction on a face with this outward unit normal (Pa).
+  Point traction_at(const Place& place, const Point& normal) const;
+  bool depends_on_time() const;
+};
+
+/// Plane-strain stiffness of an anisotropic rock, Pa.
+struct AnisotropicStiffness {
+  Data xxxx, yyyy, xyxy, xxyy, xxxy, yyxy;
+};
+
+struct Options {
+  std::optional<Data> young_modulus;   ///< Pa
+  std::optional<Data> poisson_ratio;
+  AnisotropicStiffness stiffness;
+  bool is_anisotropic = false;
+  std::optional<Data> bulk_modulus;    ///< Pa, of an anisotropic rock
+  Data rock_density;                   ///< kg/m^3
+  VectorData gravity;                  ///< m/s^2
+  VectorData body_force;               ///< N/m^3
+  TensorData initial_stress;           ///< Pa
+  std::map<std::string, SideCondition> boundary;
+  Spec spec();
+};
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,234 @@
+#include "components/poromechanics/rock.hpp"
+
+#include <algorithm>
+
+#include "framework/field/ownership.hpp"
+#include "framework/mesh/cell_sums.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::poromechanics {
+
+Rock::Rock(const ComponentContext& context, const Options& options)
+    : Component(context.name),
+      mesh_(context.mesh),
+      options_(options),
+      displacement_(context.fields.add(mesh_, {.owner = context.name,
+                                               .name = "displacement",
+                                               .location = Location::cell,
+                                               .components = 2,
+                                               .unit = "m",
+                                               .doc = "Displacement of the rock",
+                                               .smoothing = "elasticity"})) {
+  if (mesh_.wall_count() > 0)
+    wall_traction_ = &context.fields.add(mesh_, {.owner = context.name,
+                                                 .name = "wall_traction",
+                                                 .location = Location::fracture_cell,
+                                                 .components = 2,
+                                                 .role = Role::input,
+                                                 .unit = "Pa",
+                                                 .doc = "Traction on the plus wall, normal and tangential (Eq. 4)"});
+  check_sides();
+  bulk_modulus_.resize(0);
+  stiffness();
+}
+
+void Rock::check_sides() const {
+  for (const auto& [side, condition] : options_.boundary)
+    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
+      throw unknown_name(condition.origin, "side of the boundary", side, mesh_.side_names);
+}
+
+std::vector<Stiffness> Rock::stiffness() {
+  std::vector<Stiffness> stiffness(mesh_.cell_count());
+  bulk_modulus_ = Vector::Zero(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
+    if (options_.is_anisotropic) {
+      const AnisotropicStiffness& s = options_.stiffness;
+      const double xxyy = s.xxyy.at(place), xxxy = s.xxxy.at(place), yyxy = s.yyxy.at(place);
+      stiffness[c] << s.xxxx.at(place), xxyy, xxxy, xxyy, s.yyyy.at(place), yyxy, xxxy, yyxy, s.xyxy.at(place);
+      if (options_.bulk_modulus) bulk_modulus_[c] = options_.bulk_modulus->at(place);
+    } else {
+      const double young = options_.young_modulus->at(place), poisson = options_.poisson_ratio->at(place);
+      const double shear = young / (2 * (1 + poisson));
+      const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+      stiffness[c] = isotropic_stiffness(lambda, shear);
+      bulk_modulus_[c] = young / (3 * (1 - 2 * poisson));
+    }
+  }
+  return stiffness;
+}
+
+void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
+  loads_.push_back({&pressure, alpha, reference, {}});
+}
+
+void Rock::map_walls() {
+  // Force on the plus wall: L (T_n n + T_t t); opposite on the minus wall (Eq. 4). Jump: minus less plus (Eq. 1).
+  std::vector<Triplet> forces, jumps;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const FractureCell& cell = mesh_.fracture_cells[i];
+    const Point axes[2] = {cell.normal, cell.tangent};
+    const bool owned = is_owned(mesh_, Location::fracture_cell, i);
+    for (int side = 0; side < 2; ++side)
+      for (int axis = 0; axis < 2; ++axis)
+        for (int k = 0; k < 2; ++k) {
+          const double sign = side == 0 ? 1.0 : -1.0;
+          const int row = 2 * cell.faces[side] + k, column = 2 * i + axis;
+          forces.emplace_back(row, column, sign * cell.length * axes[axis][k]);
+          if (owned) jumps.emplace_back(column, row, -sign * axes[axis][k]);
+        }
+  }
+  wall_forces_.resize(2 * mesh_.face_count(), 2 * mesh_.fracture_cell_count());
+  wall_forces_.setFromTriplets(forces.begin(), forces.end());
+  wall_jump_.resize(2 * mesh_.fracture_cell_count(), 2 * mesh_.face_count());
+  wall_jump_.setFromTriplets(jumps.begin(), jumps.end());
+}
+
+void Rock::discretize() {
+  if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
+  discretized_version_ = mesh_.version;
+  ++discretizations_;
+  boundary_evaluated_ = false;
+  std::vector<std::array<MechanicalCondition, 2>> conditions(
+      mesh_.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    if (mesh_.face_cells[f][1] != none) continue;
+    conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
+    if (mesh_.face_side[f] == none) continue;
+    const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
+    if (condition == options_.boundary.end()) continue;
+    for (int k = 0; k < 2; ++k)
+      if (condition->second.displacement_of(k)) conditions[f][k] = MechanicalCondition::displacement;
+  }
+  operators_ = discretize_mpsa(mesh_, stiffness(), conditions, nodes_to_discretize(mesh_));
+  const int rank = parallel::rank();
+  const SparseMatrix outflow = cell_sums(mesh_, operators_.force_displacement, 2, rank);
+  force_of_displacement_ = -outflow;
+  volume_change_.terms = {{&displacement_, operators_.volume_displacement}};
+  if (wall_traction_) {
+    map_walls();
+    force_of_wall_traction_ = -cell_sums(mesh_, SparseMatrix(operators_.force_boundary * wall_forces_), 2, rank);
+    volume_change_.terms.push_back({wall_traction_, SparseMatrix(operators_.volume_boundary * wall_forces_)});
+    jump_.terms = {{&displacement_, SparseMatrix(wall_jump_ * operators_.trace_displacement)},
+                   {wall_traction_, SparseMatrix(wall_jump_ * operators_.trace_boundary * wall_forces_)}};
+  }
+  for (Load& load : loads_) {
+    const SparseMatrix force = cell_sums(mesh_, operators_.force_stress, 2, rank);
+    load.force_on_cell = -force * load.alpha.asDiagonal();
+    volume_change_.terms.push_back({load.pressure, SparseMatrix(operators_.volume_stress * load.alpha.asDiagonal())});
+    if (wall_traction_)
+      jump_.terms.push_back(
+          {load.pressure, SparseMatrix(wall_jump_ * operators_.trace_stress * load.alpha.asDiagonal())});
+  }
+}
+
+Point Rock::initial_traction(int face, const Point& normal) const {
+  if (options_.initial_stress.is_zero()) return Point::Zero();
+  const Place place{mesh_.face_center[face], mesh_.cell_region[mesh_.face_cells[face][0]], 0};
+  return options_.initial_stress.at(place) * normal;
+}
+
+void Rock::evaluate_boundary(double time) {
+  const bool depends_on_time = std::any_of(options_.boundary.begin(), options_.boundary.end(),
+                                           [](const auto& side) { return side.second.depends_on_time(); }) ||
+                               options_.body_force.depends_on_time();
+  if (boundary_evaluated_ && (!depends_on_time || boundary_time_ == time)) return;
+  boundary_evaluated_ = true;
+  boundary_time_ = time;
+
+  boundary_values_ = Vector::Zero(2 * mesh_.face_count());
+  Vector initial_forces = Vector::Zero(2 * mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const double length = mesh_.face_length[f];
+    const Point initial = initial_traction(f, mesh_.face_normal[f]);
+    initial_forces.segment<2>(2 * f) = length * initial;
+    if (mesh_.face_cells[f][1] != none) continue;
+    // What tractions prescribe is the total; the stress that deformation makes is the total less the initial one.
+    boundary_values_.segment<2>(2 * f) = -length * initial;
+    if (mesh_.face_side[f] == none) continue;
+    const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
+    if (found == options_.boundary.end()) continue;
+    const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], time};
+    const Point traction = found->second.traction_at(place, mesh_.face_normal[f]);
+    for (int k = 0; k < 2; ++k) {
+      if (const Data* displacement = found->second.displacement_of(k))
+        boundary_values_[2 * f + k] = displacement->at(place);
+      else
+        boundary_values_[2 * f + k] += length * traction[k];
+    }
+  }
+  force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces), 2);
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], time};
+    const Point force = options_.body_force.at(place) + options_.rock_density.at(place) * options_.gravity.at(place);
+    force_constant_.segment<2>(2 * c) -= mesh_.cell_area[c] * force;
+  }
+  volume_change_.constant = operators_.volume_boundary * boundary_values_;
+  if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * boundary_values_);
+  for (const Load& load : loads_) {
+    const Vector reference = load.alpha.cwiseProduct(load.reference);
+    force_constant_ -= load.force_on_cell * load.reference;
+    volume_change_.constant -= operators_.volume_stress * reference;
+    if (wall_traction_) jump_.constant -= wall_jump_ * (operators_.trace_stress * reference);
+  }
+}
+
+void Rock::begin_step(const StepTime& step) {
+  discretize();
+  evaluate_boundary(step.end);
+}
+
+void Rock::assemble(Assembly& assembly, const StepTime&) const {
+  if (!assembly.has_row(displacement_)) return;
+  assembly.linear(displacement_, force_of_displacement_, displacement_);
+  if (wall_traction_) assembly.linear(displacement_, force_of_wall_traction_, *wall_traction_);
+  for (const Load& load : loads_) assembly.linear(displacement_, load.force_on_cell, *load.pressure);
+  assembly.add(displacement_, force_constant_);
+}
+
+Vector Rock::face_forces() const {
+  Vector values = boundary_values_;
+  if (wall_traction_) values += wall_forces_ * wall_traction_->now();
+  Vector forces = operators_.force_displacement * displacement_.now() + operators_.force_boundary * values;
+  for (const Load& load : loads_)
+    forces += operators_.force_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  for (int f = 0; f < mesh_.face_count(); ++f)
+    forces.segment<2>(2 * f) += mesh_.face_length[f] * initial_traction(f, mesh_.face_normal[f]);
+  return forces;
+}
+
+std::vector<double> Rock::switch_times() const {
+  std::vector<double> times;
+  const auto append = [&](const std::optional<Data>& data) {
+    if (data) times.insert(times.end(), data->switch_times().begin(), data->switch_times().end());
+  };
+  for (const auto& [side, condition] : options_.boundary) {
+    append(condition.normal_stress);
+    for (int k = 0; k < 2; ++k) {
+      append(condition.displacement_along[k]);
+      append(condition.traction_along[k]);
+      if (condition.displacement) append(condition.displacement->component[k]);
+      if (condition.traction) append(condition.traction->component[k]);
+    }
+  }
+  return times;
+}
+
+void Rock::output(std::vector<OutputField>& fields) const {
+  // Mean stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when constant.
+  if (discretizations_ == 0) return;
+  const Vector forces = face_forces();
+  Vector stress = Vector::Zero(3 * mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    for (const int face : mesh_.cell_faces[c]) {
+      const Point force = (mesh_.face_cells[face][0] == c ? 1.0 : -1.0) * forces.segment<2>(2 * face);
+      const Point arm = (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_area[c];
+      stress.segment<3>(3 * c) +=
+          Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0]));
+    }
+  replicate(mesh_, Location::cell, 3, stress);
+  fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, 3, std::move(stress)});
+}
+
+}  // namespace sprekk::poromechanics

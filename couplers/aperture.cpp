@@ -1,0 +1,49 @@
+// aperture: the opening of a fracture makes room for fluid and lets it flow (below Eq. 8).
+#include "components/capabilities/fracture_contact.hpp"
+#include "components/capabilities/fracture_fluid.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+struct ApertureOptions {
+  Spec spec() {
+    Spec spec("aperture", "The normal displacement jump opens the aperture of the fracture, a = a0 + [u]_n (below Eq. 8).");
+    spec.ignore("type").ignore("between");
+    return spec;
+  }
+};
+
+class Aperture : public Coupler {
+ public:
+  Aperture(const CouplerContext& context, const ApertureOptions&)
+      : Coupler(context.name), contact_(context.the<FractureContact>()), fluid_(context.the<FractureFluid>()) {
+    context.determine(fluid_.aperture());
+    const int cells = context.mesh.fracture_cell_count();
+    std::vector<Triplet> entries;
+    for (int i = 0; i < cells; ++i) entries.emplace_back(i, 2 * i, 1.0);
+    normal_.resize(cells, 2 * cells);
+    normal_.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  void begin_step(const StepTime&) override {}
+
+  void assemble(Assembly& assembly, const StepTime&) const override {
+    const Field& aperture = fluid_.aperture();
+    if (!assembly.has_row(aperture)) return;
+    assembly.add(aperture, aperture.now());
+    assembly.diagonal(aperture, aperture, Vector::Ones(aperture.size()));
+    assembly.add(aperture, -fluid_.initial_aperture());
+    assembly.linear(aperture, normal_, contact_.jump(), -1);
+  }
+
+ private:
+  FractureContact& contact_;
+  FractureFluid& fluid_;
+  SparseMatrix normal_;  ///< fracture cells × 2 fracture cells: picks the opening
+};
+
+const RegisterCoupler<Aperture, ApertureOptions> registration("aperture");
+
+}  // namespace
+}  // namespace sprekk::couplers

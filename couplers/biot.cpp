@@ -1,0 +1,127 @@
+// biot: pore pressure loads the rock, and the rock's volume change stores fluid (Eqs. 5-7).
+#include <algorithm>
+
+#include "components/capabilities/matrix_fluid.hpp"
+#include "components/capabilities/poroelastic_rock.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+struct BiotOptions {
+  Data biot_coefficient;
+  double fixed_stress_factor = 1;
+  Spec spec() {
+    Spec spec("biot", "Poroelastic coupling of the flow in the matrix and the deformation of the rock (Eqs. 5-7).");
+    spec.ignore("type").ignore("between");
+    spec.data("biot_coefficient", biot_coefficient,
+              {.range = between(0, 1), .doc = "Biot's coefficient alpha.", .source = "Eqs. 6, 7", .required = true, .material = true});
+    spec.quantity("fixed_stress_factor", fixed_stress_factor,
+                  {.range = positive(),
+                   .doc = "The fixed-stress stabilization of split schemes is this times alpha^2/K.",
+                   .source = "Kim, Tchelepi, Juanes 2011"});
+    return spec;
+  }
+};
+
+/// Adds alpha (div u − div u_old) V to the fluid balance of each cell, the compressibility of the grains (alpha − phi)/K
+/// to its storage, and −alpha (p − p_0) I to the stress.
+///
+/// What is subtracted as "old" is the volume that the fluid balance has counted last, kept in `counted_volume`: so a
+/// split scheme that is not iterated counts every change of volume once, if late.
+class Biot : public Coupler {
+ public:
+  Biot(const CouplerContext& context, const BiotOptions& options)
+      : Coupler(context.name),
+        mesh_(context.mesh),
+        factor_(options.fixed_stress_factor),
+        fluid_(context.the<MatrixFluid>()),
+        rock_(context.the<PoroelasticRock>()),
+        counted_volume_(context.fields.add(mesh_, book(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
+        stored_(context.fields.add(mesh_, book(context, "fluid_stored", "Fluid stored by the change of volume and of grains"))) {
+    const int cells = mesh_.cell_count();
+    alpha_.resize(cells);
+    for (int c = 0; c < cells; ++c) alpha_[c] = options.biot_coefficient.at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
+    decoupled_ = alpha_.isZero(0);
+    grain_capacity_ = Vector::Zero(cells);
+    if (const Vector* porosity = fluid_.porosity_for_storage()) check_and_set_grains(context, *porosity);
+    if (decoupled_) return;
+    if (rock_.bulk_modulus().minCoeff() <= 0)
+      throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
+                       "its stiffness is anisotropic", "give 'bulk_modulus' to the component");
+    rock_.accept_pore_pressure(fluid_.pressure(), alpha_, fluid_.initial_pressure());
+  }
+
+  void begin_step(const StepTime&) override {}
+
+  void assemble(Assembly& assembly, const StepTime&) const override {
+    const Field& pressure = fluid_.pressure();
+    if (!assembly.has_row(pressure)) return;
+    assembly.add(pressure, grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()));
+    assembly.diagonal(pressure, pressure, grain_capacity_);
+    if (decoupled_) return;
+    assembly.linear(pressure, rock_.volume_change(), 1, &alpha_);
+    assembly.add(pressure, -alpha_.cwiseProduct(counted_volume_.accepted()));
+  }
+
+  void after_solve(const std::vector<Field*>& solved, const StepTime&) override {
+    const Field& pressure = fluid_.pressure();
+    if (std::find(solved.begin(), solved.end(), &pressure) == solved.end()) return;
+    Vector stored = stored_.accepted() + grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted());
+    if (!decoupled_) {
+      Vector volume = rock_.volume_change().now();
+      replicate(mesh_, Location::cell, 1, volume);
+      stored += alpha_.cwiseProduct(volume - counted_volume_.accepted());
+      counted_volume_.set(std::move(volume));
+    }
+    stored_.set(std::move(stored));
+  }
+
+  void balance(std::map<std::string, Balance>& balances) const override { balances["fluid"].stored += stored_.now().sum(); }
+
+  void stabilize(const std::string& scheme, Stabilization& stabilization) const override {
+    if (decoupled_ || scheme != "fixed_stress") return;
+    Vector diagonal(mesh_.cell_count());
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      diagonal[c] = factor_ * alpha_[c] * alpha_[c] / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
+    const auto [place, fresh] = stabilization.try_emplace(&fluid_.pressure(), diagonal);
+    if (!fresh) place->second += diagonal;
+  }
+
+ private:
+  FieldSpec book(const CouplerContext& context, const char* name, const char* doc) const {
+    return {.owner = context.name,
+            .name = name,
+            .location = Location::cell,
+            .role = Role::derived,
+            .unit = "m^2",
+            .doc = doc,
+            .accepted_with = fluid_.pressure().name()};
+  }
+
+  void check_and_set_grains(const CouplerContext& context, const Vector& porosity) {
+    for (int c = 0; c < mesh_.cell_count(); ++c) {
+      if (decoupled_) continue;
+      if (alpha_[c] < porosity[c])
+        throw InputError(context.origin, "Biot's coefficient is below the porosity",
+                         "the grains would have a negative compressibility, (alpha - phi)/K",
+                         "raise biot_coefficient, or give 'storage' to the flow in the matrix");
+      grain_capacity_[c] = (alpha_[c] - porosity[c]) / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
+    }
+  }
+
+  const Mesh& mesh_;
+  double factor_;
+  MatrixFluid& fluid_;
+  PoroelasticRock& rock_;
+  Field& counted_volume_;
+  Field& stored_;
+  Vector alpha_, grain_capacity_;  ///< (alpha − phi)/K V
+  bool decoupled_ = false;
+};
+
+const RegisterCoupler<Biot, BiotOptions> registration("biot");
+
+}  // namespace
+}  // namespace sprekk::couplers

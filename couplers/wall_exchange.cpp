@@ -1,0 +1,99 @@
+// wall_exchange: fluid flows between a fracture and the matrix through its walls (Eq. 9).
+#include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+struct WallExchangeOptions {
+  Spec spec() {
+    Spec spec("wall_exchange",
+              "Flux between fractures and matrix through the walls, driven by the difference of their pressures (Eq. 9).");
+    spec.ignore("type").ignore("between");
+    return spec;
+  }
+};
+
+/// Determines lambda of every wall, from the fracture into the matrix: lambda = kappa (p_i − tr p). Its row is divided by
+/// kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well scaled from
+/// sealed to wide open walls. lambda leaves the fluid balance of the fracture: Eq. 8, in which Eq. 9 has the sign of a
+/// flux out of the fracture.
+class WallExchange : public Coupler {
+ public:
+  WallExchange(const CouplerContext& context, const WallExchangeOptions&)
+      : Coupler(context.name),
+        mesh_(context.mesh),
+        walls_(context.the<MatrixWalls>()),
+        fracture_(context.the<FractureFluid>()) {
+    context.determine(walls_.wall_flux());
+    std::vector<Triplet> entries, sums;
+    for (int w = 0; w < mesh_.wall_count(); ++w) {
+      entries.emplace_back(w, w / 2, 1.0);
+      sums.emplace_back(w / 2, w, mesh_.fracture_cells[w / 2].length);
+    }
+    to_walls_.resize(mesh_.wall_count(), mesh_.fracture_cell_count());
+    to_walls_.setFromTriplets(entries.begin(), entries.end());
+    inflow_.resize(mesh_.fracture_cell_count(), mesh_.wall_count());
+    inflow_.setFromTriplets(sums.begin(), sums.end());
+  }
+
+  void begin_step(const StepTime&) override {
+    const Field& flux = walls_.wall_flux();
+    matrix_conductance_ = Vector::Ones(mesh_.wall_count());
+    for (const LinearExpression::Term& term : walls_.wall_pressure().terms)
+      if (term.field == &flux)
+        for (int w = 0; w < mesh_.wall_count(); ++w) {
+          const double resistance = term.matrix.coeff(w, w);
+          if (resistance > 0) matrix_conductance_[w] = 1 / resistance;
+        }
+  }
+
+  void assemble(Assembly& assembly, const StepTime& step) const override {
+    const Field& flux = walls_.wall_flux();
+    const Field& pressure = fracture_.pressure();
+    if (assembly.has_row(pressure)) assembly.linear(pressure, inflow_, flux, step.dt);
+    if (!assembly.has_row(flux)) return;
+
+    const FractureFluid::NormalPermeability kappa = fracture_.normal_permeability();
+    const int walls = mesh_.wall_count();
+    Vector of_flux(walls), of_trace(walls), of_pressure(walls);
+    for (int w = 0; w < walls; ++w) {
+      const double k = kappa.value[w / 2], scale = 1 / (k + matrix_conductance_[w]);
+      of_flux[w] = scale;
+      of_trace[w] = scale * k;
+      of_pressure[w] = -scale * k;
+    }
+    assembly.add(flux, of_flux.cwiseProduct(flux.now()));
+    assembly.diagonal(flux, flux, of_flux);
+    const LinearExpression& trace = walls_.wall_pressure();
+    const Vector trace_now = trace.now();
+    assembly.add(flux, of_trace.cwiseProduct(trace_now));
+    assembly.add(flux, of_pressure.cwiseProduct(to_walls_ * pressure.now()));
+    if (!assembly.wants_derivatives()) return;
+    for (const LinearExpression::Term& term : trace.terms)
+      assembly.derivative(flux, *term.field, SparseMatrix(of_trace.asDiagonal() * term.matrix));
+    assembly.derivative(flux, pressure, SparseMatrix(of_pressure.asDiagonal() * to_walls_));
+    Vector by_aperture(walls);
+    for (int w = 0; w < walls; ++w)
+      by_aperture[w] = of_flux[w] * kappa.by_aperture[w / 2] * (trace_now[w] - pressure.now()[w / 2]) -
+                       of_flux[w] * of_flux[w] * kappa.by_aperture[w / 2] *
+                           (flux.now()[w] + kappa.value[w / 2] * (trace_now[w] - pressure.now()[w / 2]));
+    assembly.derivative(flux, fracture_.aperture(), SparseMatrix(by_aperture.asDiagonal() * to_walls_));
+  }
+
+  bool is_nonlinear() const override { return fracture_.aperture().is_solved(); }
+
+ private:
+  const Mesh& mesh_;
+  MatrixWalls& walls_;
+  FractureFluid& fracture_;
+  SparseMatrix to_walls_;  ///< walls × fracture cells
+  SparseMatrix inflow_;    ///< fracture cells × walls: lambda times length
+  Vector matrix_conductance_;
+};
+
+const RegisterCoupler<WallExchange, WallExchangeOptions> registration("wall_exchange");
+
+}  // namespace
+}  // namespace sprekk::couplers

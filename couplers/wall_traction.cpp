@@ -1,0 +1,91 @@
+// wall_traction: forces on the walls of fractures, and the jump that they leave (Eqs. 1 and 4).
+#include "components/capabilities/fracture_contact.hpp"
+#include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/poroelastic_rock.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+struct WallTractionOptions {
+  Data fracture_biot_coefficient = 1;
+  Spec spec() {
+    Spec spec("wall_traction",
+              "Contact traction and fluid pressure act on the walls of fractures (Eq. 4); the displacement jump of the "
+              "rock acts on the contact. The contact, or the fluid, may be left out.");
+    spec.ignore("type").ignore("between");
+    spec.data("fracture_biot_coefficient", fracture_biot_coefficient,
+              {.range = between(0, 1), .doc = "Part of the fluid pressure that acts on the walls.", .source = "alpha_i of Eq. 4"});
+    return spec;
+  }
+};
+
+/// Determines the wall traction T = f − alpha_i p_i n (Eq. 4) and the jump that the contact sees (Eq. 1).
+class WallTraction : public Coupler {
+ public:
+  WallTraction(const CouplerContext& context, const WallTractionOptions& options)
+      : Coupler(context.name),
+        mesh_(context.mesh),
+        rock_(context.the<RockWalls>()),
+        contact_(context.find<FractureContact>()),
+        fluid_(context.find<FractureFluid>()) {
+    if (!contact_ && !fluid_)
+      throw InputError(context.origin, "coupler " + name() + " has nothing that acts on the walls",
+                       "it joins the rock with a contact law, the fluid in the fractures, or both",
+                       "name one of them in `between`");
+    context.determine(rock_.wall_traction());
+    if (contact_) context.determine(contact_->jump());
+    if (!fluid_) return;
+    std::vector<Triplet> entries;
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+      const FractureCell& cell = mesh_.fracture_cells[i];
+      const Place place{cell.center, mesh_.cell_region[mesh_.face_cells[cell.faces[0]][0]], 0};
+      entries.emplace_back(2 * i, i, options.fracture_biot_coefficient.at(place));
+    }
+    normal_load_.resize(2 * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());
+    normal_load_.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  void begin_step(const StepTime&) override {
+    if (!contact_) return;
+    // How a cell's own traction changes its own jump, as a stiffness.
+    const Field& traction = rock_.wall_traction();
+    Vector stiffness = Vector::Zero(traction.size());
+    for (const LinearExpression::Term& term : rock_.displacement_jump().terms)
+      if (term.field == &traction)
+        for (int i = 0; i < traction.size(); ++i) stiffness[i] = -term.matrix.coeff(i, i);
+    replicate(mesh_, Location::fracture_cell, 2, stiffness);
+    contact_->set_wall_stiffness(stiffness.cwiseInverse());
+  }
+
+  void assemble(Assembly& assembly, const StepTime&) const override {
+    const Field& traction = rock_.wall_traction();
+    if (assembly.has_row(traction)) {
+      assembly.add(traction, traction.now());
+      assembly.diagonal(traction, traction, Vector::Ones(traction.size()));
+      if (contact_) {
+        assembly.add(traction, -contact_->traction().now());
+        assembly.diagonal(traction, contact_->traction(), -Vector::Ones(traction.size()));
+      }
+      if (fluid_) assembly.linear(traction, normal_load_, fluid_->pressure());
+    }
+    if (!contact_ || !assembly.has_row(contact_->jump())) return;
+    const Field& jump = contact_->jump();
+    assembly.add(jump, jump.now());
+    assembly.diagonal(jump, jump, Vector::Ones(jump.size()));
+    assembly.linear(jump, rock_.displacement_jump(), -1);
+  }
+
+ private:
+  const Mesh& mesh_;
+  RockWalls& rock_;
+  FractureContact* contact_;
+  FractureFluid* fluid_;
+  SparseMatrix normal_load_;  ///< 2 fracture cells × fracture cells: pressure pushes the plus wall along −n
+};
+
+const RegisterCoupler<WallTraction, WallTractionOptions> registration("wall_traction");
+
+}  // namespace
+}  // namespace sprekk::couplers

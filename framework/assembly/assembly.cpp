@@ -1,0 +1,106 @@
+#include "framework/assembly/assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sprekk {
+
+Assembly::Assembly(std::vector<const Field*> unknowns, Want want) : unknowns_(std::move(unknowns)), want_(want) {
+  for (const Field* field : unknowns_) {
+    index_[field] = static_cast<int>(residuals_.size());
+    residuals_.push_back(Vector::Zero(field->size()));
+  }
+  magnitudes_.assign(unknowns_.size(), 0);
+  round_off_bases_.assign(unknowns_.size(), 0);
+}
+
+void Assembly::add(const Field& row, const Vector& values) {
+  const auto found = index_.find(&row);
+  if (found == index_.end()) return;
+  const int i = found->second;
+  if (values.size() != residuals_[i].size()) throw std::logic_error("assembly of " + row.name() + ": wrong size");
+  if (values.size() == 0) return;
+  residuals_[i] += values;
+  const double largest = values.lpNorm<Eigen::Infinity>();
+  magnitudes_[i] = std::max(magnitudes_[i], largest);
+  round_off_bases_[i] = std::max(round_off_bases_[i], largest);
+}
+
+void Assembly::compare_with(const Field& row, double magnitude) {
+  const auto found = index_.find(&row);
+  if (found == index_.end()) return;
+  magnitudes_[found->second] = std::max(magnitudes_[found->second], magnitude);
+  round_off_bases_[found->second] = std::max(round_off_bases_[found->second], magnitude);
+}
+
+void Assembly::fix(const Field& row, int i, double target, double scale) {
+  const auto found = index_.find(&row);
+  if (found == index_.end()) return;
+  const int unknown = found->second;
+  residuals_[unknown][i] = scale * (row.now()[i] - target);
+  magnitudes_[unknown] = std::max(magnitudes_[unknown], scale * std::abs(target));
+  round_off_bases_[unknown] = std::max(round_off_bases_[unknown], scale * std::abs(target));
+  fixed_.push_back({unknown, i, scale});
+}
+
+void Assembly::derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor,
+                          const Vector* weights) {
+  if (!wants_derivatives()) return;
+  const auto i = index_.find(&row), j = index_.find(&column);
+  if (i == index_.end() || j == index_.end()) return;
+  if (block.rows() != row.size() || block.cols() != column.size())
+    throw std::logic_error("derivative of " + row.name() + " by " + column.name() + ": wrong shape");
+  blocks_.push_back({i->second, j->second, &block, factor, weights});
+}
+
+void Assembly::derivative(const Field& row, const Field& column, SparseMatrix&& block) {
+  if (!wants_derivatives()) return;
+  owned_.push_back(std::move(block));
+  derivative(row, column, owned_.back());
+}
+
+void Assembly::diagonal(const Field& row, const Field& column, const Vector& entries) {
+  if (!wants_derivatives() || !has_row(row) || !has_row(column)) return;
+  SparseMatrix block(row.size(), column.size());
+  block.reserve(Eigen::VectorXi::Constant(row.size(), 1));
+  for (int i = 0; i < row.size(); ++i) block.insert(i, i) = entries[i];
+  block.makeCompressed();
+  derivative(row, column, std::move(block));
+}
+
+void Assembly::linear(const Field& row, const SparseMatrix& matrix, const Field& column, double factor,
+                      const Vector* weights) {
+  const auto found = index_.find(&row);
+  if (found == index_.end()) return;
+  if (matrix.rows() != row.size() || matrix.cols() != column.size())
+    throw std::logic_error("term of " + row.name() + " in " + column.name() + ": wrong shape");
+  const int i = found->second;
+  const Vector& x = column.now();
+  double largest = 0, largest_absolute = 0;
+  for (int r = 0; r < matrix.outerSize(); ++r) {
+    double value = 0, absolute = 0;
+    for (SparseMatrix::InnerIterator entry(matrix, r); entry; ++entry) {
+      const double product = entry.value() * x[entry.col()];
+      value += product;
+      absolute += std::abs(product);
+    }
+    const double scale = weights ? factor * (*weights)[r] : factor;
+    residuals_[i][r] += scale * value;
+    largest = std::max(largest, std::abs(scale * value));
+    largest_absolute = std::max(largest_absolute, std::abs(scale) * absolute);
+  }
+  magnitudes_[i] = std::max(magnitudes_[i], largest);
+  round_off_bases_[i] = std::max(round_off_bases_[i], largest_absolute);
+  derivative(row, column, matrix, factor, weights);
+}
+
+void Assembly::linear(const Field& row, const LinearExpression& expression, double factor, const Vector* weights) {
+  if (!has_row(row)) return;
+  Vector constant = factor * expression.constant;
+  if (weights) constant = constant.cwiseProduct(*weights);
+  add(row, constant);
+  for (const LinearExpression::Term& term : expression.terms) linear(row, term.matrix, *term.field, factor, weights);
+}
+
+}  // namespace sprekk

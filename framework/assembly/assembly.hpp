@@ -1,0 +1,78 @@
+// The equations of one simultaneous solve: each term is written once, and the unknowns of the solve choose which rows and
+// which derivative blocks are kept. A term whose other field is not an unknown here uses that field's latest value.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <vector>
+
+#include "framework/assembly/linear_expression.hpp"
+#include "framework/field/field.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+class Assembly {
+ public:
+  enum class Want { residual, residual_and_derivatives };
+
+  /// The equation that determines a field is named after it: its row i is that of value i of the field.
+  Assembly(std::vector<const Field*> unknowns, Want want);
+
+  bool has_row(const Field& row) const { return index_.count(&row) > 0; }
+  bool wants_derivatives() const { return want_ == Want::residual_and_derivatives; }
+
+  /// residual(row) += values.
+  void add(const Field& row, const Vector& values);
+  /// Something else that the residual is to be small against, in the units of the equation.
+  void compare_with(const Field& row, double magnitude);
+  /// d residual(row) / d column += factor · diag(weights) · block; ignored unless both are unknowns here. `block` and
+  /// `weights` must outlive the assembly.
+  void derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor = 1,
+                  const Vector* weights = nullptr);
+  void derivative(const Field& row, const Field& column, SparseMatrix&& block);
+  /// The same with a diagonal block.
+  void diagonal(const Field& row, const Field& column, const Vector& entries);
+
+  /// residual(row) += factor · diag(weights) · (matrix · column), with its derivative.
+  void linear(const Field& row, const SparseMatrix& matrix, const Field& column, double factor = 1,
+              const Vector* weights = nullptr);
+  /// residual(row) += factor · diag(weights) · expression, with its derivatives.
+  void linear(const Field& row, const LinearExpression& expression, double factor = 1, const Vector* weights = nullptr);
+
+  /// Replaces row i of the equation by scale · (value − target) = 0, whatever other terms it has. `scale` brings it to the
+  /// units of the equation. To be called after all terms: by Part::constrain.
+  void fix(const Field& row, int i, double target, double scale);
+
+  struct Fixed {
+    int unknown, row;
+    double scale;
+  };
+  const std::vector<Fixed>& fixed() const { return fixed_; }
+
+  struct Block {
+    int row, column;  ///< indices into unknowns()
+    const SparseMatrix* matrix;
+    double factor;
+    const Vector* weights;
+  };
+  const std::vector<const Field*>& unknowns() const { return unknowns_; }
+  const Vector& residual(int unknown) const { return residuals_[unknown]; }
+  /// The largest entry of any single term of the equation: what a residual is small against.
+  double magnitude(int unknown) const { return magnitudes_[unknown]; }
+  /// The largest sum of absolute products in a row: round-off is a small multiple of machine epsilon times this.
+  double round_off_base(int unknown) const { return round_off_bases_[unknown]; }
+  const std::vector<Block>& blocks() const { return blocks_; }
+
+ private:
+  std::vector<const Field*> unknowns_;
+  Want want_;
+  std::map<const Field*, int> index_;
+  std::vector<Vector> residuals_;
+  std::vector<double> magnitudes_, round_off_bases_;
+  std::vector<Block> blocks_;
+  std::vector<Fixed> fixed_;
+  std::deque<SparseMatrix> owned_;  ///< blocks that were moved in
+};
+
+}  // namespace sprekk

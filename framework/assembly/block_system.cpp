@@ -1,0 +1,165 @@
+#include "framework/assembly/block_system.hpp"
+
+#include <algorithm>
+
+#include "framework/field/ownership.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+
+namespace {
+
+UnknownBlock describe(const Mesh& mesh, const Field& field, int first) {
+  UnknownBlock block;
+  block.name = field.name();
+  block.first = first;
+  block.entities = field.entities();
+  block.components = field.spec().components;
+  const std::string& smoothing = field.spec().smoothing;
+  block.kind = smoothing == "elasticity"        ? UnknownBlock::Kind::elasticity
+               : smoothing == "scalar_elliptic" ? UnknownBlock::Kind::scalar_elliptic
+                                                : UnknownBlock::Kind::local;
+  if (field.spec().location == Location::cell) block.coordinates = mesh.cell_center;
+  return block;
+}
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
+  hash ^= value + 0x9e3779b97f4a7c15ULL + (hash << 6) + (hash >> 2);
+  return hash * 0xff51afd7ed558ccdULL;
+}
+
+}  // namespace
+
+BlockSystem::BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns) : unknowns_(std::move(unknowns)) {
+  const bool alone = parallel::size() == 1;
+  for (const Field* field : unknowns_) {
+    first_.push_back(size_);
+    system_.blocks.push_back(describe(mesh, *field, size_));
+    const int components = field->spec().components;
+    std::vector<char> owned(field->size(), 1);
+    if (!alone)
+      for (int entity = 0; entity < field->entities(); ++entity)
+        if (!is_owned(mesh, field->spec().location, entity))
+          for (int c = 0; c < components; ++c) owned[entity * components + c] = 0;
+    for (int i = 0; i < field->size(); ++i)
+      if (owned[i]) system_.rows.push_back(size_ + i);
+    owned_.push_back(std::move(owned));
+    size_ += field->size();
+  }
+}
+
+std::uint64_t BlockSystem::fingerprint(const Assembly& assembly) const {
+  std::uint64_t hash = 1;
+  for (const Assembly::Block& block : assembly.blocks()) {
+    hash = mix(hash, (static_cast<std::uint64_t>(block.row) << 32) | static_cast<std::uint32_t>(block.column));
+    const SparseMatrix& matrix = *block.matrix;
+    hash = mix(hash, matrix.nonZeros());
+    const int* outer = matrix.outerIndexPtr();
+    for (int r = 0; r <= matrix.outerSize(); ++r) hash = mix(hash, outer[r]);
+    const int* inner = matrix.innerIndexPtr();
+    for (int k = 0; k + 1 < outer[matrix.outerSize()]; k += 2)
+      hash = mix(hash, (static_cast<std::uint64_t>(inner[k]) << 32) | static_cast<std::uint32_t>(inner[k + 1]));
+  }
+  return hash;
+}
+
+void BlockSystem::build_pattern(const Assembly& assembly) {
+  ++patterns_built_;
+  std::vector<std::vector<const Assembly::Block*>> by_row(unknowns_.size());
+  for (const Assembly::Block& block : assembly.blocks()) by_row[block.row].push_back(&block);
+
+  const int local_rows = static_cast<int>(system_.rows.size());
+  std::vector<int> outer{0}, inner, columns;
+  std::vector<int> seen_in(size_, -1);
+  outer.reserve(local_rows + 1);
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    for (int r = 0; r < unknowns_[u]->size(); ++r) {
+      if (!owned_[u][r]) continue;
+      const int local = static_cast<int>(outer.size()) - 1;
+      columns.clear();
+      for (const Assembly::Block* block : by_row[u])
+        for (SparseMatrix::InnerIterator entry(*block->matrix, r); entry; ++entry) {
+          const int column = first_[block->column] + static_cast<int>(entry.col());
+          if (seen_in[column] == local) continue;
+          seen_in[column] = local;
+          columns.push_back(column);
+        }
+      std::sort(columns.begin(), columns.end());
+      inner.insert(inner.end(), columns.begin(), columns.end());
+      outer.push_back(static_cast<int>(inner.size()));
+    }
+  }
+  SparseMatrix& local = system_.local;
+  local.resize(local_rows, size_);
+  local.resizeNonZeros(inner.size());
+  std::copy(outer.begin(), outer.end(), local.outerIndexPtr());
+  std::copy(inner.begin(), inner.end(), local.innerIndexPtr());
+
+  // Where every block entry goes.
+  std::vector<std::vector<int>> local_row(unknowns_.size());
+  int next = 0;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    local_row[u].assign(unknowns_[u]->size(), -1);
+    for (int r = 0; r < unknowns_[u]->size(); ++r)
+      if (owned_[u][r]) local_row[u][r] = next++;
+  }
+  destinations_.clear();
+  for (const Assembly::Block& block : assembly.blocks())
+    for (int r = 0; r < block.matrix->outerSize(); ++r) {
+      const int row = local_row[block.row][r];
+      if (row < 0) continue;
+      for (SparseMatrix::InnerIterator entry(*block.matrix, r); entry; ++entry) {
+        const int column = first_[block.column] + static_cast<int>(entry.col());
+        const auto begin = inner.begin() + outer[row], end = inner.begin() + outer[row + 1];
+        destinations_.push_back(static_cast<int>(std::lower_bound(begin, end, column) - inner.begin()));
+      }
+    }
+}
+
+const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
+  const std::uint64_t print = fingerprint(assembly);
+  if (patterns_built_ == 0 || print != fingerprint_) {
+    build_pattern(assembly);
+    fingerprint_ = print;
+  }
+  double* values = system_.local.valuePtr();
+  std::fill(values, values + system_.local.nonZeros(), 0.0);
+  std::size_t k = 0;
+  for (const Assembly::Block& block : assembly.blocks())
+    for (int r = 0; r < block.matrix->outerSize(); ++r) {
+      if (!owned_[block.row][r]) continue;
+      const double scale = block.weights ? block.factor * (*block.weights)[r] : block.factor;
+      for (SparseMatrix::InnerIterator entry(*block.matrix, r); entry; ++entry)
+        values[destinations_[k++]] += scale * entry.value();
+    }
+  apply_fixed(assembly);
+  return system_;
+}
+
+void BlockSystem::apply_fixed(const Assembly& assembly) {
+  for (const Assembly::Fixed& fixed : assembly.fixed()) {
+    if (!owned_[fixed.unknown][fixed.row]) continue;
+    const int unknown = first_[fixed.unknown] + fixed.row;
+    const auto row = std::lower_bound(system_.rows.begin(), system_.rows.end(), unknown) - system_.rows.begin();
+    for (SparseMatrix::InnerIterator entry(system_.local, row); entry; ++entry)
+      entry.valueRef() = entry.col() == unknown ? fixed.scale : 0;
+  }
+}
+
+Vector BlockSystem::residual(const Assembly& assembly) const {
+  Vector residual(system_.rows.size());
+  int next = 0;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    const Vector& values = assembly.residual(static_cast<int>(u));
+    for (int r = 0; r < values.size(); ++r)
+      if (owned_[u][r]) residual[next++] = values[r];
+  }
+  return residual;
+}
+
+void BlockSystem::set_stabilization(const Field& field, Vector diagonal) {
+  for (UnknownBlock& block : system_.blocks)
+    if (block.name == field.name()) block.stabilization = std::move(diagonal);
+}
+
+}  // namespace sprekk

@@ -1,0 +1,46 @@
+// From an assembly to the sparse system of the rows that this process owns.
+#pragma once
+
+#include <vector>
+
+#include "framework/assembly/assembly.hpp"
+#include "framework/linear/linear_solver.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// Numbers the unknowns of a solve one field after the other, and keeps the sparsity pattern from one assembly to the
+/// next, so that only values are copied when nothing but values has changed.
+class BlockSystem {
+ public:
+  BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns);
+
+  int size() const { return size_; }
+  int first(int unknown) const { return first_[unknown]; }
+  const std::vector<int>& rows() const { return system_.rows; }
+
+  /// The Jacobian of the owned rows. The reference stays valid until the next call.
+  const LinearSystem& matrix(const Assembly& assembly);
+  /// The residual of the owned rows.
+  Vector residual(const Assembly& assembly) const;
+  /// The preconditioner's diagonal of a block (see UnknownBlock::stabilization).
+  void set_stabilization(const Field& field, Vector diagonal);
+
+  int patterns_built() const { return patterns_built_; }
+
+ private:
+  std::uint64_t fingerprint(const Assembly& assembly) const;
+  void build_pattern(const Assembly& assembly);
+  void apply_fixed(const Assembly& assembly);
+
+  std::vector<const Field*> unknowns_;
+  std::vector<int> first_;
+  int size_ = 0;
+  std::vector<std::vector<char>> owned_;  ///< [unknown][row of the field]
+  LinearSystem system_;
+  std::vector<int> destinations_;  ///< of every kept entry of every block, in order
+  std::uint64_t fingerprint_ = 0;
+  int patterns_built_ = 0;
+};
+
+}  // namespace sprekk

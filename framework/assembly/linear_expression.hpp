@@ -1,0 +1,28 @@
+// A quantity that depends linearly on fields: value = constant + sum of matrix · field.
+#pragma once
+
+#include <vector>
+
+#include "framework/field/field.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+/// What a component gives to others when it cannot give a field: for example the pressure at the walls as a function of
+/// the pressures of the cells and the flux through the walls. All matrices have constant.size() rows.
+struct LinearExpression {
+  struct Term {
+    const Field* field;
+    SparseMatrix matrix;
+  };
+  Vector constant;
+  std::vector<Term> terms;
+
+  Vector now() const {
+    Vector value = constant;
+    for (const Term& term : terms) value += term.matrix * term.field->now();
+    return value;
+  }
+};
+
+}  // namespace sprekk

@@ -1,0 +1,78 @@
+// What every component and coupler is to the schedule.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "framework/assembly/assembly.hpp"
+#include "framework/field/field_store.hpp"
+
+namespace sprekk {
+
+/// The time interval that a step advances over.
+struct StepTime {
+  double start = 0;  ///< s
+  double dt = 0;     ///< s
+  double end = 0;    ///< s; start + dt, or the exact target when a step was cut to hit one
+};
+
+/// The totals of one conserved quantity since the start of the run: stored + outflow = injected.
+struct Balance {
+  double stored = 0, injected = 0, outflow = 0;
+  std::string unit;
+};
+
+/// A column of history.csv.
+struct Quantity {
+  std::string name, unit;
+  double value;
+};
+
+/// A field that exists for output only.
+struct OutputField {
+  std::string name, unit;
+  Location location;
+  int components;
+  Vector values;
+};
+
+/// The diagonals that stabilize a split (see SolveStep): residual(row) += diagonal · (value − value at the solve's start).
+using Stabilization = std::map<const Field*, Vector>;
+
+/// A component or a coupler. Repeating a step after a rewind must give the same bits: whatever a part keeps between calls
+/// is in fields, or follows from the mesh, the parameters and the step's time.
+class Part {
+ public:
+  virtual ~Part() = default;
+
+  /// Evaluates data at the end of the step, and rediscretizes what a changed mesh or parameter makes stale.
+  virtual void begin_step(const StepTime& step) = 0;
+  /// Adds all terms of all its equations; the assembly keeps what its solve needs.
+  virtual void assemble(Assembly& assembly, const StepTime& step) const = 0;  /// Fixes values that are prescribed where others have equations (Assembly::fix). Called after all parts have assembled.
+  virtual void constrain(Assembly&) const {}
+
+  /// Keeps the books (derived fields) of the fields that a `solve` has just determined: what was stored, what flowed out.
+  virtual void after_solve(const std::vector<Field*>& /*solved*/, const StepTime&) {}
+  /// Computes other derived fields from the current unknowns. Called when a step has converged, before it is accepted.
+  virtual void update_derived(const StepTime&) {}
+  /// Adds this part's totals to those of the conserved quantities, by name.
+  virtual void balance(std::map<std::string, Balance>&) const {}
+
+  /// Changes whenever the discrete state (which cells stick, slip, are open) does; the cycle detector reads it.
+  virtual std::uint64_t discrete_state() const { return 0; }
+  /// Whether any of its equations is nonlinear in the unknowns.
+  virtual bool is_nonlinear() const { return false; }
+  /// Adds the diagonals of a named stabilization to the fields that it knows how to stabilize.
+  virtual void stabilize(const std::string& /*scheme*/, Stabilization&) const {}
+  /// Times (s) that a step must end at, because data jump there.
+  virtual std::vector<double> switch_times() const { return {}; }
+  /// Quantities for history.csv, and fields for pictures.
+  virtual void report(std::vector<Quantity>&) const {}
+  virtual void output(std::vector<OutputField>&) const {}
+  /// How often something was computed or reused, for the end-of-run table: name → count.
+  virtual std::map<std::string, long> counts() const { return {}; }
+};
+
+}  // namespace sprekk

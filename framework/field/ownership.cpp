@@ -1,0 +1,39 @@
+#include "framework/field/ownership.hpp"
+
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+
+int entity_rank(const Mesh& mesh, Location location, int entity) {
+  switch (location) {
+    case Location::cell: return mesh.cell_rank[entity];
+    case Location::fracture_cell: return mesh.fracture_cell_rank(entity);
+    case Location::wall: return mesh.fracture_cell_rank(entity / 2);
+    default: return 0;
+  }
+}
+
+bool is_owned(const Mesh& mesh, Location location, int entity) {
+  return parallel::size() == 1 || entity_rank(mesh, location, entity) == parallel::rank();
+}
+
+void replicate(const Mesh& mesh, Location location, int components, Vector& values) {
+  if (parallel::size() == 1) return;
+  for (int i = 0; i < values.size() / components; ++i)
+    if (!is_owned(mesh, location, i)) values.segment(i * components, components).setZero();
+  parallel::sum(values);
+}
+
+std::vector<char> nodes_to_discretize(const Mesh& mesh) {
+  if (parallel::size() == 1) return {};
+  std::vector<char> nodes(mesh.node_count(), 0);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    if (mesh.cell_rank[c] == parallel::rank())
+      for (const int node : mesh.cell_nodes[c]) nodes[node] = 1;
+  for (const FractureCell& cell : mesh.fracture_cells)
+    for (const int face : cell.faces)
+      for (const int node : mesh.face_nodes[face]) nodes[node] = 1;
+  return nodes;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,73 @@
+#include "framework/mesh/cell_sums.hpp"
+
+#include <algorithm>
+
+namespace sprekk {
+
+SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int components, int rank) {
+  const int rows = mesh.cell_count() * components;
+  const int* outer = faces.outerIndexPtr();
+  const int* inner = faces.innerIndexPtr();
+  const double* values = faces.valuePtr();
+  std::vector<int> result_outer{0}, result_inner;
+  std::vector<double> result_values;
+  result_outer.reserve(rows + 1);
+  result_inner.reserve(faces.nonZeros());
+  result_values.reserve(faces.nonZeros());
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    for (int k = 0; k < components; ++k) {
+      if (mesh.cell_rank[c] == rank) {
+        // Merge of three sorted rows.
+        int at[3], end[3];
+        double sign[3];
+        for (int j = 0; j < 3; ++j) {
+          const int face = mesh.cell_faces[c][j];
+          at[j] = outer[face * components + k];
+          end[j] = outer[face * components + k + 1];
+          sign[j] = mesh.face_cells[face][0] == c ? 1.0 : -1.0;
+        }
+        for (;;) {
+          int column = faces.cols();
+          for (int j = 0; j < 3; ++j)
+            if (at[j] < end[j]) column = std::min(column, inner[at[j]]);
+          if (column == faces.cols()) break;
+          double sum = 0;
+          for (int j = 0; j < 3; ++j)
+            if (at[j] < end[j] && inner[at[j]] == column) sum += sign[j] * values[at[j]++];
+          result_inner.push_back(column);
+          result_values.push_back(sum);
+        }
+      }
+      result_outer.push_back(static_cast<int>(result_inner.size()));
+    }
+  }
+  SparseMatrix result(rows, faces.cols());
+  result.resizeNonZeros(result_inner.size());
+  std::copy(result_outer.begin(), result_outer.end(), result.outerIndexPtr());
+  std::copy(result_inner.begin(), result_inner.end(), result.innerIndexPtr());
+  std::copy(result_values.begin(), result_values.end(), result.valuePtr());
+  return result;
+}
+
+Vector cell_sums(const Mesh& mesh, const Vector& faces, int components) {
+  Vector result = Vector::Zero(mesh.cell_count() * components);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (const int face : mesh.cell_faces[c]) {
+      const double sign = mesh.face_cells[face][0] == c ? 1.0 : -1.0;
+      result.segment(c * components, components) += sign * faces.segment(face * components, components);
+    }
+  return result;
+}
+
+SparseMatrix keep_rows(const SparseMatrix& matrix, const std::vector<char>& keep) {
+  std::vector<Triplet> entries;
+  for (int r = 0; r < matrix.outerSize(); ++r)
+    if (keep[r])
+      for (SparseMatrix::InnerIterator entry(matrix, r); entry; ++entry)
+        entries.emplace_back(r, static_cast<int>(entry.col()), entry.value());
+  SparseMatrix kept(matrix.rows(), matrix.cols());
+  kept.setFromTriplets(entries.begin(), entries.end());
+  return kept;
+}
+
+}  // namespace sprekk

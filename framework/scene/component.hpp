@@ -1,0 +1,90 @@
+// Components and couplers, and what each is built from.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "framework/assembly/part.hpp"
+#include "framework/config/input_error.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// What a component is built from. Its parameters have been read before.
+struct ComponentContext {
+  std::string name;  ///< in the scene
+  const Mesh& mesh;
+  FieldStore& fields;
+  double start_time;  ///< s; initial values are evaluated here
+  Origin origin;      ///< of the component in the scene
+};
+
+/// Owns unknown fields and the balance laws that determine them. What it can do for others are its capabilities:
+/// abstract classes that it also derives from (components/capabilities).
+class Component : public Part {
+ public:
+  explicit Component(std::string name) : name_(std::move(name)) {}
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+/// What a coupler is built from: the components that it stands between, asked for by capability.
+class CouplerContext {
+ public:
+  CouplerContext(std::string name, const Mesh& mesh, FieldStore& fields, std::vector<Component*> between, Origin origin)
+      : name(std::move(name)), mesh(mesh), fields(fields), origin(std::move(origin)), between_(std::move(between)) {}
+
+  const std::string name;  ///< its type, or type#2 for a second one
+  const Mesh& mesh;
+  FieldStore& fields;
+  const Origin origin;
+
+  /// The one component between which it stands that has the capability. Throws InputError when there is none, or two.
+  template <class Capability>
+  Capability& the() const {
+    auto* found = find<Capability>();
+    if (!found) throw missing(Capability::promise);
+    return *found;
+  }
+  /// The same, or nullptr when there is none.
+  template <class Capability>
+  Capability* find() const {
+    Capability* found = nullptr;
+    for (Component* component : between_)
+      if (auto* capable = dynamic_cast<Capability*>(component)) {
+        if (found && static_cast<const void*>(found) != static_cast<const void*>(capable))
+          throw ambiguous(Capability::promise);
+        found = capable;
+        used_.insert(component);
+      }
+    return found;
+  }
+  /// Throws InputError if one of the components was not asked for.
+  void check_all_used() const;
+  /// Lets the coupler determine an input field; throws InputError if another coupler does.
+  void determine(Field& input) const;
+
+ private:
+  InputError missing(const std::string& promise) const;
+  InputError ambiguous(const std::string& promise) const;
+  std::string between_text() const;
+
+  std::vector<Component*> between_;
+  mutable std::set<Component*> used_;
+};
+
+/// The terms by which components feel one another; each works through capabilities only.
+class Coupler : public Part {
+ public:
+  explicit Coupler(std::string name) : name_(std::move(name)) {}
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,81 @@
+#include "framework/schedule/iterate_step.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "framework/assembly/assemble_all.hpp"
+#include "framework/schedule/residual_check.hpp"
+
+namespace sprekk {
+
+Spec IterateOptions::spec() {
+  Spec spec("iterate", "Repeats the steps inside until the coupled residual of all their equations is small.");
+  Spec until("until", "When the iteration has converged.");
+  until.quantity("relative", relative,
+                 {.range = strictly_between(0, 1),
+                  .doc = "Largest residual of any equation, without stabilization, over the largest of its terms."});
+  until.integer("at_most", at_most, {.range = between(1, 100000), .doc = "Passes before the step is refused."});
+  spec.section("until", until, {.doc = "When the iteration has converged."});
+  Spec accelerate("accelerate", "Acceleration of the fixed-point iteration.");
+  accelerate.integer("anderson", anderson,
+                     {.range = between(0, 50), .doc = "Earlier passes that Anderson acceleration combines; 0 is none."});
+  spec.section("accelerate", accelerate, {.doc = "Acceleration of the fixed-point iteration."});
+  return spec;
+}
+
+IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside,
+                         const ScheduleContext& context)
+    : options_(options),
+      inside_(std::move(inside)),
+      parts_(context.parts),
+      system_(context.mesh, inside_->unknowns()),
+      log_(context.log),
+      anderson_(options.anderson) {
+  for (const Field* field : inside_->unknowns()) fields_.push_back(&context.fields.at(field->name()));
+}
+
+Vector IterateStep::scaled_values() const {
+  Vector values(system_.size());
+  for (std::size_t u = 0; u < fields_.size(); ++u)
+    values.segment(system_.first(static_cast<int>(u)), fields_[u]->size()) = fields_[u]->now() / scales_[u];
+  return values;
+}
+
+void IterateStep::set_scaled_values(const Vector& values) {
+  for (std::size_t u = 0; u < fields_.size(); ++u)
+    fields_[u]->set(scales_[u] * values.segment(system_.first(static_cast<int>(u)), fields_[u]->size()));
+}
+
+StepStatus IterateStep::run(const StepTime& step) {
+  anderson_.forget();
+  scales_.assign(fields_.size(), 1);
+  ResidualCheck check;
+  for (int pass = 1; pass <= options_.at_most; ++pass) {
+    const Vector before = pass > 1 ? scaled_values() : Vector();
+    const StepStatus inner = inside_->run(step);
+    if (!inner.converged) return {false, fmt::format("pass {}: {}", pass, inner.reason), pass};
+
+    Assembly assembly(inside_->unknowns(), Assembly::Want::residual);
+    assemble_all(assembly, parts_, step);
+    check = check_residual(assembly, system_, options_.relative);
+    if (log_) log_({step, "iterate", pass, check.largest, check.equation, 0, 1});
+    if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", pass};
+    if (check.converged) return {true, "", pass};
+    if (options_.anderson == 0) continue;
+    if (pass == 1) {
+      for (std::size_t u = 0; u < fields_.size(); ++u) {
+        const double largest = fields_[u]->size() > 0 ? fields_[u]->now().lpNorm<Eigen::Infinity>() : 0;
+        scales_[u] = (largest > 0 ? largest : 1) * std::sqrt(std::max(1, fields_[u]->size()));
+      }
+    } else {
+      set_scaled_values(anderson_.next(before, scaled_values()));
+    }
+  }
+  return {false,
+          fmt::format("no convergence in {} passes (the residual of {} is {:.2g} of its terms)", options_.at_most,
+                      check.equation, check.largest),
+          options_.at_most};
+}
+
+}  // namespace sprekk

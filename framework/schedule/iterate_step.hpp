@@ -1,0 +1,44 @@
+// iterate: repeats the steps inside until the coupled residual of all their equations is small.
+#pragma once
+
+#include <optional>
+
+#include "framework/config/spec.hpp"
+#include "framework/schedule/anderson.hpp"
+#include "framework/schedule/schedule_context.hpp"
+
+namespace sprekk {
+
+struct IterateOptions {
+  double relative = 1e-8;
+  int at_most = 60;
+  int anderson = 0;
+  Spec spec();
+};
+
+/// Converged when the true residual of everything that is solved for inside, without any stabilization, is small against
+/// its own terms; not when updates are small.
+class IterateStep : public ScheduleStep {
+ public:
+  IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);
+  StepStatus run(const StepTime& step) override;
+  std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
+  std::string describe() const override { return "iterate"; }
+  std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
+  void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
+
+ private:
+  Vector scaled_values() const;
+  void set_scaled_values(const Vector& values);
+
+  IterateOptions options_;
+  std::unique_ptr<ScheduleStep> inside_;
+  std::vector<Part*> parts_;
+  std::vector<Field*> fields_;
+  BlockSystem system_;
+  IterationLog log_;
+  Anderson anderson_;
+  std::vector<double> scales_;  ///< one a field, of the first pass
+};
+
+}  // namespace sprekk

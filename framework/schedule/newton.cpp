@@ -1,0 +1,159 @@
+#include "framework/schedule/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "framework/parallel/parallel.hpp"
+#include "framework/schedule/residual_check.hpp"
+
+namespace sprekk {
+
+Newton::Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*> parts, const LinearOptions& linear,
+               const NewtonOptions& options, std::string name, IterationLog log)
+    : mesh_(mesh),
+      unknowns_(std::move(unknowns)),
+      parts_(std::move(parts)),
+      options_(options),
+      name_(std::move(name)),
+      log_(std::move(log)),
+      system_(mesh, {unknowns_.begin(), unknowns_.end()}),
+      linear_(make_linear_solver(linear)) {}
+
+Newton::~Newton() = default;
+
+void Newton::set_preconditioner_stabilization(const Stabilization& stabilization) {
+  for (const auto& [field, diagonal] : stabilization) system_.set_stabilization(*field, diagonal);
+}
+
+std::unique_ptr<Assembly> Newton::assemble(Assembly::Want want, const StepTime& step) const {
+  auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()}, want);
+  for (const Part* part : parts_) part->assemble(*assembly, step);
+  if (stabilization_)
+    for (const auto& [field, diagonal] : *stabilization_) {
+      if (!assembly->has_row(*field)) continue;
+      assembly->add(*field, diagonal.cwiseProduct(field->now() - start_.at(field)));
+      assembly->diagonal(*field, *field, diagonal);
+    }
+  for (const Part* part : parts_) part->constrain(*assembly);
+  return assembly;
+}
+
+std::uint64_t Newton::discrete_state() const {
+  std::uint64_t state = 0;
+  for (const Part* part : parts_) state = state * 1000003 + part->discrete_state();
+  return state;
+}
+
+std::vector<Vector> Newton::values() const {
+  std::vector<Vector> values;
+  for (const Field* field : unknowns_) values.push_back(field->now());
+  return values;
+}
+
+void Newton::move(const std::vector<Vector>& from, const Vector& update, double length) {
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    unknowns_[u]->set(from[u] + length * update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size()));
+}
+
+double Newton::relative_size(const Vector& update) const {
+  // Fields of one unit share a scale: a jump that is zero while everything sticks is compared with the displacements.
+  std::map<std::string, double> scale, change;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    const Field& field = *unknowns_[u];
+    if (field.size() == 0) continue;
+    double& s = scale[field.spec().unit];
+    s = std::max(s, field.now().lpNorm<Eigen::Infinity>());
+    double& c = change[field.spec().unit];
+    c = std::max(c, update.segment(system_.first(static_cast<int>(u)), field.size()).lpNorm<Eigen::Infinity>());
+  }
+  double largest = 0;
+  for (const auto& [unit, size] : change)
+    if (scale[unit] > 0) largest = std::max(largest, size / scale[unit]);
+  return largest;
+}
+
+namespace {
+
+double merit_bound(const std::vector<double>& recent) {
+  return *std::max_element(recent.end() - std::min<std::ptrdiff_t>(3, recent.size()), recent.end());
+}
+
+}  // namespace
+
+ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, int iteration, bool cycling,
+                                double& length) {
+  const std::vector<Vector> from = values();
+  const bool ask_for_descent = cycling || iteration > options_.undamped;
+  ResidualCheck best;
+  double best_length = 0;
+  length = 1;
+  for (int halvings = 0; halvings < (ask_for_descent ? 6 : 12); ++halvings, length /= 2) {
+    move(from, update, length);
+    const ResidualCheck check = check_residual(*assemble(Assembly::Want::residual, step), system_, options_.residual);
+    if (check.finite && (best_length == 0 || check.merit < best.merit)) {
+      best = check;
+      best_length = length;
+    }
+    if (!check.finite) continue;
+    if (!ask_for_descent || check.converged || check.merit < (1 - 1e-4 * length) * merit_bound(recent_merits_)) break;
+  }
+  if (best_length == 0) {
+    best.finite = false;
+    return best;
+  }
+  if (length != best_length) move(from, update, best_length);
+  length = best_length;
+  return best;
+}
+
+StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilization) {
+  stabilization_ = &stabilization;
+  start_.clear();
+  for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
+
+  std::multiset<std::uint64_t> seen_states;
+  bool factored = false, cycling = false;
+  double length = 1;
+  auto check = check_residual(*assemble(Assembly::Want::residual, step), system_, options_.residual);
+  recent_merits_ = {check.merit};
+  if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1});
+  for (int iteration = 0;; ++iteration) {
+    if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
+    if (check.converged) {
+      if (!factored) return {true, "", iteration};
+      // The simplified update: what one more iteration would change, for the price of a back-solve.
+      const auto assembly = assemble(Assembly::Want::residual, step);
+      Vector update;
+      const LinearReport report = linear_->solve(-system_.residual(*assembly), update);
+      const double size = report.solved ? relative_size(update) : 0;
+      if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0});
+      if (size <= options_.update) return {true, "", iteration};
+    }
+    if (iteration == options_.at_most)
+      return {false,
+              fmt::format("no convergence in {} iterations (the residual of {} is {:.2g} of its terms)", iteration,
+                          check.equation, check.largest),
+              iteration};
+
+    const auto assembly = assemble(Assembly::Want::residual_and_derivatives, step);
+    const LinearReport factoring = linear_->factor(system_.matrix(*assembly));
+    if (!factoring.solved) return {false, "singular system: " + factoring.reason, iteration};
+    factored = true;
+    Vector update;
+    const LinearReport report = linear_->solve(-system_.residual(*assembly), update);
+    if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
+
+    const std::uint64_t state = discrete_state();
+    cycling = cycling || (iteration > 3 && seen_states.count(state) > 1);
+    seen_states.insert(state);
+    check = take_step(step, update, iteration, cycling, length);
+    recent_merits_.push_back(check.merit);
+    if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update), length});
+  }
+}
+
+}  // namespace sprekk

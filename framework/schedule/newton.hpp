@@ -1,0 +1,61 @@
+// Semismooth Newton's method for one simultaneous system.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/assembly/block_system.hpp"
+#include "framework/assembly/part.hpp"
+#include "framework/linear/linear_solver.hpp"
+#include "framework/schedule/schedule_step.hpp"
+
+namespace sprekk {
+
+struct ResidualCheck;
+
+struct NewtonOptions {
+  double residual = 1e-10;  ///< largest residual of an equation over the largest of its terms
+  double update = 1e-8;     ///< largest change of a field over its largest value
+  int at_most = 30;         ///< iterations
+  int undamped = 8;         ///< iterations before the line search asks for descent
+};
+
+/// Converged means: every residual is small against its own terms, and the next (simplified) Newton update, which costs a
+/// back-solve and no factorization, is small against the fields. Full steps at first, as active sets settle by
+/// themselves; descent on the sum of squares of the relative residuals when they have not after `undamped` iterations, or
+/// as soon as the discrete state cycles. Repeating a call from the same fields gives the same bits.
+class Newton {
+ public:
+  Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*> parts, const LinearOptions& linear,
+         const NewtonOptions& options, std::string name, IterationLog log);
+  ~Newton();
+
+  /// `stabilization`: diagonals times the change since the start of this call, added to the residuals.
+  StepStatus solve(const StepTime& step, const Stabilization& stabilization = {});
+
+  const LinearSolver& linear_solver() const { return *linear_; }
+  void set_preconditioner_stabilization(const Stabilization& stabilization);
+
+ private:
+  std::unique_ptr<Assembly> assemble(Assembly::Want want, const StepTime& step) const;
+  std::uint64_t discrete_state() const;
+  std::vector<Vector> values() const;
+  void move(const std::vector<Vector>& from, const Vector& update, double length);
+  double relative_size(const Vector& update) const;
+  ResidualCheck take_step(const StepTime& step, const Vector& update, int iteration, bool cycling, double& length);
+
+  const Mesh& mesh_;
+  std::vector<Field*> unknowns_;
+  std::vector<Part*> parts_;
+  NewtonOptions options_;
+  std::string name_;
+  IterationLog log_;
+  BlockSystem system_;
+  std::unique_ptr<LinearSolver> linear_;
+  std::vector<double> recent_merits_;
+  const Stabilization* stabilization_ = nullptr;
+  std::map<const Field*, Vector> start_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,51 @@
+#include "framework/schedule/residual_check.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+
+ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance) {
+  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+  ResidualCheck check;
+  check.converged = true;
+  const Vector owned = system.residual(assembly);
+  const std::vector<int>& rows = system.rows();
+  std::size_t next = 0;
+  for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
+    const int end = system.first(static_cast<int>(u)) + assembly.unknowns()[u]->size();
+    double largest = 0, squares = 0, count = 0;
+    bool finite = true;
+    for (; next < rows.size() && rows[next] < end; ++next) {
+      const double value = std::abs(owned[next]);
+      finite = finite && std::isfinite(value);
+      largest = std::max(largest, value);
+      squares += value * value;
+      count += 1;
+    }
+    largest = parallel::max(finite ? largest : std::numeric_limits<double>::infinity());
+    const double magnitude = parallel::max(assembly.magnitude(static_cast<int>(u)));
+    const double noise = round_off * parallel::max(assembly.round_off_base(static_cast<int>(u)));
+    squares = parallel::sum(squares);
+    count = std::max(1.0, parallel::sum(count));
+    if (!std::isfinite(largest) || !std::isfinite(magnitude)) {
+      check.finite = check.converged = false;
+      check.equation = assembly.unknowns()[u]->name();
+      check.largest = check.merit = std::numeric_limits<double>::infinity();
+      return check;
+    }
+    if (largest > tolerance * magnitude + noise) check.converged = false;
+    if (largest <= noise || magnitude == 0) continue;
+    const double relative = largest / magnitude;
+    check.merit += squares / count / (magnitude * magnitude);
+    if (relative > check.largest) {
+      check.largest = relative;
+      check.equation = assembly.unknowns()[u]->name();
+    }
+  }
+  return check;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,41 @@
+// A node of the schedule tree. Every node is a step, so that schemes nest.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/assembly/part.hpp"
+#include "framework/linear/linear_solver.hpp"
+#include "framework/schedule/status.hpp"
+
+namespace sprekk {
+
+/// One row of coupling.csv.
+struct IterationRecord {
+  StepTime time;
+  std::string step;       ///< which node of the schedule: "solve pore rock", "iterate", …
+  int iteration = 0;
+  double residual = 0;    ///< the largest relative residual of any equation
+  std::string equation;   ///< the one that has it
+  double update = 0;      ///< relative; 0 where none is computed
+  double step_length = 1; ///< of the line search
+};
+using IterationLog = std::function<void(const IterationRecord&)>;
+
+class ScheduleStep {
+ public:
+  virtual ~ScheduleStep() = default;
+  /// Advances its fields' current values to the end of the time step. Never throws for lack of convergence.
+  virtual StepStatus run(const StepTime& step) = 0;
+  /// The fields that it, or a step inside it, solves for.
+  virtual std::vector<const Field*> unknowns() const = 0;
+  /// One line for the graph and for messages.
+  virtual std::string describe() const = 0;
+  virtual std::vector<const ScheduleStep*> children() const { return {}; }
+  /// Sums up what the linear solvers inside did.
+  virtual void add_counts(LinearCounts& counts) const = 0;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,35 @@
+#include "framework/schedule/sequence_step.hpp"
+
+#include <algorithm>
+
+namespace sprekk {
+
+StepStatus SequenceStep::run(const StepTime& step) {
+  StepStatus status{true, "", 0};
+  for (auto& inner : steps_) {
+    const StepStatus inner_status = inner->run(step);
+    status.iterations += inner_status.iterations;
+    if (!inner_status.converged) return {false, inner->describe() + ": " + inner_status.reason, status.iterations};
+  }
+  return status;
+}
+
+std::vector<const Field*> SequenceStep::unknowns() const {
+  std::vector<const Field*> all;
+  for (const auto& inner : steps_)
+    for (const Field* field : inner->unknowns())
+      if (std::find(all.begin(), all.end(), field) == all.end()) all.push_back(field);
+  return all;
+}
+
+std::vector<const ScheduleStep*> SequenceStep::children() const {
+  std::vector<const ScheduleStep*> children;
+  for (const auto& inner : steps_) children.push_back(inner.get());
+  return children;
+}
+
+void SequenceStep::add_counts(LinearCounts& counts) const {
+  for (const auto& inner : steps_) inner->add_counts(counts);
+}
+
+}  // namespace sprekk

@@ -1,0 +1,21 @@
+// Steps that are run one after the other.
+#pragma once
+
+#include "framework/schedule/schedule_step.hpp"
+
+namespace sprekk {
+
+class SequenceStep : public ScheduleStep {
+ public:
+  explicit SequenceStep(std::vector<std::unique_ptr<ScheduleStep>> steps) : steps_(std::move(steps)) {}
+  StepStatus run(const StepTime& step) override;
+  std::vector<const Field*> unknowns() const override;
+  std::string describe() const override { return "sequence"; }
+  std::vector<const ScheduleStep*> children() const override;
+  void add_counts(LinearCounts& counts) const override;
+
+ private:
+  std::vector<std::unique_ptr<ScheduleStep>> steps_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,70 @@
+#include "framework/schedule/solve_step.hpp"
+
+namespace sprekk {
+
+Spec newton_spec(NewtonOptions& options) {
+  Spec spec("newton", "Semismooth Newton's method of a simultaneous system.");
+  spec.quantity("residual", options.residual,
+                {.range = strictly_between(0, 1), .doc = "Largest residual of an equation over the largest of its terms."});
+  spec.quantity("update", options.update,
+                {.range = strictly_between(0, 1), .doc = "Largest next change of a field over its largest value."});
+  spec.integer("at_most", options.at_most, {.range = between(1, 1000), .doc = "Iterations before the step is refused."});
+  spec.integer("undamped", options.undamped,
+               {.range = between(0, 1000), .doc = "Iterations before the line search asks for descent."});
+  return spec;
+}
+
+Spec solver_spec(LinearOptions& options) {
+  Spec spec("solver", "The solver of linear systems.");
+  spec.choice("type", options.type,
+              {{"auto", "UMFPACK in one process, MUMPS in several, Belos above a size"},
+               {"umfpack", "sparse direct, one process"},
+               {"mumps", "sparse direct, any number of processes"},
+               {"belos", "GMRES with a block fixed-stress preconditioner and multigrid inside"}},
+              {.doc = "Which solver."});
+  spec.quantity("tolerance", options.tolerance,
+                {.range = strictly_between(0, 1), .doc = "Relative residual of an iterative solver."});
+  spec.integer("max_iterations", options.max_iterations,
+               {.range = between(1, 100000), .doc = "Iterations of an iterative solver."});
+  return spec;
+}
+
+Spec SolveOptions::spec() {
+  Spec spec("solve", "Solves for the unknowns of the named components simultaneously. All their terms count; "
+                     "fields that are not unknowns here keep their latest values.");
+  spec.texts("solve", components, {.doc = "Names of components.", .required = true});
+  spec.text("stabilize", stabilization,
+            {.doc = "A stabilization that a coupler offers for split schemes: fixed_stress, undrained or none."});
+  spec.section("newton", newton_spec(newton), {.doc = "Overrides the scene's `newton:`."});
+  spec.section("solver", solver_spec(linear), {.doc = "Overrides the scene's `solver:`."});
+  return spec;
+}
+
+SolveStep::SolveStep(const SolveOptions& options, const ScheduleContext& context)
+    : options_(options),
+      parts_(context.parts),
+      fields_(context.solved_fields(options.components)),
+      newton_(context.mesh, fields_, context.parts, options.linear, options.newton, describe(), context.log) {}
+
+std::string SolveStep::describe() const {
+  std::string text = "solve";
+  for (const std::string& name : options_.components) text += " " + name;
+  return text;
+}
+
+StepStatus SolveStep::run(const StepTime& step) {
+  Stabilization stabilization, preconditioning;
+  for (const Part* part : parts_) {
+    part->stabilize("fixed_stress", preconditioning);
+    if (options_.stabilization != "none") part->stabilize(options_.stabilization, stabilization);
+  }
+  newton_.set_preconditioner_stabilization(preconditioning);
+  const StepStatus status = newton_.solve(step, stabilization);
+  if (status.converged)
+    for (Part* part : parts_) part->after_solve(fields_, step);
+  return status;
+}
+
+void SolveStep::add_counts(LinearCounts& counts) const { counts += newton_.linear_solver().counts(); }
+
+}  // namespace sprekk

@@ -1,0 +1,35 @@
+// solve: one simultaneous system for the unknowns of the named components.
+#pragma once
+
+#include "framework/config/spec.hpp"
+#include "framework/schedule/schedule_context.hpp"
+
+namespace sprekk {
+
+struct SolveOptions {
+  std::vector<std::string> components;
+  std::string stabilization = "none";
+  NewtonOptions newton;
+  LinearOptions linear;
+  Spec spec();
+};
+
+class SolveStep : public ScheduleStep {
+ public:
+  SolveStep(const SolveOptions& options, const ScheduleContext& context);
+  StepStatus run(const StepTime& step) override;
+  std::vector<const Field*> unknowns() const override { return {fields_.begin(), fields_.end()}; }
+  std::string describe() const override;
+  void add_counts(LinearCounts& counts) const override;
+
+ private:
+  SolveOptions options_;
+  std::vector<Part*> parts_;
+  std::vector<Field*> fields_;
+  Newton newton_;
+};
+
+Spec newton_spec(NewtonOptions& options);
+Spec solver_spec(LinearOptions& options);
+
+}  // namespace sprekk

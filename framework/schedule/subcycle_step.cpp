@@ -1,0 +1,46 @@
+#include "framework/schedule/subcycle_step.hpp"
+
+#include <fmt/format.h>
+
+namespace sprekk {
+
+Spec SubcycleOptions::spec() {
+  Spec spec("subcycle", "The steps inside take several smaller time steps; all other fields wait.");
+  spec.integer("count", count, {.range = between(1, 1000000), .doc = "Substeps of each step.", .required = true});
+  return spec;
+}
+
+SubcycleStep::SubcycleStep(const SubcycleOptions& options, std::unique_ptr<ScheduleStep> inside,
+                           const ScheduleContext& context)
+    : options_(options), inside_(std::move(inside)), parts_(context.parts) {
+  for (const Field* field : inside_->unknowns()) fields_.push_back(&context.fields.at(field->name()));
+  const std::size_t solved = fields_.size();
+  for (const auto& field : context.fields.all())
+    for (std::size_t i = 0; i < solved; ++i)
+      if (field->spec().accepted_with == fields_[i]->name()) fields_.push_back(field.get());
+}
+
+std::string SubcycleStep::describe() const { return fmt::format("subcycle {}", options_.count); }
+
+StepStatus SubcycleStep::run(const StepTime& step) {
+  std::vector<Vector> start;
+  for (const Field* field : fields_) start.push_back(field->accepted());
+  StepStatus status{true, "", 0};
+  for (int i = 0; i < options_.count && status.converged; ++i) {
+    StepTime substep;
+    substep.start = step.start + step.dt * i / options_.count;
+    substep.end = i + 1 == options_.count ? step.end : step.start + step.dt * (i + 1) / options_.count;
+    substep.dt = step.dt / options_.count;
+    for (Part* part : parts_) part->begin_step(substep);
+    const StepStatus inner = inside_->run(substep);
+    status.iterations += inner.iterations;
+    status.converged = inner.converged;
+    if (!inner.converged) status.reason = fmt::format("substep {}: {}", i + 1, inner.reason);
+    for (Field* field : fields_) field->accept();
+  }
+  for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->set_accepted(start[i]);
+  for (Part* part : parts_) part->begin_step(step);
+  return status;
+}
+
+}  // namespace sprekk

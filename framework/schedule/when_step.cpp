@@ -1,0 +1,18 @@
+#include "framework/schedule/when_step.hpp"
+
+namespace sprekk {
+
+Spec WhenOptions::spec() {
+  Spec spec("when", "Runs the steps inside only while a condition holds.");
+  spec.data("when", condition,
+            {.doc = "An expression of t (s), evaluated at the middle of the time step; it holds when it is not 0.",
+             .required = true});
+  return spec;
+}
+
+StepStatus WhenStep::run(const StepTime& step) {
+  const double holds = options_.condition.at({Point::Zero(), 0, 0.5 * (step.start + step.end)});
+  return holds != 0 ? inside_->run(step) : StepStatus{true, "", 0};
+}
+
+}  // namespace sprekk

@@ -1,0 +1,30 @@
+// when: the steps inside are run only while a condition holds.
+#pragma once
+
+#include "framework/config/data.hpp"
+#include "framework/config/spec.hpp"
+#include "framework/schedule/schedule_context.hpp"
+
+namespace sprekk {
+
+struct WhenOptions {
+  Data condition;
+  Spec spec();
+};
+
+class WhenStep : public ScheduleStep {
+ public:
+  WhenStep(const WhenOptions& options, std::unique_ptr<ScheduleStep> inside)
+      : options_(options), inside_(std::move(inside)) {}
+  StepStatus run(const StepTime& step) override;
+  std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
+  std::string describe() const override { return "when"; }
+  std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
+  void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
+
+ private:
+  WhenOptions options_;
+  std::unique_ptr<ScheduleStep> inside_;
+};
+
+}  // namespace sprekk
