@@ -17,14 +17,24 @@ RawMesh triangulate(const Geometry& geometry, const MeshOptions& options) {
   return unstructured_mesh(geometry, options);
 }
 
+Mesh finish(RawMesh raw, const MeshOptions& options) {
+  avoid_single_cell_corners(raw);
+  distort_mesh(raw, options.distortion, options.seed);
+  return build_mesh(raw);
+}
+
 }  // namespace
 
 Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options) {
   validate_geometry(geometry, options);
   RawMesh raw = triangulate(geometry, options);
-  avoid_single_cell_corners(raw);
-  distort_mesh(raw, options.distortion, options.seed);
-  return build_mesh(raw);
+  if (!geometry.is_imported()) return finish(std::move(raw), options);
+  try {
+    return finish(std::move(raw), options);
+  } catch (const InputError& error) {
+    // What is wrong with the triangles of a file is the user's to mend: say in which file.
+    throw InputError(geometry.file_origin, "cannot use the mesh file '" + geometry.file + "'", error.what());
+  }
 }
 
 MeshNames mesh_names(const Geometry& geometry) {

@@ -20,8 +20,8 @@ struct Box {
 /// A polyline. Its plus side is to the left when one walks from the first point to the last.
 struct FractureGeometry {
   std::string name;
-  std::vector<Point> points;   ///< m
-  std::optional<double> size;  ///< length of its cells, m; default MeshOptions::fracture_size
+  std::vector<Point> points;                  ///< m
+  std::optional<double> size = std::nullopt;  ///< length of its cells, m; default MeshOptions::fracture_size
   Origin origin;
 };
 
@@ -49,14 +49,15 @@ struct Geometry {
 struct MeshOptions {
   enum class Kind { unstructured, structured };
   Kind kind = Kind::unstructured;
-  std::optional<double> size;           ///< edge length away from fractures, m; default a fiftieth of the longer side
-  std::optional<double> fracture_size;  ///< edge length at fractures, m; default `size`
-  std::optional<double> tip_size;       ///< edge length at fracture ends, m; default that of the fracture
-  double growth = 0.3;                  ///< by how many m the edge length grows per m of distance
-  std::array<int, 2> cells = {0, 0};    ///< structured: squares along x and y; 0 means as `size` asks
-  double distortion = 0;                ///< moves inner nodes by up to this part of the shortest edge there, 0 to 0.4
-  int seed = 1;                         ///< of the distortion
-  Origin origin;
+  /// Edge length away from fractures, m; default a fiftieth of the longer side.
+  std::optional<double> size = std::nullopt;
+  std::optional<double> fracture_size = std::nullopt;  ///< edge length at fractures, m; default `size`
+  std::optional<double> tip_size = std::nullopt;  ///< edge length at fracture ends, m; default that of the fracture
+  double growth = 0.3;                            ///< by how many m the edge length grows per m of distance
+  std::array<int, 2> cells = {0, 0};              ///< structured: squares along x and y; 0 means as `size` asks
+  double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge there, 0 to 0.4
+  int seed = 1;           ///< of the distortion
+  Origin origin = {};
 };
 
 /// The edge length away from fractures, with the default resolved.

@@ -104,6 +104,13 @@ class Reader {
     if (height > 1e-9 * extent) throw InputError("the mesh leaves the x-y plane");
   }
 
+  int node(std::size_t tag) const {
+    if (tag >= number_.size() || number_[tag] == none) {
+      throw InputError("an element names node " + std::to_string(tag) + ", which the file does not hold");
+    }
+    return number_[tag];
+  }
+
   template <std::size_t Nodes>
   std::vector<std::array<int, Nodes>> elements(int dim, int entity, int type, const std::string& wanted) const {
     std::vector<int> types;
@@ -116,7 +123,7 @@ class Reader {
                          ")");
       for (std::size_t n = 0; n + Nodes <= nodes[i].size(); n += Nodes) {
         auto& element = found.emplace_back();
-        for (std::size_t k = 0; k < Nodes; ++k) element[k] = number_.at(nodes[i][n + k]);
+        for (std::size_t k = 0; k < Nodes; ++k) element[k] = node(nodes[i][n + k]);
       }
     }
     return found;
