@@ -1,0 +1,19 @@
+// Files that are whole at any moment: written beside their place and then renamed into it.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace sprekk {
+
+/// The name under which a file is written before it replaces `file`: the same folder, ".partial" behind the name.
+std::filesystem::path partial_name(const std::filesystem::path& file);
+
+/// Moves the finished partial_name(file) to `file`. Throws std::runtime_error naming the file and the reason.
+void finish_partial(const std::filesystem::path& file);
+
+/// Replaces `file` by `text`; a reader sees the old or the new content, never a part. Throws std::runtime_error naming
+/// the file and the reason (a full disk, a folder that went away); the old content is then still there.
+void write_atomically(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace sprekk

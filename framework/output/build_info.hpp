@@ -1,0 +1,24 @@
+// Which program this is: what a result must say to be reproducible.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace sprekk {
+
+struct BuildInfo {
+  std::string version;     ///< of Sprekk
+  std::string git_commit;  ///< when the build was configured; "" if it was not a git checkout
+  std::string compiler;
+  std::string build_type;                        ///< Release, Debug, …
+  std::map<std::string, std::string> libraries;  ///< name, version
+};
+const BuildInfo& build_info();
+
+struct Host {
+  int cores;              ///< that this process may use
+  std::string processor;  ///< its model; "" where the system does not tell
+};
+Host host();
+
+}  // namespace sprekk

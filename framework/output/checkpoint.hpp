@@ -1,0 +1,54 @@
+// Everything that a run needs to go on from an accepted step, in one file.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "framework/field/field_store.hpp"
+
+namespace sprekk {
+
+struct Checkpoint {
+  struct Clock {
+    double time = 0;       ///< s, of the accepted step
+    int step = 0;          ///< accepted steps so far
+    double next_step = 0;  ///< s, the size that the controller wants to try next
+  };
+  struct Values {
+    Vector now, accepted;
+  };
+
+  std::string scene_name;         ///< for messages
+  std::string scene_fingerprint;  ///< see fingerprint()
+  std::string program_version;    ///< of the program that wrote it
+  Clock clock;
+  Mesh mesh;
+  std::map<std::string, Values> fields;  ///< by full name
+  std::map<std::string, Vector> extra;   ///< state of accelerators, controllers, tips: by a name of their choice
+};
+
+/// 16 hexadecimal digits that change with the text (FNV-1a, 64 bits). The caller leaves out of the text what may
+/// differ when a run is continued: the end time and the output.
+std::string fingerprint(const std::string& text);
+
+/// Replaces `path` by the checkpoint once it is complete: a crash while writing leaves the old one.
+/// Throws std::runtime_error naming the file and the reason.
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
+
+/// Returns to the bit what was written. Throws InputError, saying what is wrong and what to do, for a file that is
+/// missing, cut short, damaged, not a checkpoint, or of another format version.
+Checkpoint read_checkpoint(const std::filesystem::path& path);
+
+/// Throws InputError if the checkpoint read from `path` belongs to another scene.
+void require_scene(const Checkpoint& checkpoint, const std::filesystem::path& path, const std::string& scene_name,
+                   const std::string& scene_fingerprint);
+
+/// The values of all fields of a store, for Checkpoint::fields.
+std::map<std::string, Checkpoint::Values> field_values(const FieldStore& store);
+
+/// Puts the values back. Throws InputError, naming the field, if the store and the checkpoint do not have the same
+/// fields with the same sizes; the store is then unchanged.
+void restore_fields(const Checkpoint& checkpoint, const std::filesystem::path& path, FieldStore& store);
+
+}  // namespace sprekk

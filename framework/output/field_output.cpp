@@ -1,0 +1,28 @@
+#include "framework/output/field_output.hpp"
+
+#include <fmt/format.h>
+
+namespace sprekk {
+
+FieldOutput::FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures)
+    : folder_(std::move(folder)), matrix_(std::move(matrix)), fractures_(std::move(fractures)) {}
+
+FieldOutput::FieldOutput(const std::filesystem::path& folder)
+    : FieldOutput(folder, TimeSeries(folder / "matrix.pvd"), TimeSeries(folder / "fractures.pvd")) {}
+
+FieldOutput FieldOutput::continued(const std::filesystem::path& folder, double time) {
+  return {folder, TimeSeries::continued(folder / "matrix.pvd", time),
+          TimeSeries::continued(folder / "fractures.pvd", time)};
+}
+
+void FieldOutput::write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields) {
+  const std::string matrix_file = fmt::format("matrix_{:06}.vtu", step);
+  write_matrix_vtu(folder_ / matrix_file, mesh, fields);
+  matrix_.add(time, matrix_file);
+  if (mesh.fracture_cells.empty()) return;
+  const std::string fracture_file = fmt::format("fractures_{:06}.vtu", step);
+  write_fracture_vtu(folder_ / fracture_file, mesh, fields);
+  fractures_.add(time, fracture_file);
+}
+
+}  // namespace sprekk

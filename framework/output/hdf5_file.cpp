@@ -1,0 +1,122 @@
+#include "framework/output/hdf5_file.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+
+namespace sprekk {
+namespace {
+
+/// Closes what it holds.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
+    if (id < 0) throw Hdf5Error(what);
+  }
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void require(herr_t status, const std::string& what) {
+  if (status < 0) throw Hdf5Error(what);
+}
+
+/// Failures reach the user as our own messages, not as HDF5's stack on the terminal.
+void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+constexpr hsize_t largest_chunk = hsize_t{1} << 20;  // values; the chunks carry the checksums
+
+}  // namespace
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) {
+  silence();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "out of memory");
+  // The latest format has checksums on its own structures too.
+  H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+  file_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (file_ < 0) throw Hdf5Error("the file cannot be made");
+}
+
+Hdf5Writer::~Hdf5Writer() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5Writer::close() {
+  const bool is_flushed = H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0;
+  const bool is_closed = H5Fclose(file_) >= 0;
+  file_ = -1;
+  if (!is_flushed || !is_closed) throw Hdf5Error("the file cannot be finished, is the disk full?");
+}
+
+void Hdf5Writer::write(const std::string& path, std::int64_t type, std::size_t count, const void* values) {
+  const std::string failed = "array " + path + " cannot be written";
+  const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose, failed);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, failed);
+  require(H5Pset_create_intermediate_group(link, 1), failed);
+  const hsize_t size = count;
+  if (size > 0) {
+    const hsize_t chunk = std::min(size, largest_chunk);
+    require(H5Pset_chunk(creation, 1, &chunk), failed);
+    require(H5Pset_fletcher32(creation), failed);
+  }
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, failed);
+  const Handle array(H5Dcreate2(file_, path.c_str(), type, space, link, creation, H5P_DEFAULT), H5Dclose, failed);
+  if (size > 0) require(H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), failed);
+}
+
+void Hdf5Writer::doubles(const std::string& path, std::span<const double> values) {
+  write(path, H5T_NATIVE_DOUBLE, values.size(), values.data());
+}
+
+void Hdf5Writer::integers(const std::string& path, std::span<const int> values) {
+  write(path, H5T_NATIVE_INT, values.size(), values.data());
+}
+
+void Hdf5Writer::text(const std::string& path, const std::string& value) {
+  write(path, H5T_NATIVE_CHAR, value.size(), value.data());
+}
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) {
+  silence();
+  file_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file_ < 0) throw Hdf5Error("it is cut short or not an HDF5 file");
+}
+
+Hdf5Reader::~Hdf5Reader() { H5Fclose(file_); }
+
+template <class Value>
+std::vector<Value> Hdf5Reader::read(const std::string& path, std::int64_t type) const {
+  const Handle array(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, "array " + path + " is missing");
+  const Handle stored_type(H5Dget_type(array), H5Tclose, "array " + path + " is damaged");
+  if (H5Tget_class(stored_type) != H5Tget_class(type) || H5Tget_size(stored_type) != H5Tget_size(type))
+    throw Hdf5Error("array " + path + " is of another kind");
+  const Handle space(H5Dget_space(array), H5Sclose, "array " + path + " is damaged");
+  hsize_t size = 0;
+  if (H5Sget_simple_extent_ndims(space) != 1 || H5Sget_simple_extent_dims(space, &size, nullptr) != 1)
+    throw Hdf5Error("array " + path + " is of another shape");
+  std::vector<Value> values(size);
+  if (size > 0)
+    require(H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "array " + path + " is damaged");
+  return values;
+}
+
+std::vector<double> Hdf5Reader::doubles(const std::string& path) const { return read<double>(path, H5T_NATIVE_DOUBLE); }
+
+std::vector<int> Hdf5Reader::integers(const std::string& path) const { return read<int>(path, H5T_NATIVE_INT); }
+
+std::string Hdf5Reader::text(const std::string& path) const {
+  const std::vector<char> characters = read<char>(path, H5T_NATIVE_CHAR);
+  return {characters.begin(), characters.end()};
+}
+
+bool Hdf5Reader::has(const std::string& path) const { return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0; }
+
+}  // namespace sprekk

@@ -1,0 +1,54 @@
+// Named arrays in an HDF5 file. Every array carries a checksum, so that a damaged file is noticed when it is read.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+/// Something about the file itself is wrong: it is no HDF5 file, an array is missing, damaged or of another kind.
+struct Hdf5Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Paths are "group/array"; groups are made as needed. Throws Hdf5Error.
+class Hdf5Writer {
+ public:
+  explicit Hdf5Writer(const std::filesystem::path& file);
+  ~Hdf5Writer();
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+  void doubles(const std::string& path, std::span<const double> values);
+  void integers(const std::string& path, std::span<const int> values);
+  void text(const std::string& path, const std::string& value);
+  void close();  ///< throws if not everything reached the file
+
+ private:
+  void write(const std::string& path, std::int64_t type, std::size_t count, const void* values);
+  std::int64_t file_;
+};
+
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::filesystem::path& file);
+  ~Hdf5Reader();
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+  std::vector<double> doubles(const std::string& path) const;
+  std::vector<int> integers(const std::string& path) const;
+  std::string text(const std::string& path) const;
+  bool has(const std::string& path) const;  ///< of a path whose group exists
+
+ private:
+  template <class Value>
+  std::vector<Value> read(const std::string& path, std::int64_t type) const;
+  std::int64_t file_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,194 @@
+#include "framework/output/mesh_record.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "framework/mesh/build_mesh.hpp"
+
+namespace sprekk {
+namespace {
+
+// Points and small arrays lie in memory as their values one after the other, which is how they are stored.
+std::span<const double> values(const std::vector<Point>& points) {
+  return {reinterpret_cast<const double*>(points.data()), points.size() * dimension};
+}
+
+template <std::size_t n>
+std::span<const int> values(const std::vector<std::array<int, n>>& lists) {
+  return {reinterpret_cast<const int*>(lists.data()), lists.size() * n};
+}
+
+template <class Item, class Value>
+std::vector<Item> grouped(const std::vector<Value>& values, const std::string& path) {
+  static_assert(sizeof(Item) % sizeof(Value) == 0);
+  constexpr std::size_t n = sizeof(Item) / sizeof(Value);
+  if (values.size() % n != 0) throw Hdf5Error("array " + path + " has a wrong length");
+  std::vector<Item> items(values.size() / n);
+  if (!items.empty()) std::memcpy(static_cast<void*>(items.data()), values.data(), values.size() * sizeof(Value));
+  return items;
+}
+
+std::vector<Point> read_points(const Hdf5Reader& file, const std::string& path) {
+  return grouped<Point>(file.doubles(path), path);
+}
+
+template <std::size_t n>
+std::vector<std::array<int, n>> read_lists(const Hdf5Reader& file, const std::string& path) {
+  return grouped<std::array<int, n>>(file.integers(path), path);
+}
+
+void write_names(Hdf5Writer& file, const std::string& path, const std::vector<std::string>& names) {
+  file.text(path, nlohmann::json(names).dump());
+}
+
+std::vector<std::string> read_names(const Hdf5Reader& file, const std::string& path) {
+  return nlohmann::json::parse(file.text(path)).get<std::vector<std::string>>();
+}
+
+void write_adjacency(Hdf5Writer& file, const std::string& path, const Adjacency& adjacency) {
+  file.integers(path + "/offsets", adjacency.offsets);
+  file.integers(path + "/items", adjacency.items);
+}
+
+Adjacency read_adjacency(const Hdf5Reader& file, const std::string& path) {
+  Adjacency adjacency{file.integers(path + "/offsets"), file.integers(path + "/items")};
+  if (adjacency.offsets.empty() || adjacency.offsets.front() != 0 ||
+      adjacency.offsets.back() != static_cast<int>(adjacency.items.size()) ||
+      !std::is_sorted(adjacency.offsets.begin(), adjacency.offsets.end()))
+    throw Hdf5Error("array " + path + " contradicts itself");
+  return adjacency;
+}
+
+void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
+  std::vector<std::string> names;
+  std::vector<int> ranges;
+  for (const Fracture& fracture : mesh.fractures) {
+    names.push_back(fracture.name);
+    ranges.insert(ranges.end(), {fracture.first_cell, fracture.cell_count});
+  }
+  write_names(file, "mesh/fractures/names", names);
+  file.integers("mesh/fractures/ranges", ranges);
+
+  std::vector<int> topology;
+  std::vector<double> geometry;
+  for (const FractureCell& cell : mesh.fracture_cells) {
+    topology.insert(topology.end(), {cell.fracture, cell.faces[0], cell.faces[1], cell.points[0], cell.points[1]});
+    geometry.insert(geometry.end(), {cell.center.x(), cell.center.y(), cell.length, cell.normal.x(), cell.normal.y(),
+                                     cell.tangent.x(), cell.tangent.y()});
+  }
+  file.integers("mesh/fracture_cells/topology", topology);
+  file.doubles("mesh/fracture_cells/geometry", geometry);
+
+  std::vector<double> positions;
+  std::vector<int> kinds;
+  Adjacency cells;
+  for (const FracturePoint& point : mesh.fracture_points) {
+    positions.insert(positions.end(), {point.position.x(), point.position.y()});
+    kinds.insert(kinds.end(), {static_cast<int>(point.kind), point.side});
+    cells.items.insert(cells.items.end(), point.cells.begin(), point.cells.end());
+    cells.offsets.push_back(static_cast<int>(cells.items.size()));
+  }
+  file.doubles("mesh/fracture_points/positions", positions);
+  file.integers("mesh/fracture_points/kinds", kinds);
+  write_adjacency(file, "mesh/fracture_points/cells", cells);
+}
+
+void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
+  const auto names = read_names(file, "mesh/fractures/names");
+  const auto ranges = read_lists<2>(file, "mesh/fractures/ranges");
+  if (names.size() != ranges.size()) throw Hdf5Error("array mesh/fractures/ranges has a wrong length");
+  for (std::size_t i = 0; i < names.size(); ++i) mesh.fractures.push_back({names[i], ranges[i][0], ranges[i][1]});
+
+  const auto topology = read_lists<5>(file, "mesh/fracture_cells/topology");
+  const std::string geometry_path = "mesh/fracture_cells/geometry";
+  const auto geometry = grouped<std::array<double, 7>>(file.doubles(geometry_path), geometry_path);
+  if (topology.size() != geometry.size()) throw Hdf5Error("array " + geometry_path + " has a wrong length");
+  for (std::size_t i = 0; i < topology.size(); ++i) {
+    const auto& t = topology[i];
+    const auto& g = geometry[i];
+    mesh.fracture_cells.push_back(
+        {t[0], {t[1], t[2]}, {t[3], t[4]}, Point(g[0], g[1]), g[2], Point(g[3], g[4]), Point(g[5], g[6])});
+  }
+
+  const auto positions = read_points(file, "mesh/fracture_points/positions");
+  const auto kinds = read_lists<2>(file, "mesh/fracture_points/kinds");
+  const Adjacency cells = read_adjacency(file, "mesh/fracture_points/cells");
+  if (kinds.size() != positions.size() || cells.size() != static_cast<int>(positions.size()))
+    throw Hdf5Error("array mesh/fracture_points/kinds has a wrong length");
+  for (int i = 0; i < cells.size(); ++i)
+    mesh.fracture_points.push_back(
+        {positions[i], {cells[i].begin(), cells[i].end()}, static_cast<FracturePoint::Kind>(kinds[i][0]), kinds[i][1]});
+}
+
+void require_consistent(const Mesh& mesh) {
+  const std::size_t cells = mesh.cell_nodes.size(), faces = mesh.face_nodes.size(), nodes = mesh.nodes.size();
+  const bool is_consistent =
+      mesh.cell_faces.size() == cells && mesh.cell_center.size() == cells && mesh.cell_area.size() == cells &&
+      mesh.cell_region.size() == cells && mesh.cell_rank.size() == cells && mesh.face_cells.size() == faces &&
+      mesh.face_center.size() == faces && mesh.face_length.size() == faces && mesh.face_normal.size() == faces &&
+      mesh.face_side.size() == faces && mesh.face_fracture_cell.size() == faces &&
+      mesh.node_cells.size() == static_cast<int>(nodes) && mesh.node_faces.size() == static_cast<int>(nodes);
+  if (!is_consistent) throw Hdf5Error("the arrays of the mesh contradict one another");
+}
+
+}  // namespace
+
+void write_mesh(Hdf5Writer& file, const Mesh& mesh) {
+  file.doubles("mesh/nodes", values(mesh.nodes));
+  file.integers("mesh/cell_nodes", values(mesh.cell_nodes));
+  file.integers("mesh/cell_faces", values(mesh.cell_faces));
+  file.integers("mesh/face_nodes", values(mesh.face_nodes));
+  file.integers("mesh/face_cells", values(mesh.face_cells));
+  file.doubles("mesh/cell_center", values(mesh.cell_center));
+  file.doubles("mesh/cell_area", mesh.cell_area);
+  file.doubles("mesh/face_center", values(mesh.face_center));
+  file.doubles("mesh/face_length", mesh.face_length);
+  file.doubles("mesh/face_normal", values(mesh.face_normal));
+  write_adjacency(file, "mesh/node_cells", mesh.node_cells);
+  write_adjacency(file, "mesh/node_faces", mesh.node_faces);
+  file.integers("mesh/face_side", mesh.face_side);
+  write_names(file, "mesh/side_names", mesh.side_names);
+  file.integers("mesh/cell_region", mesh.cell_region);
+  write_names(file, "mesh/region_names", mesh.region_names);
+  file.integers("mesh/face_fracture_cell", mesh.face_fracture_cell);
+  file.integers("mesh/cell_rank", mesh.cell_rank);
+  write_fractures(file, mesh);
+}
+
+Mesh read_mesh(const Hdf5Reader& file) {
+  Mesh mesh;
+  mesh.version = next_mesh_version();
+  mesh.nodes = read_points(file, "mesh/nodes");
+  mesh.cell_nodes = read_lists<3>(file, "mesh/cell_nodes");
+  mesh.cell_faces = read_lists<3>(file, "mesh/cell_faces");
+  mesh.face_nodes = read_lists<2>(file, "mesh/face_nodes");
+  mesh.face_cells = read_lists<2>(file, "mesh/face_cells");
+  mesh.cell_center = read_points(file, "mesh/cell_center");
+  mesh.cell_area = file.doubles("mesh/cell_area");
+  mesh.face_center = read_points(file, "mesh/face_center");
+  mesh.face_length = file.doubles("mesh/face_length");
+  mesh.face_normal = read_points(file, "mesh/face_normal");
+  mesh.node_cells = read_adjacency(file, "mesh/node_cells");
+  mesh.node_faces = read_adjacency(file, "mesh/node_faces");
+  mesh.face_side = file.integers("mesh/face_side");
+  mesh.side_names = read_names(file, "mesh/side_names");
+  mesh.cell_region = file.integers("mesh/cell_region");
+  mesh.region_names = read_names(file, "mesh/region_names");
+  mesh.face_fracture_cell = file.integers("mesh/face_fracture_cell");
+  mesh.cell_rank = file.integers("mesh/cell_rank");
+  read_fractures(file, mesh);
+  require_consistent(mesh);
+  return mesh;
+}
+
+bool is_same_mesh(const Mesh& a, const Mesh& b) {
+  const auto is_same_cell = [](const FractureCell& x, const FractureCell& y) {
+    return x.fracture == y.fracture && x.faces == y.faces && x.points == y.points;
+  };
+  return a.nodes == b.nodes && a.cell_nodes == b.cell_nodes && a.face_nodes == b.face_nodes &&
+         std::equal(a.fracture_cells.begin(), a.fracture_cells.end(), b.fracture_cells.begin(), b.fracture_cells.end(),
+                    is_same_cell);
+}
+
+}  // namespace sprekk

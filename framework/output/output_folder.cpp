@@ -1,0 +1,87 @@
+#include "framework/output/output_folder.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "framework/config/input_error.hpp"
+
+namespace sprekk {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_free(const fs::path& path) {
+  std::error_code error;
+  if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return true;
+  return fs::is_directory(path, error) && fs::is_empty(path, error) && !error;
+}
+
+std::string folder_name(const std::string& scene_name) {
+  std::string name = scene_name.empty() ? "scene" : scene_name;
+  std::replace_if(
+      name.begin(), name.end(),
+      [](unsigned char c) { return c < 128 && !std::isalnum(c) && c != '.' && c != '-' && c != '_'; }, '_');
+  if (name.front() == '.') name.front() = '_';  // neither hidden nor "..", which is another folder
+  return name;
+}
+
+void require_writable(const fs::path& folder) {
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError("the output folder " + folder.string() +
+                     " cannot be written to (permission denied) choose another one with -o");
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path wanted, Choice choice)
+    : wanted_(std::move(wanted)), path_(wanted_), choice_(choice) {}
+
+void OutputFolder::find_free() {
+  path_ = wanted_;
+  for (int number = 2; !is_free(path_); ++number) {
+    path_ = wanted_;
+    path_ += fmt::format("-{}", number);
+  }
+}
+
+OutputFolder OutputFolder::for_scene(const std::string& scene_name, const fs::path& parent) {
+  OutputFolder folder(parent / folder_name(scene_name), Choice::numbered);
+  folder.find_free();
+  return folder;
+}
+
+OutputFolder OutputFolder::given(const fs::path& path, Purpose purpose) {
+  std::error_code error;
+  if (fs::exists(path, error)) {
+    if (!fs::is_directory(path, error))
+      throw InputError("the output folder " + path.string() + " is a file (results need a folder) choose another name");
+    if (purpose == Purpose::new_run && !fs::is_empty(path, error))
+      throw InputError("the output folder " + path.string() +
+                       " is not empty (results are never overwritten) choose another one with -o, empty it, or "
+                       "continue the run that it holds with --restart");
+    require_writable(path);
+  }
+  return OutputFolder(path, Choice::fixed);
+}
+
+const fs::path& OutputFolder::create() {
+  if (created_) return path_;
+  std::error_code error;
+  if (choice_ == Choice::fixed) {
+    fs::create_directories(path_, error);
+  } else {
+    if (wanted_.has_parent_path()) fs::create_directories(wanted_.parent_path(), error);
+    // A folder counts as ours when we made it or found it empty; when another run was faster, look for the next one.
+    while (!error && !fs::create_directory(path_, error) && !error && !is_free(path_)) find_free();
+  }
+  if (error)
+    throw InputError("the output folder " + path_.string() + " cannot be made (" + error.message() +
+                     ") choose another one with -o");
+  require_writable(path_);
+  created_ = true;
+  return path_;
+}
+
+}  // namespace sprekk

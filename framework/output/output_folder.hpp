@@ -1,0 +1,40 @@
+// The folder that receives a run's results. Nothing is ever overwritten.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace sprekk {
+
+/// Usage: construct it while the scene is checked, call `create` when the run starts:
+///   OutputFolder folder = OutputFolder::for_scene("mandel");
+///   std::filesystem::path history = folder.create() / "history.csv";
+class OutputFolder {
+ public:
+  enum class Purpose { new_run, restart };
+
+  /// parent/<scene name>, or the first of <scene name>-2, -3, … that is missing or empty. Characters of the name that
+  /// do not belong into a folder's name become '_'.
+  static OutputFolder for_scene(const std::string& scene_name, const std::filesystem::path& parent = "results");
+
+  /// The folder that the user asks for (-o), or that holds the checkpoint of a restart. Throws InputError if it is not
+  /// a folder, or not writable, or not empty while a new run is to be written into it.
+  static OutputFolder given(const std::filesystem::path& path, Purpose purpose = Purpose::new_run);
+
+  /// Makes the folder with its parents; further calls do nothing. Throws InputError when it cannot be made.
+  const std::filesystem::path& create();
+
+  /// Where the results will go as things stand: another run may still take a default folder before `create`.
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  enum class Choice { numbered, fixed };
+  OutputFolder(std::filesystem::path wanted, Choice choice);
+  void find_free();
+
+  std::filesystem::path wanted_, path_;
+  Choice choice_;
+  bool created_ = false;
+};
+
+}  // namespace sprekk

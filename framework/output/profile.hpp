@@ -1,0 +1,67 @@
+// Where the time of a run went, and what was not done because it was not needed.
+//
+// Counting and timing are in this header alone, so that any part of the program may use them.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sprekk {
+
+class Profile {
+ public:
+  struct Entry {
+    std::string name;    ///< of the object: "pore: discretization", "rock+pore: factorization"
+    long calls = 0;      ///< how often it did its work
+    long reuses = 0;     ///< how often a kept result was used instead
+    long skips = 0;      ///< how often nothing was needed at all
+    double seconds = 0;  ///< own time, without that of objects timed inside: the shares add up
+  };
+
+  /// The entry of that name, made on first use; the reference stays valid.
+  Entry& at(std::string_view name) {
+    for (Entry& entry : entries_)
+      if (entry.name == name) return entry;
+    return entries_.emplace_back(Entry{std::string(name)});
+  }
+  void reused(std::string_view name) { ++at(name).reuses; }
+  void skipped(std::string_view name) { ++at(name).skips; }
+
+  const std::deque<Entry>& entries() const { return entries_; }  ///< in the order of first use
+
+  /// The end-of-run table: entries by falling seconds, a line for the rest, the total; shares of `total_seconds` in %.
+  std::string table(double total_seconds) const;
+
+ private:
+  friend class ScopedTimer;
+  std::deque<Entry> entries_;
+  std::vector<double> inner_seconds_;  ///< a running timer each: the time spent in timers inside
+};
+
+/// Counts one call and times it until the end of the scope. Timers nest.
+class ScopedTimer {
+ public:
+  ScopedTimer(Profile& profile, std::string_view name)
+      : profile_(profile), entry_(profile.at(name)), start_(std::chrono::steady_clock::now()) {
+    ++entry_.calls;
+    profile_.inner_seconds_.push_back(0);
+  }
+  ~ScopedTimer() {
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    entry_.seconds += elapsed - profile_.inner_seconds_.back();
+    profile_.inner_seconds_.pop_back();
+    if (!profile_.inner_seconds_.empty()) profile_.inner_seconds_.back() += elapsed;
+  }
+  ScopedTimer(const ScopedTimer&) = delete;
+  ScopedTimer& operator=(const ScopedTimer&) = delete;
+
+ private:
+  Profile& profile_;
+  Profile::Entry& entry_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace sprekk

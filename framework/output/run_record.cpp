@@ -1,0 +1,64 @@
+#include "framework/output/run_record.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "framework/output/atomic_file.hpp"
+#include "framework/output/build_info.hpp"
+
+namespace sprekk {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json scene_json(const RunRecord& record) {
+  Json parameters = Json::object();
+  for (const RunRecord::Parameter& parameter : record.parameters)
+    parameters[parameter.path] = {{"value", parameter.value}, {"origin", parameter.origin}};
+  return {{"name", record.scene_name},
+          {"files", record.scene_files},
+          {"parameters", parameters},
+          {"text", record.scene_text}};
+}
+
+Json program_json(const RunRecord& record) {
+  const BuildInfo& build = build_info();
+  return {{"version", build.version},       {"git_commit", build.git_commit}, {"compiler", build.compiler},
+          {"build_type", build.build_type}, {"libraries", build.libraries},   {"blas", record.blas}};
+}
+
+Json profile_json(const Profile& profile) {
+  Json objects = Json::array();
+  for (const Profile::Entry& entry : profile.entries())
+    objects.push_back({{"name", entry.name},
+                       {"calls", entry.calls},
+                       {"reuses", entry.reuses},
+                       {"skips", entry.skips},
+                       {"seconds", entry.seconds}});
+  return objects;
+}
+
+}  // namespace
+
+std::string RunRecord::json(const Profile& profile) const {
+  const Host machine = host();
+  const Json whole = {
+      {"exit", {{"code", exit_code}, {"reason", exit_reason}}},
+      {"results", results},
+      {"warnings", warnings},
+      {"counters", counters},
+      {"seconds", seconds},
+      {"timings", timings},
+      {"profile", profile_json(profile)},
+      {"program", program_json(*this)},
+      {"host", {{"cores", machine.cores}, {"processor", machine.processor}, {"processes", processes}}},
+      {"scene", scene_json(*this)},
+  };
+  // Text from outside may hold bytes that are no UTF-8; they are replaced, since the record must never fail to appear.
+  return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void RunRecord::write(const std::filesystem::path& file, const Profile& profile) const {
+  write_atomically(file, json(profile));
+}
+
+}  // namespace sprekk

@@ -1,0 +1,44 @@
+// run.json: what was run, with what, how it went, and what came out.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "framework/output/profile.hpp"
+
+namespace sprekk {
+
+/// Filled in while a run goes on, written when it starts and when it ends, however it ends.
+struct RunRecord {
+  /// A parameter of the scene with every default filled in.
+  struct Parameter {
+    std::string path;    ///< "components.pore.permeability"
+    std::string value;   ///< as text
+    std::string origin;  ///< "scene.yaml:12:5", "--set" or "default"
+  };
+
+  std::string scene_name;
+  std::vector<std::string> scene_files;
+  std::string scene_text;  ///< the merged scene as YAML
+  std::vector<Parameter> parameters;
+  std::string blas;
+  int processes = 1;
+
+  std::string exit_reason = "running";    ///< "done", or why the run ended early
+  int exit_code = -1;                     ///< of the command line; -1 while running
+  double seconds = 0;                     ///< wall time
+  std::map<std::string, double> timings;  ///< further wall times (s): "mesh", "output"
+  std::map<std::string, long> counters;   ///< "steps accepted", "steps cut", "newton iterations"
+  std::map<std::string, double> results;  ///< "quantity[unit]": the result figures
+  std::vector<std::string> warnings;
+
+  /// The record as JSON text, with the versions of the program and its libraries, the kind of host, and the profile.
+  /// Numbers that are not finite become null, as JSON has none.
+  std::string json(const Profile& profile) const;
+  /// Replaces `file` at once. Throws std::runtime_error when it cannot be written.
+  void write(const std::filesystem::path& file, const Profile& profile) const;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,41 @@
+// Tables that grow row by row: history.csv (a row per accepted step) and coupling.csv (a row per iteration).
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sprekk {
+
+/// A CSV file whose first column is time[s]. Numbers are written with as many digits as give the same bits back (17 at
+/// most). Every row is flushed: what is in the file survives a crash.
+class TableWriter {
+ public:
+  using Value = std::variant<double, std::string>;
+  using Row = std::vector<std::pair<std::string, Value>>;  ///< column "quantity[unit]", value
+
+  /// A new table; the file appears with the first row, which also fixes the columns.
+  explicit TableWriter(std::filesystem::path file) : file_(std::move(file)) {}
+
+  /// Continues the table in `file`: rows later than `time` (s), and a last row that was cut short, are removed; a
+  /// missing file is a new table. Throws InputError if the file is not a table with a time column.
+  static TableWriter continued(std::filesystem::path file, double time);
+
+  /// Columns that the row lacks stay empty. Throws std::logic_error for a column that the table does not have,
+  /// std::runtime_error when the file cannot be written.
+  void append(double time, const Row& row);
+
+  const std::vector<std::string>& columns() const { return columns_; }
+
+ private:
+  void open();
+
+  std::filesystem::path file_;
+  std::ofstream stream_;
+  std::vector<std::string> columns_;  ///< without time[s]; empty until there is a row
+};
+
+}  // namespace sprekk

@@ -1,0 +1,19 @@
+# What framework/output/build_info.hpp reports, written into a header at every configuration.
+find_package(Git QUIET)
+set(SPREKK_GIT_COMMIT "")
+if(GIT_FOUND)
+  execute_process(COMMAND ${GIT_EXECUTABLE} rev-parse --short=12 HEAD WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
+                  OUTPUT_VARIABLE SPREKK_GIT_COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endif()
+
+set(entries)
+foreach(library VTK HDF5 Eigen3 Trilinos yaml-cpp fmt nlohmann_json CLI11 MUPARSER)
+  if(DEFINED ${library}_VERSION)
+    list(APPEND entries "{\"${library}\", \"${${library}_VERSION}\"}")
+  endif()
+endforeach()
+list(JOIN entries ", " SPREKK_LIBRARY_VERSIONS)
+
+configure_file(${CMAKE_SOURCE_DIR}/framework/output/build_info_values.hpp.in
+               ${CMAKE_BINARY_DIR}/generated/framework/output/build_info_values.hpp @ONLY)
+target_include_directories(sprekk_output PRIVATE ${CMAKE_BINARY_DIR}/generated)
