@@ -1,0 +1,15 @@
+// What every discretization of the flux asks of its arguments.
+#pragma once
+
+#include <vector>
+
+#include "components/matrix_flow/flux_operators.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// Throws std::invalid_argument unless there is one mobility a cell, one condition a face, `none` on the inner faces
+/// only, and one flag a node or no flags.
+void check_conditions(const Mesh& mesh, const std::vector<Tensor>& mobility,
+                      const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes);
+
+}  // namespace sprekk::matrix_flow

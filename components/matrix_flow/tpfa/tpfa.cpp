@@ -1,0 +1,58 @@
+#include "components/matrix_flow/tpfa/tpfa.hpp"
+
+#include "components/matrix_flow/check_conditions.hpp"
+
+namespace sprekk::matrix_flow {
+
+namespace {
+
+/// Between the centre of the cell and that of its face, per pressure difference. This form equals the usual
+/// |f| n·K d / |d|^2 where the latter is consistent (K n parallel to d), and is positive for every tensor.
+double half_transmissibility(const Mesh& mesh, const Tensor& mobility, int cell, int face) {
+  const Point& normal = mesh.face_normal[face];
+  const double distance = std::abs(normal.dot(mesh.face_center[face] - mesh.cell_center[cell]));
+  return mesh.face_length[face] * normal.dot(mobility * normal) / distance;
+}
+
+}  // namespace
+
+FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
+                              const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
+  check_conditions(mesh, mobility, conditions, nodes);
+  std::vector<Triplet> flux_cell, flux_boundary, trace_cell, trace_boundary;
+  flux_cell.reserve(2 * mesh.face_count());
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    const auto [a, b] = mesh.face_nodes[face];
+    if (!nodes.empty() && !(nodes[a] && nodes[b])) continue;
+    const auto [cell, other] = mesh.face_cells[face];
+    const double half = half_transmissibility(mesh, mobility[cell], cell, face);
+    switch (conditions[face]) {
+      case FlowCondition::none: {
+        const double other_half = half_transmissibility(mesh, mobility[other], other, face);
+        const double whole = half / (1 + half / other_half);
+        flux_cell.emplace_back(face, cell, whole);
+        flux_cell.emplace_back(face, other, -whole);
+        break;
+      }
+      case FlowCondition::pressure:
+        flux_cell.emplace_back(face, cell, half);
+        flux_boundary.emplace_back(face, face, -half);
+        trace_boundary.emplace_back(face, face, 1);
+        break;
+      case FlowCondition::flux:
+        flux_boundary.emplace_back(face, face, 1);
+        trace_cell.emplace_back(face, cell, 1);
+        trace_boundary.emplace_back(face, face, -1 / half);
+        break;
+    }
+  }
+  const auto assemble = [&](const std::vector<Triplet>& entries, int columns) {
+    SparseMatrix matrix(mesh.face_count(), columns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  };
+  return {assemble(flux_cell, mesh.cell_count()), assemble(flux_boundary, mesh.face_count()),
+          assemble(trace_cell, mesh.cell_count()), assemble(trace_boundary, mesh.face_count())};
+}
+
+}  // namespace sprekk::matrix_flow

@@ -1,0 +1,160 @@
+#include "components/poromechanics/mpsa/local_stresses.hpp"
+
+#include <Eigen/SVD>
+#include <stdexcept>
+#include <string>
+
+#include "framework/linear/eliminate.hpp"
+
+namespace sprekk::poromechanics {
+
+namespace {
+
+/// target += factor * source, both of `count` values.
+inline void add_scaled(double* target, double factor, const double* source, int count) {
+  for (int j = 0; j < count; ++j) target[j] += factor * source[j];
+}
+
+}  // namespace
+
+void LocalStresses::solve(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
+                          const std::vector<FaceConditions>& conditions) {
+  subcells_ = region.subcell_count();
+  subfaces_ = region.subface_count();
+  int outer = 0;
+  for (int f = 0; f < subfaces_; ++f) outer += !region.is_inner(f);
+  columns_ = 3 * subcells_ + 2 * outer;
+  width_ = 2 * subfaces_ + columns_;
+  undetermined_.clear();
+
+  region_area_ = 0;
+  split_.resize(subcells_);
+  for (int k = 0; k < subcells_; ++k) {
+    region_area_ += region.subcells[k].area;
+    split_[k] = split_stiffness(stiffness[region.subcells[k].cell]);
+  }
+  mean_weight_.assign(subfaces_, Point::Zero());
+  for (const Subcell& subcell : region.subcells)
+    for (int i = 0; i < 2; ++i) mean_weight_[subcell.subfaces[i]] += subcell.area / region_area_ * subcell.gradient[i];
+
+  assemble(region, conditions);
+  if (eliminate(system_.data(), 2 * subfaces_, width_) < 1e-12) {
+    if (subcells_ > 1)
+      throw std::runtime_error("MPSA: singular local problem at a node of cell " +
+                               std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
+    assemble(region, conditions);
+    solve_with_least_norm();
+  }
+  find_gradients(region);
+  find_forces(region, stiffness);
+}
+
+void LocalStresses::assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions) {
+  system_.assign(2 * subfaces_ * width_, 0);
+  const int u_columns = 2 * subfaces_, s_columns = u_columns + 2 * subcells_;
+  int b_column = s_columns + subcells_;
+  for (int f = 0; f < subfaces_; ++f) {
+    double* rows[2] = {system_.data() + 2 * f * width_, system_.data() + (2 * f + 1) * width_};
+    // The forces out of the neighbours add up to zero, or to the half of what is prescribed for the face.
+    ForceMap mean = ForceMap::Zero();
+    for (const int k : region.neighbours[f]) {
+      if (k == none) continue;
+      const Subcell& subcell = region.subcells[k];
+      const Point& half_face = subcell.half_face[region.place(f, k)];
+      const ForceMap own = force_map(split_[k].own, half_face);
+      mean += force_map(split_[k].mean, half_face);
+      for (int c = 0; c < 2; ++c) {
+        for (int i = 0; i < 2; ++i)
+          for (int e = 0; e < 2; ++e) {
+            const double weight = own(c, 2 * e) * subcell.gradient[i][0] + own(c, 2 * e + 1) * subcell.gradient[i][1];
+            rows[c][2 * subcell.subfaces[i] + e] += weight;
+            rows[c][u_columns + 2 * k + e] += weight;
+          }
+        rows[c][s_columns + k] += half_face[c];
+      }
+    }
+    // In an even medium the shares of the mean gradient cancel between the neighbours.
+    if (!mean.isZero(0)) {
+      for (int c = 0; c < 2; ++c)
+        for (int e = 0; e < 2; ++e) {
+          const Point share(mean(c, 2 * e), mean(c, 2 * e + 1));
+          for (int g = 0; g < subfaces_; ++g) rows[c][2 * g + e] += share.dot(mean_weight_[g]);
+          for (int k = 0; k < subcells_; ++k) {
+            const Subcell& subcell = region.subcells[k];
+            rows[c][u_columns + 2 * k + e] +=
+                subcell.area / region_area_ * share.dot(subcell.gradient[0] + subcell.gradient[1]);
+          }
+        }
+    }
+    if (region.is_inner(f)) continue;
+    for (int c = 0; c < 2; ++c, ++b_column) {
+      if (conditions[region.faces[f]][c] == MechanicalCondition::displacement) {
+        std::fill_n(rows[c], width_, 0.0);
+        rows[c][2 * f + c] = rows[c][b_column] = 1;
+      } else {
+        rows[c][b_column] = 0.5;
+      }
+    }
+  }
+}
+
+void LocalStresses::solve_with_least_norm() {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const int n = 2 * subfaces_;
+  Eigen::Map<RowMajor> system(system_.data(), n, width_);
+  for (int i = 0; i < n; ++i) system.row(i) /= system.row(i).head(n).cwiseAbs().maxCoeff();
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.leftCols(n), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(1e-10);
+  system.rightCols(columns_) = svd.solve(system.rightCols(columns_)).eval();
+  undetermined_.assign(n, 0);
+  for (int i = 0; i < n; ++i) undetermined_[i] = svd.matrixV().row(i).tail(n - svd.rank()).norm() > 1e-8;
+}
+
+void LocalStresses::find_gradients(const InteractionRegion& region) {
+  gradients_.assign(4 * (subcells_ + 1) * columns_, 0);
+  volumes_.assign(subcells_ * columns_, 0);
+  double* mean = gradients_.data() + 4 * subcells_ * columns_;
+  for (int k = 0; k < subcells_; ++k) {
+    const Subcell& subcell = region.subcells[k];
+    const double share = subcell.area / region_area_;
+    for (int c = 0; c < 2; ++c)
+      for (int d = 0; d < 2; ++d) {
+        double* gradient = gradients_.data() + (4 * k + 2 * c + d) * columns_;
+        for (int i = 0; i < 2; ++i)
+          add_scaled(gradient, subcell.gradient[i][d], displacement(subcell.subfaces[i], c), columns_);
+        gradient[2 * k + c] -= subcell.gradient[0][d] + subcell.gradient[1][d];
+        add_scaled(mean + (2 * c + d) * columns_, share, gradient, columns_);
+      }
+    const double* gradient = gradients_.data() + 4 * k * columns_;
+    double* volume = volumes_.data() + k * columns_;
+    add_scaled(volume, subcell.area, gradient, columns_);
+    add_scaled(volume, subcell.area, gradient + 3 * columns_, columns_);
+  }
+}
+
+void LocalStresses::find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness) {
+  forces_.assign(2 * subfaces_ * columns_, 0);
+  const double* mean_gradient = gradients_.data() + 4 * subcells_ * columns_;
+  for (int f = 0; f < subfaces_; ++f) {
+    // Of the two equal expressions for the force, the one of the softer side suffers less from cancellation.
+    int side = 0;
+    if (region.is_inner(f)) {
+      const auto trace = [&](int s) { return stiffness[region.subcells[region.neighbours[f][s]].cell].trace(); };
+      side = trace(1) < trace(0) ? 1 : 0;
+    }
+    const int k = region.neighbours[f][side];
+    const Point half_face = (side == 0 ? 1.0 : -1.0) * region.subcells[k].half_face[region.place(f, k)];
+    const ForceMap own = force_map(split_[k].own, half_face), mean = force_map(split_[k].mean, half_face);
+    const double* gradient = gradients_.data() + 4 * k * columns_;
+    for (int c = 0; c < 2; ++c) {
+      double* force = forces_.data() + (2 * f + c) * columns_;
+      for (int e = 0; e < 4; ++e) {
+        add_scaled(force, own(c, e), gradient + e * columns_, columns_);
+        add_scaled(force, mean(c, e), mean_gradient + e * columns_, columns_);
+      }
+      force[stress_column() + k] -= half_face[c];
+    }
+  }
+}
+
+}  // namespace sprekk::poromechanics

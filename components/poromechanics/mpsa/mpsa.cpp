@@ -1,0 +1,135 @@
+#include "components/poromechanics/mpsa/mpsa.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "components/poromechanics/mpsa/local_stresses.hpp"
+#include "framework/mesh/interaction_region.hpp"
+#include "framework/mesh/node_stencil.hpp"
+
+namespace sprekk::poromechanics {
+
+namespace {
+
+void check_arguments(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
+                     const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes) {
+  if (static_cast<int>(stiffness.size()) != mesh.cell_count())
+    throw std::invalid_argument("MPSA: one stiffness a cell is needed");
+  if (static_cast<int>(conditions.size()) != mesh.face_count())
+    throw std::invalid_argument("MPSA: one pair of conditions a face is needed");
+  if (!nodes.empty() && static_cast<int>(nodes.size()) != mesh.node_count())
+    throw std::invalid_argument("MPSA: one flag a node is needed, or none at all");
+  for (int face = 0; face < mesh.face_count(); ++face)
+    for (const MechanicalCondition condition : conditions[face])
+      if ((condition == MechanicalCondition::none) != (mesh.face_cells[face][1] != none))
+        throw std::invalid_argument("MPSA: face " + std::to_string(face) +
+                                    (condition == MechanicalCondition::none ? " has one cell and lacks a condition"
+                                                                            : " has two cells and a condition"));
+}
+
+int other_end(const Mesh& mesh, int face, int node) {
+  return mesh.face_nodes[face][mesh.face_nodes[face][0] == node ? 1 : 0];
+}
+
+/// The three matrices of one quantity: by displacement, isotropic stress and boundary value.
+struct Coefficients {
+  NodeStencil cells, outer;
+  StencilMatrix displacement, stress, boundary;
+
+  Coefficients(const Mesh& mesh, const Adjacency& row_nodes, const Adjacency& outer_faces, int components)
+      : cells(row_nodes, mesh.node_cells),
+        outer(row_nodes, outer_faces),
+        displacement(cells, components, mesh.cell_count(), 2),
+        stress(cells, components, mesh.cell_count(), 1),
+        boundary(outer, components, mesh.face_count(), 2) {}
+
+  void find_slots(int entity, int node) {
+    cells.find_slots(entity, node, cell_slots_);
+    outer.find_slots(entity, node, outer_slots_);
+  }
+  /// To be called for the entity and node that find_slots was called for last.
+  void add(int entity, int component, const double* values, const LocalStresses& local, double factor) {
+    displacement.add(entity, component, cell_slots_, values, factor);
+    stress.add(entity, component, cell_slots_, values + local.stress_column(), factor);
+    boundary.add(entity, component, outer_slots_, values + local.boundary_column(), factor);
+  }
+  void add_boundary(int entity, int component, int outer_index, double value) {
+    boundary.add(entity, component, outer_slots_[outer_index], component, value);
+  }
+  void scale(int entity, int component, double factor) {
+    displacement.scale(entity, component, factor);
+    stress.scale(entity, component, factor);
+    boundary.scale(entity, component, factor);
+  }
+
+ private:
+  std::vector<int> cell_slots_, outer_slots_;
+};
+
+}  // namespace
+
+Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus) {
+  Stiffness stiffness = Stiffness::Zero();
+  stiffness.topLeftCorner<2, 2>().setConstant(lame_lambda);
+  stiffness.diagonal() += shear_modulus * Eigen::Vector3d(2, 2, 1);
+  return stiffness;
+}
+
+StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
+                                const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes) {
+  check_arguments(mesh, stiffness, conditions, nodes);
+  const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
+  const auto any = [&](int, int node) { return is_wanted(node); };
+  const Adjacency outer_faces = outer_faces_of_nodes(mesh);
+  Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), outer_faces, 2);
+  Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), outer_faces, 1);
+  Coefficients trace(
+      mesh,
+      contributing_nodes(mesh.face_nodes,
+                         [&](int face, int node) { return mesh.face_cells[face][1] == none && is_wanted(node); }),
+      outer_faces, 2);
+
+  InteractionRegion region;
+  LocalStresses local;
+  // Displacements of faces that only the half at the other end tells. A triangle on its own, cut out by fractures, has
+  // no such end: its rotation is arbitrary, and the least one is taken.
+  const auto is_shared = [&](int node) { return mesh.node_cells[node].size() > 1; };
+  std::vector<std::array<int, 2>> half_known;
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    if (!is_wanted(node)) continue;
+    region.assign(mesh, node);
+    local.solve(region, stiffness, conditions);
+    int outer_index = 0;
+    for (int f = 0; f < region.subface_count(); ++f) {
+      const int face = region.faces[f];
+      force.find_slots(face, node);
+      for (int c = 0; c < 2; ++c) {
+        // What is prescribed holds to the last digit, whatever the local problem makes of it.
+        if (conditions[face][c] == MechanicalCondition::traction)
+          force.add_boundary(face, c, outer_index, 0.5);
+        else
+          force.add(face, c, local.force(f, c), local, 1);
+      }
+      if (region.is_inner(f)) continue;
+      ++outer_index;
+      trace.find_slots(face, node);
+      for (int c = 0; c < 2; ++c) {
+        if (local.is_determined(f, c) || !is_shared(other_end(mesh, face, node)))
+          trace.add(face, c, local.displacement(f, c), local, 0.5);
+        else
+          half_known.push_back({face, c});
+      }
+    }
+    for (int k = 0; k < region.subcell_count(); ++k) {
+      const int cell = region.subcells[k].cell;
+      volume.find_slots(cell, node);
+      volume.add(cell, 0, local.volume_change(k), local, 1);
+    }
+  }
+  for (const auto& [face, component] : half_known) trace.scale(face, component, 2);
+  return {force.displacement.take(),  force.stress.take(),  force.boundary.take(),
+          trace.displacement.take(),  trace.stress.take(),  trace.boundary.take(),
+          volume.displacement.take(), volume.stress.take(), volume.boundary.take()};
+}
+
+}  // namespace sprekk::poromechanics
