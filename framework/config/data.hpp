@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/types.hpp"
@@ -18,25 +19,36 @@ struct Place {
   double t = 0;
 };
 
-/// A scalar in SI units: a number, an expression of x, y, t, a value per region, or a table (CSV).
+/// A scalar in SI units: a number, an expression of x, y, t, a value per region, a table (CSV), or windows in time.
+/// `at` throws std::runtime_error when the function has no finite value there or leaves the parameter's range.
 class Data {
  public:
   Data(double constant = 0);  // NOLINT: a number is a datum
   using Function = std::function<double(const Place&)>;
-  Data(Function function, bool depends_on_time, bool depends_on_space);
+  /// `switch_times` (s): where the function jumps in time; kept sorted, each once.
+  Data(Function function, bool depends_on_time, bool depends_on_space, std::vector<double> switch_times = {});
 
   double at(const Place& place) const { return function_ ? function_(place) : constant_; }
   bool is_constant() const { return !function_; }
   bool is_zero() const { return !function_ && constant_ == 0; }
   bool depends_on_time() const { return depends_on_time_; }
   bool depends_on_space() const { return depends_on_space_; }
+  /// The ends of the time windows (s), sorted, for the time stepper to hit exactly. A window [from, to) has its value
+  /// at `from` and zero at `to`: the value at a switch time is the one that holds right after it. A step that ends at
+  /// a switch time should therefore take its data from before the end (its midpoint, say), as the data do not
+  /// jump inside the step. Jumps hidden in an expression, if(t < 6*h, …), are not among them.
+  const std::vector<double>& switch_times() const { return switch_times_; }
 
  private:
   double constant_ = 0;
   Function function_;
   bool depends_on_time_ = false;
   bool depends_on_space_ = false;
+  std::vector<double> switch_times_;
 };
+
+/// The switch times of several data, sorted, each once.
+std::vector<double> merged_switch_times(const std::vector<const Data*>& data);
 
 /// A vector (x, y) of data.
 struct VectorData {
@@ -44,6 +56,7 @@ struct VectorData {
   Point at(const Place& place) const { return {component[0].at(place), component[1].at(place)}; }
   bool is_zero() const { return component[0].is_zero() && component[1].is_zero(); }
   bool depends_on_time() const { return component[0].depends_on_time() || component[1].depends_on_time(); }
+  std::vector<double> switch_times() const { return merged_switch_times({&component[0], &component[1]}); }
 };
 
 /// A symmetric tensor (xx, yy, xy) of data: written as a scalar (isotropic), {xx:, yy:, xy:}, or
@@ -60,6 +73,7 @@ struct TensorData {
   }
   bool is_zero() const { return xx.is_zero() && yy.is_zero() && xy.is_zero(); }
   bool depends_on_time() const { return xx.depends_on_time() || yy.depends_on_time() || xy.depends_on_time(); }
+  std::vector<double> switch_times() const { return merged_switch_times({&xx, &yy, &xy}); }
 };
 
 }  // namespace sprekk

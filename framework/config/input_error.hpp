@@ -12,7 +12,7 @@ struct Origin {
   std::string source;  ///< a file's name as the user gave it, or "--set"
   int line = 0;
   int column = 0;
-  std::string text() const;  ///< "scene.yaml:12:5"
+  std::string text() const;  ///< "scene.yaml:12:5", or as much of it as is known
 };
 
 /// Wrong input: the command line answers with exit code 2 and has written nothing.
@@ -21,10 +21,23 @@ class InputError : public std::runtime_error {
  public:
   InputError(const Origin& where, const std::string& problem, const std::string& why = "",
              const std::string& suggestion = "");
-  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  explicit InputError(const std::string& message);
+  /// Several mistakes, reported together: what() has one a line, the first ten of them.
+  explicit InputError(const std::vector<std::string>& problems);
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  std::vector<std::string> problems_;
 };
 
-/// The nearest of `names` to `word` by edit distance, or "" when none is near enough to be meant.
+/// The user's text in single quotes, on one line, shortened when it is very long.
+std::string quoted(const std::string& text);
+
+/// "a, b, c", shortened when there are very many.
+std::string listed(const std::vector<std::string>& names);
+
+/// The nearest of `names` to `word` by edit distance, or the only one that begins with `word`, or "" when none is near
+/// enough to be meant. Upper and lower case count as nearly the same.
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
 
 /// "unknown X 'wrod' (it is not one of: a, b, word) did you mean 'word'?" for any kind of name.

@@ -5,7 +5,8 @@
 //   Options options;
 //   Spec spec("matrix_flow/mpfa", "Darcy flow in the matrix, multi-point flux approximation.");
 //   spec.data("permeability", options.permeability,
-//             {.unit = "m^2", .range = positive(), .doc = "Permeability of the rock.", .source = "Eq. 6", .material = true});
+//             {.unit = "m^2", .range = positive(), .doc = "Permeability of the rock.", .source = "Eq. 6", .material =
+//             true});
 //   spec.read(node, context);
 #pragma once
 
@@ -33,38 +34,40 @@ struct Range {
 };
 Range positive();
 Range non_negative();
-Range between(double low, double high);            ///< both ends allowed
-Range strictly_between(double low, double high);   ///< neither end allowed
+Range between(double low, double high);           ///< both ends allowed
+Range strictly_between(double low, double high);  ///< neither end allowed
 
 /// What is said about a parameter besides its name and its target.
 struct About {
-  std::string unit = "";     ///< SI unit, "" for a plain number; the scene may use any unit of this dimension
+  std::string unit = "";  ///< SI unit, "" for a plain number; the scene may use any unit of this dimension
   Range range = {};
-  std::string doc;           ///< one sentence
-  std::string source = "";   ///< equation or paper
-  bool required = false;     ///< else the target's value at declaration is the default
-  bool material = false;     ///< may also stand in the scene's `materials:` section, shared by all components
-  /// A pattern for the value of tensors and data where a number per region or a table is not meaningful.
-  bool constant_only = false;
+  std::string doc = "";        ///< one sentence
+  std::string source = "";     ///< equation or paper
+  bool required = false;       ///< else the target's value at declaration is the default
+  bool material = false;       ///< may also stand in the scene's `materials:` section, shared by all components
+  bool constant_only = false;  ///< data that cannot be a function, a table or a value per region
 };
 
 /// What a scene's names mean, gathered before the components are read.
 struct ReadContext {
-  const Node* materials = nullptr;         ///< the `materials:` map or nullptr
-  std::vector<std::string> region_names;   ///< for values per region, by index
-  std::string folder = ".";                ///< of the scene file: tables are found relative to it
-  /// Records "path = value (origin)" of every parameter read or defaulted, for `show`; may be null.
+  const Node* materials = nullptr;        ///< the `materials:` map or nullptr
+  std::vector<std::string> region_names;  ///< for values per region, by index
+  std::string folder = ".";               ///< of the scene file: tables are found relative to it
+  /// Records path, value (YAML on one line) and origin ("scene.yaml:3:4" or "default") of every parameter read or
+  /// defaulted, for `show`; may be null.
   std::function<void(const std::string& path, const std::string& value, const std::string& origin)> record;
-  /// Receives every key of `materials:` that some spec has used.
+  /// Receives every key of `materials:` that some spec knows, also where the component's own value wins; may be null.
   std::function<void(const std::string& key)> material_used;
 };
 
 /// One declared parameter, as `explain` and the schema see it.
 struct Parameter {
   std::string name;
-  std::string kind;                    ///< "quantity", "data", "vector", "tensor", "integer", "flag", "text", "choice", "list", "section", "named sections"
+  /// "quantity", "data", "vector", "tensor", "point", "points", "quantities", "integer", "flag", "text", "texts",
+  /// "choice", "section", "named sections", "list of sections", "custom"
+  std::string kind;
   About about;
-  std::string default_text;            ///< "" when there is none
+  std::string default_text;                                  ///< "" when there is none
   std::vector<std::pair<std::string, std::string>> choices;  ///< value, doc
   std::shared_ptr<const class Spec> inner;                   ///< of sections
 };
@@ -74,6 +77,16 @@ class Spec {
   Spec(std::string name, std::string doc);
 
   // Each target must outlive `read`. An std::optional target is absent unless it is given.
+  // A name declared twice, a unit that is not SI or a default out of range is a std::logic_error.
+  //
+  // What a scene may write for data (all with units; see parse_data in units.hpp):
+  //   20 MPa                                              a number
+  //   (1 + 0.1*sin(pi*x)) MPa                             an expression of x, y (m) and t (s)
+  //   {regions: {granite: 1e-18 m^2, default: 1e-20 m^2}} a datum for each region of the mesh
+  //   {table: p.csv, column: p, of: t, unit: MPa}         linear between the rows, constant outside
+  //   {value: 5e-9 m^2/s, from: 6 h, to: 21 h}            zero outside [from, to); a list of these adds up
+  // for vectors [x, y]; for tensors one datum (isotropic), {xx:, yy:, xy:} or {along:, across:, angle:}, also by
+  // region.
   Spec& quantity(const std::string& name, double& target, About about);
   Spec& quantity(const std::string& name, std::optional<double>& target, About about);
   Spec& data(const std::string& name, Data& target, About about);
@@ -82,18 +95,19 @@ class Spec {
   Spec& vector(const std::string& name, std::optional<VectorData>& target, About about);
   Spec& tensor(const std::string& name, TensorData& target, About about);
   Spec& tensor(const std::string& name, std::optional<TensorData>& target, About about);
-  Spec& point(const std::string& name, Point& target, About about);                      ///< [x, y]
+  Spec& point(const std::string& name, Point& target, About about);  ///< [x, y]
   Spec& point(const std::string& name, std::optional<Point>& target, About about);
-  Spec& points(const std::string& name, std::vector<Point>& target, About about);        ///< [[x, y], …]
-  Spec& quantities(const std::string& name, std::vector<double>& target, About about);   ///< [a, b, …]
+  Spec& points(const std::string& name, std::vector<Point>& target, About about);       ///< [[x, y], …]
+  Spec& quantities(const std::string& name, std::vector<double>& target, About about);  ///< [a, b, …]
   Spec& integer(const std::string& name, int& target, About about);
   Spec& flag(const std::string& name, bool& target, About about);
   Spec& text(const std::string& name, std::string& target, About about);
   Spec& text(const std::string& name, std::optional<std::string>& target, About about);
-  Spec& texts(const std::string& name, std::vector<std::string>& target, About about);   ///< one text or a list of them
+  Spec& texts(const std::string& name, std::vector<std::string>& target, About about);  ///< one text or a list of them
   Spec& choice(const std::string& name, std::string& target,
                std::vector<std::pair<std::string, std::string>> values_and_docs, About about);
-  /// A nested map with a fixed set of keys. `given`, if not null, becomes whether the scene has it.
+  /// A nested map with a fixed set of keys. `given`, if not null, becomes whether the scene has it; then an absent
+  /// section is not read at all. Else its defaults are taken (unless it has required parameters).
   Spec& section(const std::string& name, Spec inner, About about, bool* given = nullptr);
   /// A nested map whose keys the user chooses (boundary sides, fractures, probes): for each entry `add` is called with
   /// the key and its origin; it returns the spec to read the entry with, whose targets `add` has created.
@@ -110,12 +124,14 @@ class Spec {
   Spec& ignore(const std::string& name);
 
   /// Reads all parameters into their targets. Unknown keys, missing required ones, wrong dimensions, values out of
-  /// range and malformed values throw InputError, with the origin, the reason, and the nearest or allowed names.
+  /// range and malformed values throw one InputError with all of them: the origin, the reason, and the nearest or
+  /// allowed names. A material is looked up in the component first, then in `context.materials`.
   void read(const Node& node, const ReadContext& context) const;
 
   const std::string& name() const { return name_; }
   const std::string& doc() const { return doc_; }
   const std::vector<Parameter>& parameters() const { return parameters_; }
+  bool has_required() const;  ///< whether an empty map would be refused for want of a parameter
 
  private:
   using Reader = std::function<void(const Node& value, const ReadContext& context)>;
@@ -123,7 +139,8 @@ class Spec {
 
   std::string name_, doc_;
   std::vector<Parameter> parameters_;
-  std::vector<Reader> readers_;  ///< one a parameter
+  std::vector<Reader> readers_;    ///< one a parameter
+  std::vector<Reader> on_absent_;  ///< one a parameter: what to do with a section's parent when the section is absent
   std::vector<std::function<void(const Node&)>> checks_;
   std::vector<std::string> ignored_;
 };

@@ -1,0 +1,99 @@
+#include "framework/config/node.hpp"
+
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <array>
+#include <sstream>
+
+#include "framework/config/node_paths.hpp"
+#include "framework/config/text_file.hpp"
+#include "framework/config/yaml_builder.hpp"
+
+namespace sprekk {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n') {
+      result += "\\n";
+    } else if (c == '\t') {
+      result += "\\t";
+    } else {
+      result += c;
+    }
+  }
+  return result + "\"";
+}
+
+}  // namespace
+
+const Node* Node::find(const std::string& key) const {
+  for (const Entry& entry : entries) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> Node::keys() const {
+  std::vector<std::string> result;
+  result.reserve(entries.size());
+  for (const Entry& entry : entries) result.push_back(entry.key);
+  return result;
+}
+
+std::string Node::text() const {
+  if (is_null()) return "~";
+  if (is_scalar()) return yaml_scalar(scalar);
+  std::string result = is_list() ? "[" : "{";
+  for (std::size_t i = 0; i < items.size(); ++i) result += (i == 0 ? "" : ", ") + items[i].text();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    result += (i == 0 ? "" : ", ") + yaml_scalar(entries[i].key) + ": " + entries[i].value.text();
+  }
+  return result + (is_list() ? "]" : "}");
+}
+
+std::string yaml_scalar(const std::string& text) {
+  static const std::string special_first = "-?:,[]{}#&*!|>'\"%@` ";
+  static const std::array<std::string, 5> nulls = {"", "~", "null", "Null", "NULL"};
+  for (const std::string& null : nulls) {
+    if (text == null) return escaped(text);
+  }
+  const bool is_negative_number = text.size() > 1 && text[0] == '-' && (std::isdigit(text[1]) != 0 || text[1] == '.');
+  const bool needs_quotes = (special_first.find(text[0]) != std::string::npos && !is_negative_number) ||
+                            text.find_first_of("\n\r\t,[]{}\"\\") != std::string::npos ||
+                            text.find(": ") != std::string::npos || text.find(" #") != std::string::npos ||
+                            text.back() == ' ' || text.back() == ':';
+  return needs_quotes ? escaped(text) : text;
+}
+
+void set_paths(Node& node, const std::string& path) {
+  node.path = path;
+  for (std::size_t i = 0; i < node.items.size(); ++i) set_paths(node.items[i], joined_path(path, std::to_string(i)));
+  for (Node::Entry& entry : node.entries) set_paths(entry.value, joined_path(path, entry.key));
+}
+
+Node parse_yaml(const std::string& text, const std::string& source_name) {
+  require_text(text, source_name);
+  std::istringstream stream(text);
+  YamlBuilder builder(source_name);
+  try {
+    YAML::Parser parser(stream);
+    parser.HandleNextDocument(builder);
+    YamlBuilder second(source_name);
+    if (parser.HandleNextDocument(second)) {
+      throw InputError(second.take_root().origin, "a second YAML document begins here", "a scene is one document",
+                       "remove the line '---' or use two files");
+    }
+  } catch (const YAML::Exception& error) {
+    throw InputError({source_name, error.mark.line + 1, error.mark.column + 1}, "malformed YAML", error.msg,
+                     "check indentation, colons, quotes and brackets here and just above");
+  }
+  Node root = builder.take_root();
+  set_paths(root, "");
+  return root;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,20 @@
+// Paths of nodes: "components.pore.permeability", "couplers.0.type".
+#pragma once
+
+#include <string>
+
+#include "framework/config/node.hpp"
+
+namespace sprekk {
+
+inline std::string joined_path(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
+/// "in 'a.b'", or "in the scene" at its top.
+inline std::string in_path(const std::string& path) { return path.empty() ? "in the scene" : "in " + quoted(path); }
+
+/// Gives the node and all below it their paths.
+void set_paths(Node& node, const std::string& path);
+
+}  // namespace sprekk
