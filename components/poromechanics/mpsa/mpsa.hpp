@@ -12,17 +12,19 @@ namespace sprekk::poromechanics {
 
 enum class MechanicalCondition { none, displacement, traction };  ///< of one direction of a face; walls are `traction`
 
-/// Plane-strain stiffness in Voigt form: (xx, yy, xy) stress = C · (xx, yy, 2 xy) strain, Pa. Symmetric positive definite.
+/// Plane-strain stiffness in Voigt form: (xx, yy, xy) stress = C · (xx, yy, 2 xy) strain, Pa. Symmetric positive
+/// definite.
 using Stiffness = Eigen::Matrix3d;
 Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus);
 
-/// With displacements u (x, y of every cell, m), isotropic stress s (one a cell, Pa; sigma = C : grad u - s I, so s is the
-/// Biot coefficient times the pressure) and boundary values b (x, y of every face: displacement of the face centre
-/// (m) on `displacement` directions, the force on the face, i.e. the traction sigma·n integrated over it (N/m), n out of
-/// the rock, on `traction` directions, ignored inside), with 2 f + c the index of direction c of face f:
-///   force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m): force_displacement u + force_stress s + force_boundary b
-///   displacement at the centre of boundary and wall faces (m):               trace_displacement u + trace_stress s + trace_boundary b
-///   volume change, div u integrated over every cell (m^2):                   volume_displacement u + volume_stress s + volume_boundary b
+/// With displacements u (x, y of every cell, m), isotropic stress s (one a cell, Pa; sigma = C : grad u - s I, so s is
+/// the Biot coefficient times the pressure) and boundary values b (x, y of every face: displacement of the face centre
+/// (m) on `displacement` directions, the force on the face, i.e. the traction sigma·n integrated over it (N/m), n out
+/// of the rock, on `traction` directions, ignored inside), with 2 f + c the index of direction c of face f:
+///   force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m): force_displacement u + force_stress s +
+///   force_boundary b displacement at the centre of boundary and wall faces (m):               trace_displacement u +
+///   trace_stress s + trace_boundary b volume change, div u integrated over every cell (m^2): volume_displacement u +
+///   volume_stress s + volume_boundary b
 struct StressOperators {
   SparseMatrix force_displacement, force_stress, force_boundary;     ///< 2 faces × (2 cells, cells, 2 faces)
   SparseMatrix trace_displacement, trace_stress, trace_boundary;     ///< 2 faces × …; rows of inner faces are empty
