@@ -42,7 +42,7 @@ add_library(trilinos_library INTERFACE)
 target_include_directories(trilinos_library SYSTEM INTERFACE ${Trilinos_INCLUDE_DIRS})
 target_link_libraries(trilinos_library INTERFACE ${Trilinos_LIBRARIES} mpi_library)
 
-find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
+find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc IOXML IOXMLParser)
 add_library(vtk_library INTERFACE)
 target_link_libraries(vtk_library INTERFACE ${VTK_LIBRARIES})
 
