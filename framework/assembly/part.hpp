@@ -8,6 +8,7 @@
 
 #include "framework/assembly/assembly.hpp"
 #include "framework/field/field_store.hpp"
+#include "framework/field/output_field.hpp"
 
 namespace sprekk {
 
@@ -28,14 +29,6 @@ struct Balance {
 struct Quantity {
   std::string name, unit;
   double value;
-};
-
-/// A field that exists for output only.
-struct OutputField {
-  std::string name, unit;
-  Location location;
-  int components;
-  Vector values;
 };
 
 /// The diagonals that stabilize a split (see SolveStep): residual(row) += diagonal · (value − value at the solve's start).

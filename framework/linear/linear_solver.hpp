@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/types.hpp"
@@ -12,13 +13,18 @@ namespace sprekk {
 /// What a preconditioner may know of one block of unknowns. The framework knows no physics: whoever declares the field
 /// says how its block is best smoothed.
 struct UnknownBlock {
-  std::string name;     ///< of the field, "rock.displacement"
-  int first = 0;        ///< first unknown
-  int entities = 0;     ///< cells, fracture cells, …; unknowns are entity-major: first + entity * components + c
+  std::string name;  ///< of the field, "rock.displacement"
+  int first = 0;     ///< first unknown
+  int entities = 0;  ///< cells, fracture cells, …; unknowns are entity-major: first + entity * components + c
   int components = 1;
-  enum class Kind { scalar_elliptic, elasticity, local } kind = Kind::local;  ///< local: few, on fractures; solve exactly
+  enum class Kind {
+    scalar_elliptic,
+    elasticity,
+    local
+  } kind = Kind::local;            ///< local: few, on fractures; solve exactly
   std::vector<Point> coordinates;  ///< one an entity, for rigid-body modes and partitioning
-  Vector stabilization;  ///< one an unknown: diagonal to add to the block in a preconditioner or split (fixed stress), or empty
+  Vector stabilization;  ///< one an unknown: diagonal to add to the block in a preconditioner or split (fixed stress),
+                         ///< or empty
 };
 
 /// A square system of which this process holds some rows. `rows` are global row numbers in ascending order; column
@@ -31,12 +37,45 @@ struct LinearSystem {
 
 struct LinearReport {
   bool solved = false;
-  std::string reason;         ///< why not
-  int iterations = 0;         ///< of an iterative method
+  std::string reason;            ///< why not
+  int iterations = 0;            ///< of an iterative method
   double relative_residual = 0;  ///< ||b - A x|| / ||b|| after the solve, in the solver's own (equilibrated) scaling
+
+  static LinearReport success() {
+    LinearReport report;
+    report.solved = true;
+    return report;
+  }
+  static LinearReport failure(std::string why) {
+    LinearReport report;
+    report.reason = std::move(why);
+    return report;
+  }
 };
 
-/// Keeps what can be kept between calls: a new matrix with the same pattern reuses the ordering.
+/// What a solver did and what it could skip, since it was made.
+struct LinearCounts {
+  int orderings = 0;       ///< symbolic analyses of a new pattern
+  int factorizations = 0;  ///< numeric factorizations, or preconditioner set-ups
+  int reused = 0;          ///< calls of `factor` with bitwise the last system: nothing done
+  int solves = 0;          ///< right-hand sides
+  int iterations = 0;      ///< of an iterative method, all solves together
+  double seconds_ordering = 0, seconds_factor = 0, seconds_solve = 0;
+  LinearCounts& operator+=(const LinearCounts& other) {
+    orderings += other.orderings;
+    factorizations += other.factorizations;
+    reused += other.reused;
+    solves += other.solves;
+    iterations += other.iterations;
+    seconds_ordering += other.seconds_ordering;
+    seconds_factor += other.seconds_factor;
+    seconds_solve += other.seconds_solve;
+    return *this;
+  }
+};
+
+/// Keeps what can be kept between calls: a new matrix with the same pattern reuses the ordering, bitwise the same
+/// system reuses everything.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -44,19 +83,24 @@ class LinearSolver {
   /// reason, naming the block and entity if it can, for a singular matrix.
   virtual LinearReport factor(const LinearSystem& system) = 0;
   /// Solves for one right-hand side, given on this process's rows; `x` becomes the whole solution on every process.
-  /// The true residual is checked after every solve, and improved by iterative refinement where a direct solver needs it.
+  /// The true residual is checked after every solve, and improved by iterative refinement where a direct solver needs
+  /// it.
   virtual LinearReport solve(const Vector& b_rows, Vector& x) = 0;
   virtual std::string name() const = 0;
+  virtual const LinearCounts& counts() const { return counts_; }
+
+ protected:
+  LinearCounts counts_;
 };
 
 struct LinearOptions {
-  std::string type = "auto";   ///< auto, umfpack, mumps, belos
-  double tolerance = 1e-10;    ///< relative residual of iterative methods
+  std::string type = "auto";  ///< auto, umfpack, mumps, belos
+  double tolerance = 1e-10;   ///< relative residual of iterative methods
   int max_iterations = 500;
 };
 
 /// `auto`: UMFPACK in one process and MUMPS in several, Belos with the block preconditioner above a size.
-/// Throws std::invalid_argument for an unknown type.
+/// Throws std::invalid_argument for an unknown type, and for umfpack on several processes.
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
 
 /// The name of the BLAS in use and whether it is the slow reference one.
@@ -65,5 +109,8 @@ struct BlasInfo {
   bool is_reference;
 };
 BlasInfo blas_in_use();
+/// Solvers call it before their first factorization: threads inside OpenBLAS gain nothing on the small fronts of
+/// two-dimensional problems, and their number would change the rounding.
+void use_one_blas_thread();
 
 }  // namespace sprekk

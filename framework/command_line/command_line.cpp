@@ -1,0 +1,120 @@
+#include "framework/command_line/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "framework/command_line/explain_command.hpp"
+#include "framework/command_line/graph_command.hpp"
+#include "framework/command_line/scene_arguments.hpp"
+#include "framework/linear/linear_solver.hpp"
+#include "framework/output/build_info.hpp"
+#include "framework/output/output_folder.hpp"
+#include "framework/parallel/parallel.hpp"
+#include "framework/scene/simulation.hpp"
+
+namespace sprekk {
+
+namespace {
+
+std::string version_text() {
+  const BuildInfo& build = build_info();
+  const BlasInfo blas = blas_in_use();
+  std::string text = "sprekk " + build.version + " " + build.git_commit + "\n" + build.compiler + ", " + build.build_type +
+                     "\nBLAS: " + blas.name + (blas.is_reference ? " (slow: install libopenblas0-pthread)" : "") + "\n";
+  for (const auto& [name, version] : build.libraries) text += name + " " + version + "\n";
+  return text;
+}
+
+void print_scene(const Scene& scene) {
+  std::size_t path_width = 0, value_width = 0;
+  for (const Scene::Resolved& r : scene.resolved) {
+    path_width = std::max(path_width, r.path.size());
+    value_width = std::max(value_width, std::min<std::size_t>(r.value.size(), 40));
+  }
+  for (const Scene::Resolved& r : scene.resolved) {
+    std::cout << r.path << std::string(path_width - r.path.size() + 2, ' ') << r.value;
+    std::cout << std::string(r.value.size() < value_width ? value_width - r.value.size() + 2 : 2, ' ') << "# " << r.origin
+              << "\n";
+  }
+}
+
+std::filesystem::path find_checkpoint(const std::string& given, const std::string& folder, const Scene& scene) {
+  if (!given.empty()) return given;
+  const std::filesystem::path results = folder.empty() ? std::filesystem::path("results") / scene.name : folder;
+  return results / "checkpoint.h5";
+}
+
+/// Every process has met the same wrong input, or only the first one a folder that cannot be written.
+int answer_wrong_input(const InputError& error) {
+  if (parallel::is_root()) std::cerr << "error: " << error.what() << "\n";
+  return static_cast<int>(ExitCode::wrong_input);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("Sprekk simulates fractured porous rock: coupled flow, deformation, friction and opening of fractures.");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+
+  SceneArguments scene;
+  RunOptions run;
+  std::string folder, checkpoint, explained, reference_folder;
+
+  CLI::App* run_command = app.add_subcommand("run", "Runs a scene");
+  scene.add_to(*run_command);
+  run_command->add_option("-o,--output", folder, "Folder for the results; results/<scene> by default");
+  CLI::Option* restart = run_command->add_option("--restart", checkpoint, "Continues from a checkpoint; by default that in the results of the scene")
+                             ->expected(0, 1);
+  run_command->add_flag("-q,--quiet", run.quiet, "Prints nothing unless something is wrong");
+  CLI::App* check_command = app.add_subcommand("check", "Builds everything and solves nothing");
+  scene.add_to(*check_command);
+  CLI::App* show_command = app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
+  scene.add_to(*show_command);
+  CLI::App* graph_command = app.add_subcommand("graph", "Prints components, couplers and schedule in the dot language");
+  scene.add_to(*graph_command);
+  CLI::App* list_command = app.add_subcommand("list", "Lists what exists");
+  CLI::App* explain_command = app.add_subcommand("explain", "Explains a type, a step of the schedule or a section of a scene");
+  explain_command->add_option("name", explained, "For example matrix_flow/mpfa")->required();
+  CLI::App* schema_command = app.add_subcommand("schema", "Prints the JSON schema of scenes");
+  CLI::App* reference_command = app.add_subcommand("reference", "Writes the reference pages");
+  reference_command->add_option("folder", reference_folder, "Where to")->required();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::wrong_input);
+  }
+
+  try {
+    if (*list_command) print_list(std::cout);
+    if (*explain_command) print_explanation(explained, std::cout);
+    if (*schema_command) print_schema(std::cout);
+    if (*reference_command) write_reference(reference_folder);
+    if (*show_command) print_scene(scene.read());
+    if (*graph_command) print_graph(Model(scene.read()), std::cout);
+    if (*check_command) {
+      const Scene read = scene.read();
+      const Model model(read);
+      if (parallel::is_root())
+        std::cout << read.name << ": ok, " << model.mesh().cell_count() << " cells, " << model.mesh().fracture_cell_count()
+                  << " fracture cells\n";
+    }
+    if (*run_command) {
+      const Scene read = scene.read();
+      run.scene_files = scene.files;
+      if (!folder.empty()) run.folder = folder;
+      if (restart->count() > 0) run.checkpoint = find_checkpoint(checkpoint, folder, read);
+      return static_cast<int>(run_scene(read, run));
+    }
+    return 0;
+  } catch (const InputError& error) {
+    return answer_wrong_input(error);
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    if (parallel::size() > 1) parallel::abort_all(static_cast<int>(ExitCode::failed));
+    return static_cast<int>(ExitCode::failed);
+  }
+}
+
+}  // namespace sprekk

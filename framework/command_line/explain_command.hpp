@@ -1,0 +1,16 @@
+// list, explain and schema: what exists, its parameters, and both for editors. All from the declared specs.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+namespace sprekk {
+
+void print_list(std::ostream& out);
+/// Throws InputError for a name that is neither a type, nor a step of the schedule, nor a section of a scene.
+void print_explanation(const std::string& name, std::ostream& out);
+void print_schema(std::ostream& out);
+/// Writes one Markdown page a type into a folder.
+void write_reference(const std::string& folder);
+
+}  // namespace sprekk

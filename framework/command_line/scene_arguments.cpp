@@ -1,0 +1,28 @@
+#include "framework/command_line/scene_arguments.hpp"
+
+#include <filesystem>
+
+namespace sprekk {
+
+void SceneArguments::add_to(CLI::App& command) {
+  command.add_option("scene", files, "Scene files; later ones win over earlier ones")->required();
+  command.add_option("--set", settings, "Sets one value of the scene: --set time.end='2 h'")->allow_extra_args(false);
+}
+
+Scene SceneArguments::read() const {
+  std::vector<Override> overrides;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError({"--set", 0, 0}, "'" + setting + "' sets nothing", "a setting is a path, '=' and a value",
+                       "write for example --set time.end='2 h'");
+    overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+  }
+  const Node whole = load_scene(files, overrides);
+  const std::string folder = std::filesystem::path(files.front()).parent_path().string();
+  Scene scene = read_scene(whole, folder.empty() ? "." : folder);
+  if (!whole.find("name")) scene.name = std::filesystem::path(files.front()).stem().string();
+  return scene;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,21 @@
+// The arguments that name a scene: files and overrides.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "framework/scene/scene.hpp"
+
+namespace sprekk {
+
+struct SceneArguments {
+  std::vector<std::string> files;
+  std::vector<std::string> settings;  ///< "a.b=value"
+
+  void add_to(CLI::App& command);
+  /// Reads the scene. Throws InputError.
+  Scene read() const;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,19 @@
+// Values on the mesh that are written for pictures.
+#pragma once
+
+#include <string>
+
+#include "framework/field/field.hpp"
+
+namespace sprekk {
+
+/// What is written of one field. Values are entity-major: component c of entity i is values[i * components + c].
+struct OutputField {
+  std::string name;  ///< "pore.pressure"
+  std::string unit;  ///< SI, "" for a plain number
+  Location location;
+  int components = 1;
+  Vector values;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,103 @@
+#include "framework/scene/model.hpp"
+
+#include <algorithm>
+
+#include "framework/mesh/generate_mesh.hpp"
+#include "framework/mesh/partition.hpp"
+#include "framework/output/vtu_writer.hpp"
+#include "framework/parallel/parallel.hpp"
+#include "framework/schedule/schedule_context.hpp"
+
+namespace sprekk {
+
+namespace {
+
+Mesh make_mesh(const Scene& scene) {
+  Mesh mesh = generate_mesh(scene.geometry, scene.mesh);
+  partition(mesh, parallel::size());
+  return mesh;
+}
+
+}  // namespace
+
+Model::Model(const Scene& scene, IterationLog log) : scene_(scene), mesh_(make_mesh(scene)) {
+  std::vector<std::string> names;
+  for (const Scene::ComponentEntry& entry : scene_.components) {
+    components_.push_back(entry.build({entry.name, mesh_, fields_, scene_.time.start, entry.origin}));
+    parts_.push_back(components_.back().get());
+    names.push_back(entry.name);
+  }
+  for (const Scene::CouplerEntry& entry : scene_.couplers) {
+    std::vector<Component*> between;
+    for (const std::string& name : entry.between)
+      for (const auto& component : components_)
+        if (component->name() == name) between.push_back(component.get());
+    const CouplerContext context(entry.name, mesh_, fields_, between, entry.origin);
+    couplers_.push_back(entry.build(context));
+    context.check_all_used();
+    parts_.push_back(couplers_.back().get());
+  }
+  const ScheduleContext context{mesh_, fields_, parts_, names, scene_.linear, scene_.newton, std::move(log)};
+  schedule_ = build_schedule(scene_.schedule(), context);
+  check_determined();
+  for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_);
+}
+
+void Model::check_determined() const {
+  const std::vector<const Field*> solved = schedule_->unknowns();
+  for (const auto& field : fields_.all()) {
+    const FieldSpec& spec = field->spec();
+    const auto entry = std::find_if(scene_.components.begin(), scene_.components.end(),
+                                    [&](const Scene::ComponentEntry& c) { return c.name == spec.owner; });
+    const Origin origin = entry != scene_.components.end() ? entry->origin : scene_.whole.origin;
+    if (spec.role == Role::input && !spec.needs_coupler.empty() && field->determined_by().empty())
+      throw InputError(origin, "nobody determines " + field->name(),
+                       "component '" + spec.owner + "' needs a coupler of type '" + spec.needs_coupler + "'",
+                       "add '- {type: " + spec.needs_coupler + ", between: [" + spec.owner + ", …]}' to 'couplers:'");
+    if (field->is_solved() && field->size() > 0 && std::find(solved.begin(), solved.end(), field.get()) == solved.end())
+      throw InputError(scene_.schedule().origin, "no step solves for " + field->name(),
+                       "the schedule does not name component '" + spec.owner + "'", "add it to a 'solve'");
+  }
+}
+
+StepStatus Model::attempt(const StepTime& step) {
+  for (Part* part : parts_) part->begin_step(step);
+  const StepStatus status = schedule_->run(step);
+  if (status.converged)
+    for (Part* part : parts_) part->update_derived(step);
+  return status;
+}
+
+std::vector<double> Model::switch_times() const {
+  std::vector<double> times;
+  for (const Part* part : parts_) {
+    const std::vector<double> more = part->switch_times();
+    times.insert(times.end(), more.begin(), more.end());
+  }
+  return times;
+}
+
+std::vector<Quantity> Model::quantities() const {
+  std::vector<Quantity> quantities;
+  for (const Probe& probe : probes_) probe.measure(quantities);
+  for (const Part* part : parts_) part->report(quantities);
+  std::map<std::string, Balance> balances;
+  for (const Part* part : parts_) part->balance(balances);
+  for (const auto& [name, balance] : balances) {
+    quantities.push_back({name + "_stored", balance.unit, balance.stored});
+    quantities.push_back({name + "_injected", balance.unit, balance.injected});
+    quantities.push_back({name + "_outflow", balance.unit, balance.outflow});
+    quantities.push_back({name + "_balance_error", balance.unit, balance.stored + balance.outflow - balance.injected});
+  }
+  return quantities;
+}
+
+std::vector<OutputField> Model::output() const {
+  std::vector<OutputField> fields;
+  for (const auto& field : fields_.all())
+    if (field->spec().role != Role::derived && field->size() > 0) fields.push_back(output_field(*field));
+  for (const Part* part : parts_) part->output(fields);
+  return fields;
+}
+
+}  // namespace sprekk

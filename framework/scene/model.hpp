@@ -1,0 +1,55 @@
+// A scene that has been built: the mesh, the fields, the components, the couplers and the schedule.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/scene/scene.hpp"
+#include "framework/schedule/schedule_step.hpp"
+
+namespace sprekk {
+
+class Model {
+ public:
+  /// Builds everything and solves nothing. Throws InputError for combinations that cannot work: a missing capability, an
+  /// input that a coupler should determine, an unknown that no step solves for.
+  Model(const Scene& scene, IterationLog log = {});
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  const Scene& scene() const { return scene_; }
+  const Mesh& mesh() const { return mesh_; }
+  FieldStore& fields() { return fields_; }
+  const FieldStore& fields() const { return fields_; }
+  ScheduleStep& schedule() { return *schedule_; }
+  const ScheduleStep& schedule() const { return *schedule_; }
+  const std::vector<Part*>& parts() const { return parts_; }
+  const std::vector<std::unique_ptr<Component>>& components() const { return components_; }
+  const std::vector<std::unique_ptr<Coupler>>& couplers() const { return couplers_; }
+  const std::vector<Probe>& probes() const { return probes_; }
+
+  /// One attempt at a step from the accepted state: evaluates data, runs the schedule. Leaves the current values at the
+  /// end of the step when it converged; the caller accepts or rewinds.
+  StepStatus attempt(const StepTime& step);
+  void accept() { fields_.accept(); }
+  void rewind() { fields_.rewind(); }
+
+  std::vector<double> switch_times() const;
+  std::vector<Quantity> quantities() const;  ///< for history.csv
+  std::vector<OutputField> output() const;   ///< for pictures
+
+ private:
+  void check_determined() const;
+
+  Scene scene_;
+  Mesh mesh_;
+  FieldStore fields_;
+  std::vector<std::unique_ptr<Component>> components_;
+  std::vector<std::unique_ptr<Coupler>> couplers_;
+  std::vector<Part*> parts_;
+  std::unique_ptr<ScheduleStep> schedule_;
+  std::vector<Probe> probes_;
+};
+
+}  // namespace sprekk

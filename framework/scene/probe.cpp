@@ -1,0 +1,133 @@
+#include "framework/scene/probe.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <set>
+
+#include "framework/mesh/point_location.hpp"
+
+namespace sprekk {
+
+Spec ProbeOptions::spec() {
+  Spec spec("probe", "A figure of a field: at a point, on a fracture, over a region, or over everything.");
+  spec.text("of", of, {.doc = "The field, for example pore.pressure.", .required = true});
+  spec.point("at", at, {.unit = "m", .doc = "A point."});
+  spec.text("fracture", fracture, {.doc = "A fracture, for fields on fractures."});
+  spec.text("region", region, {.doc = "A region, for fields of the matrix."});
+  spec.choice("take", take,
+              {{"value", "the value at the point"},
+               {"mean", "the mean over the fracture or region"},
+               {"integral", "the integral over it"},
+               {"smallest", "the smallest value on it"},
+               {"largest", "the largest value on it"}},
+              {.doc = "Which figure."});
+  spec.check([this](const Node& node) {
+    if ((take == "value") != at.has_value())
+      throw InputError(node.origin, "the probe '" + node.path + "' is not complete",
+                       "a value is taken at a point, and everything else over a fracture or region",
+                       at ? "remove 'take' or 'at'" : "give 'at', or 'take: mean'");
+  });
+  return spec;
+}
+
+namespace {
+
+std::vector<std::string> field_names(const FieldStore& fields) {
+  std::vector<std::string> names;
+  for (const auto& field : fields.all()) names.push_back(field->name());
+  return names;
+}
+
+}  // namespace
+
+Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields)
+    : name_(name), take_(options.take) {
+  if (!fields.has(options.of)) throw unknown_name(options.origin, "field", options.of, field_names(fields));
+  field_ = &fields.at(options.of);
+  const Location location = field_->spec().location;
+  if (location != Location::cell && location != Location::fracture_cell)
+    throw InputError(options.origin, "the field " + options.of + " cannot be probed",
+                     "it lives neither on cells nor on fracture cells", "choose another field");
+  if (options.at)
+    weigh_point(mesh, options);
+  else
+    weigh_domain(mesh, options);
+}
+
+void Probe::weigh_point(const Mesh& mesh, const ProbeOptions& options) {
+  if (field_->spec().location == Location::fracture_cell) {
+    int best = none;
+    for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+      if (!options.fracture.empty() && mesh.fractures[mesh.fracture_cells[i].fracture].name != options.fracture) continue;
+      const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *options.at).norm(); };
+      if (best == none || distance(i) < distance(best)) best = i;
+    }
+    if (best == none)
+      throw InputError(options.origin, "probe '" + name_ + "' finds no fracture", "there is none of this name");
+    weights_ = {{best, 1.0}};
+    return;
+  }
+  const int home = PointLocation(mesh).cell_at(*options.at);
+  if (home == none)
+    throw InputError(options.origin, "probe '" + name_ + "' lies outside the rock", "there is no cell at its position",
+                     "move it inside");
+  std::set<int> around;
+  for (const int node : mesh.cell_nodes[home])
+    for (const int cell : mesh.node_cells[node]) around.insert(cell);
+  const std::vector<int> cells(around.begin(), around.end());
+  // Minimizes sum (a + b·(x − x_p) − value)^2; the weights are the first row of the pseudo-inverse.
+  Eigen::MatrixXd basis(cells.size(), 3);
+  const double scale = std::sqrt(mesh.cell_area[home]);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Point offset = (mesh.cell_center[cells[i]] - *options.at) / scale;
+    basis.row(i) << 1, offset[0], offset[1];
+  }
+  const Eigen::MatrixXd inverse = basis.completeOrthogonalDecomposition().pseudoInverse();
+  for (std::size_t i = 0; i < cells.size(); ++i) weights_.emplace_back(cells[i], inverse(0, i));
+}
+
+void Probe::weigh_domain(const Mesh& mesh, const ProbeOptions& options) {
+  if (field_->spec().location == Location::fracture_cell) {
+    for (int i = 0; i < mesh.fracture_cell_count(); ++i)
+      if (options.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == options.fracture)
+        weights_.emplace_back(i, mesh.fracture_cells[i].length);
+  } else {
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      if (options.region.empty() || mesh.region_names[mesh.cell_region[c]] == options.region)
+        weights_.emplace_back(c, mesh.cell_area[c]);
+  }
+  if (weights_.empty())
+    throw InputError(options.origin, "probe '" + name_ + "' covers nothing",
+                     "there is no fracture or region '" + options.fracture + options.region + "'");
+  if (take_ != "mean") return;
+  double total = 0;
+  for (const auto& [entity, weight] : weights_) total += weight;
+  for (auto& [entity, weight] : weights_) weight /= total;
+}
+
+void Probe::measure(std::vector<Quantity>& quantities) const {
+  const int components = field_->spec().components;
+  const bool on_fracture = field_->spec().location == Location::fracture_cell;
+  static const char* const matrix_axes[] = {".x", ".y"};
+  static const char* const fracture_axes[] = {".n", ".t"};
+  for (int k = 0; k < components; ++k) {
+    const auto value = [&](int entity) { return field_->now()[entity * components + k]; };
+    double result = 0;
+    if (take_ == "smallest" || take_ == "largest") {
+      const double sign = take_ == "largest" ? 1 : -1;
+      result = value(weights_.front().first);
+      for (const auto& [entity, weight] : weights_)
+        if (sign * value(entity) > sign * result) result = value(entity);
+    } else {
+      for (const auto& [entity, weight] : weights_) result += weight * value(entity);
+    }
+    std::string unit = field_->spec().unit;
+    if (take_ == "integral") unit += on_fracture ? "*m" : "*m^2";
+    const std::string axis = components == 1   ? ""
+                             : components != 2 ? "." + std::to_string(k)
+                                               : (on_fracture ? fracture_axes[k] : matrix_axes[k]);
+    quantities.push_back({name_ + axis, unit, result});
+  }
+}
+
+}  // namespace sprekk

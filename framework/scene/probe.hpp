@@ -1,0 +1,43 @@
+// Probes: figures of a field at a point, on a fracture or over a region, one column of history.csv each.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/spec.hpp"
+#include "framework/field/field_store.hpp"
+#include "framework/assembly/part.hpp"
+
+namespace sprekk {
+
+struct ProbeOptions {
+  Origin origin;
+  std::string of;            ///< a field, "pore.pressure"
+  std::optional<Point> at;   ///< m
+  std::string fracture;      ///< name
+  std::string region;        ///< name
+  std::string take = "value";
+  Spec spec();
+};
+
+/// Linear in the field, or an extreme. At a point of the matrix: the value there of the linear function that fits the
+/// cells around it (least squares; exact for linear fields); on a fracture: that of the nearest cell. Over a fracture or
+/// region: the mean, integral, smallest or largest value.
+class Probe {
+ public:
+  /// Throws InputError for unknown fields, fractures, regions, and points outside of the mesh.
+  Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields);
+  /// Appends one quantity a component: "name.x", "name.y" for vectors of the matrix, "name.n", "name.t" on fractures.
+  void measure(std::vector<Quantity>& quantities) const;
+
+ private:
+  void weigh_point(const Mesh& mesh, const ProbeOptions& options);
+  void weigh_domain(const Mesh& mesh, const ProbeOptions& options);
+
+  std::string name_, take_;
+  const Field* field_;
+  std::vector<std::pair<int, double>> weights_;  ///< entity, weight
+};
+
+}  // namespace sprekk

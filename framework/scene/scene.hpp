@@ -1,0 +1,64 @@
+// A scene that has been read: every parameter is checked, nothing is built yet.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "framework/config/spec.hpp"
+#include "framework/mesh/geometry.hpp"
+#include "framework/schedule/newton.hpp"
+#include "framework/schedule/step_controller.hpp"
+#include "framework/scene/probe.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk {
+
+struct OutputOptions {
+  std::optional<double> every;   ///< s
+  std::vector<double> times;     ///< s
+  bool fields = true;
+  std::optional<double> checkpoint_every;  ///< s of wall time
+  std::map<std::string, ProbeOptions> probes;
+  Spec spec();
+};
+
+struct Scene {
+  struct ComponentEntry {
+    std::string name, type;
+    Origin origin;
+    ComponentBuilder build;
+  };
+  struct CouplerEntry {
+    std::string name, type;
+    Origin origin;
+    std::vector<std::string> between;
+    CouplerBuilder build;
+  };
+  /// A parameter with its value and where that came from, for `show` and run.json.
+  struct Resolved {
+    std::string path, value, origin;
+  };
+
+  std::string name;
+  Node whole;
+  Geometry geometry;
+  MeshOptions mesh;
+  std::vector<ComponentEntry> components;
+  std::vector<CouplerEntry> couplers;
+  TimeOptions time;
+  OutputOptions output;
+  NewtonOptions newton;
+  LinearOptions linear;
+  std::vector<Resolved> resolved;
+
+  const Node& schedule() const { return *whole.find("schedule"); }
+};
+
+/// Reads the tree of a scene. Throws InputError for anything that can be known to be wrong before there is a mesh.
+Scene read_scene(const Node& whole, const std::string& folder);
+
+/// The specs of a scene's sections, by key, with their defaults; for `explain` and the schema.
+std::vector<Spec> scene_section_specs();
+
+}  // namespace sprekk

@@ -1,0 +1,259 @@
+#include "framework/scene/simulation.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "framework/output/checkpoint.hpp"
+#include "framework/output/mesh_record.hpp"
+#include "framework/output/progress.hpp"
+#include "framework/output/vtu_writer.hpp"
+#include "framework/parallel/parallel.hpp"
+#include "framework/mesh/mesh_quality.hpp"
+#include "framework/scene/interrupt.hpp"
+#include "framework/scene/run_output.hpp"
+
+namespace sprekk {
+
+namespace {
+
+double now() { return Progress::steady_seconds(); }
+
+std::vector<double> output_times(const Scene& scene) {
+  std::vector<double> times = scene.output.times;
+  if (scene.output.every)
+    for (long i = 1; scene.time.start + i * *scene.output.every < scene.time.end * (1 + 1e-12); ++i)
+      times.push_back(scene.time.start + i * *scene.output.every);
+  times.push_back(scene.time.end);
+  return times;
+}
+
+bool contains(const std::vector<double>& times, double time) {
+  for (const double other : times)
+    if (std::abs(other - time) <= 1e-12 * std::max(std::abs(time), 1e-300)) return true;
+  return false;
+}
+
+/// The tree as text in which neither comments nor the order of reading matter.
+void append_text(const Node& node, std::string& text) {
+  text += node.scalar;
+  for (const Node& item : node.items) append_text(item, text += "[");
+  for (const Node::Entry& entry : node.entries) {
+    if (node.path.empty() && (entry.key == "output" || entry.key == "name")) continue;
+    if (node.path == "time" && entry.key == "end") continue;
+    append_text(entry.value, text += "{" + entry.key + ":");
+  }
+  text += ";";
+}
+
+/// One run from its first step to its end, however it ends.
+class Run {
+ public:
+  Run(const Scene& scene, const RunOptions& options);
+  ExitCode execute();
+
+ private:
+  void restore();
+  void record_start();
+  ExitCode loop();
+  bool advance();  ///< one accepted step; false with reason_ when none is possible
+  void finish(ExitCode code);
+
+  const RunOptions& options_;
+  RunOutput output_;
+  Model model_;
+  std::vector<double> output_times_;
+  StepController controller_;
+  Profile profile_;
+  RunRecord record_;
+  std::string fingerprint_, reason_;
+  double began_;
+  long newton_iterations_ = 0, rejected_ = 0;
+  int restored_steps_ = 0;
+};
+
+OutputFolder choose_folder(const Scene& scene, const RunOptions& options) {
+  if (options.checkpoint) {
+    const std::filesystem::path folder = options.checkpoint->parent_path();
+    return OutputFolder::given(folder.empty() ? "." : folder, OutputFolder::Purpose::restart);
+  }
+  if (options.folder) return OutputFolder::given(*options.folder);
+  return OutputFolder::for_scene(scene.name);
+}
+
+std::vector<double> targets(const std::vector<double>& outputs, std::vector<double> switches) {
+  switches.insert(switches.end(), outputs.begin(), outputs.end());
+  return switches;
+}
+
+Run::Run(const Scene& scene, const RunOptions& options)
+    : options_(options),
+      output_(choose_folder(scene, options)),
+      model_(scene, [this](const IterationRecord& record) { output_.write_iteration(record); }),
+      output_times_(output_times(scene)),
+      controller_(scene.time, targets(output_times_, model_.switch_times())),
+      fingerprint_(scene_fingerprint(scene)),
+      began_(now()) {
+  if (options_.checkpoint) restore();
+}
+
+void Run::restore() {
+  const Checkpoint checkpoint = read_checkpoint(*options_.checkpoint);
+  require_scene(checkpoint, *options_.checkpoint, model_.scene().name, fingerprint_);
+  if (!is_same_mesh(checkpoint.mesh, model_.mesh()))
+    throw InputError("the mesh in " + options_.checkpoint->string() +
+                     " is not the one that the scene makes now (another version of the mesh generator, or another number "
+                     "of processes) start the run anew");
+  restore_fields(checkpoint, *options_.checkpoint, model_.fields());
+  controller_.restore(checkpoint.clock.time, checkpoint.clock.step, checkpoint.clock.next_step);
+  restored_steps_ = checkpoint.clock.step;
+}
+
+void Run::record_start() {
+  const Scene& scene = model_.scene();
+  record_.scene_name = scene.name;
+  record_.scene_files = options_.scene_files;
+  for (const Scene::Resolved& r : scene.resolved) record_.parameters.push_back({r.path, r.value, r.origin});
+  const BlasInfo blas = blas_in_use();
+  record_.blas = blas.name;
+  if (blas.is_reference)
+    record_.warnings.push_back("the reference BLAS is in use, which makes sparse factorizations several times slower: "
+                               "install libopenblas0-pthread");
+  record_.processes = parallel::size();
+  const MeshQuality quality = mesh_quality(model_.mesh());
+  record_.counters["mesh: cells"] = quality.cells;
+  record_.counters["mesh: fracture cells"] = quality.fracture_cells;
+  record_.results["mesh_smallest_angle[rad]"] = quality.smallest_angle;
+  record_.counters["objects: components"] = static_cast<long>(model_.components().size());
+  record_.counters["objects: couplers"] = static_cast<long>(model_.couplers().size());
+  record_.counters["objects: fields"] = static_cast<long>(model_.fields().all().size());
+  long unknowns = 0;
+  for (const Field* field : model_.schedule().unknowns()) {
+    unknowns += field->size();
+    record_.counters["unknowns: " + field->name()] = field->size();
+  }
+  record_.counters["unknowns"] = unknowns;
+}
+
+bool Run::advance() {
+  for (;;) {
+    const StepTime step = controller_.next();
+    StepStatus status;
+    {
+      const ScopedTimer timer(profile_, "steps");
+      status = model_.attempt(step);
+    }
+    newton_iterations_ += status.iterations;
+    if (status.converged) {
+      const std::vector<Quantity> quantities = model_.quantities();
+      model_.accept();
+      controller_.accepted(step, status.iterations);
+      const ScopedTimer timer(profile_, "output");
+      output_.write_history(step, status.iterations, quantities);
+      for (const Quantity& q : quantities) record_.results[labelled(q.name, q.unit)] = q.value;
+      if (contains(output_times_, step.end)) output_.write_fields(step.end, controller_.steps(), model_);
+      return true;
+    }
+    model_.rewind();
+    ++rejected_;
+    reason_ = fmt::format("the step from {} over {} did not converge: {}", duration_text(step.start),
+                          duration_text(step.dt), status.reason);
+    if (!controller_.rejected(step)) {
+      reason_ += " (the step is as small as allowed)";
+      return false;
+    }
+  }
+}
+
+ExitCode Run::loop() {
+  const InterruptGuard interrupt;
+  Progress progress(Progress::style_for(STDERR_FILENO, parallel::is_root(), options_.quiet), std::cerr,
+                    model_.scene().time.start, model_.scene().time.end);
+  const double checkpoint_every = model_.scene().output.checkpoint_every.value_or(600);
+  double last_checkpoint = now();
+  const auto checkpoint = [&] {
+    output_.write_checkpoint(model_, {controller_.time(), controller_.steps(), controller_.wanted()}, fingerprint_);
+    last_checkpoint = now();
+  };
+  while (!controller_.is_finished()) {
+    const long rejected_before = rejected_;
+    const bool advanced = advance();
+    if (rejected_ > rejected_before) progress.event("step cut: " + reason_);
+    if (!advanced) {
+      checkpoint();
+      return ExitCode::failed;
+    }
+    progress.reached(controller_.time(), controller_.steps());
+    if (interrupt.is_interrupted() && !controller_.is_finished()) {
+      reason_ = "interrupted";
+      checkpoint();
+      return ExitCode::interrupted;
+    }
+    if (parallel::any(now() - last_checkpoint > checkpoint_every)) checkpoint();
+  }
+  checkpoint();
+  return ExitCode::done;
+}
+
+void Run::finish(ExitCode code) {
+  record_.exit_code = static_cast<int>(code);
+  record_.exit_reason = code == ExitCode::done ? "done" : reason_;
+  record_.seconds = now() - began_;
+  record_.counters["steps accepted"] = controller_.steps() - restored_steps_;
+  record_.counters["steps rejected"] = rejected_;
+  record_.counters["iterations"] = newton_iterations_;
+  LinearCounts counts;
+  model_.schedule().add_counts(counts);
+  record_.counters["linear: orderings"] = counts.orderings;
+  record_.counters["linear: factorizations"] = counts.factorizations;
+  record_.counters["linear: factorizations reused"] = counts.reused;
+  record_.counters["linear: solves"] = counts.solves;
+  record_.counters["linear: iterations"] = counts.iterations;
+  for (const Part* part : model_.parts())
+    for (const auto& [name, count] : part->counts()) record_.counters[name] += count;
+  // What the linear solvers used is part of the steps; the rest of the steps is assembly and everything else.
+  Profile::Entry& steps = profile_.at("steps");
+  const auto move_time = [&](const char* name, double seconds, long calls, long reuses) {
+    Profile::Entry& entry = profile_.at(name);
+    entry.seconds = seconds;
+    entry.calls = calls;
+    entry.reuses = reuses;
+    steps.seconds -= seconds;
+  };
+  move_time("linear: ordering", counts.seconds_ordering, counts.orderings, 0);
+  move_time("linear: factorization", counts.seconds_factor, counts.factorizations, counts.reused);
+  move_time("linear: solve", counts.seconds_solve, counts.solves, 0);
+  if (!parallel::is_root()) return;
+  record_.write(output_.path() / "run.json", profile_);
+  if (options_.quiet) return;
+  std::cerr << profile_.table(record_.seconds) << "\n";
+  for (const std::string& warning : record_.warnings) std::cerr << "warning: " << warning << "\n";
+  if (code != ExitCode::done) std::cerr << reason_ << "\nthe checkpoint is " << output_.checkpoint_path().string() << "\n";
+  std::cout << "results: " << output_.path().string() << "\n";
+}
+
+ExitCode Run::execute() {
+  record_start();
+  output_.open(options_.checkpoint ? std::optional(controller_.time()) : std::nullopt, model_.scene().output.fields);
+  if (parallel::is_root()) record_.write(output_.path() / "run.json", profile_);
+  const ExitCode code = loop();
+  finish(code);
+  return code;
+}
+
+}  // namespace
+
+std::string scene_fingerprint(const Scene& scene) {
+  std::string text;
+  append_text(scene.whole, text);
+  return fingerprint(text);
+}
+
+ExitCode run_scene(const Scene& scene, const RunOptions& options) {
+  Run run(scene, options);
+  return run.execute();
+}
+
+}  // namespace sprekk

@@ -1,0 +1,80 @@
+#include "framework/schedule/step_controller.hpp"
+
+#include <algorithm>
+
+namespace sprekk {
+
+Spec TimeOptions::spec() {
+  Spec spec("time", "From when to when, and in which steps.");
+  spec.quantity("start", start, {.unit = "s", .doc = "Start of the run."});
+  spec.quantity("end", end, {.unit = "s", .doc = "End of the run.", .required = true});
+  spec.quantity("step", step,
+                {.unit = "s", .range = positive(), .doc = "Time step; the first one when adaptive.", .required = true});
+  spec.quantity("smallest", smallest,
+                {.unit = "s", .range = positive(), .doc = "A rejected step is not cut below this; by default step/1e6."});
+  Spec changing("adaptive", "Steps that follow the effort of the solver.");
+  changing.quantity("largest", largest, {.unit = "s", .range = positive(), .doc = "Largest step.", .required = true});
+  changing.quantity("grow", grow, {.range = {.low = 1, .low_allowed = false}, .doc = "Factor of growing steps."});
+  changing.quantity("shrink", shrink, {.range = strictly_between(0, 1), .doc = "Factor of shrinking steps."});
+  changing.integer("iterations", iterations,
+                   {.range = between(1, 1000),
+                    .doc = "Steps grow while no more than half of these iterations are needed, and shrink beyond them."});
+  spec.section("adaptive", changing, {.doc = "Steps that follow the effort of the solver; else they are constant."},
+               &adaptive);
+  spec.check([this](const Node& node) {
+    if (end <= start)
+      throw InputError(node.origin, "the run has no duration", "its end is not after its start", "raise 'end'");
+  });
+  return spec;
+}
+
+StepController::StepController(const TimeOptions& options, std::vector<double> targets)
+    : options_(options), targets_(std::move(targets)), time_(options.start), wanted_(options.step) {
+  targets_.push_back(options_.end);
+  std::sort(targets_.begin(), targets_.end());
+}
+
+StepTime StepController::next() const {
+  const auto target = std::upper_bound(targets_.begin(), targets_.end(), time_);
+  StepTime step{time_, wanted_, time_ + wanted_};
+  if (target == targets_.end()) return step;
+  // A rest that is a hair longer than the step is taken in one, so that no sliver is left; a rest of less than two
+  // steps of an adaptive run in two equal ones.
+  const double rest = *target - time_;
+  if (rest <= wanted_ * (1 + 1e-9)) {
+    step.dt = rest;
+    step.end = *target;
+  } else if (options_.adaptive && rest < 2 * wanted_) {
+    step.dt = rest / 2;
+    step.end = time_ + step.dt;
+  }
+  return step;
+}
+
+void StepController::accepted(const StepTime& step, int iterations) {
+  time_ = step.end;
+  ++steps_;
+  if (!options_.adaptive) {
+    wanted_ = std::min(options_.step, wanted_ * options_.grow);
+    return;
+  }
+  if (iterations > options_.iterations)
+    wanted_ *= options_.shrink;
+  else if (2 * iterations <= options_.iterations)
+    wanted_ = std::min(options_.largest, wanted_ * options_.grow);
+}
+
+bool StepController::rejected(const StepTime& step) {
+  const double smallest = options_.smallest.value_or(options_.step * 1e-6);
+  if (step.dt <= smallest) return false;
+  wanted_ = std::max(smallest, step.dt * options_.shrink);
+  return true;
+}
+
+void StepController::restore(double time, int steps, double wanted) {
+  time_ = time;
+  steps_ = steps;
+  wanted_ = wanted;
+}
+
+}  // namespace sprekk
