@@ -1,0 +1,126 @@
+#include "framework/output/vtu_writer.hpp"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include "tests/framework/output/small_case.hpp"
+
+namespace sprekk {
+namespace {
+
+class VtuWriter : public TemporaryFolder {
+ protected:
+  vtkUnstructuredGrid* read(const std::filesystem::path& file) {
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    EXPECT_EQ(reader->GetErrorCode(), 0u);
+    return reader->GetOutput();
+  }
+
+  Mesh mesh = small_mesh();
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+};
+
+/// Values with all their bits in use, different for every entry.
+OutputField field_on(const Mesh& mesh, const std::string& name, Location location, int components) {
+  Vector values(entity_count(mesh, location) * components);
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = 1e6 / (3.0 + static_cast<double>(i));
+  return {name, "Pa", location, components, values};
+}
+
+void expect_values(vtkDataArray* array, const OutputField& field, int first = 0, int stride = 1) {
+  ASSERT_NE(array, nullptr);
+  ASSERT_EQ(array->GetNumberOfTuples() * stride * field.components, field.values.size());
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    for (int c = 0; c < field.components; ++c)
+      EXPECT_EQ(array->GetComponent(i, c), field.values[(i * stride + first) * field.components + c]);
+}
+
+TEST_F(VtuWriter, MatrixIsReadBackToTheBit) {
+  const auto pressure = field_on(mesh, "pore.pressure", Location::cell, 1);
+  const auto displacement = field_on(mesh, "rock.displacement", Location::node, 2);
+  const auto stress = field_on(mesh, "rock.stress", Location::cell, 3);
+  const auto aperture = field_on(mesh, "conduit.aperture", Location::fracture_cell, 1);
+  write_matrix_vtu(folder / "m.vtu", mesh, {pressure, displacement, stress, aperture});
+
+  vtkUnstructuredGrid* grid = read(folder / "m.vtu");
+  ASSERT_EQ(grid->GetNumberOfPoints(), mesh.node_count());
+  ASSERT_EQ(grid->GetNumberOfCells(), mesh.cell_count());
+  for (int i = 0; i < mesh.node_count(); ++i) {
+    EXPECT_EQ(grid->GetPoint(i)[0], mesh.nodes[i].x());
+    EXPECT_EQ(grid->GetPoint(i)[1], mesh.nodes[i].y());
+    EXPECT_EQ(grid->GetPoint(i)[2], 0);
+  }
+  for (int i = 0; i < mesh.cell_count(); ++i) {
+    vtkIdType count;
+    const vtkIdType* points;
+    grid->GetCellPoints(i, count, points);
+    ASSERT_EQ(count, 3);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(points[k], mesh.cell_nodes[i][k]);
+  }
+  expect_values(grid->GetCellData()->GetArray("pore.pressure[Pa]"), pressure);
+  expect_values(grid->GetPointData()->GetArray("rock.displacement[Pa]"), displacement);
+  EXPECT_EQ(grid->GetPointData()->GetArray("rock.displacement[Pa]")->GetNumberOfComponents(), 3);
+  EXPECT_EQ(grid->GetPointData()->GetArray("rock.displacement[Pa]")->GetComponent(7, 2), 0);
+  expect_values(grid->GetCellData()->GetArray("rock.stress[Pa]"), stress);
+  EXPECT_EQ(grid->GetCellData()->GetArray("conduit.aperture[Pa]"), nullptr);
+  EXPECT_NE(grid->GetCellData()->GetArray("region"), nullptr);
+}
+
+TEST_F(VtuWriter, FracturesAreReadBackToTheBitWithTheirTwoWalls) {
+  const auto slip = field_on(mesh, "contact.slip", Location::fracture_cell, 1);
+  const auto walls = field_on(mesh, "rock.wall_displacement", Location::wall, 2);
+  const auto pressure = field_on(mesh, "pore.pressure", Location::cell, 1);
+  write_fracture_vtu(folder / "f.vtu", mesh, {slip, walls, pressure});
+
+  vtkUnstructuredGrid* grid = read(folder / "f.vtu");
+  ASSERT_EQ(grid->GetNumberOfCells(), 4);  // three cells of a quarter each, and one
+  for (int i = 0; i < 4; ++i) {
+    vtkIdType count;
+    const vtkIdType* points;
+    grid->GetCellPoints(i, count, points);
+    ASSERT_EQ(count, 2);
+    const Point& begin = mesh.fracture_points[mesh.fracture_cells[i].points[0]].position;
+    EXPECT_EQ(grid->GetPoint(points[0])[0], begin.x());
+    EXPECT_EQ(grid->GetPoint(points[0])[1], begin.y());
+    EXPECT_EQ(grid->GetCellData()->GetArray("fracture")->GetComponent(i, 0), i < 3 ? 0 : 1);
+  }
+  expect_values(grid->GetCellData()->GetArray("contact.slip[Pa]"), slip);
+  expect_values(grid->GetCellData()->GetArray("rock.wall_displacement.plus[Pa]"), walls, 0, 2);
+  expect_values(grid->GetCellData()->GetArray("rock.wall_displacement.minus[Pa]"), walls, 1, 2);
+  EXPECT_EQ(grid->GetCellData()->GetArray("pore.pressure[Pa]"), nullptr);
+}
+
+TEST_F(VtuWriter, AMeshWithoutFracturesGivesAnEmptyFractureGrid) {
+  write_fracture_vtu(folder / "f.vtu", Mesh{}, {});
+  EXPECT_EQ(read(folder / "f.vtu")->GetNumberOfCells(), 0);
+}
+
+TEST_F(VtuWriter, TheFieldOfARunIsWrittenAsItIsNow) {
+  Field field({.owner = "pore", .name = "pressure", .location = Location::cell, .unit = "Pa", .doc = ""}, 2);
+  field.set_both(Vector::Constant(2, 1));
+  field.set(Vector::Constant(2, 5));
+  const OutputField out = output_field(field);
+  EXPECT_EQ(out.name, "pore.pressure");
+  EXPECT_EQ(out.unit, "Pa");
+  EXPECT_EQ(out.values, Vector::Constant(2, 5));
+}
+
+TEST_F(VtuWriter, LabelsCarryTheUnit) {
+  EXPECT_EQ(labelled("pore.pressure", "Pa"), "pore.pressure[Pa]");
+  EXPECT_EQ(labelled("contact.state", ""), "contact.state[1]");
+}
+
+TEST_F(VtuWriter, AWrongSizeAndAnUnwritablePlaceAreErrors) {
+  OutputField field = field_on(mesh, "pore.pressure", Location::cell, 1);
+  EXPECT_THROW(write_matrix_vtu(folder / "missing" / "m.vtu", mesh, {field}), std::runtime_error);
+  field.values.conservativeResize(3);
+  EXPECT_THROW(write_matrix_vtu(folder / "m.vtu", mesh, {field}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace sprekk
