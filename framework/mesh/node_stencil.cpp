@@ -29,9 +29,10 @@ StencilMatrix::StencilMatrix(const NodeStencil& stencil, int row_components, int
     : stencil_(stencil), row_components_(row_components), column_components_(column_components) {
   const Adjacency& columns = stencil.columns();
   matrix_.resize(row_components * columns.size(), column_components * column_entities);
-  matrix_.resizeNonZeros(static_cast<Eigen::Index>(row_components) * column_components * columns.items.size());
+  const auto entries = static_cast<Eigen::Index>(row_components) * column_components * columns.items.size();
+  matrix_.resizeNonZeros(entries);
   values_ = matrix_.valuePtr();
-  std::fill_n(values_, matrix_.nonZeros(), 0.0);
+  std::fill_n(values_, entries, 0.0);
   int* row_start = matrix_.outerIndexPtr();
   int* column = matrix_.innerIndexPtr();
   *row_start = 0;

@@ -3,6 +3,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "framework/mesh/arrangement.hpp"
@@ -35,12 +36,23 @@ std::vector<Segment> all_segments(const Geometry& geometry) {
   return segments;
 }
 
+/// gmsh meshes a box near the origin of size between 1 and 2: its absolute tolerances let it fail, and end the process,
+/// for small boxes far away. The scale is a power of two, so that it costs no digits.
+struct Frame {
+  Point origin;
+  double scale;
+
+  explicit Frame(const Box& box) : origin(box.low), scale(std::exp2(std::floor(std::log2(box.size().maxCoeff())))) {}
+  Point inward(const Point& x) const { return (x - origin) / scale; }
+  Point outward(double x, double y) const { return origin + scale * Point(x, y); }
+};
+
 /// The curves between neighbouring points of an arrangement, numbered as gmsh knows them.
 class Curves {
  public:
-  explicit Curves(const Arrangement& arrangement) : arrangement_(arrangement) {
+  Curves(const Arrangement& arrangement, const Frame& frame) : arrangement_(arrangement), frame_(frame) {
     for (std::size_t i = 0; i < arrangement.points.size(); ++i) {
-      const Point& x = arrangement.points[i];
+      const Point x = frame.inward(arrangement.points[i]);
       gmsh::model::geo::addPoint(x.x(), x.y(), 0, 0, static_cast<int>(i) + 1);
     }
     std::vector<int> outline, inner;
@@ -72,7 +84,8 @@ class Curves {
       const Point from = arrangement_.points[chain[i]], along = arrangement_.points[chain[i + 1]] - from;
       std::vector<std::pair<double, std::size_t>> ordered;
       for (std::size_t n = 0; n < tags.size(); ++n) {
-        ordered.emplace_back((Point(coordinates[3 * n], coordinates[3 * n + 1]) - from).dot(along), tags[n]);
+        const Point x = frame_.outward(coordinates[3 * n], coordinates[3 * n + 1]);
+        ordered.emplace_back((x - from).dot(along), tags[n]);
       }
       std::sort(ordered.begin(), ordered.end());
       for (std::size_t n = i == 0 ? 0 : 1; n < ordered.size(); ++n) nodes.push_back(ordered[n].second);
@@ -82,17 +95,27 @@ class Curves {
 
  private:
   const Arrangement& arrangement_;
+  const Frame& frame_;
   std::map<std::pair<int, int>, int> tags_;  ///< by the numbers of the end points, smaller one first
 };
 
-void fetch_mesh(const Geometry& geometry, const Curves& curves, RawMesh& mesh) {
+/// gmsh's number of the node at a point of the arrangement.
+std::size_t node_at(int point) {
+  std::vector<std::size_t> tags;
+  std::vector<double> coordinates, parameters;
+  gmsh::model::mesh::getNodes(tags, coordinates, parameters, 0, point + 1, false, false);
+  return tags.at(0);
+}
+
+void fetch_mesh(const Geometry& geometry, const Arrangement& arrangement, const Frame& frame, const Curves& curves,
+                RawMesh& mesh) {
   std::vector<std::size_t> tags, elements;
   std::vector<double> coordinates, parameters;
   gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
   std::vector<int> number(tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()) + 1);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     number[tags[i]] = static_cast<int>(i);
-    mesh.nodes.emplace_back(coordinates[3 * i], coordinates[3 * i + 1]);
+    mesh.nodes.push_back(frame.outward(coordinates[3 * i], coordinates[3 * i + 1]));
   }
   tags.clear();
   constexpr int three_node_triangle = 2;
@@ -108,6 +131,16 @@ void fetch_mesh(const Geometry& geometry, const Curves& curves, RawMesh& mesh) {
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
       mesh.boundary_edges.push_back({{number[nodes[i]], number[nodes[i + 1]]}, side_of_segment[s]});
     }
+  }
+  // The frame's rounding is taken back where a position was given.
+  for (const auto& [nodes, side] : mesh.boundary_edges) {
+    const int axis = side / 2;
+    for (const int node : nodes) {
+      mesh.nodes[node][axis] = side % 2 == 0 ? geometry.box.low[axis] : geometry.box.high[axis];
+    }
+  }
+  for (std::size_t i = 0; i < arrangement.points.size(); ++i) {
+    mesh.nodes[number[node_at(static_cast<int>(i))]] = arrangement.points[i];
   }
   int segment = box_segments;
   for (const FractureGeometry& fracture : geometry.fractures) {
@@ -128,10 +161,12 @@ RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options) 
   RawMesh mesh;
   const GmshModel model;
   model.run("mesh the geometry", [&] {
-    const Curves curves(arrangement);
-    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) { return sizes.at(Point(x, y)); });
+    const Frame frame(geometry.box);
+    const Curves curves(arrangement, frame);
+    gmsh::model::mesh::setSizeCallback(
+        [&](int, int, double x, double y, double) { return sizes.at(frame.outward(x, y)) / frame.scale; });
     gmsh::model::mesh::generate(2);
-    fetch_mesh(geometry, curves, mesh);
+    fetch_mesh(geometry, arrangement, frame, curves, mesh);
   });
   assign_regions(geometry, mesh);
   return mesh;

@@ -118,6 +118,28 @@ TEST(GenerateMesh, GradingReachesTheSizesAskedFor) {
   EXPECT_NEAR(mean_length_near({0.4, 1.6}, 4 * size), size, 0.3 * size);
 }
 
+TEST(GenerateMesh, SmallAndLargeBoxesFarFromTheOrigin) {
+  const Mesh reference = generate_mesh(paper_geometry(), {.size = 0.1, .fracture_size = 0.01});
+  // Powers of two, so that the scaled input has the same digits.
+  for (const double scale : {std::exp2(-20), 1.0, std::exp2(20)}) {
+    for (const double offset : {0.0, std::exp2(20)}) {
+      Geometry geometry = paper_geometry();
+      const auto move = [&](Point& x) { x = scale * (x + Point(offset, offset)); };
+      move(geometry.box.low);
+      move(geometry.box.high);
+      for (Point& x : geometry.fractures[0].points) move(x);
+      const Mesh mesh = generate_mesh(geometry, {.size = scale * 0.1, .fracture_size = scale * 0.01});
+      const MeshQuality quality = mesh_quality(mesh);
+      EXPECT_EQ(quality.fracture_cells, reference.fracture_cell_count());
+      EXPECT_NEAR(quality.cells, reference.cell_count(), 0.02 * reference.cell_count());
+      EXPECT_GT(quality.smallest_angle, 20 * degree);
+      EXPECT_NEAR(quality.area / (scale * scale), 4, 1e-8);
+      EXPECT_EQ(mesh.fracture_points.front().position, geometry.fractures[0].points.front());
+      EXPECT_EQ(mesh.fracture_points.back().position, geometry.fractures[0].points.back());
+    }
+  }
+}
+
 TEST(GenerateMesh, IsDeterministic) {
   for (const Kind kind : {Kind::unstructured, Kind::structured}) {
     Geometry geometry = box(0, 2, 0, 2);
