@@ -7,9 +7,7 @@
 namespace sprekk {
 
 SizeField::SizeField(const Geometry& geometry, const MeshOptions& options)
-    : far_size_(far_size(geometry, options)),
-      growth_(options.growth),
-      box_area_(geometry.box.size().x() * geometry.box.size().y()) {
+    : box_(geometry.box), far_size_(far_size(geometry, options)), growth_(options.growth) {
   const double near_boundary = point_tolerance(geometry.box);
   const auto is_on_boundary = [&](const Point& x) {
     return (x - geometry.box.low).minCoeff() < near_boundary || (geometry.box.high - x).minCoeff() < near_boundary;
@@ -23,15 +21,37 @@ SizeField::SizeField(const Geometry& geometry, const MeshOptions& options)
       if (!is_on_boundary(end)) add_source({end, end}, options.tip_size.value_or(size));
     }
   }
+  fill_buckets();
 }
 
 void SizeField::add_source(const Segment& segment, double size) {
   if (size < far_size_) sources_.push_back({segment, size, (far_size_ - size) / growth_});
 }
 
+int SizeField::bucket(int axis, double coordinate) const {
+  const double place = (coordinate - box_.low[axis]) / (box_.high[axis] - box_.low[axis]) * buckets_a_side_;
+  return static_cast<int>(std::clamp(place, 0.0, buckets_a_side_ - 1.0));
+}
+
+void SizeField::fill_buckets() {
+  buckets_a_side_ = 1 + 2 * static_cast<int>(std::sqrt(sources_.size()));
+  buckets_.resize(buckets_a_side_ * buckets_a_side_);
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const auto& [segment, size, reach] = sources_[s];
+    const Point low = segment.from.cwiseMin(segment.to).array() - reach;
+    const Point high = segment.from.cwiseMax(segment.to).array() + reach;
+    for (int j = bucket(1, low.y()); j <= bucket(1, high.y()); ++j) {
+      for (int i = bucket(0, low.x()); i <= bucket(0, high.x()); ++i) {
+        buckets_[j * buckets_a_side_ + i].push_back(static_cast<int>(s));
+      }
+    }
+  }
+}
+
 double SizeField::at(const Point& x) const {
   double size = far_size_;
-  for (const Source& source : sources_) {
+  for (const int s : buckets_[bucket(1, x.y()) * buckets_a_side_ + bucket(0, x.x())]) {
+    const Source& source = sources_[s];
     const Point &a = source.segment.from, &b = source.segment.to;
     const double reach = (size - source.size) / growth_;
     if (x.x() < std::min(a.x(), b.x()) - reach || x.x() > std::max(a.x(), b.x()) + reach ||
@@ -45,7 +65,7 @@ double SizeField::at(const Point& x) const {
 
 double SizeField::estimated_triangles() const {
   const double per_area = 4 / std::sqrt(3.0);
-  double integral = box_area_ / (far_size_ * far_size_);
+  double integral = box_.size().x() * box_.size().y() / (far_size_ * far_size_);
   for (const auto& [segment, size, reach] : sources_) {
     // With h = size + growth * distance: a strip on either side of a segment, and a disc around a point.
     integral += 2 * segment.length() * (1 / size - 1 / far_size_) / growth_;

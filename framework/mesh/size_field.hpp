@@ -28,9 +28,14 @@ class SizeField {
     double reach;  ///< the distance at which the far size is reached
   };
   void add_source(const Segment& segment, double size);
+  void fill_buckets();
+  int bucket(int axis, double coordinate) const;
 
-  double far_size_, growth_, box_area_;
+  Box box_;
+  double far_size_, growth_;
   std::vector<Source> sources_;
+  int buckets_a_side_ = 1;
+  std::vector<std::vector<int>> buckets_;  ///< the sources that reach into each part of the box
 };
 
 }  // namespace sprekk

@@ -138,6 +138,26 @@ TEST(SizeField, GrowsLinearlyFromFracturesAndTips) {
   EXPECT_DOUBLE_EQ(sizes.at({0, 0}), 1);
 }
 
+TEST(SizeField, IsTheSmallestOfManySources) {
+  Geometry geometry = box(0, 10, 0, 10);
+  for (int i = 0; i < 30; ++i) {
+    const Point start(0.5 + i % 6 * 1.6, 0.5 + i / 6 * 1.9);
+    geometry.fractures.push_back(fracture("f" + std::to_string(i), {start, start + Point(1.2, i % 3 * 0.5)}));
+    geometry.fractures.back().size = 0.05 * (1 + i % 4);
+  }
+  const SizeField sizes(geometry, {.size = 0.5});
+  for (double x = 0; x <= 10; x += 0.37) {
+    for (double y = 0; y <= 10; y += 0.41) {
+      double expected = 0.5;
+      for (const auto& f : geometry.fractures) {
+        const double d = distance(Point(x, y), Segment{f.points[0], f.points[1]});
+        expected = std::min(expected, f.size.value() + 0.3 * d);
+      }
+      ASSERT_DOUBLE_EQ(sizes.at({x, y}), expected);
+    }
+  }
+}
+
 TEST(SizeField, TipSizeIsNotUsedWhereAFractureEndsOnTheBoundary) {
   Geometry geometry = box(0, 10, 0, 10);
   geometry.fractures = {fracture("edge", {{0, 5}, {6, 5}})};
