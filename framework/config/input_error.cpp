@@ -1,5 +1,7 @@
 #include "framework/config/input_error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace sprekk {
@@ -34,8 +36,8 @@ std::string joined_lines(const std::vector<std::string>& problems) {
 
 std::string Origin::text() const {
   std::string result = source;
-  if (line > 0) result += ":" + std::to_string(line);
-  if (line > 0 && column > 0) result += ":" + std::to_string(column);
+  if (line > 0) result += fmt::format(":{}", line);
+  if (line > 0 && column > 0) result += fmt::format(":{}", column);
   return result;
 }
 

@@ -10,11 +10,21 @@ namespace sprekk {
 
 /// The value in SI units of "40 GPa", "5e-20 m^2", "1 deg", "30 h", "0.7 MPa*m^0.5", "2" where `unit` is the SI unit
 /// expected ("" for a plain number; "rad" for angles). A plain number is taken as SI. Throws InputError when the
-/// dimension differs, the unit is unknown, or the number is not finite.
-double parse_quantity(const std::string& text, const std::string& unit, const Origin& where);
+/// dimension differs, the unit is unknown, or the number is not finite. `name` is the parameter's, for messages.
+double parse_quantity(const std::string& text, const std::string& unit, const Origin& where,
+                      const std::string& name = "");
 
 /// A number with a unit, or an expression of x, y (m) and t (s) with an optional unit behind it:
 /// "20 MPa", "(1 + 0.1*sin(pi*x)) MPa", "if(t < 6*h, 0, 5e-9)". Throws InputError for anything malformed.
-Data parse_data(const std::string& text, const std::string& unit, const Origin& where);
+///
+/// An expression has + - * / ^, comparisons, && and ||, if(condition, then, else), sin cos tan asin acos atan atan2
+/// sinh cosh tanh exp log (natural) log10 sqrt abs sign floor ceil pow erf erfc min max, the constants pi and e, and
+/// units as their SI values (h, day, MPa, …). Without a unit behind it, its value is in SI units; a unit belongs to all
+/// of it, which must then stand in parentheses or be a single name, number or function. An expression without x, y
+/// and t is a constant. `at` throws std::runtime_error where an expression has no finite value.
+Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name = "");
+
+/// `value` (SI) as a scene would write it: "1000 kg/m^3".
+std::string quantity_text(double value, const std::string& unit);
 
 }  // namespace sprekk

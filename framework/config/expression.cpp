@@ -1,0 +1,154 @@
+#include "framework/config/expression.hpp"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+
+#include "framework/config/unit.hpp"
+
+namespace sprekk {
+namespace {
+
+constexpr std::size_t longest_expression = 4000;
+
+double minimum(const double* values, int count) { return *std::min_element(values, values + count); }
+double maximum(const double* values, int count) { return *std::max_element(values, values + count); }
+double select(double condition, double then, double otherwise) { return condition != 0 ? then : otherwise; }
+double sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+using Function1 = double (*)(double);
+using Function2 = double (*)(double, double);
+
+void define_functions(mu::Parser& parser) {
+  parser.ClearFun();
+  const std::pair<const char*, Function1> of_one[] = {
+      {"sin", std::sin},   {"cos", std::cos},     {"tan", std::tan},     {"asin", std::asin}, {"acos", std::acos},
+      {"atan", std::atan}, {"sinh", std::sinh},   {"cosh", std::cosh},   {"tanh", std::tanh}, {"exp", std::exp},
+      {"log", std::log},   {"log10", std::log10}, {"sqrt", std::sqrt},   {"abs", std::fabs},  {"erf", std::erf},
+      {"erfc", std::erfc}, {"sign", sign},        {"floor", std::floor}, {"ceil", std::ceil}};
+  for (const auto& [name, function] : of_one) parser.DefineFun(name, function);
+  parser.DefineFun("atan2", static_cast<Function2>(std::atan2));
+  parser.DefineFun("pow", static_cast<Function2>(std::pow));
+  parser.DefineFun("if", select);
+  parser.DefineFun("min", minimum);
+  parser.DefineFun("max", maximum);
+}
+
+void define_constants(mu::Parser& parser) {
+  parser.ClearConst();
+  parser.DefineConst("pi", std::numbers::pi);
+  parser.DefineConst("e", std::numbers::e);
+  for (const auto& [name, value] : unit_constants()) parser.DefineConst(name, value);
+}
+
+std::vector<std::string> known_names(const mu::Parser& parser) {
+  std::vector<std::string> names = {"x", "y", "t"};
+  for (const auto& [name, unused] : parser.GetFunDef()) names.push_back(name);
+  for (const auto& [name, unused] : parser.GetConst()) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+/// The library would let "x = 3" change the variable.
+bool has_assignment(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    const bool before = i > 0 && std::string("<>=!").find(text[i - 1]) != std::string::npos;
+    const bool after = i + 1 < text.size() && text[i + 1] == '=';
+    if (!before && !after) return true;
+  }
+  return false;
+}
+
+/// A parser holds the addresses of its variables: it neither moves nor serves two threads at a time.
+class Expression {
+ public:
+  Expression(const std::string& text, double scale, const Origin& where) : text_(text), scale_(scale), where_(where) {
+    define_functions(parser_);
+    define_constants(parser_);
+    parser_.DefineVar("x", &x_);
+    parser_.DefineVar("y", &y_);
+    parser_.DefineVar("t", &t_);
+    if (text.size() > longest_expression) fail("it is longer than 4000 characters");
+    if (has_assignment(text)) fail("'=' assigns", "compare with '=='");
+    try {
+      parser_.SetExpr(text);
+      parser_.Eval();
+      if (parser_.GetNumResults() != 1)
+        fail("it has several values, separated by commas", "write decimals with a point");
+      for (const auto& [name, unused] : parser_.GetUsedVar()) (name == "t" ? uses_time_ : uses_space_) = true;
+    } catch (const mu::ParserError& error) {
+      refuse(error);
+    }
+  }
+  Expression(const Expression&) = delete;
+  Expression& operator=(const Expression&) = delete;
+
+  bool uses_time() const { return uses_time_; }
+  bool uses_space() const { return uses_space_; }
+
+  double unchecked(const Place& place) {
+    const std::lock_guard lock(one_at_a_time_);
+    x_ = place.x[0];
+    y_ = place.x[1];
+    t_ = place.t;
+    return scale_ * parser_.Eval();
+  }
+
+  double at(const Place& place) {
+    const double value = unchecked(place);
+    if (std::isfinite(value)) return value;
+    throw std::runtime_error(
+        fmt::format("{}: the expression {} is {} at {}", where_.text(), quoted(text_), value, place_text(place)));
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why, const std::string& suggestion = "") const {
+    throw InputError(where_, "malformed expression " + quoted(text_), why, suggestion);
+  }
+
+  [[noreturn]] void refuse(const mu::ParserError& error) const {
+    if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN) {
+      std::string name = error.GetToken();
+      name.erase(
+          std::find_if_not(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; }),
+          name.end());
+      if (!name.empty())
+        throw unknown_name(where_, "name in the expression " + quoted(text_) + ":", name, known_names(parser_));
+    }
+    fail(error.GetMsg());
+  }
+
+  std::string text_;
+  double scale_;
+  Origin where_;
+  double x_ = 0, y_ = 0, t_ = 0;
+  bool uses_time_ = false, uses_space_ = false;
+  mu::Parser parser_;
+  std::mutex one_at_a_time_;
+};
+
+}  // namespace
+
+std::string place_text(const Place& place) {
+  return fmt::format("x = {}, y = {}, t = {}", place.x[0], place.x[1], place.t);
+}
+
+Data parse_expression(const std::string& text, double scale, const Origin& where) {
+  const auto expression = std::make_shared<Expression>(text, scale, where);
+  if (expression->uses_time() || expression->uses_space()) {
+    return Data([expression](const Place& place) { return expression->at(place); }, expression->uses_time(),
+                expression->uses_space());
+  }
+  const double value = expression->unchecked({});
+  if (!std::isfinite(value)) throw InputError(where, quoted(text) + " is not finite", fmt::format("it is {}", value));
+  return value;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,37 @@
+// Units and their dimensions.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+/// Exponents of m, kg, s, K and rad. An angle is a dimension here, so that 30 deg is no friction coefficient.
+struct Dimension {
+  std::array<double, 5> exponents{};
+
+  bool operator==(const Dimension& other) const;  ///< up to rounding of fractional exponents
+  std::string name() const;                       ///< "pressure", else the product of SI units, "kg*m^-1"
+};
+
+struct Unit {
+  double scale = 1;  ///< the unit in SI units
+  Dimension dimension;
+
+  Unit operator*(const Unit& other) const;
+  Unit to_the(double power) const;
+};
+
+/// A unit that the text does not hold: `what()` of an InputError without its place.
+struct UnitProblem {
+  std::string problem, why, suggestion;
+};
+
+/// "GPa", "m^2/s", "1/Pa", "MPa*m^0.5", "J/(kg*K)", "m^(1/2)", "%", "" (a plain number). Throws UnitProblem.
+Unit parse_unit(const std::string& text);
+
+/// Units that are written as one name, with their SI values, as far as expressions may use them: "h", "MPa", …
+const std::vector<std::pair<std::string, double>>& unit_constants();
+
+}  // namespace sprekk
