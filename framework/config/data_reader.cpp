@@ -1,0 +1,199 @@
+#include "framework/config/data_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "framework/config/expression.hpp"
+#include "framework/config/table.hpp"
+#include "framework/config/units.hpp"
+
+namespace sprekk {
+namespace {
+
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+struct Window {
+  Data value;
+  double from = -forever;
+  double to = forever;  ///< the first instant after it
+
+  bool contains(double t) const { return t >= from && t < to; }
+};
+
+Data any_datum(const Node& node, const DataRequest& request);
+
+Window read_window(const Node& node, const DataRequest& request) {
+  if (!node.is_map()) throw wrong_kind(node, request.name, "a list of windows {value: , from: , to: }");
+  require_known_keys(node, {"value", "from", "to"}, request);
+  Window window{any_datum(required_entry(node, "value", request), request)};
+  if (const Node* from = node.find("from")) window.from = read_number(*from, "s", {}, request.name + ".from");
+  if (const Node* to = node.find("to")) window.to = read_number(*to, "s", {}, request.name + ".to");
+  if (window.from < window.to) return window;
+  throw InputError(node.origin, fmt::format("the window of {} is empty", quoted(request.name)),
+                   fmt::format("it begins at {} s and ends at {} s", window.from, window.to), "exchange from and to");
+}
+
+Data sum_of(std::vector<Window> windows) {
+  std::vector<double> switch_times;
+  bool in_space = false;
+  bool in_time = false;
+  for (const Window& window : windows) {
+    in_space = in_space || window.value.depends_on_space();
+    in_time = in_time || window.value.depends_on_time();
+    switch_times.insert(switch_times.end(), window.value.switch_times().begin(), window.value.switch_times().end());
+    for (const double end : {window.from, window.to}) {
+      if (std::isfinite(end)) switch_times.push_back(end);
+    }
+  }
+  in_time = in_time || !switch_times.empty();
+  auto sum = [windows = std::move(windows)](const Place& place) {
+    double total = 0;
+    for (const Window& window : windows) {
+      if (window.contains(place.t)) total += window.value.at(place);
+    }
+    return total;
+  };
+  if (!in_time && !in_space) return sum({});
+  return Data(std::move(sum), in_time, in_space, std::move(switch_times));
+}
+
+/// A sum of constant windows is known before the run: it is checked in every interval between its switch times.
+void check_constant_windows(const Data& sum, const std::vector<Window>& windows, const Node& node,
+                            const DataRequest& request) {
+  for (const Window& window : windows) {
+    if (!window.value.is_constant()) return;
+  }
+  std::vector<double> instants = sum.switch_times();
+  if (instants.empty()) return;
+  instants.insert(instants.begin(), std::nextafter(instants.front(), -forever));
+  for (const double t : instants) {
+    const double value = sum.at({Point::Zero(), 0, t});
+    if (request.about.range.contains(value)) continue;
+    throw InputError(node.origin, fmt::format("{} is {} at t = {} s, out of range", quoted(request.name), value, t),
+                     "it must be " + request.about.range.text() + "; it is zero outside its windows");
+  }
+}
+
+Data read_windows(const Node& node, const DataRequest& request) {
+  std::vector<Window> windows;
+  if (node.is_map()) windows.push_back(read_window(node, request));
+  for (const Node& item : node.items) windows.push_back(read_window(item, request));
+  if (windows.empty()) throw InputError(node.origin, quoted(request.name) + " is an empty list of windows");
+  Data sum = sum_of(windows);
+  check_constant_windows(sum, windows, node, request);
+  return sum;
+}
+
+Data read_tabulated(const Node& node, const DataRequest& request) {
+  require_known_keys(node, {"table", "column", "of", "unit"}, request);
+  TableRequest wanted;
+  wanted.file = read_scalar(*node.find("table"), request.name + ".table");
+  wanted.folder = request.context.folder;
+  if (const Node* column = node.find("column")) wanted.column = read_scalar(*column, request.name + ".column");
+  wanted.of = "t";
+  if (const Node* of = node.find("of")) {
+    wanted.of = read_scalar(*of, request.name + ".of");
+    const std::vector<std::string> allowed = {"t", "x", "y"};
+    if (std::find(allowed.begin(), allowed.end(), wanted.of) == allowed.end()) {
+      throw unknown_name(of->origin, "variable of a table:", wanted.of, allowed);
+    }
+  }
+  if (const Node* unit = node.find("unit")) wanted.unit = read_scalar(*unit, request.name + ".unit");
+  wanted.needed_unit = request.about.unit;
+  wanted.name = request.name;
+  wanted.where = node.origin;
+  const auto table = std::make_shared<const Table>(read_table(wanted));
+  for (const double value : table->ordinate) {
+    if (request.about.range.contains(value)) continue;
+    throw InputError(
+        node.origin,
+        fmt::format("{} is {} in the table {}, out of range", quoted(request.name), value, quoted(wanted.file)),
+        "it must be " + request.about.range.text() + " " + request.about.unit);
+  }
+  if (wanted.of == "t") return Data([table](const Place& place) { return table->at(place.t); }, true, false);
+  const int axis = wanted.of == "x" ? 0 : 1;
+  return Data([table, axis](const Place& place) { return table->at(place.x[axis]); }, false, true);
+}
+
+/// Any form of a datum; its range is not checked yet, except where the parts say more than the whole.
+Data any_datum(const Node& node, const DataRequest& request) {
+  if (node.is_scalar()) return parse_data(node.scalar, request.about.unit, node.origin, request.name);
+  const std::string forms = "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) +
+                            ", an expression of x, y and t, " + "{regions: …}, {table: …} or {value: , from: , to: }";
+  if (node.is_null()) throw wrong_kind(node, request.name, forms);
+  if (request.about.constant_only) throw wrong_kind(node, request.name, "one number");
+  if (node.is_list() || has(node, "value")) return read_windows(node, request);
+  if (has(node, "table")) return read_tabulated(node, request);
+  if (has(node, "regions")) {
+    return by_region(read_by_region<Data>(node, request, [&](const Node& value) { return read_data(value, request); }));
+  }
+  const std::string key = node.entries.empty() ? "" : node.entries.front().key;
+  if (key.empty()) throw wrong_kind(node, request.name, forms);
+  throw unknown_name(node.entries.front().origin, "key of " + quoted(request.name) + ":", key,
+                     {"regions", "table", "value"});
+}
+
+}  // namespace
+
+Data within_range(Data data, const Origin& where, const DataRequest& request) {
+  const Range range = request.about.range;
+  const std::string limits =
+      "it must be " + range.text() + (request.about.unit.empty() ? "" : " " + request.about.unit);
+  if (data.is_constant()) {
+    const double value = data.at({});
+    if (range.contains(value)) return data;
+    throw InputError(
+        where,
+        fmt::format("{} is {}, out of range", quoted(request.name), quoted(quantity_text(value, request.about.unit))),
+        limits);
+  }
+  if (range.text().empty()) return data;
+  const bool in_time = data.depends_on_time();
+  const bool in_space = data.depends_on_space();
+  const std::vector<double> switch_times = data.switch_times();
+  auto checked = [data = std::move(data), range, where, limits, name = request.name](const Place& place) {
+    const double value = data.at(place);
+    if (range.contains(value)) return value;
+    throw std::runtime_error(
+        fmt::format("{}: {} is {} at {} ({})", where.text(), quoted(name), value, place_text(place), limits));
+  };
+  return Data(std::move(checked), in_time, in_space, switch_times);
+}
+
+Data by_region(std::vector<Data> values) {
+  bool in_time = false;
+  std::vector<const Data*> pointers;
+  for (const Data& value : values) {
+    in_time = in_time || value.depends_on_time();
+    pointers.push_back(&value);
+  }
+  std::vector<double> switch_times = merged_switch_times(pointers);
+  auto pick = [values = std::move(values)](const Place& place) {
+    return values.at(static_cast<std::size_t>(place.region)).at(place);
+  };
+  return Data(std::move(pick), in_time, true, std::move(switch_times));
+}
+
+Data read_data(const Node& node, const DataRequest& request) {
+  Data data = any_datum(node, request);
+  if (request.about.constant_only && !data.is_constant()) {
+    throw InputError(node.origin, quoted(request.name) + " is " + quoted(node.text()),
+                     "needed is one number that does not depend on x, y or t");
+  }
+  return within_range(std::move(data), node.origin, request);
+}
+
+VectorData read_vector(const Node& node, const DataRequest& request) {
+  const std::string needed = "a list of two values [x, y]";
+  if (!node.is_list()) throw wrong_kind(node, request.name, needed);
+  if (node.items.size() != dimension) {
+    throw InputError(node.origin, fmt::format("{} has {} values", quoted(request.name), node.items.size()),
+                     "needed is " + needed);
+  }
+  VectorData vector;
+  for (std::size_t i = 0; i < dimension; ++i) vector.component[i] = read_data(node.items[i], request);
+  return vector;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,186 @@
+#include "framework/config/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+
+#include "framework/config/number.hpp"
+#include "framework/config/quantity_scale.hpp"
+#include "framework/config/text_file.hpp"
+
+namespace sprekk {
+namespace {
+
+struct Row {
+  int line = 0;
+  std::vector<std::string> cells;
+};
+
+struct Heading {
+  std::string name;
+  std::string unit;
+};
+
+Row split_row(const std::string& text, int line) {
+  Row row{line, {}};
+  std::istringstream stream(text + ",");
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    cell = trimmed(cell);
+    const bool in_quotes = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+    row.cells.push_back(in_quotes ? trimmed(cell.substr(1, cell.size() - 2)) : cell);
+  }
+  return row;
+}
+
+std::vector<Row> split_rows(const std::string& content) {
+  std::vector<Row> rows;
+  std::istringstream stream(content);
+  int line = 0;
+  for (std::string text; std::getline(stream, text);) {
+    ++line;
+    if (line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // byte order mark
+    text = trimmed(text);
+    if (!text.empty() && text[0] != '#') rows.push_back(split_row(text, line));
+  }
+  return rows;
+}
+
+bool is_number(const std::string& cell) {
+  const auto number = leading_number(cell);
+  return number && number->length == cell.size();
+}
+
+std::vector<Heading> headings_of(const Row& row) {
+  std::vector<Heading> headings;
+  for (const std::string& cell : row.cells) {
+    const std::size_t bracket = cell.find('[');
+    if (bracket == std::string::npos || cell.back() != ']') {
+      headings.push_back({cell, ""});
+    } else {
+      headings.push_back({trimmed(cell.substr(0, bracket)), cell.substr(bracket + 1, cell.size() - bracket - 2)});
+    }
+  }
+  return headings;
+}
+
+class TableReader {
+ public:
+  explicit TableReader(const TableRequest& request) : request_(request) {}
+
+  Table read() {
+    rows_ = split_rows(content());
+    if (rows_.empty()) throw InputError({request_.file}, "the table is empty", "it has no row of numbers");
+    columns_ = rows_.front().cells.size();
+    if (std::none_of(rows_.front().cells.begin(), rows_.front().cells.end(), is_number)) {
+      headings_ = headings_of(rows_.front());
+      rows_.erase(rows_.begin());
+    }
+    if (rows_.empty()) throw InputError({request_.file}, "the table is empty", "it has headings only");
+    const std::size_t abscissa = abscissa_column();
+    const std::size_t ordinate = ordinate_column(abscissa);
+    const double abscissa_scale = heading_scale(abscissa, request_.of == "t" ? "s" : "m");
+    const double ordinate_scale =
+        request_.unit ? scale_to_si(*request_.unit, request_.needed_unit, *request_.unit, request_.where, request_.name)
+                      : heading_scale(ordinate, request_.needed_unit);
+    Table table;
+    for (const Row& row : rows_) {
+      const double value = abscissa_scale * number(row, abscissa);
+      if (!table.abscissa.empty() && !(value > table.abscissa.back())) {
+        throw InputError({request_.file, row.line}, quoted(row.cells[abscissa]) + " does not follow the row before",
+                         "the column of " + request_.of + " must increase from row to row", "sort the rows");
+      }
+      table.abscissa.push_back(value);
+      table.ordinate.push_back(ordinate_scale * number(row, ordinate));
+    }
+    return table;
+  }
+
+ private:
+  std::string content() const {
+    const std::filesystem::path path = std::filesystem::path(request_.folder) / request_.file;
+    try {
+      return read_text_file(path.string(), request_.file);
+    } catch (const InputError& error) {
+      throw InputError(request_.where, "the table " + quoted(request_.file) + " cannot be used", error.what(),
+                       "tables are looked for beside the scene file");
+    }
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    for (const Heading& heading : headings_) result.push_back(heading.name);
+    return result;
+  }
+
+  std::optional<std::size_t> named_column(const std::string& name) const {
+    for (std::size_t i = 0; i < headings_.size(); ++i) {
+      if (headings_[i].name == name) return i;
+    }
+    return std::nullopt;
+  }
+
+  std::size_t abscissa_column() const { return named_column(request_.of).value_or(0); }
+
+  std::size_t ordinate_column(std::size_t abscissa) const {
+    if (!request_.column.empty()) return wanted_column();
+    if (columns_ == 2) return 1 - abscissa;
+    throw InputError(
+        request_.where, fmt::format("'column' is missing for the table {}", quoted(request_.file)),
+        fmt::format("the table has {} columns{}{}", columns_, headings_.empty() ? "" : ": ", listed(names())),
+        "add 'column: <name or number from 1>'");
+  }
+
+  std::size_t wanted_column() const {
+    const std::string& wanted = request_.column;
+    if (const auto column = named_column(wanted)) return *column;
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+    if (error != std::errc{} || end != wanted.data() + wanted.size()) {
+      throw unknown_name(request_.where, "column of the table " + quoted(request_.file) + ":", wanted, names());
+    }
+    if (number >= 1 && number <= columns_) return number - 1;
+    throw InputError(request_.where, fmt::format("the table {} has no column {}", quoted(request_.file), number),
+                     fmt::format("its columns are 1 to {}", columns_));
+  }
+
+  double heading_scale(std::size_t column, const std::string& needed_unit) const {
+    if (column >= headings_.size() || headings_[column].unit.empty()) return 1;
+    return scale_to_si(headings_[column].unit, needed_unit, headings_[column].unit, {request_.file, 1},
+                       headings_[column].name);
+  }
+
+  double number(const Row& row, std::size_t column) const {
+    if (column >= row.cells.size()) {
+      throw InputError({request_.file, row.line}, fmt::format("the row has no column {}", column + 1),
+                       fmt::format("it has {}", row.cells.size()));
+    }
+    const auto value = leading_number(row.cells[column]);
+    if (value && value->length == row.cells[column].size() && value->is_finite) return value->value;
+    throw InputError({request_.file, row.line},
+                     fmt::format("{} in column {} is not a finite number", quoted(row.cells[column]), column + 1),
+                     "units stand in the heading, like p[MPa]");
+  }
+
+  const TableRequest& request_;
+  std::vector<Row> rows_;
+  std::size_t columns_ = 0;
+  std::vector<Heading> headings_;
+};
+
+}  // namespace
+
+double Table::at(double abscissa_value) const {
+  const auto above = std::upper_bound(abscissa.begin(), abscissa.end(), abscissa_value);
+  if (above == abscissa.begin()) return ordinate.front();
+  if (above == abscissa.end()) return ordinate.back();
+  const auto i = static_cast<std::size_t>(above - abscissa.begin());
+  const double weight = (abscissa_value - abscissa[i - 1]) / (abscissa[i] - abscissa[i - 1]);
+  return (1 - weight) * ordinate[i - 1] + weight * ordinate[i];
+}
+
+Table read_table(const TableRequest& request) { return TableReader(request).read(); }
+
+}  // namespace sprekk
