@@ -20,8 +20,8 @@ const std::string clear_line = "\r\x1b[K";
 
 std::string duration_text(double seconds) {
   if (!std::isfinite(seconds)) return "?";
-  if (seconds < 59.95) return fmt::format("{:.3g} s", seconds);
-  const auto whole = std::llround(seconds);  // 59.96 s would print as 60 s
+  if (seconds < 59.95) return fmt::format("{:.3g} s", seconds);  // from there on three digits say 60
+  const auto whole = std::llround(seconds);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
   const auto minutes = std::llround(seconds / 60);
   if (minutes < 24 * 60) return fmt::format("{} h {} min", minutes / 60, minutes % 60);

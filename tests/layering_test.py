@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""Enforces the house rules of the source tree (docs/architecture.md), and that breaking one is noticed.
+
+Without arguments: checks the tree this file is in, then itself on planted violations. Exit code 1 if anything is wrong.
+"""
+
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+SOURCE_FOLDERS = ("framework", "components", "couplers", "tests", "tools")
+# Outside headers that take seconds and hundreds of megabytes to compile, or may not meet each other.
+HEAVY = re.compile(r"^(Tpetra|Belos|MueLu|Ifpack2|Amesos2|Xpetra|Zoltan2|Teuchos|Kokkos|vtk|gmsh\.h|hdf5\.h|H5"
+                   r"|muParser|yaml-cpp|umfpack|dmumps|mpi\.h)")
+PHYSICS = re.compile(r"\w*(pressure|displacement|aperture|permeability|porosity|viscosity|friction|dilation|traction"
+                     r"|darcy|toughness|transmissivity|biot|poroelastic)\w*", re.IGNORECASE)
+# Tests of behaviour instead of one file.
+FREE_TESTS = re.compile(r"^tests/(verification|stability)/|/mpi/")
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
+COMMENTS_AND_TEXTS = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+
+
+def sources(root):
+    for folder in SOURCE_FOLDERS:
+        for file in sorted((root / folder).rglob("*")):
+            if file.suffix in (".hpp", ".cpp"):
+                yield file.relative_to(root).as_posix(), file.read_text(encoding="utf-8")
+
+
+def allowed_includes(path):
+    """The folders of ours that a file may include from; None where all are allowed."""
+    parts = path.split("/")
+    if parts[0] == "framework":
+        return ("framework/",)
+    if parts[0] == "components":
+        own = () if len(parts) < 3 else (f"components/{parts[1]}/",)
+        return ("framework/", "components/capabilities/") + own
+    if parts[0] == "couplers":
+        return ("framework/", "components/capabilities/", "couplers/")
+    return None
+
+
+def include_violations(path, includes):
+    allowed = allowed_includes(path)
+    for header in includes:
+        if allowed and header.startswith(SOURCE_FOLDERS) and not header.startswith(allowed):
+            yield f"{path} includes {header} (allowed are {', '.join(allowed)})"
+
+
+def heavy_violations(includes_of):
+    """Heavy headers stay in .cpp files, and in headers that only .cpp files of their own folder include."""
+    for path, includes in includes_of.items():
+        heavy = [header for header in includes if HEAVY.match(header)]
+        if not path.endswith(".hpp") or not heavy:
+            continue
+        for user, headers in includes_of.items():
+            is_private = user.endswith(".cpp") and user.rpartition("/")[0] == path.rpartition("/")[0]
+            if path in headers and not is_private:
+                yield f"{path} brings {heavy[0]} to {user} (a heavy header must stay within .cpp files of one folder)"
+
+
+def physics_violations(path, text):
+    if not path.startswith("framework/"):
+        return
+    # Comments and texts may name examples; their line breaks stay, for the line numbers.
+    code = COMMENTS_AND_TEXTS.sub(lambda match: "\n" * match.group().count("\n"), text)
+    for match in PHYSICS.finditer(code):
+        line = code.count("\n", 0, match.start()) + 1
+        yield f"{path}:{line} names {match.group()} (the framework knows no physics)"
+
+
+def counterpart_violations(root, path):
+    if not path.endswith("_test.cpp") or FREE_TESTS.search(path):
+        return
+    tested = path[len("tests/"):-len("_test.cpp")]
+    if not any((root / (tested + ending)).exists() for ending in (".hpp", ".cpp", "")):
+        yield f"{path} tests nothing (there is no {tested}.hpp or .cpp)"
+
+
+def cycle_violations(edges):
+    """Folders of the framework that need each other: neither could be used or tested alone."""
+    reachable = {folder: set(targets) for folder, targets in edges.items()}
+    for _ in edges:
+        for folder in reachable:
+            for target in tuple(reachable[folder]):
+                reachable[folder] |= reachable.get(target, set())
+    for folder in sorted(reachable):
+        for target in sorted(reachable[folder]):
+            if folder < target and folder in reachable.get(target, set()):
+                yield f"framework/{folder} and framework/{target} include each other"
+
+
+def violations(root):
+    found = []
+    edges = {}
+    includes_of = {}
+    for path, text in sources(root):
+        includes = includes_of[path] = INCLUDE.findall(text)
+        found += include_violations(path, includes)
+        found += physics_violations(path, text)
+        found += counterpart_violations(root, path)
+        parts = path.split("/")
+        if parts[0] == "framework" and len(parts) > 2:
+            needed = {header.split("/")[1] for header in includes if header.startswith("framework/") and header.count("/") > 1}
+            edges.setdefault(parts[1], set()).update(needed - {parts[1]})
+    return found + list(heavy_violations(includes_of)) + list(cycle_violations(edges))
+
+
+# (file, content, a part of the message that must appear)
+PLANTED = (
+    ("framework/a/a.cpp", '#include "components/flow/flow.hpp"\n', "framework/a/a.cpp includes components/flow/flow.hpp"),
+    ("framework/a/a.cpp", '#include "couplers/biot.hpp"\n', "includes couplers/biot.hpp"),
+    ("components/flow/flow.cpp", '#include "components/contact/contact.hpp"\n', "includes components/contact/contact.hpp"),
+    ("components/flow/flow.cpp", '#include "couplers/biot.hpp"\n', "includes couplers/biot.hpp"),
+    ("components/capabilities/c.hpp", '#include "components/flow/flow.hpp"\n', "includes components/flow/flow.hpp"),
+    ("couplers/b.cpp", '# include "components/flow/flow.hpp"\n', "couplers/b.cpp includes components/flow/flow.hpp"),
+    ("framework/a/a.hpp", "#include <vtkNew.h>\n", "framework/a/a.hpp brings vtkNew.h to components/capabilities/c.hpp"),
+    ("components/flow/flow.hpp", "#include <Tpetra_CrsMatrix.hpp>\n", "brings Tpetra_CrsMatrix.hpp to components/flow/mpfa/mpfa.cpp"),
+    ("framework/a/a.hpp", "#include <yaml-cpp/yaml.h>\n", "brings yaml-cpp/yaml.h to components"),
+    ("framework/a/a.cpp", "\n\ndouble fluid_pressure = 0;\n", "framework/a/a.cpp:3 names fluid_pressure"),
+    ("framework/a/a.cpp", "struct BiotTerm;\n", "names BiotTerm"),
+    ("tests/framework/a/gone_test.cpp", "", "tests/framework/a/gone_test.cpp tests nothing"),
+    ("framework/b/b.cpp", '#include "framework/a/a.hpp"\n', "framework/a and framework/b include each other"),
+)
+
+CLEAN = {
+    "framework/a/a.hpp": '#include "framework/b/b.hpp"\n#include <vector>\n// the pressure of "pore.pressure"\n',
+    "framework/a/a.cpp": '#include <vtkNew.h>\nconst char* example = "pore.pressure";\n/* traction\n*/\n',
+    "framework/b/b.hpp": "",
+    "framework/b/private.hpp": "#include <vtkNew.h>\n",
+    "framework/b/b.cpp": '#include "framework/b/private.hpp"\n',
+    "components/capabilities/c.hpp": '#include "framework/a/a.hpp"\n',
+    "components/flow/flow.hpp": '#include "components/capabilities/c.hpp"\ndouble pressure = 0;\n',
+    "components/flow/mpfa/mpfa.cpp": '#include "components/flow/flow.hpp"\n',
+    "couplers/b.cpp": '#include "components/capabilities/c.hpp"\n#include "couplers/helper.hpp"\n',
+    "tests/components/flow/mpfa_test.cpp": '#include "couplers/b.hpp"\n',
+    "tests/framework/a/a_test.cpp": '#include "components/flow/flow.hpp"\n',
+    "tests/verification/mandel_test.cpp": "",
+}
+
+
+def write_tree(root, files):
+    for path, text in files.items():
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(text, encoding="utf-8")
+
+
+def self_test():
+    """What is wrong with the checker itself."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_tree(Path(folder), CLEAN)
+        yield from (f"self-test: a clean tree is accused: {violation}" for violation in violations(Path(folder)))
+    for path, text, message in PLANTED:
+        with tempfile.TemporaryDirectory() as folder:
+            write_tree(Path(folder), {**CLEAN, path: text})
+            if not any(message in violation for violation in violations(Path(folder))):
+                yield f"self-test: not noticed: {message}"
+
+
+def main():
+    root = Path(__file__).resolve().parent.parent
+    found = violations(root) + list(self_test())
+    for violation in found:
+        print(violation)
+    print(f"{sum(1 for _ in sources(root))} files, {len(PLANTED)} planted violations, {len(found)} problems")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
