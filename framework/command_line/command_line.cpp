@@ -40,8 +40,8 @@ void print_scene(const Scene& scene) {
 
 std::filesystem::path find_checkpoint(const std::string& given, const std::string& folder, const Scene& scene) {
   if (!given.empty()) return given;
-  const std::filesystem::path results = folder.empty() ? std::filesystem::path("results") / scene.name : folder;
-  return results / "checkpoint.h5";
+  if (!folder.empty()) return std::filesystem::path(folder) / "checkpoint.h5";
+  return std::filesystem::path("results") / scene.name / "checkpoint.h5";
 }
 
 /// Every process has met the same wrong input, or only the first one a folder that cannot be written.
