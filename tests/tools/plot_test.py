@@ -1,0 +1,107 @@
+#!/usr/bin/python3
+"""tools/results.py against files of VTK's own writer, and tools/plot on a folder of results."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_TRIANGLE, vtkUnstructuredGrid
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools"))
+import results  # noqa: E402
+
+POINTS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) / 3
+TRIANGLES = ((0, 1, 2), (0, 2, 3))
+LINES = ((2, 1), (0, 2))  # out of order: the chain is 0, 2, 1
+
+
+def write_vtu(path, kind, cells, cell_data, point_data):
+    grid = vtkUnstructuredGrid()
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(POINTS))
+    grid.SetPoints(points)
+    for cell in cells:
+        grid.InsertNextCell(kind, len(cell), cell)
+    for target, arrays in ((grid.GetCellData(), cell_data), (grid.GetPointData(), point_data)):
+        for name, values in arrays.items():
+            array = numpy_to_vtk(np.asarray(values))
+            array.SetName(name)
+            target.AddArray(array)
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.SetCompressorTypeToNone()
+    writer.SetHeaderTypeToUInt64()
+    assert writer.Write() == 1
+
+
+def write_results(folder):
+    """Two written times of two triangles and a fracture of two cells."""
+    for name, kind, cells in (("matrix", VTK_TRIANGLE, TRIANGLES), ("fractures", VTK_LINE, LINES)):
+        entries = ""
+        for step in range(2):
+            number = np.array([step + 1 / 3, step + 2.0])
+            data = {"a.pressure[Pa]": number, "a.state[1]": number, "fracture": np.zeros(2, np.int32)}
+            if name == "fractures":
+                data["a.jump[m]"] = np.outer(number, [1, 2, 0])
+            write_vtu(folder / f"{name}_{step}.vtu", kind, cells, data, {"a.displacement[m]": POINTS * (step + 1)})
+            entries += f'<DataSet timestep="{step * 7200}" file="{name}_{step}.vtu"/>'
+        (folder / f"{name}.pvd").write_text(f'<VTKFile type="Collection"><Collection>{entries}</Collection></VTKFile>')
+    (folder / "history.csv").write_text('time[s],p[Pa],note,q[1]\n0,1,"a, b",\n7200,0.1,c,3\n')
+
+
+class Results(unittest.TestCase):
+    def setUp(self):
+        self.holder = tempfile.TemporaryDirectory()
+        self.folder = Path(self.holder.name)
+        write_results(self.folder)
+
+    def tearDown(self):
+        self.holder.cleanup()
+
+    def test_vtu_is_read_to_the_bit(self):
+        grid = results.read_vtu(self.folder / "fractures_1.vtu")
+        np.testing.assert_array_equal(grid.points, POINTS)
+        np.testing.assert_array_equal(grid.cells, LINES)
+        np.testing.assert_array_equal(grid.cell_data["a.pressure[Pa]"], [1 + 1 / 3, 3])
+        np.testing.assert_array_equal(grid.cell_data["a.jump[m]"][1], [3, 6, 0])
+        np.testing.assert_array_equal(grid.point_data["a.displacement[m]"], POINTS * 2)
+
+    def test_cells_of_a_fracture_follow_one_another(self):
+        grid = results.read_vtu(self.folder / "fractures_0.vtu")
+        along, cells = results.chain(grid, np.arange(2))
+        np.testing.assert_array_equal(cells, [1, 0])
+        np.testing.assert_allclose(along, [2**0.5 / 6, 2**0.5 / 3 + 1 / 6], rtol=1e-15)
+
+    def test_index_and_table(self):
+        self.assertEqual([time for time, _ in results.read_pvd(self.folder / "matrix.pvd")], [0, 7200])
+        table = results.read_table(self.folder / "history.csv")
+        np.testing.assert_array_equal(table["p[Pa]"], [1, 0.1])
+        np.testing.assert_array_equal(table["q[1]"], [np.nan, 3])
+        self.assertEqual(table["note"], ["a, b", "c"])
+
+    def test_every_picture_is_drawn(self):
+        done = subprocess.run([ROOT / "tools/plot", self.folder], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("mesh", "matrix_a_pressure", "matrix_a_displacement", "fractures_a_pressure", "fractures_a_jump", "history"):
+            picture = (self.folder / "plots" / f"{name}.png").read_bytes()
+            self.assertTrue(picture.startswith(b"\x89PNG"), name)
+
+    def test_a_folder_without_results_is_refused(self):
+        done = subprocess.run([ROOT / "tools/plot", ROOT / "tools"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("holds no results", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,85 @@
+"""Reads the folder that a run of Sprekk has written: fields (.pvd, .vtu) and tables (.csv)."""
+
+import csv
+import xml.etree.ElementTree as xml
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+NUMBER_TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt8": "<u1", "Int8": "<i1"}
+
+
+@dataclass
+class Grid:
+    """Points (n, 3), cells (m, points per cell), and the arrays on them by name."""
+
+    points: np.ndarray
+    cells: np.ndarray
+    cell_data: dict = field(default_factory=dict)
+    point_data: dict = field(default_factory=dict)
+
+
+def read_vtu(path):
+    """A .vtu file as Sprekk writes it: raw appended data, not compressed, cells of one kind."""
+    content = Path(path).read_bytes()
+    head, marker, tail = content.partition(b"<AppendedData")
+    if not marker:
+        raise ValueError(f"{path} has no appended data")
+    root = xml.fromstring(head + b"</VTKFile>")
+    if root.get("compressor") or root.get("header_type") != "UInt64":
+        raise ValueError(f"{path} is compressed or has short headers")
+    data = memoryview(tail)[tail.index(b"_") + 1:]
+
+    def values(array):
+        offset = int(array.get("offset"))
+        size = int(np.frombuffer(data, "<u8", 1, offset)[0])
+        kind = np.dtype(NUMBER_TYPES[array.get("type")])
+        flat = np.frombuffer(data, kind, size // kind.itemsize, offset + 8)
+        components = int(array.get("NumberOfComponents", 1))
+        return flat.reshape(-1, components) if components > 1 else flat
+
+    def named(section):
+        return {array.get("Name"): values(array) for array in piece.find(section)}
+
+    piece = root.find("UnstructuredGrid/Piece")
+    cells = named("Cells")
+    count = int(piece.get("NumberOfCells"))
+    connectivity = cells["connectivity"].reshape(count, -1) if count else np.zeros((0, 2), int)
+    points = values(piece.find("Points/DataArray")).reshape(-1, 3)
+    return Grid(points, connectivity, named("CellData"), named("PointData"))
+
+
+def read_pvd(path):
+    """[(time in s, file)], in the order of time."""
+    entries = xml.parse(path).getroot().iter("DataSet")
+    folder = Path(path).parent
+    return sorted((float(entry.get("timestep")), folder / entry.get("file")) for entry in entries)
+
+
+def read_table(path):
+    """{column: values}; numbers as an array with nan where the table is empty, texts as a list."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    columns = {}
+    for i, name in enumerate(rows[0] if rows else []):
+        texts = [row[i] for row in rows[1:]]
+        try:
+            columns[name] = np.array([float(text) if text else np.nan for text in texts])
+        except ValueError:
+            columns[name] = texts
+    return columns
+
+
+def chain(grid, cells):
+    """The distance (m) of each of a fracture's cells from its first point, and the cells in that order."""
+    lines = grid.cells[cells]
+    lengths = np.linalg.norm(grid.points[lines[:, 1]] - grid.points[lines[:, 0]], axis=1)
+    following = {start: i for i, start in enumerate(lines[:, 0])}
+    ends = set(lines[:, 1])
+    first = next((i for i, start in enumerate(lines[:, 0]) if start not in ends), 0)
+    order = [first]
+    while len(order) < len(cells) and lines[order[-1], 1] in following:
+        order.append(following[lines[order[-1], 1]])
+    along = np.cumsum(lengths[order]) - lengths[order] / 2
+    return along, cells[order]
