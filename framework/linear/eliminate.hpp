@@ -6,9 +6,13 @@
 
 namespace sprekk {
 
-/// Solves A X = B in place by Gaussian elimination with scaled rows and partial pivoting. `system` holds the n rows of
-/// [A B], `width` values each; the last width - n columns become X. Returns the smallest pivot relative to the largest
-/// coefficient of its row, 0 for a singular matrix, in which case X is meaningless.
+/// Solves A X = B in place by Gaussian elimination with scaled rows. `system` holds the n rows of [A B], `width` values
+/// each; the last width - n columns become X. Returns the smallest pivot relative to the largest coefficient of its
+/// row, 0 for a singular matrix, in which case X is meaningless.
+///
+/// Rows are exchanged only if the diagonal falls below a twentieth of its column: balances of media whose coefficients
+/// differ by many orders stay accurate row by row when each is eliminated by its own unknown, because then no large
+/// multiple of another medium's balance is added and subtracted again.
 inline double eliminate(double* system, int n, int width) {
   double smallest = 1;
   for (int i = 0; i < n; ++i) {
@@ -23,6 +27,7 @@ inline double eliminate(double* system, int n, int width) {
     int best = k;
     for (int i = k + 1; i < n; ++i)
       if (std::abs(system[i * width + k]) > std::abs(system[best * width + k])) best = i;
+    if (std::abs(system[k * width + k]) > 0.05 * std::abs(system[best * width + k])) best = k;
     double* pivot_row = system + k * width;
     if (best != k) std::swap_ranges(pivot_row + k, pivot_row + width, system + best * width + k);
     const double pivot = pivot_row[k];

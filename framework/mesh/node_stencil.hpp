@@ -61,9 +61,6 @@ class StencilMatrix {
   void add(int entity, int i, int slot, int j, double value) {
     row_start(entity, i)[slot * column_components_ + j] += value;
   }
-  void scale(int entity, int i, double factor) {
-    std::for_each_n(row_start(entity, i), column_components_ * width(entity), [factor](double& v) { v *= factor; });
-  }
 
   SparseMatrix take() { return std::move(matrix_); }
 

@@ -1,5 +1,6 @@
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <stdexcept>
 #include <string>
@@ -10,40 +11,72 @@ namespace sprekk::poromechanics {
 
 namespace {
 
+/// Below this, relative to others, what a single subcell's own balance tells is left to its neighbour.
+constexpr double weak = 1e-3;
+
 /// target += factor * source, both of `count` values.
 inline void add_scaled(double* target, double factor, const double* source, int count) {
   for (int j = 0; j < count; ++j) target[j] += factor * source[j];
 }
 
+/// The cell on the other side of the face that does not touch the node, or none.
+int cell_across(const Mesh& mesh, int cell, int node) {
+  for (const int face : mesh.cell_faces[cell])
+    if (mesh.face_nodes[face][0] != node && mesh.face_nodes[face][1] != node)
+      return mesh.face_cells[face][mesh.face_cells[face][0] == cell ? 1 : 0];
+  return none;
+}
+
 }  // namespace
 
-void LocalStresses::solve(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
-                          const std::vector<FaceConditions>& conditions) {
+Adjacency local_cells(const Mesh& mesh) {
+  Adjacency cells;
+  cells.offsets.reserve(mesh.node_count() + 1);
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    const auto at_node = mesh.node_cells[node];
+    cells.items.insert(cells.items.end(), at_node.begin(), at_node.end());
+    if (at_node.size() == 1) {
+      const int across = cell_across(mesh, at_node[0], node);
+      if (across != none) cells.items.insert(cells.items.end() - (across < at_node[0] ? 1 : 0), across);
+    }
+    cells.offsets.push_back(static_cast<int>(cells.items.size()));
+  }
+  return cells;
+}
+
+void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
+                          const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions) {
   subcells_ = region.subcell_count();
+  cells_ = static_cast<int>(cells.size());
+  first_column_ = cells[0] == region.subcells[0].cell ? 0 : 1;
   subfaces_ = region.subface_count();
   int outer = 0;
   for (int f = 0; f < subfaces_; ++f) outer += !region.is_inner(f);
-  columns_ = 3 * subcells_ + 2 * outer;
+  columns_ = 3 * cells_ + 2 * outer;
   width_ = 2 * subfaces_ + columns_;
-  undetermined_.clear();
 
-  region_area_ = 0;
   split_.resize(subcells_);
+  share_.resize(subcells_);
+  double sum = 0;
   for (int k = 0; k < subcells_; ++k) {
-    region_area_ += region.subcells[k].area;
-    split_[k] = split_stiffness(stiffness[region.subcells[k].cell]);
+    const Stiffness& c = stiffness[region.subcells[k].cell];
+    split_[k] = split_stiffness(c);
+    sum += share_[k] = region.subcells[k].area * c(2, 2);
   }
   mean_weight_.assign(subfaces_, Point::Zero());
-  for (const Subcell& subcell : region.subcells)
-    for (int i = 0; i < 2; ++i) mean_weight_[subcell.subfaces[i]] += subcell.area / region_area_ * subcell.gradient[i];
+  for (int k = 0; k < subcells_; ++k) {
+    share_[k] /= sum;
+    for (int i = 0; i < 2; ++i)
+      mean_weight_[region.subcells[k].subfaces[i]] += share_[k] * region.subcells[k].gradient[i];
+  }
 
   assemble(region, conditions);
-  if (eliminate(system_.data(), 2 * subfaces_, width_) < 1e-12) {
+  if (eliminate(system_.data(), 2 * subfaces_, width_) < (subcells_ == 1 ? weak : 1e-12)) {
     if (subcells_ > 1)
       throw std::runtime_error("MPSA: singular local problem at a node of cell " +
                                std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
     assemble(region, conditions);
-    solve_with_least_norm();
+    solve_singular(mesh, region, cells);
   }
   find_gradients(region);
   find_forces(region, stiffness);
@@ -51,8 +84,8 @@ void LocalStresses::solve(const InteractionRegion& region, const std::vector<Sti
 
 void LocalStresses::assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions) {
   system_.assign(2 * subfaces_ * width_, 0);
-  const int u_columns = 2 * subfaces_, s_columns = u_columns + 2 * subcells_;
-  int b_column = s_columns + subcells_;
+  const int u_columns = 2 * subfaces_, s_columns = u_columns + 2 * cells_;
+  int b_column = s_columns + cells_;
   for (int f = 0; f < subfaces_; ++f) {
     double* rows[2] = {system_.data() + 2 * f * width_, system_.data() + (2 * f + 1) * width_};
     // The forces out of the neighbours add up to zero, or to the half of what is prescribed for the face.
@@ -68,9 +101,9 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
           for (int e = 0; e < 2; ++e) {
             const double weight = own(c, 2 * e) * subcell.gradient[i][0] + own(c, 2 * e + 1) * subcell.gradient[i][1];
             rows[c][2 * subcell.subfaces[i] + e] += weight;
-            rows[c][u_columns + 2 * k + e] += weight;
+            rows[c][u_columns + 2 * column(k) + e] += weight;
           }
-        rows[c][s_columns + k] += half_face[c];
+        rows[c][s_columns + column(k)] += half_face[c];
       }
     }
     // In an even medium the shares of the mean gradient cancel between the neighbours.
@@ -81,8 +114,7 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
           for (int g = 0; g < subfaces_; ++g) rows[c][2 * g + e] += share.dot(mean_weight_[g]);
           for (int k = 0; k < subcells_; ++k) {
             const Subcell& subcell = region.subcells[k];
-            rows[c][u_columns + 2 * k + e] +=
-                subcell.area / region_area_ * share.dot(subcell.gradient[0] + subcell.gradient[1]);
+            rows[c][u_columns + 2 * column(k) + e] += share_[k] * share.dot(subcell.gradient[0] + subcell.gradient[1]);
           }
         }
     }
@@ -98,16 +130,34 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
   }
 }
 
-void LocalStresses::solve_with_least_norm() {
+void LocalStresses::solve_singular(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const int n = 2 * subfaces_;
   Eigen::Map<RowMajor> system(system_.data(), n, width_);
   for (int i = 0; i < n; ++i) system.row(i) /= system.row(i).head(n).cwiseAbs().maxCoeff();
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.leftCols(n), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(1e-10);
-  system.rightCols(columns_) = svd.solve(system.rightCols(columns_)).eval();
-  undetermined_.assign(n, 0);
-  for (int i = 0; i < n; ++i) undetermined_[i] = svd.matrixV().row(i).tail(n - svd.rank()).norm() > 1e-8;
+  svd.setThreshold(weak);
+  Eigen::MatrixXd solution = svd.solve(system.rightCols(columns_));
+  if (cells_ > 1) {
+    // What is free is chosen so that the subcell's linear displacement, continued to the centre of the cell across,
+    // comes as near as it can to that cell's displacement.
+    const Subcell& subcell = region.subcells[0];
+    const Point arm = mesh.cell_center[cells[1 - first_column_]] - mesh.cell_center[subcell.cell];
+    Eigen::MatrixXd continuation = Eigen::MatrixXd::Zero(2, n), target = Eigen::MatrixXd::Zero(2, columns_);
+    for (int c = 0; c < 2; ++c) {
+      target(c, 2 * (1 - first_column_) + c) = 1;
+      target(c, 2 * first_column_ + c) = -1;
+      for (int i = 0; i < 2; ++i) {
+        const double weight = subcell.gradient[i].dot(arm);
+        continuation(c, 2 * subcell.subfaces[i] + c) += weight;
+        target(c, 2 * first_column_ + c) += weight;
+      }
+    }
+    const Eigen::MatrixXd free = svd.matrixV().rightCols(n - svd.rank());
+    const Eigen::MatrixXd response = continuation * free;
+    solution += free * response.completeOrthogonalDecomposition().solve(target - continuation * solution);
+  }
+  system.rightCols(columns_) = solution;
 }
 
 void LocalStresses::find_gradients(const InteractionRegion& region) {
@@ -116,14 +166,13 @@ void LocalStresses::find_gradients(const InteractionRegion& region) {
   double* mean = gradients_.data() + 4 * subcells_ * columns_;
   for (int k = 0; k < subcells_; ++k) {
     const Subcell& subcell = region.subcells[k];
-    const double share = subcell.area / region_area_;
     for (int c = 0; c < 2; ++c)
       for (int d = 0; d < 2; ++d) {
         double* gradient = gradients_.data() + (4 * k + 2 * c + d) * columns_;
         for (int i = 0; i < 2; ++i)
           add_scaled(gradient, subcell.gradient[i][d], displacement(subcell.subfaces[i], c), columns_);
-        gradient[2 * k + c] -= subcell.gradient[0][d] + subcell.gradient[1][d];
-        add_scaled(mean + (2 * c + d) * columns_, share, gradient, columns_);
+        gradient[2 * column(k) + c] -= subcell.gradient[0][d] + subcell.gradient[1][d];
+        add_scaled(mean + (2 * c + d) * columns_, share_[k], gradient, columns_);
       }
     const double* gradient = gradients_.data() + 4 * k * columns_;
     double* volume = volumes_.data() + k * columns_;
@@ -152,7 +201,7 @@ void LocalStresses::find_forces(const InteractionRegion& region, const std::vect
         add_scaled(force, own(c, e), gradient + e * columns_, columns_);
         add_scaled(force, mean(c, e), mean_gradient + e * columns_, columns_);
       }
-      force[stress_column() + k] -= half_face[c];
+      force[stress_column() + column(k)] -= half_face[c];
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
@@ -12,29 +13,31 @@ namespace sprekk::poromechanics {
 
 using FaceConditions = std::array<MechanicalCondition, 2>;
 
+/// The cells whose displacements and stresses a node's local problem reads, in ascending order: those at the node. A
+/// cell that is alone there is joined by the one across its third face, if any.
+Adjacency local_cells(const Mesh& mesh);
+
 /// In every subcell the displacement is linear; displacements agree at the continuity points and forces, C : grad u - s
 /// I times the normal, agree on the subfaces. Coefficients are with respect to, in this order: the displacements of the
-/// region's subcells (x, y each), their isotropic stresses s, and the boundary values of the subfaces with one cell (x,
-/// y each; for whole faces). Nordbotten 2016, sec. 3; Keilegavlen and Nordbotten 2017, sec. 2.
+/// local cells (x, y each), their isotropic stresses s, and the boundary values of the subfaces with one cell (x, y
+/// each; for whole faces). Nordbotten 2016, sec. 3; Keilegavlen and Nordbotten 2017, sec. 2.
 ///
-/// A region of a single subcell has no weak symmetry: its mean gradient is its own, so a rotation of the subcell about
-/// its centre costs nothing and, unless a prescribed displacement stops it, is undetermined. The solution with the
-/// least displacement of the subfaces is then taken; stress and volume change do not depend on the choice.
+/// A region of a single subcell has no weak symmetry: its mean gradient is its own. A rotation of the subcell about its
+/// centre then costs nothing unless a prescribed displacement stops it, and two rollers leave a mixture of shear and
+/// stretching free. Such freedom is used to continue the displacement of the cell across, which keeps the method exact
+/// for linear displacements; a triangle that has no neighbour at all gets the least displacement of its subfaces.
 class LocalStresses {
  public:
   /// Throws std::runtime_error if the local system is singular for another reason.
-  void solve(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
-             const std::vector<FaceConditions>& conditions);
+  void solve(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
+             const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions);
 
-  int stress_column() const { return 2 * subcells_; }
-  int boundary_column() const { return 3 * subcells_; }
+  int stress_column() const { return 2 * cells_; }
+  int boundary_column() const { return 3 * cells_; }
 
   /// A component of the displacement at the continuity point of a subface (m).
   const double* displacement(int subface, int component) const {
     return system_.data() + (2 * subface + component) * width_ + 2 * subfaces_;
-  }
-  bool is_determined(int subface, int component) const {
-    return undetermined_.empty() || !undetermined_[2 * subface + component];
   }
   /// A component of the force on a subface, with the normal out of its first cell (N/m).
   const double* force(int subface, int component) const {
@@ -45,16 +48,17 @@ class LocalStresses {
 
  private:
   void assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
-  void solve_with_least_norm();
+  void solve_singular(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells);
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
 
-  int subcells_ = 0, subfaces_ = 0, columns_ = 0, width_ = 0;
-  double region_area_ = 0;
+  int column(int subcell) const { return first_column_ + subcell; }
+
+  int subcells_ = 0, cells_ = 0, first_column_ = 0, subfaces_ = 0, columns_ = 0, width_ = 0;
   std::vector<SplitStiffness> split_;  ///< of the subcells
+  std::vector<double> share_;          ///< of the subcells in the mean gradient
   std::vector<Point> mean_weight_;     ///< of the subfaces: d<G>_cd / d displacement_c
   std::vector<double> system_;         ///< the rows of [A B], then of [I A^-1 B]
-  std::vector<char> undetermined_;     ///< components of displacement, or empty
   std::vector<double> gradients_;      ///< four rows a subcell, and four of the mean
   std::vector<double> forces_, volumes_;
 };

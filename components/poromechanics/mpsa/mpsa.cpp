@@ -27,17 +27,14 @@ void check_arguments(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
                                                                             : " has two cells and a condition"));
 }
 
-int other_end(const Mesh& mesh, int face, int node) {
-  return mesh.face_nodes[face][mesh.face_nodes[face][0] == node ? 1 : 0];
-}
-
 /// The three matrices of one quantity: by displacement, isotropic stress and boundary value.
 struct Coefficients {
   NodeStencil cells, outer;
   StencilMatrix displacement, stress, boundary;
 
-  Coefficients(const Mesh& mesh, const Adjacency& row_nodes, const Adjacency& outer_faces, int components)
-      : cells(row_nodes, mesh.node_cells),
+  Coefficients(const Mesh& mesh, const Adjacency& row_nodes, const Adjacency& node_cells, const Adjacency& outer_faces,
+               int components)
+      : cells(row_nodes, node_cells),
         outer(row_nodes, outer_faces),
         displacement(cells, components, mesh.cell_count(), 2),
         stress(cells, components, mesh.cell_count(), 1),
@@ -55,11 +52,6 @@ struct Coefficients {
   }
   void add_boundary(int entity, int component, int outer_index, double value) {
     boundary.add(entity, component, outer_slots_[outer_index], component, value);
-  }
-  void scale(int entity, int component, double factor) {
-    displacement.scale(entity, component, factor);
-    stress.scale(entity, component, factor);
-    boundary.scale(entity, component, factor);
   }
 
  private:
@@ -80,25 +72,21 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
   check_arguments(mesh, stiffness, conditions, nodes);
   const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
   const auto any = [&](int, int node) { return is_wanted(node); };
-  const Adjacency outer_faces = outer_faces_of_nodes(mesh);
-  Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), outer_faces, 2);
-  Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), outer_faces, 1);
+  const Adjacency node_cells = local_cells(mesh), outer_faces = outer_faces_of_nodes(mesh);
+  Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, outer_faces, 2);
+  Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), node_cells, outer_faces, 1);
   Coefficients trace(
       mesh,
       contributing_nodes(mesh.face_nodes,
                          [&](int face, int node) { return mesh.face_cells[face][1] == none && is_wanted(node); }),
-      outer_faces, 2);
+      node_cells, outer_faces, 2);
 
   InteractionRegion region;
   LocalStresses local;
-  // Displacements of faces that only the half at the other end tells. A triangle on its own, cut out by fractures, has
-  // no such end: its rotation is arbitrary, and the least one is taken.
-  const auto is_shared = [&](int node) { return mesh.node_cells[node].size() > 1; };
-  std::vector<std::array<int, 2>> half_known;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
-    local.solve(region, stiffness, conditions);
+    local.solve(mesh, region, node_cells[node], stiffness, conditions);
     int outer_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {
       const int face = region.faces[f];
@@ -113,12 +101,7 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
       if (region.is_inner(f)) continue;
       ++outer_index;
       trace.find_slots(face, node);
-      for (int c = 0; c < 2; ++c) {
-        if (local.is_determined(f, c) || !is_shared(other_end(mesh, face, node)))
-          trace.add(face, c, local.displacement(f, c), local, 0.5);
-        else
-          half_known.push_back({face, c});
-      }
+      for (int c = 0; c < 2; ++c) trace.add(face, c, local.displacement(f, c), local, 0.5);
     }
     for (int k = 0; k < region.subcell_count(); ++k) {
       const int cell = region.subcells[k].cell;
@@ -126,7 +109,6 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
       volume.add(cell, 0, local.volume_change(k), local, 1);
     }
   }
-  for (const auto& [face, component] : half_known) trace.scale(face, component, 2);
   return {force.displacement.take(),  force.stress.take(),  force.boundary.take(),
           trace.displacement.take(),  trace.stress.take(),  trace.boundary.take(),
           volume.displacement.take(), volume.stress.take(), volume.boundary.take()};

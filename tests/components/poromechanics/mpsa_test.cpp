@@ -1,0 +1,240 @@
+#include "components/poromechanics/mpsa/mpsa.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/components/meshes.hpp"
+
+namespace sprekk::poromechanics {
+namespace {
+
+using test::is_outer;
+using Conditions = std::vector<std::array<MechanicalCondition, 2>>;
+using Function = std::function<Point(const Point&)>;
+
+/// Both directions prescribed, either one, and none, in turn; walls have prescribed tractions.
+Conditions mixed_conditions(const Mesh& mesh) {
+  const auto kind = [](bool moves) {
+    return moves ? MechanicalCondition::displacement : MechanicalCondition::traction;
+  };
+  Conditions conditions(mesh.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (is_outer(mesh, f)) {
+      const bool is_wall = test::is_wall(mesh, f);
+      conditions[f] = {kind(!is_wall && f % 2 == 0), kind(!is_wall && f / 2 % 2 == 0)};
+    }
+  return conditions;
+}
+
+Conditions traction_everywhere(const Mesh& mesh) {
+  Conditions conditions(mesh.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (is_outer(mesh, f)) conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
+  return conditions;
+}
+
+/// What the operators make of exact values in the cells and on the boundary, against the exact result.
+struct Comparison {
+  double force = 0, trace = 0, volume = 0;  ///< largest errors
+};
+
+/// `displacement` and, for the cell c, its gradient and stress s; force = (C : gradient - s I) n |f|.
+Comparison compare(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const Conditions& conditions,
+                   const Function& displacement, const std::function<Tensor(int)>& gradient,
+                   const std::function<double(int)>& isotropic_stress) {
+  const auto operators = discretize_mpsa(mesh, stiffness, conditions);
+  const auto force = [&](int f) -> Point {
+    const int c = mesh.face_cells[f][0];
+    const Tensor g = gradient(c);
+    const Eigen::Vector3d sigma = stiffness[c] * Eigen::Vector3d(g(0, 0), g(1, 1), g(0, 1) + g(1, 0));
+    const Point n = test::face_vector(mesh, f);
+    return {sigma[0] * n[0] + sigma[2] * n[1] - isotropic_stress(c) * n[0],
+            sigma[2] * n[0] + sigma[1] * n[1] - isotropic_stress(c) * n[1]};
+  };
+  Vector u(2 * mesh.cell_count()), s(mesh.cell_count()), b = Vector::Zero(2 * mesh.face_count());
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    u.segment<2>(2 * c) = displacement(mesh.cell_center[c]);
+    s[c] = isotropic_stress(c);
+  }
+  for (int f = 0; f < mesh.face_count(); ++f)
+    for (int d = 0; d < 2; ++d) {
+      if (conditions[f][d] == MechanicalCondition::displacement) b[2 * f + d] = displacement(mesh.face_center[f])[d];
+      if (conditions[f][d] == MechanicalCondition::traction) b[2 * f + d] = force(f)[d];
+    }
+  const Vector forces = operators.force_displacement * u + operators.force_stress * s + operators.force_boundary * b;
+  const Vector traces = operators.trace_displacement * u + operators.trace_stress * s + operators.trace_boundary * b;
+  const Vector volumes =
+      operators.volume_displacement * u + operators.volume_stress * s + operators.volume_boundary * b;
+  Comparison errors;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    errors.force = std::max(errors.force, (forces.segment<2>(2 * f) - force(f)).norm());
+    const Point trace = is_outer(mesh, f) ? displacement(mesh.face_center[f]) : Point::Zero().eval();
+    errors.trace = std::max(errors.trace, (traces.segment<2>(2 * f) - trace).norm());
+  }
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    errors.volume = std::max(errors.volume, std::abs(volumes[c] - mesh.cell_area[c] * gradient(c).trace()));
+  return errors;
+}
+
+/// Shear and normal components coupled.
+Stiffness anisotropic_stiffness() {
+  Stiffness stiffness;
+  stiffness << 5, 1.5, 0.8, 1.5, 3, -0.6, 0.8, -0.6, 1.2;
+  return stiffness;
+}
+
+const Tensor linear_gradient = (Tensor() << 0.7, -1.1, 0.4, 0.9).finished();
+Point linear_displacement(const Point& x) { return Point(0.3, -0.2) + linear_gradient * x; }
+
+TEST(Mpsa, IsExactForLinearDisplacements) {
+  for (const Mesh& mesh : {test::fractured_square(), test::square_with_single_corners(6),
+                           generate_mesh(test::box(2, 1), test::structured(7, 5, 0.4))})
+    for (const Stiffness& c : {isotropic_stiffness(1.4, 0.8), anisotropic_stiffness()})
+      for (const Conditions& conditions : {mixed_conditions(mesh), traction_everywhere(mesh)}) {
+        const auto errors = compare(
+            mesh, std::vector<Stiffness>(mesh.cell_count(), c), conditions, linear_displacement,
+            [](int) { return linear_gradient; }, [](int) { return 0.6; });
+        EXPECT_LT(errors.force, 1e-12);
+        EXPECT_LT(errors.trace, 1e-12);
+        EXPECT_LT(errors.volume, 1e-13);
+      }
+}
+
+TEST(Mpsa, RotationsAndTranslationsAreFree) {
+  const Mesh mesh = test::fractured_square();
+  const Tensor rotation = (Tensor() << 0, -1, 1, 0).finished();
+  const auto errors = compare(
+      mesh, std::vector<Stiffness>(mesh.cell_count(), 1e10 * anisotropic_stiffness()), mixed_conditions(mesh),
+      [&](const Point& x) -> Point { return Point(3, -2) + rotation * x; }, [&](int) { return rotation; },
+      [](int) { return 0; });
+  EXPECT_LT(errors.force, 1e10 * 1e-13);
+  EXPECT_LT(errors.trace, 1e-12);
+  EXPECT_LT(errors.volume, 1e-14);
+}
+
+/// Two triangles, each of them alone in one corner, where nothing but the other stops it from turning.
+TEST(Mpsa, TrianglesAloneInACornerFollowTheirNeighbours) {
+  const Mesh mesh = test::square_with_single_corners(1);
+  const auto errors = compare(
+      mesh, std::vector<Stiffness>(mesh.cell_count(), isotropic_stiffness(1, 1)), traction_everywhere(mesh),
+      linear_displacement, [](int) { return linear_gradient; }, [](int) { return 0.0; });
+  EXPECT_LT(errors.force, 1e-13);
+  EXPECT_LT(errors.trace, 1e-13);
+  EXPECT_LT(errors.volume, 1e-14);
+}
+
+TEST(Mpsa, RollersHoldATriangleAloneInACorner) {
+  const Mesh mesh = test::square_with_single_corners(3);
+  Conditions conditions = traction_everywhere(mesh);
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!is_outer(mesh, f)) continue;
+    const std::string& side = mesh.side_names[mesh.face_side[f]];
+    if (side == "left" || side == "right") conditions[f][0] = MechanicalCondition::displacement;
+    if (side == "bottom") conditions[f][1] = MechanicalCondition::displacement;
+  }
+  const auto errors = compare(
+      mesh, std::vector<Stiffness>(mesh.cell_count(), anisotropic_stiffness()), conditions, linear_displacement,
+      [](int) { return linear_gradient; }, [](int) { return 1.0; });
+  EXPECT_LT(errors.force, 1e-13);
+  EXPECT_LT(errors.trace, 1e-13);
+  EXPECT_LT(errors.volume, 1e-14);
+}
+
+/// Layers, `contrast` times as stiff below y = 1/2 as above, under a uniform strain along them and a uniform stress
+/// across them; s jumps too.
+class MpsaLayers : public testing::TestWithParam<double> {};
+
+TEST_P(MpsaLayers, AreExact) {
+  const double contrast = GetParam(), lambda = 1.2, shear = 0.7;
+  Geometry geometry = test::box(1, 1);
+  RegionGeometry lower;
+  lower.name = "lower";
+  lower.polygon = {Point(0, 0), Point(1, 0), Point(1, 0.5), Point(0, 0.5)};
+  geometry.regions = {lower};
+  const Mesh mesh = generate_mesh(geometry, test::unstructured(0.09, 0.3));
+  const auto is_lower = [&](int c) { return mesh.cell_center[c][1] < 0.5; };
+  std::vector<Stiffness> stiffness(mesh.cell_count(), isotropic_stiffness(lambda, shear));
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    if (is_lower(c)) stiffness[c] *= contrast;
+
+  // Across: (lambda + 2 G) e_yy - s = 1 in the layer of unit stiffness; s is 0.3 below.
+  const double s_lower = 0.3, s_upper = -0.2;
+  const double lower_strain = (1 + s_lower) / (contrast * (lambda + 2 * shear));
+  const double upper_strain = (1 + s_upper) / (lambda + 2 * shear);
+  const auto strain = [&](bool lower_side) { return lower_side ? lower_strain : upper_strain; };
+  const auto errors = compare(
+      mesh, stiffness, mixed_conditions(mesh),
+      [&](const Point& x) { return Point(0, strain(x[1] < 0.5) * (x[1] - 0.5)); },
+      [&](int c) { return (Tensor() << 0, 0, 0, strain(is_lower(c))).finished(); },
+      [&](int c) { return is_lower(c) ? s_lower : s_upper; });
+  EXPECT_LT(errors.force, 1e-12);
+  EXPECT_LT(errors.trace, 1e-12 * std::max(1.0, 1 / contrast));
+  EXPECT_LT(errors.volume, 1e-13 * std::max(1.0, 1 / contrast));
+}
+
+INSTANTIATE_TEST_SUITE_P(Contrasts, MpsaLayers, testing::Values(1e-10, 1e-3, 1e3, 1e10));
+
+TEST(Mpsa, PrescribedForcesAreKeptToTheLastDigit) {
+  const Mesh mesh = test::fractured_square();
+  const auto conditions = mixed_conditions(mesh);
+  const auto operators =
+      discretize_mpsa(mesh, std::vector<Stiffness>(mesh.cell_count(), isotropic_stiffness(2e10, 1e10)), conditions);
+  const Vector u = Vector::Random(2 * mesh.cell_count()), s = Vector::Random(mesh.cell_count()) * 1e7;
+  const Vector b = Vector::Random(2 * mesh.face_count());
+  const Vector forces = operators.force_displacement * u + operators.force_stress * s + operators.force_boundary * b;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    for (int d = 0; d < 2; ++d)
+      if (conditions[f][d] == MechanicalCondition::traction) {
+        EXPECT_EQ(forces[2 * f + d], b[2 * f + d]);
+      }
+}
+
+TEST(Mpsa, ChosenNodesGiveTheSameRows) {
+  const Mesh mesh = test::fractured_square();
+  const auto conditions = mixed_conditions(mesh);
+  const std::vector<Stiffness> stiffness(mesh.cell_count(), anisotropic_stiffness());
+  std::vector<char> nodes(mesh.node_count());
+  for (int n = 0; n < mesh.node_count(); ++n) nodes[n] = mesh.nodes[n][0] < 0.6;
+  const auto all = discretize_mpsa(mesh, stiffness, conditions);
+  const auto some = discretize_mpsa(mesh, stiffness, conditions, nodes);
+  int compared = 0;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!nodes[mesh.face_nodes[f][0]] || !nodes[mesh.face_nodes[f][1]]) continue;
+    ++compared;
+    for (const int row : {2 * f, 2 * f + 1}) {
+      EXPECT_EQ(test::row_difference(all.force_displacement, some.force_displacement, row), 0);
+      EXPECT_EQ(test::row_difference(all.force_stress, some.force_stress, row), 0);
+      EXPECT_EQ(test::row_difference(all.force_boundary, some.force_boundary, row), 0);
+      EXPECT_EQ(test::row_difference(all.trace_displacement, some.trace_displacement, row), 0);
+      EXPECT_EQ(test::row_difference(all.trace_stress, some.trace_stress, row), 0);
+      EXPECT_EQ(test::row_difference(all.trace_boundary, some.trace_boundary, row), 0);
+    }
+  }
+  EXPECT_GT(compared, mesh.face_count() / 3);
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const auto [i, j, k] = mesh.cell_nodes[c];
+    if (!nodes[i] || !nodes[j] || !nodes[k]) continue;
+    EXPECT_EQ(test::row_difference(all.volume_displacement, some.volume_displacement, c), 0);
+    EXPECT_EQ(test::row_difference(all.volume_stress, some.volume_stress, c), 0);
+    EXPECT_EQ(test::row_difference(all.volume_boundary, some.volume_boundary, c), 0);
+  }
+}
+
+TEST(Mpsa, RefusesConditionsThatDoNotFitTheMesh) {
+  const Mesh mesh = test::square_with_single_corners(2);
+  const std::vector<Stiffness> stiffness(mesh.cell_count(), isotropic_stiffness(1, 1));
+  const auto conditions = traction_everywhere(mesh);
+  EXPECT_THROW(discretize_mpsa(mesh, {}, conditions), std::invalid_argument);
+  EXPECT_THROW(discretize_mpsa(mesh, stiffness, {}), std::invalid_argument);
+  EXPECT_THROW(discretize_mpsa(mesh, stiffness, conditions, {1}), std::invalid_argument);
+  const std::array none_at_all = {MechanicalCondition::none, MechanicalCondition::none};
+  EXPECT_THROW(discretize_mpsa(mesh, stiffness, Conditions(mesh.face_count(), none_at_all)), std::invalid_argument);
+  EXPECT_THROW(
+      discretize_mpsa(mesh, stiffness,
+                      Conditions(mesh.face_count(), {MechanicalCondition::traction, MechanicalCondition::traction})),
+      std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sprekk::poromechanics
