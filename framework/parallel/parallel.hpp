@@ -17,6 +17,10 @@ double sum(double value);
 double max(double value);
 bool any(bool value);
 void sum(Vector& values);  ///< entrywise over all ranks
+void max(Vector& values);  ///< entrywise over all ranks
+/// What every rank gives, one after the other in order of rank. Lengths may differ.
+std::vector<int> gather(const std::vector<int>& mine);
+std::vector<double> gather(const std::vector<double>& mine);
 void barrier();
 void start_mpi();  ///< idempotent; solvers that always need MPI call it
 /// Ends every process of the run after an error on one of them.

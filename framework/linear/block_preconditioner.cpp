@@ -1,0 +1,92 @@
+#include "framework/linear/block_preconditioner.hpp"
+
+#include <stdexcept>
+
+#include "framework/linear/refined_solve.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+
+BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
+  const Partition partition(system);
+  const int parts = static_cast<int>(partition.parts.size());
+  const int local = parts - 1;
+  const LinearReport report = elimination_.factor(system, partition);
+  if (!report.solved) throw std::invalid_argument(report.reason);
+  local_owned_ = partition.local().owned;
+  local_unknowns_ = static_cast<int>(partition.local().unknowns.size());
+
+  couplings_.resize(parts);
+  for (int row_part = 0; row_part < parts; ++row_part) {
+    owned_rows_.push_back(partition.parts[row_part].owned_rows);
+    for (int column_part = 0; column_part < parts; ++column_part) {
+      // Of the bulk, a sweep needs only what was solved before.
+      const bool is_needed = row_part == local ? column_part != local : column_part < row_part || column_part == local;
+      if (!is_needed || partition.parts[row_part].unknowns.empty()) continue;
+      const SparseMatrix block = sub_matrix(system.local, partition, row_part, column_part);
+      if (!parallel::any(block.nonZeros() > 0)) continue;
+      couplings_[row_part].push_back(
+          {column_part, DistributedMatrix(block, partition.parts[row_part].owned, partition.parts[column_part].owned,
+                                          static_cast<int>(partition.parts[row_part].unknowns.size()))});
+    }
+  }
+
+  for (int part = 0; part < local; ++part) {
+    const UnknownBlock& block = *partition.parts[part].block;
+    SparseMatrix a = sub_matrix(system.local, partition, part, part);
+    a += elimination_.correction(system, partition, part);
+    if (block.stabilization.size() > 0) {
+      SparseMatrix diagonal(a.rows(), a.cols());
+      diagonal.reserve(Eigen::VectorXi::Ones(a.rows()));
+      const std::vector<int>& owned = partition.parts[part].owned;
+      for (std::size_t k = 0; k < owned.size(); ++k)
+        diagonal.insert(static_cast<int>(k), owned[k]) = block.stabilization[owned[k]];
+      a += diagonal;
+    }
+    cycles_.push_back(std::make_unique<Multigrid>(a, partition.parts[part].owned, block));
+  }
+}
+
+// A_FF^-1 exists on every process, so the right-hand side is made whole first.
+Vector BlockPreconditioner::solve_local(Vector owned) const {
+  Vector whole = whole_vector(local_owned_, owned, local_unknowns_);
+  elimination_.solve(whole);
+  for (std::size_t k = 0; k < local_owned_.size(); ++k) owned[k] = whole[local_owned_[k]];
+  return owned;
+}
+
+// The rows of `part` of r - A z, over the parts that have a solution so far.
+Vector BlockPreconditioner::without_couplings(int part, const Vector& r, const std::vector<Vector>& solutions) const {
+  Vector rest(owned_rows_[part].size());
+  for (Eigen::Index k = 0; k < rest.size(); ++k) rest[k] = r[owned_rows_[part][k]];
+  for (const Coupling& coupling : couplings_[part])
+    if (coupling.column_part < static_cast<int>(solutions.size()))
+      coupling.matrix.subtract_product(solutions[coupling.column_part], rest);
+  return rest;
+}
+
+void BlockPreconditioner::apply(const Vector& r, Vector& z) const {
+  const int local = static_cast<int>(cycles_.size());
+  std::vector<Vector> solutions;
+  for (int part = 0; part < local; ++part) {
+    // What the fractures would do now, acting on the rows of this part.
+    const Vector rest_local = without_couplings(local, r, solutions);
+    Vector rest = without_couplings(part, r, solutions);
+    if (local_unknowns_ > 0) {
+      const Vector response = solve_local(rest_local);
+      for (const Coupling& coupling : couplings_[part])
+        if (coupling.column_part == local) coupling.matrix.subtract_product(response, rest);
+    }
+    solutions.emplace_back(rest.size());
+    cycles_[part]->apply(rest, solutions.back());
+  }
+  Vector last = without_couplings(local, r, solutions);
+  if (local_unknowns_ > 0) last = solve_local(std::move(last));
+  solutions.push_back(std::move(last));
+
+  z.resize(r.size());
+  for (int part = 0; part <= local; ++part)
+    for (std::size_t k = 0; k < owned_rows_[part].size(); ++k) z[owned_rows_[part][k]] = solutions[part][k];
+}
+
+}  // namespace sprekk

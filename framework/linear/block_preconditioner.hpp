@@ -1,0 +1,42 @@
+// The block preconditioner of coupled poromechanics with fractures.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "framework/linear/linear_solver.hpp"
+#include "framework/linear/local_elimination.hpp"
+#include "framework/linear/trilinos/distributed_matrix.hpp"
+#include "framework/linear/trilinos/multigrid.hpp"
+
+namespace sprekk {
+
+/// An approximate inverse M of the system. The unknowns F on the fractures are eliminated exactly; on the bulk blocks
+/// that remain follows one sweep of block Gauss-Seidel, a multigrid cycle each, flow (with its fixed-stress
+/// stabilization) before displacement. M is linear and fixed, so plain GMRES may use it.
+/// The triangular fixed-stress preconditioner: White, Castelletto and Tchelepi 2016.
+class BlockPreconditioner {
+ public:
+  /// Collective. `system` must outlive the constructor only. Throws std::invalid_argument if a process holds a part of
+  /// an entity's components, or the fracture unknowns cannot be eliminated.
+  explicit BlockPreconditioner(const LinearSystem& system);
+  /// z = M r on this process's rows. Collective.
+  void apply(const Vector& r, Vector& z) const;
+
+ private:
+  struct Coupling {
+    int column_part;
+    DistributedMatrix matrix;
+  };
+  Vector without_couplings(int part, const Vector& r, const std::vector<Vector>& solutions) const;
+  Vector solve_local(Vector owned) const;
+
+  std::vector<std::vector<int>> owned_rows_;        ///< of every part
+  std::vector<std::vector<Coupling>> couplings_;    ///< of every part's rows with other parts
+  std::vector<std::unique_ptr<Multigrid>> cycles_;  ///< of every bulk part
+  LocalElimination elimination_;
+  std::vector<int> local_owned_;
+  int local_unknowns_ = 0;
+};
+
+}  // namespace sprekk

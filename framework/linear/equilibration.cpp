@@ -1,0 +1,99 @@
+#include "framework/linear/equilibration.hpp"
+
+#include <cmath>
+
+#include "framework/linear/unknown_names.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+namespace {
+
+// The power of two nearest (in the exponent) to 1 / sqrt(value).
+double half_inverse(double value) {
+  int exponent = 0;
+  std::frexp(value, &exponent);  // value = m 2^exponent, 1/2 <= m < 1
+  return std::ldexp(1.0, -(exponent >= 0 ? exponent / 2 : -((-exponent) / 2)));
+}
+
+bool is_near_one(const Vector& largest) {
+  return largest.size() == 0 || (largest.minCoeff() >= 0.25 && largest.maxCoeff() <= 4);
+}
+
+// The first offending number of all processes, or -1.
+int first_of_all(int mine) {
+  const double smallest = -parallel::max(mine < 0 ? -HUGE_VAL : -static_cast<double>(mine));
+  return std::isinf(smallest) ? -1 : static_cast<int>(smallest);
+}
+
+struct Largest {
+  Vector of_row, of_column;
+};
+
+Largest largest_entries(const SparseMatrix& a) {
+  Largest largest{Vector::Zero(a.rows()), Vector::Zero(a.cols())};
+  const int* outer = a.outerIndexPtr();
+  for (int row = 0; row < a.rows(); ++row)
+    for (int k = outer[row]; k < outer[row + 1]; ++k) {
+      const double size = std::abs(a.valuePtr()[k]);
+      if (size > largest.of_row[row]) largest.of_row[row] = size;
+      double& column = largest.of_column[a.innerIndexPtr()[k]];
+      if (size > column) column = size;
+    }
+  parallel::max(largest.of_column);
+  return largest;
+}
+
+std::string find_mistake(const LinearSystem& system, const SparseMatrix& a, const Largest& largest) {
+  int not_a_number = -1, empty_row = -1, empty_column = -1;
+  for (int row = 0; row < a.rows() && not_a_number < 0; ++row)
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
+      if (!std::isfinite(entry.value())) not_a_number = system.rows[row];
+  for (int row = static_cast<int>(a.rows()) - 1; row >= 0; --row)
+    if (largest.of_row[row] == 0) empty_row = system.rows[row];
+  for (int column = static_cast<int>(a.cols()) - 1; column >= 0; --column)
+    if (largest.of_column[column] == 0) empty_column = column;
+  not_a_number = first_of_all(not_a_number);
+  empty_row = first_of_all(empty_row);
+  empty_column = first_of_all(empty_column);
+  if (not_a_number >= 0)
+    return "the matrix has an entry that is not a finite number (row of " +
+           describe_unknown(system.blocks, not_a_number) + ")";
+  if (empty_row >= 0)
+    return "the matrix is singular (the row of " + describe_unknown(system.blocks, empty_row) + " is zero)";
+  if (empty_column >= 0)
+    return "the matrix is singular (nothing determines " + describe_unknown(system.blocks, empty_column) +
+           ": its column is zero)";
+  return "";
+}
+
+}  // namespace
+
+Equilibrated equilibrate(const LinearSystem& system) {
+  Equilibrated result;
+  result.matrix = system.local;
+  SparseMatrix& a = result.matrix;
+  a.makeCompressed();
+  result.row_scale = Vector::Ones(a.rows());
+  result.column_scale = Vector::Ones(a.cols());
+
+  Largest largest = largest_entries(a);
+  result.mistake = find_mistake(system, a, largest);
+  if (!result.mistake.empty()) return result;
+
+  // A sweep halves the spread of the exponents: 20 sweeps are enough for any double.
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    if (!parallel::any(!is_near_one(largest.of_row) || !is_near_one(largest.of_column))) break;
+    const Vector row_factor = largest.of_row.unaryExpr(&half_inverse);
+    const Vector column_factor = largest.of_column.unaryExpr(&half_inverse);
+    const int* outer = a.outerIndexPtr();
+    for (int row = 0; row < a.rows(); ++row)
+      for (int k = outer[row]; k < outer[row + 1]; ++k)
+        a.valuePtr()[k] *= row_factor[row] * column_factor[a.innerIndexPtr()[k]];
+    result.row_scale.array() *= row_factor.array();
+    result.column_scale.array() *= column_factor.array();
+    largest = largest_entries(a);
+  }
+  return result;
+}
+
+}  // namespace sprekk

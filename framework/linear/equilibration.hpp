@@ -1,0 +1,23 @@
+// Scales a matrix so that the largest entry of every row and column is near one.
+#pragma once
+
+#include <string>
+
+#include "framework/linear/linear_solver.hpp"
+
+namespace sprekk {
+
+/// The scaled matrix R A C and its scales. All scales are powers of two, so scaling rounds nothing and a residual of
+/// the scaled system is that of the true one.
+struct Equilibrated {
+  SparseMatrix matrix;  ///< this process's rows of R A C
+  Vector row_scale;     ///< R, one each row of this process
+  Vector column_scale;  ///< C, one each unknown of the whole system
+  std::string mistake;  ///< why the matrix cannot be solved: an empty row or column, or an entry that is no number
+};
+
+/// Ruiz 2001, "A scaling algorithm to equilibrate both rows and columns norms in matrices", in the maximum norm.
+/// Collective. The matrix is compressed if it was not.
+Equilibrated equilibrate(const LinearSystem& system);
+
+}  // namespace sprekk

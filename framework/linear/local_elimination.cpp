@@ -1,0 +1,177 @@
+#include "framework/linear/local_elimination.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+namespace {
+
+// Local unknowns of one fracture cell share a key: its centre (to a small part of the fractures' extent), or for blocks
+// without coordinates the number of the entity among blocks of the same length.
+using CellKey = std::array<long long, 3>;
+
+std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const Partition& partition) {
+  Point low = Point::Constant(HUGE_VAL), high = Point::Constant(-HUGE_VAL);
+  for (const UnknownBlock& block : system.blocks)
+    for (const Point& point : block.coordinates) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+  const double spacing = std::max((high - low).maxCoeff(), 0.0) * 1e-8;
+
+  std::map<CellKey, std::vector<int>> cells;
+  const std::vector<int>& unknowns = partition.local().unknowns;
+  std::vector<bool> is_placed(unknowns.size(), false);
+  for (const UnknownBlock& block : system.blocks) {
+    if (block.kind != UnknownBlock::Kind::local) continue;
+    const bool has_places = static_cast<int>(block.coordinates.size()) == block.entities && spacing > 0;
+    for (int entity = 0; entity < block.entities; ++entity) {
+      CellKey key{-1, block.entities, entity};
+      if (has_places) {
+        const Point steps = (block.coordinates[entity] - low) / spacing;
+        key = {0, std::llround(steps.x()), std::llround(steps.y())};
+      }
+      for (int c = 0; c < block.components; ++c) {
+        const int place = partition.place_of[block.first + entity * block.components + c];
+        cells[key].push_back(place);
+        is_placed[place] = true;
+      }
+    }
+  }
+  std::vector<std::vector<int>> groups;
+  for (auto& [key, members] : cells) groups.push_back(std::move(members));
+  for (int place = 0; place < static_cast<int>(unknowns.size()); ++place)
+    if (!is_placed[place]) groups.push_back({place});
+  return groups;
+}
+
+// The inverse of a small matrix whose rows and columns have different units; zero if it is singular.
+Eigen::MatrixXd inverse_or_zero(Eigen::MatrixXd a) {
+  const Vector row_size = a.cwiseAbs().rowwise().maxCoeff();
+  if (row_size.minCoeff() == 0) return Eigen::MatrixXd::Zero(a.rows(), a.cols());
+  a = row_size.cwiseInverse().asDiagonal() * a;
+  const Vector column_size = a.cwiseAbs().colwise().maxCoeff();
+  if (column_size.minCoeff() == 0) return Eigen::MatrixXd::Zero(a.rows(), a.cols());
+  a = a * column_size.cwiseInverse().asDiagonal();
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(a);
+  if (!lu.isInvertible()) return Eigen::MatrixXd::Zero(a.rows(), a.cols());
+  return column_size.cwiseInverse().asDiagonal() * lu.inverse() * row_size.cwiseInverse().asDiagonal();
+}
+
+// The rows of the local unknowns of all processes.
+SparseMatrix gather_local_rows(const LinearSystem& system, const Partition& partition) {
+  const Part& local = partition.local();
+  std::vector<int> rows, columns;
+  std::vector<double> values;
+  for (std::size_t k = 0; k < local.owned.size(); ++k)
+    for (SparseMatrix::InnerIterator entry(system.local, local.owned_rows[k]); entry; ++entry) {
+      rows.push_back(local.owned[k]);
+      columns.push_back(static_cast<int>(entry.col()));
+      values.push_back(entry.value());
+    }
+  rows = parallel::gather(rows);
+  columns = parallel::gather(columns);
+  values = parallel::gather(values);
+  std::vector<Triplet> entries;
+  entries.reserve(values.size());
+  for (std::size_t k = 0; k < values.size(); ++k) entries.emplace_back(rows[k], columns[k], values[k]);
+  SparseMatrix all(static_cast<int>(local.unknowns.size()), system.local.cols());
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
+// All rows of `rows`, the columns that belong to `part`.
+SparseMatrix columns_of_part(const SparseMatrix& rows, const Partition& partition, int part) {
+  std::vector<Triplet> entries;
+  for (int row = 0; row < rows.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry)
+      if (partition.part_of[entry.col()] == part)
+        entries.emplace_back(row, partition.place_of[entry.col()], entry.value());
+  SparseMatrix result(rows.rows(), static_cast<int>(partition.parts[part].unknowns.size()));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+}  // namespace
+
+Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), -1), place_of(system.local.cols(), 0) {
+  for (const auto kind : {UnknownBlock::Kind::scalar_elliptic, UnknownBlock::Kind::elasticity})
+    for (const UnknownBlock& block : system.blocks) {
+      if (block.kind != kind || block.entities == 0) continue;
+      const int part = static_cast<int>(parts.size());
+      parts.emplace_back();
+      parts.back().block = &block;
+      std::fill_n(part_of.begin() + block.first, block.entities * block.components, part);
+    }
+  parts.emplace_back();
+  for (std::size_t unknown = 0; unknown < part_of.size(); ++unknown) {
+    if (part_of[unknown] < 0) part_of[unknown] = static_cast<int>(parts.size()) - 1;
+    std::vector<int>& members = parts[part_of[unknown]].unknowns;
+    place_of[unknown] = static_cast<int>(members.size());
+    members.push_back(static_cast<int>(unknown));
+  }
+  for (std::size_t row = 0; row < system.rows.size(); ++row) {
+    Part& part = parts[part_of[system.rows[row]]];
+    part.owned.push_back(place_of[system.rows[row]]);
+    part.owned_rows.push_back(static_cast<int>(row));
+  }
+}
+
+SparseMatrix sub_matrix(const SparseMatrix& owned_rows, const Partition& partition, int rows, int columns) {
+  const Part& part = partition.parts[rows];
+  std::vector<Triplet> entries;
+  for (std::size_t k = 0; k < part.owned.size(); ++k)
+    for (SparseMatrix::InnerIterator entry(owned_rows, part.owned_rows[k]); entry; ++entry)
+      if (partition.part_of[entry.col()] == columns)
+        entries.emplace_back(static_cast<int>(k), partition.place_of[entry.col()], entry.value());
+  SparseMatrix result(static_cast<int>(part.owned.size()), static_cast<int>(partition.parts[columns].unknowns.size()));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+LinearReport LocalElimination::factor(const LinearSystem& system, const Partition& partition) {
+  const int unknowns = static_cast<int>(partition.local().unknowns.size());
+  if (unknowns == 0) return LinearReport::success();
+  rows_ = gather_local_rows(system, partition);
+
+  LinearSystem alone;
+  alone.local = columns_of_part(rows_, partition, static_cast<int>(partition.parts.size()) - 1);
+  alone.rows.resize(unknowns);
+  for (int place = 0; place < unknowns; ++place) alone.rows[place] = place;
+  std::vector<Triplet> inverses;
+  for (const std::vector<int>& cell : unknowns_by_cell(system, partition)) {
+    const int size = static_cast<int>(cell.size());
+    Eigen::MatrixXd block(size, size);
+    for (int i = 0; i < size; ++i)
+      for (int j = 0; j < size; ++j) block(i, j) = alone.local.coeff(cell[i], cell[j]);
+    block = inverse_or_zero(block);
+    for (int i = 0; i < size; ++i)
+      for (int j = 0; j < size; ++j)
+        if (block(i, j) != 0) inverses.emplace_back(cell[i], cell[j], block(i, j));
+  }
+  cell_inverses_ = SparseMatrix(unknowns, unknowns);
+  cell_inverses_.setFromTriplets(inverses.begin(), inverses.end());
+
+  LinearReport report = solver_.factor(alone);
+  if (!report.solved)
+    report.reason = "the preconditioner cannot eliminate the unknowns on the fractures (" + report.reason + ")";
+  return report;
+}
+
+SparseMatrix LocalElimination::correction(const LinearSystem& system, const Partition& partition, int bulk) const {
+  const int local = static_cast<int>(partition.parts.size()) - 1;
+  const SparseMatrix bulk_from_local = sub_matrix(system.local, partition, bulk, local);
+  if (partition.local().unknowns.empty())
+    return SparseMatrix(bulk_from_local.rows(), static_cast<int>(partition.parts[bulk].unknowns.size()));
+  const SparseMatrix weighted = cell_inverses_ * columns_of_part(rows_, partition, bulk);
+  SparseMatrix product = bulk_from_local * weighted;
+  product *= -1.0;
+  return product;
+}
+
+}  // namespace sprekk

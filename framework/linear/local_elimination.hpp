@@ -1,0 +1,54 @@
+// The few unknowns on fractures, seen by a preconditioner of the bulk: solved exactly, and eliminated from the bulk's
+// blocks approximately.
+#pragma once
+
+#include <vector>
+
+#include "framework/linear/linear_solver.hpp"
+#include "framework/linear/umfpack_solver.hpp"
+
+namespace sprekk {
+
+/// A block of the system that a multigrid can treat, or (one, the last) all local unknowns together.
+struct Part {
+  const UnknownBlock* block = nullptr;  ///< null for the local part
+  std::vector<int> unknowns;            ///< global numbers of all unknowns of the part, ascending
+  std::vector<int> owned;               ///< places in `unknowns` of those whose rows this process holds
+  std::vector<int> owned_rows;          ///< their places among this process's rows
+};
+
+/// Bulk parts in the order of block Gauss-Seidel, scalar before elasticity, and then the local part (maybe empty),
+/// which also takes the unknowns that no block names. In Biot's equations the flow block with its stabilization stands
+/// for the Schur complement, so it is solved before the displacement.
+struct Partition {
+  explicit Partition(const LinearSystem& system);
+  std::vector<Part> parts;
+  std::vector<int> part_of, place_of;  ///< of every unknown
+  const Part& local() const { return parts.back(); }
+};
+
+/// Rows of this process in part `rows`, columns of all unknowns of part `columns`.
+SparseMatrix sub_matrix(const SparseMatrix& owned_rows, const Partition& partition, int rows, int columns);
+
+/// With F the local unknowns and B a bulk part: A_FF^-1, on every process alike, and A_BF D_FF^-1 A_FB where D keeps of
+/// A_FF the blocks of unknowns at the same fracture cell. The latter joins the two walls of a fracture that sticks and
+/// is as sparse as the stencil there; the coupling along a fracture that it leaves out is a matter of the exact
+/// A_FF^-1.
+class LocalElimination {
+ public:
+  LocalElimination() = default;
+  /// Collective. `solved` is false if A_FF is singular.
+  LinearReport factor(const LinearSystem& system, const Partition& partition);
+  void solve(Vector& local) const {
+    if (local.size() > 0) solver_.solve_unchecked(local);
+  }
+  /// -A_BF D^-1 A_FB for the rows of part `bulk` that this process holds.
+  SparseMatrix correction(const LinearSystem& system, const Partition& partition, int bulk) const;
+
+ private:
+  UmfpackSolver solver_;
+  SparseMatrix rows_;           ///< the rows of all local unknowns, all columns of the system; on every process
+  SparseMatrix cell_inverses_;  ///< D^-1
+};
+
+}  // namespace sprekk

@@ -1,0 +1,56 @@
+#include <stdexcept>
+
+#include "framework/linear/linear_solver.hpp"
+#include "framework/linear/mumps_solver.hpp"
+#include "framework/linear/trilinos/belos_solver.hpp"
+#include "framework/linear/umfpack_solver.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+namespace {
+
+/// Chooses when it sees the first system, and again when a system crosses the size. A direct solver answers to rounding
+/// error, and in two dimensions is quicker up to some hundred thousand unknowns; above, its memory decides.
+class AutomaticSolver final : public LinearSolver {
+ public:
+  explicit AutomaticSolver(const LinearOptions& options) : options_(options) {}
+
+  LinearReport factor(const LinearSystem& system) override {
+    constexpr int largest_for_direct = 600'000;
+    const char* const type = system.local.cols() > largest_for_direct ? "belos"
+                             : parallel::size() > 1                   ? "mumps"
+                                                                      : "umfpack";
+    if (!chosen_ || chosen_->name() != type) {
+      options_.type = type;
+      chosen_ = make_linear_solver(options_);
+    }
+    return chosen_->factor(system);
+  }
+  LinearReport solve(const Vector& b_rows, Vector& x) override {
+    if (!chosen_) return LinearReport::failure("solve was called before factor");
+    return chosen_->solve(b_rows, x);
+  }
+  std::string name() const override { return chosen_ ? chosen_->name() : "auto"; }
+  const LinearCounts& counts() const override { return chosen_ ? chosen_->counts() : counts_; }
+
+ private:
+  LinearOptions options_;
+  std::unique_ptr<LinearSolver> chosen_;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options) {
+  if (options.type == "auto") return std::make_unique<AutomaticSolver>(options);
+  if (options.type == "mumps") return std::make_unique<MumpsSolver>();
+  if (options.type == "belos") return std::make_unique<BelosSolver>(options.tolerance, options.max_iterations);
+  if (options.type == "umfpack") {
+    if (parallel::size() > 1)
+      throw std::invalid_argument("linear solver 'umfpack' cannot run on " + std::to_string(parallel::size()) +
+                                  " processes (it knows one only) use 'mumps', 'belos' or 'auto'");
+    return std::make_unique<UmfpackSolver>();
+  }
+  throw std::invalid_argument("unknown linear solver '" + options.type + "' (there are: auto, umfpack, mumps, belos)");
+}
+
+}  // namespace sprekk

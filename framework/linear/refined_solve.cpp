@@ -1,0 +1,83 @@
+#include "framework/linear/refined_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+namespace {
+
+double norm(const Vector& rows) { return std::sqrt(parallel::sum(rows.squaredNorm())); }
+
+}  // namespace
+
+Vector whole_vector(const std::vector<int>& rows, const Vector& mine, int unknowns) {
+  if (parallel::size() == 1) return mine;
+  Vector whole = Vector::Zero(unknowns);
+  for (std::size_t i = 0; i < rows.size(); ++i) whole[rows[i]] = mine[i];
+  parallel::sum(whole);
+  return whole;
+}
+
+double componentwise_backward_error(const SparseMatrix& a, const Vector& y, const Vector& b, const Vector& r) {
+  const int* outer = a.outerIndexPtr();
+  double largest = 0;
+  for (int row = 0; row < a.rows(); ++row) {
+    if (r[row] == 0) continue;
+    double size = std::abs(b[row]);
+    for (int k = outer[row]; k < outer[row + 1]; ++k) size += std::abs(a.valuePtr()[k] * y[a.innerIndexPtr()[k]]);
+    largest = std::max(largest, std::abs(r[row]) / size);
+  }
+  return parallel::max(largest);
+}
+
+LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scaled, const Vector& b_rows,
+                           const std::function<void(Vector&)>& apply_inverse, Vector& x) {
+  constexpr int refinements = 3;
+  constexpr double accurate = 1e-13, acceptable = 1e-12;
+  const SparseMatrix& a = scaled.matrix;
+  const int unknowns = static_cast<int>(a.cols());
+  const Vector b = scaled.row_scale.cwiseProduct(b_rows);
+  const double b_norm = norm(b);
+  const double a_norm = norm(Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros())) / std::sqrt(unknowns);
+  if (!std::isfinite(b_norm))
+    return LinearReport::failure("the right-hand side has an entry that is not a finite number");
+
+  x = Vector::Zero(unknowns);
+  LinearReport report = LinearReport::success();
+  if (b_norm == 0) return report;
+
+  Vector y = whole_vector(system.rows, b, unknowns);
+  apply_inverse(y);
+  Vector r = b - a * y;
+  double error = componentwise_backward_error(a, y, b, r);
+  for (int step = 0; step < refinements && error > accurate; ++step) {
+    Vector candidate = whole_vector(system.rows, r, unknowns);
+    apply_inverse(candidate);
+    candidate += y;
+    Vector r_candidate = b - a * candidate;
+    const double candidate_error = componentwise_backward_error(a, candidate, b, r_candidate);
+    if (!(candidate_error < error)) break;
+    const bool stalls = candidate_error > 0.5 * error;
+    y = std::move(candidate);
+    r = std::move(r_candidate);
+    error = candidate_error;
+    if (stalls) break;
+  }
+  x = scaled.column_scale.cwiseProduct(y);
+  const double r_norm = norm(r);
+  const double normwise_error = r_norm / (a_norm * y.norm() + b_norm);
+  report.relative_residual = r_norm / b_norm;
+  if (!(normwise_error <= acceptable) || !x.allFinite()) {
+    char text[160];
+    std::snprintf(text, sizeof text, "the direct solve is inaccurate (backward error %.1e, relative residual %.1e)",
+                  normwise_error, report.relative_residual);
+    report.solved = false;
+    report.reason = text;
+  }
+  return report;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,188 @@
+#include "framework/linear/trilinos/belos_solver.hpp"
+
+#include <BelosBlockGmresSolMgr.hpp>
+#include <BelosTpetraAdapter.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "framework/linear/block_preconditioner.hpp"
+#include "framework/linear/equilibration.hpp"
+#include "framework/linear/refined_solve.hpp"
+#include "framework/linear/stopwatch.hpp"
+#include "framework/linear/trilinos/tpetra_conversion.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+namespace {
+
+using Teuchos::RCP;
+using Teuchos::rcp;
+
+// The preconditioner M of A as one of R A C: C^-1 M R^-1.
+class ScaledPreconditioner final : public tpetra::Operator {
+ public:
+  ScaledPreconditioner(const LinearSystem& system, RCP<const tpetra::Map> map, const Vector& row_scale,
+                       const Vector& own_column_scale)
+      : map_(std::move(map)), row_scale_(row_scale), column_scale_(own_column_scale), preconditioner_(system) {}
+
+  RCP<const tpetra::Map> getDomainMap() const override { return map_; }
+  RCP<const tpetra::Map> getRangeMap() const override { return map_; }
+  void apply(const tpetra::MultiVector& x, tpetra::MultiVector& y, Teuchos::ETransp, double, double) const override {
+    Vector z;
+    for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
+      preconditioner_.apply(tpetra::view(x, static_cast<int>(column)).cwiseQuotient(row_scale_), z);
+      tpetra::copy(z.cwiseQuotient(column_scale_), y, static_cast<int>(column));
+    }
+  }
+
+ private:
+  RCP<const tpetra::Map> map_;
+  Vector row_scale_, column_scale_;
+  BlockPreconditioner preconditioner_;
+};
+
+}  // namespace
+
+struct BelosSolver::Data {
+  std::vector<int> rows;
+  int unknowns = 0;
+  std::vector<int> block_ends;  ///< first unknown after every block, ascending
+  Equilibrated scaled;
+  RCP<const tpetra::Map> map;
+  RCP<tpetra::Matrix> matrix;  ///< that of `scaled`
+  RCP<ScaledPreconditioner> preconditioner;
+};
+
+BelosSolver::BelosSolver(double tolerance, int max_iterations)
+    : tolerance_(tolerance), max_iterations_(max_iterations), data_(std::make_unique<Data>()) {
+  tpetra::start();
+  use_one_blas_thread();
+}
+
+BelosSolver::~BelosSolver() = default;
+
+LinearReport BelosSolver::factor(const LinearSystem& system) {
+  if (!system.local.isCompressed()) {
+    LinearSystem compressed = system;
+    compressed.local.makeCompressed();
+    return factor(compressed);
+  }
+  if (last_.compare_and_remember(system) == Change::nothing) {
+    ++counts_.reused;
+    return last_report_;
+  }
+  const Stopwatch watch(counts_.seconds_factor);
+  ++counts_.factorizations;
+  *data_ = Data();
+  try {
+    data_->scaled = equilibrate(system);
+    const Equilibrated& scaled = data_->scaled;
+    if (!scaled.mistake.empty()) return last_report_ = LinearReport::failure(scaled.mistake);
+    data_->rows = system.rows;
+    data_->unknowns = static_cast<int>(system.local.cols());
+    data_->block_ends = {data_->unknowns};
+    for (const UnknownBlock& block : system.blocks)
+      data_->block_ends.push_back(block.first + block.entities * block.components);
+    std::sort(data_->block_ends.begin(), data_->block_ends.end());
+    data_->map = tpetra::make_map(system.rows, data_->unknowns);
+    data_->matrix = tpetra::make_matrix(scaled.matrix, data_->map, data_->map);
+    Vector own_column_scale(system.rows.size());
+    for (std::size_t k = 0; k < system.rows.size(); ++k) own_column_scale[k] = scaled.column_scale[system.rows[k]];
+    data_->preconditioner = rcp(new ScaledPreconditioner(system, data_->map, scaled.row_scale, own_column_scale));
+    last_report_ = LinearReport::success();
+  } catch (const std::exception& error) {
+    last_report_ = LinearReport::failure(std::string("the preconditioner could not be set up: ") + error.what());
+  }
+  return last_report_;
+}
+
+// Of every block with a row here or elsewhere, ||r|| / || |A| |y| + |b| ||, and the smallest of the denominators: a
+// residual norm over all unknowns would let GMRES neglect a block whose numbers are small beside others'.
+BelosSolver::BlockResidual BelosSolver::measure(const Vector& whole_y, const Vector& b, const Vector& r) const {
+  const SparseMatrix& a = data_->scaled.matrix;
+  const int blocks = static_cast<int>(data_->block_ends.size());
+  Vector sums = Vector::Zero(2 * blocks);
+  for (int row = 0; row < a.rows(); ++row) {
+    double size = std::abs(b[row]);
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
+      size += std::abs(entry.value() * whole_y[entry.col()]);
+    const auto block = std::upper_bound(data_->block_ends.begin(), data_->block_ends.end(), data_->rows[row]) -
+                       data_->block_ends.begin();
+    sums[2 * block] += r[row] * r[row];
+    sums[2 * block + 1] += size * size;
+  }
+  parallel::sum(sums);
+  BlockResidual result;
+  for (int block = 0; block < blocks; ++block) {
+    const double residual = std::sqrt(sums[2 * block]), size = std::sqrt(sums[2 * block + 1]);
+    if (residual == 0) continue;
+    result.largest_ratio = std::max(result.largest_ratio, residual / size);
+    result.smallest_size = std::min(result.smallest_size, size);
+  }
+  return result;
+}
+
+LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
+  if (!last_report_.solved) return last_report_;
+  const Stopwatch watch(counts_.seconds_solve);
+  ++counts_.solves;
+  const Vector b = data_->scaled.row_scale.cwiseProduct(b_rows);
+  const double b_norm = std::sqrt(parallel::sum(b.squaredNorm()));
+  if (!std::isfinite(b_norm))
+    return LinearReport::failure("the right-hand side has an entry that is not a finite number");
+  x = Vector::Zero(data_->unknowns);
+  LinearReport report = LinearReport::success();
+  if (b_norm == 0) return report;
+
+  const auto residual = rcp(new tpetra::VectorOf(data_->map));
+  Vector r = b, y = x;
+  double r_norm = b_norm, wanted_norm = 0.5 * tolerance_ * b_norm;
+  BlockResidual measured;
+  // GMRES trusts a recurrence and one norm; this loop trusts the residual of every block, and starts again from it.
+  for (int restart = 0; restart < 6 && report.iterations < max_iterations_; ++restart) {
+    tpetra::copy(r, *residual);
+    const auto step = rcp(new tpetra::VectorOf(data_->map));
+    using Problem = Belos::LinearProblem<double, tpetra::MultiVector, tpetra::Operator>;
+    const auto problem = rcp(new Problem(data_->matrix, step, residual));
+    problem->setRightPrec(data_->preconditioner);
+    problem->setProblem();
+    constexpr double deepest = 1e-12, shallowest = 0.1;  // of one restart
+    const auto parameters = rcp(new Teuchos::ParameterList);
+    parameters->set("Convergence Tolerance", std::clamp(wanted_norm / r_norm, deepest, shallowest));
+    parameters->set("Maximum Iterations", max_iterations_ - report.iterations);
+    parameters->set("Num Blocks", std::min(100, max_iterations_));
+    parameters->set("Maximum Restarts", max_iterations_);
+    parameters->set("Verbosity", static_cast<int>(Belos::Errors));
+    Belos::BlockGmresSolMgr<double, tpetra::MultiVector, tpetra::Operator> gmres(problem, parameters);
+    try {
+      gmres.solve();
+    } catch (const std::exception& error) {
+      return LinearReport::failure(std::string("GMRES broke down: ") + error.what());
+    }
+    report.iterations += gmres.getNumIters();
+    y += whole_vector(data_->rows, tpetra::view(*step), data_->unknowns);
+    r = b - data_->scaled.matrix * y;
+    r_norm = std::sqrt(parallel::sum(r.squaredNorm()));
+    const BlockResidual before = measured;
+    measured = measure(y, b, r);
+    const bool stalls = restart > 0 && !(measured.largest_ratio < 0.5 * before.largest_ratio);
+    if (measured.largest_ratio <= tolerance_ || stalls) break;
+    wanted_norm = 0.5 * tolerance_ * measured.smallest_size;
+  }
+  counts_.iterations += report.iterations;
+  report.relative_residual = r_norm / b_norm;
+  x = data_->scaled.column_scale.cwiseProduct(y);
+  if (!(measured.largest_ratio <= tolerance_)) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "GMRES did not converge (relative residual of the worst block %.1e after %d iterations, wanted %.1e)",
+                  measured.largest_ratio, report.iterations, tolerance_);
+    report.solved = false;
+    report.reason = text;
+  }
+  return report;
+}
+
+}  // namespace sprekk

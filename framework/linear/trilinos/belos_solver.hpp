@@ -1,0 +1,38 @@
+// GMRES with the block preconditioner: for systems too large for a direct solver, on one process or several.
+#pragma once
+
+#include <memory>
+
+#include "framework/linear/last_system.hpp"
+#include "framework/linear/linear_solver.hpp"
+
+namespace sprekk {
+
+/// Right-preconditioned GMRES (Belos) on the equilibrated system; starts MPI. Every process must call it. The
+/// preconditioner works in the original units, where the near-null spaces are the rigid-body modes and the constants.
+/// Converged is when in every block the true residual is below `tolerance` of the sizes of its terms, |A| |x| + |b|.
+class BelosSolver final : public LinearSolver {
+ public:
+  BelosSolver(double tolerance, int max_iterations);
+  ~BelosSolver() override;
+
+  LinearReport factor(const LinearSystem& system) override;
+  LinearReport solve(const Vector& b_rows, Vector& x) override;
+  std::string name() const override { return "belos"; }
+
+ private:
+  struct Data;
+  struct BlockResidual {
+    double largest_ratio = 0;      ///< ||r|| / || |A| |y| + |b| || of the worst block
+    double smallest_size = 1e300;  ///< of these denominators
+  };
+  BlockResidual measure(const Vector& whole_y, const Vector& b, const Vector& r) const;
+
+  double tolerance_;
+  int max_iterations_;
+  LastSystem last_;
+  LinearReport last_report_;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,131 @@
+#include "framework/linear/trilinos/multigrid.hpp"
+
+#include <MueLu_CreateTpetraPreconditioner.hpp>
+#include <stdexcept>
+
+#include "framework/linear/trilinos/tpetra_conversion.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+namespace {
+
+using Teuchos::ParameterList;
+using Teuchos::RCP;
+using Teuchos::rcp;
+using Coordinates = Tpetra::MultiVector<double>;
+
+std::vector<int> entities_of(const std::vector<int>& ids, const UnknownBlock& block) {
+  std::vector<int> entities;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const int component = static_cast<int>(k) % block.components;
+    if (component == 0) entities.push_back(ids[k] / block.components);
+    if (ids[k] != entities.back() * block.components + component)
+      throw std::invalid_argument("the components of entity " + std::to_string(ids[k] / block.components) + " of " +
+                                  block.name + " are on different processes (a multigrid needs them on one)");
+  }
+  if (ids.size() % block.components != 0)
+    throw std::invalid_argument("the components of the last entity of " + block.name + " are on different processes");
+  return entities;
+}
+
+RCP<Coordinates> make_coordinates(const std::vector<int>& entities, const UnknownBlock& block) {
+  const auto coordinates = rcp(new Coordinates(tpetra::make_map(entities, block.entities), dimension));
+  for (int axis = 0; axis < dimension; ++axis) {
+    const Teuchos::ArrayRCP<double> data = coordinates->getDataNonConst(axis);
+    for (std::size_t k = 0; k < entities.size(); ++k) data[k] = block.coordinates[entities[k]][axis];
+  }
+  return coordinates;
+}
+
+// Translations of every component, and for displacements in the plane the rotation about the block's centre.
+RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, const UnknownBlock& block,
+                                              const RCP<const tpetra::Map>& map, bool has_rotation) {
+  const int translations = block.components;
+  const auto modes = rcp(new tpetra::MultiVector(map, translations + (has_rotation ? 1 : 0)));
+  for (int c = 0; c < translations; ++c) {
+    const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(c);
+    for (std::size_t k = 0; k < entities.size(); ++k) data[k * block.components + c] = 1;
+  }
+  if (!has_rotation) return modes;
+  Point centre = Point::Zero(), low = block.coordinates.front(), high = low;
+  for (const Point& point : block.coordinates) {
+    centre += point / block.entities;
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const double extent = std::max((high - low).maxCoeff(), 1e-300);
+  const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(translations);
+  for (std::size_t k = 0; k < entities.size(); ++k) {
+    const Point arm = (block.coordinates[entities[k]] - centre) / extent;
+    data[2 * k] = -arm.y();
+    data[2 * k + 1] = arm.x();
+  }
+  return modes;
+}
+
+// On several processes the coarse levels move to fewer and the coarsest to one: Debian's Amesos2 KLU2, the coarse
+// solver, is wrong on more than one.
+void set_levels(ParameterList& list, int unknowns, bool has_coordinates) {
+  const bool is_parallel = parallel::size() > 1;
+  constexpr int rows_per_process = 3000;
+  const int coarsest = std::min(1500, unknowns / 4);
+  list.set("coarse: max size", coarsest);
+  if (!is_parallel) return;
+  if (!has_coordinates || coarsest < 50) {
+    list.set("coarse: type", "RELAXATION");
+    ParameterList& relaxation = list.sublist("coarse: params");
+    relaxation.set("relaxation: type", "Symmetric Gauss-Seidel");
+    relaxation.set("relaxation: sweeps", 20);
+    return;
+  }
+  list.set("repartition: enable", true);
+  list.set("repartition: partitioner", "zoltan2");
+  list.set("repartition: start level", 1);
+  list.set("repartition: min rows per proc", rows_per_process);
+  list.set("repartition: target rows per proc", rows_per_process);
+  list.set("repartition: rebalance P and R", true);
+  list.set("repartition: use subcommunicators", true);
+  list.sublist("repartition: params").set("algorithm", "multijagged");
+}
+
+}  // namespace
+
+struct Multigrid::Data {
+  RCP<MueLu::TpetraOperator<double>> cycle;
+};
+
+Multigrid::Multigrid(const SparseMatrix& rows, const std::vector<int>& ids, const UnknownBlock& block)
+    : data_(std::make_unique<Data>()) {
+  const std::vector<int> entities = entities_of(ids, block);
+  const int unknowns = static_cast<int>(rows.cols());
+  const auto map = tpetra::make_map(ids, unknowns);
+  const RCP<tpetra::Operator> matrix = tpetra::make_matrix(rows, map, map);
+  const bool has_coordinates = block.entities > 0 && static_cast<int>(block.coordinates.size()) == block.entities;
+  const bool is_elastic = block.kind == UnknownBlock::Kind::elasticity;
+
+  ParameterList list;
+  list.set("verbosity", "none");
+  list.set("number of equations", block.components);
+  list.set("multigrid algorithm", "sa");
+  list.set("aggregation: type", "uncoupled");
+  list.set("smoother: type", "RELAXATION");
+  list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
+  set_levels(list, unknowns, has_coordinates);
+  ParameterList& user = list.sublist("user data");
+  user.set("Nullspace",
+           make_near_null_space(entities, block, map, is_elastic && has_coordinates && block.components == dimension));
+  if (has_coordinates) user.set("Coordinates", make_coordinates(entities, block));
+  data_->cycle = MueLu::CreateTpetraPreconditioner(matrix, list);
+}
+
+Multigrid::~Multigrid() = default;
+
+void Multigrid::apply(const Vector& b, Vector& x) const {
+  const auto map = data_->cycle->getDomainMap();
+  tpetra::MultiVector right(map, 1), left(map, 1);
+  tpetra::copy(b, right);
+  data_->cycle->apply(right, left);
+  x = tpetra::view(left);
+}
+
+}  // namespace sprekk

@@ -1,0 +1,146 @@
+#include "framework/linear/umfpack_solver.hpp"
+
+#include <umfpack.h>
+
+#include <cmath>
+
+#include "framework/linear/near_singular.hpp"
+#include "framework/linear/refined_solve.hpp"
+#include "framework/linear/stopwatch.hpp"
+#include "framework/linear/unknown_names.hpp"
+
+namespace sprekk {
+namespace {
+
+static_assert(UMFPACK_CONTROL == 20, "the array of controls has the length that UMFPACK expects");
+
+std::string status_text(int status) {
+  switch (status) {
+    case UMFPACK_ERROR_out_of_memory:
+      return "UMFPACK ran out of memory (the factors are too large) use belos, or mumps on several processes";
+    case UMFPACK_ERROR_ordering_failed:
+      return "UMFPACK could not order the matrix";
+    default:
+      return "UMFPACK failed with status " + std::to_string(status);
+  }
+}
+
+}  // namespace
+
+UmfpackSolver::UmfpackSolver() {
+  use_one_blas_thread();
+  umfpack_di_defaults(control_.data());
+#ifdef UMFPACK_ORDERING_METIS
+  control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+#else
+  control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
+#endif
+  control_[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
+  control_[UMFPACK_IRSTEP] = 0;
+}
+
+UmfpackSolver::~UmfpackSolver() {
+  if (numeric_ != nullptr) umfpack_di_free_numeric(&numeric_);
+  if (symbolic_ != nullptr) umfpack_di_free_symbolic(&symbolic_);
+}
+
+LinearReport UmfpackSolver::factor(const LinearSystem& system) {
+  if (!system.local.isCompressed()) {
+    LinearSystem compressed = system;
+    compressed.local.makeCompressed();
+    return factor(compressed);
+  }
+  if (system.local.rows() != system.local.cols())
+    return LinearReport::failure("umfpack needs all rows of the system on this process");
+  const Change change = last_.compare_and_remember(system);
+  if (change == Change::nothing) {
+    ++counts_.reused;
+    return last_report_;
+  }
+  system_.rows = system.rows;
+  system_.blocks = system.blocks;
+  if (numeric_ != nullptr) umfpack_di_free_numeric(&numeric_);
+  if (change == Change::pattern && symbolic_ != nullptr) umfpack_di_free_symbolic(&symbolic_);
+  {
+    const Stopwatch watch(counts_.seconds_factor);
+    scaled_ = equilibrate(system);
+  }
+  last_report_ = scaled_.mistake.empty() ? LinearReport::success() : LinearReport::failure(scaled_.mistake);
+  if (last_report_.solved && symbolic_ == nullptr) last_report_ = order();
+  if (last_report_.solved) last_report_ = factor_values();
+  return last_report_;
+}
+
+// The arrays of our rows are, read as columns, those of the transpose: UMFPACK factorizes A^T, and its transposed solve
+// is the one with A. The values stay hidden from the analysis, so that a kept ordering is the one that a new analysis
+// would find.
+LinearReport UmfpackSolver::order() {
+  const Stopwatch watch(counts_.seconds_ordering);
+  const SparseMatrix& a = scaled_.matrix;
+  const int n = static_cast<int>(a.rows());
+  const int status =
+      umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), nullptr, &symbolic_, control_.data(), nullptr);
+  ++counts_.orderings;
+  if (status != UMFPACK_OK) return LinearReport::failure(status_text(status));
+  integer_work_.resize(n);
+  work_.resize(n);
+  return LinearReport::success();
+}
+
+LinearReport UmfpackSolver::factor_values() {
+  const Stopwatch watch(counts_.seconds_factor);
+  const SparseMatrix& a = scaled_.matrix;
+  std::array<double, UMFPACK_INFO> info;
+  const int status = umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), symbolic_, &numeric_,
+                                        control_.data(), info.data());
+  ++counts_.factorizations;
+  if (status == UMFPACK_WARNING_singular_matrix) return LinearReport::failure(describe_zero_pivot());
+  if (status != UMFPACK_OK) return LinearReport::failure(status_text(status));
+
+  // The ratio of the pivots costs nothing and is small for every matrix that is singular to working precision; it may
+  // be small for good ones too, so those are looked at more closely.
+  constexpr double suspicious = 1e-8;
+  if (info[UMFPACK_RCOND] < suspicious) {
+    const std::string reason = find_singularity(
+        system_, a, [this](Vector& v) { apply_inverse(v, false); }, [this](Vector& v) { apply_inverse(v, true); });
+    if (!reason.empty()) return LinearReport::failure(reason);
+  }
+  return LinearReport::success();
+}
+
+LinearReport UmfpackSolver::solve(const Vector& b_rows, Vector& x) {
+  if (!last_report_.solved) return last_report_;
+  const Stopwatch watch(counts_.seconds_solve);
+  ++counts_.solves;
+  return refined_solve(
+      system_, scaled_, b_rows, [this](Vector& v) { apply_inverse(v, false); }, x);
+}
+
+void UmfpackSolver::solve_unchecked(Eigen::Ref<Vector> b) const {
+  Vector y = scaled_.row_scale.cwiseProduct(b);
+  apply_inverse(y, false);
+  b = scaled_.column_scale.cwiseProduct(y);
+}
+
+void UmfpackSolver::apply_inverse(Vector& v, bool transposed) const {
+  const SparseMatrix& a = scaled_.matrix;
+  right_hand_side_ = v;
+  umfpack_di_wsolve(transposed ? UMFPACK_A : UMFPACK_At, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), v.data(),
+                    right_hand_side_.data(), numeric_, control_.data(), nullptr, integer_work_.data(), work_.data());
+}
+
+// P A^T Q = L U: pivot k stands for the unknown P[k] (a row of A^T) and the balance Q[k] (a column).
+std::string UmfpackSolver::describe_zero_pivot() const {
+  const int n = static_cast<int>(scaled_.matrix.rows());
+  std::vector<int> p(n), q(n);
+  Vector diagonal(n);
+  int is_reciprocal = 0;
+  umfpack_di_get_numeric(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, p.data(), q.data(), diagonal.data(),
+                         &is_reciprocal, nullptr, numeric_);
+  int smallest = 0;
+  diagonal.cwiseAbs().minCoeff(&smallest);
+  return "the matrix is singular (a zero pivot for " + describe_unknown(system_.blocks, p[smallest]) +
+         " in the balance of " + describe_unknown(system_.blocks, q[smallest]) + ")";
+}
+
+}  // namespace sprekk

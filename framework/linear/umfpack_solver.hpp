@@ -1,0 +1,47 @@
+// UMFPACK behind the linear solver interface: one process.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "framework/linear/equilibration.hpp"
+#include "framework/linear/last_system.hpp"
+#include "framework/linear/linear_solver.hpp"
+
+namespace sprekk {
+
+/// Sparse LU with METIS ordering. Equal systems give equal bits, whatever was solved before: the ordering looks at the
+/// pattern only.
+class UmfpackSolver final : public LinearSolver {
+ public:
+  UmfpackSolver();
+  ~UmfpackSolver() override;
+  UmfpackSolver(const UmfpackSolver&) = delete;
+  UmfpackSolver& operator=(const UmfpackSolver&) = delete;
+
+  LinearReport factor(const LinearSystem& system) override;
+  LinearReport solve(const Vector& b_rows, Vector& x) override;
+  /// A X = B column by column without residual checks, in place: for building Schur complements.
+  void solve_unchecked(Eigen::Ref<Vector> b) const;
+  std::string name() const override { return "umfpack"; }
+
+ private:
+  LinearReport order();
+  LinearReport factor_values();
+  void apply_inverse(Vector& v, bool transposed) const;
+  std::string describe_zero_pivot() const;
+
+  std::array<double, 20> control_;
+  LastSystem last_;
+  LinearReport last_report_;
+  LinearSystem system_;  ///< rows and blocks; the matrix lives, scaled, in scaled_
+  Equilibrated scaled_;
+  void* symbolic_ = nullptr;
+  void* numeric_ = nullptr;
+  mutable std::vector<int> integer_work_;
+  mutable std::vector<double> work_;
+  mutable Vector right_hand_side_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,104 @@
+#include "framework/parallel/parallel.hpp"
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+
+namespace sprekk::parallel {
+namespace {
+
+bool launched_by_mpirun() {
+  static const bool launched = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
+  return launched;
+}
+
+bool is_running() {
+  int initialized = 0, finalized = 0;
+  MPI_Initialized(&initialized);
+  MPI_Finalized(&finalized);
+  return initialized != 0 && finalized == 0;
+}
+
+void finalize_at_exit() {
+  if (is_running()) MPI_Finalize();
+}
+
+// A single process without MPI answers at once and never pays for its start.
+bool several() { return size() > 1; }
+
+template <class Value>
+std::vector<Value> gather_values(const std::vector<Value>& mine, MPI_Datatype type) {
+  if (!several()) return mine;
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(size()), starts(size());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+  std::vector<Value> all(starts.back() + counts.back());
+  MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), starts.data(), type, MPI_COMM_WORLD);
+  return all;
+}
+
+}  // namespace
+
+void start_mpi() {
+  if (is_running()) return;
+  MPI_Init(nullptr, nullptr);
+  std::atexit(finalize_at_exit);
+}
+
+int rank() {
+  if (launched_by_mpirun()) start_mpi();
+  if (!is_running()) return 0;
+  int value = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &value);
+  return value;
+}
+
+int size() {
+  if (launched_by_mpirun()) start_mpi();
+  if (!is_running()) return 1;
+  int value = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &value);
+  return value;
+}
+
+bool is_root() { return rank() == 0; }
+
+double sum(double value) {
+  if (several()) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return value;
+}
+
+double max(double value) {
+  if (several()) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return value;
+}
+
+bool any(bool value) { return max(value ? 1.0 : 0.0) > 0; }
+
+void sum(Vector& values) {
+  if (!several()) return;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+}
+
+void max(Vector& values) {
+  if (!several()) return;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+}
+
+std::vector<int> gather(const std::vector<int>& mine) { return gather_values(mine, MPI_INT); }
+std::vector<double> gather(const std::vector<double>& mine) { return gather_values(mine, MPI_DOUBLE); }
+
+void barrier() {
+  if (several()) MPI_Barrier(MPI_COMM_WORLD);
+}
+
+void abort_all(int exit_code) {
+  std::fflush(nullptr);
+  if (several()) MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::exit(exit_code);
+}
+
+}  // namespace sprekk::parallel

@@ -1,0 +1,249 @@
+// What every linear solver of one process promises.
+#include "framework/linear/linear_solver.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <numbers>
+#include <stdexcept>
+
+#include "tests/framework/linear/test_systems.hpp"
+
+namespace sprekk {
+namespace {
+
+using testing::HasSubstr;
+
+class EveryLinearSolver : public testing::TestWithParam<const char*> {
+ protected:
+  std::unique_ptr<LinearSolver> make() const {
+    LinearOptions options;
+    options.type = GetParam();
+    options.tolerance = 1e-12;
+    return make_linear_solver(options);
+  }
+};
+
+class EveryDirectSolver : public EveryLinearSolver {};
+
+Vector solve(LinearSolver& solver, const LinearSystem& system, const Vector& b) {
+  const LinearReport factored = solver.factor(system);
+  EXPECT_TRUE(factored.solved) << factored.reason;
+  Vector x;
+  const LinearReport solved = solver.solve(b, x);
+  EXPECT_TRUE(solved.solved) << solved.reason;
+  return x;
+}
+
+// The discrete eigenvector sin(pi x) sin(2 pi y) of the five-point Laplacian, with its eigenvalue.
+TEST_P(EveryLinearSolver, SolvesPoissonExactlyForADiscreteEigenvector) {
+  constexpr int n = 40;
+  const LinearSystem system = test::poisson(n);
+  const double h = std::numbers::pi / (n + 1);
+  const double eigenvalue = 4 * std::pow(std::sin(h / 2), 2) + 4 * std::pow(std::sin(h), 2);
+  Vector exact(n * n);
+  for (int k = 0; k < n * n; ++k) exact[k] = std::sin(h * (k % n + 1)) * std::sin(2 * h * (k / n + 1));
+  const Vector x = solve(*make(), system, eigenvalue * exact);
+  EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-9);
+}
+
+TEST_P(EveryLinearSolver, SolvesANonsymmetricSystem) {
+  constexpr int n = 300;
+  const LinearSystem system = test::random_dominant(n, 7);
+  const Vector exact = test::random_vector(n, 8);
+  const Vector x = solve(*make(), system, system.local * exact);
+  EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-11);
+}
+
+TEST_P(EveryLinearSolver, SolvesASystemWithRowsAndColumnsOfAllSizes) {
+  constexpr int n = 300;
+  LinearSystem system = test::random_dominant(n, 9);
+  const Vector rows = (12 * std::log(10.0) * test::random_vector(n, 10)).array().exp();
+  const Vector columns = (12 * std::log(10.0) * test::random_vector(n, 11)).array().exp();
+  system.local = rows.asDiagonal() * system.local * columns.asDiagonal();
+  const Vector y = test::random_vector(n, 12);
+  const Vector exact = y.cwiseQuotient(columns);
+  const Vector x = solve(*make(), system, system.local * exact);
+  EXPECT_LT((x - exact).cwiseProduct(columns).lpNorm<Eigen::Infinity>(), 1e-10);
+}
+
+TEST_P(EveryLinearSolver, GivesZeroForZero) {
+  const Vector x = solve(*make(), test::poisson(10), Vector::Zero(100));
+  EXPECT_EQ(x.norm(), 0);
+}
+
+TEST_P(EveryLinearSolver, NamesTheUnknownOfAnEmptyRowOrColumn) {
+  LinearSystem system = test::poisson(10);
+  system.local.row(57) *= 0.0;
+  const LinearReport report = make()->factor(system);
+  EXPECT_FALSE(report.solved);
+  EXPECT_THAT(report.reason, HasSubstr("the row of pore.pressure, entity 57 is zero"));
+
+  system = test::poisson(10);
+  for (int row = 0; row < 100; ++row)
+    for (SparseMatrix::InnerIterator entry(system.local, row); entry; ++entry)
+      if (entry.col() == 31) entry.valueRef() = 0;
+  EXPECT_THAT(make()->factor(system).reason, HasSubstr("nothing determines pore.pressure, entity 31"));
+}
+
+TEST_P(EveryLinearSolver, RefusesWhatIsNotANumber) {
+  LinearSystem system = test::poisson(10);
+  const auto solver = make();
+  Vector b = Vector::Ones(100), x;
+  ASSERT_TRUE(solver->factor(system).solved);
+  b[3] = std::nan("");
+  EXPECT_THAT(solver->solve(b, x).reason, HasSubstr("right-hand side has an entry that is not a finite number"));
+  system.local.coeffRef(12, 12) = std::nan("");
+  EXPECT_THAT(solver->factor(system).reason, HasSubstr("row of pore.pressure, entity 12"));
+}
+
+TEST_P(EveryLinearSolver, RecoversAfterASystemThatItRefused) {
+  const auto solver = make();
+  LinearSystem system = test::poisson(10);
+  const LinearSystem good = system;
+  system.local.row(57) *= 0.0;
+  EXPECT_FALSE(solver->factor(system).solved);
+  EXPECT_FALSE(solver->factor(system).solved);
+  const Vector exact = test::random_vector(100, 1);
+  EXPECT_LT((solve(*solver, good, good.local * exact) - exact).norm(), 1e-9);
+}
+
+TEST_P(EveryLinearSolver, DoesNothingForTheSameSystemAgain) {
+  const auto solver = make();
+  const LinearSystem system = test::poisson(20);
+  const Vector b = test::random_vector(400, 2);
+  const Vector first = solve(*solver, system, b);
+  const Vector second = solve(*solver, system, b);
+  EXPECT_EQ(first, second);
+  EXPECT_EQ(solver->counts().factorizations, 1);
+  EXPECT_EQ(solver->counts().reused, 1);
+  EXPECT_EQ(solver->counts().solves, 2);
+}
+
+// What a solver did before must not show: a rewound time step repeats its bits.
+TEST_P(EveryLinearSolver, RepeatsItsBitsWhateverItSolvedBefore) {
+  const LinearSystem system = test::FracturedBiot{8}.build();
+  const Vector b = system.local * test::random_vector(static_cast<int>(system.local.rows()), 3);
+  const auto fresh = make(), used = make();
+  LinearSystem other = system;
+  other.local *= 1.5;
+  other.local.coeffRef(0, 0) *= 3;
+  solve(*used, test::poisson(10), Vector::Ones(100));
+  solve(*used, other, b);
+  const Vector expected = solve(*fresh, system, b);
+  EXPECT_EQ(solve(*used, system, b), expected);
+}
+
+// Unknowns chosen at random in each block's own unit; the difference is of each block by its own size.
+TEST_P(EveryLinearSolver, SolvesFracturedBiot) {
+  const test::FracturedBiot problem{24};
+  const LinearSystem system = problem.build();
+  Vector exact = test::random_vector(problem.unknowns(), 4);
+  exact.head(2 * problem.nodes()) *= 1e-4;                                // m
+  exact.segment(2 * problem.nodes(), problem.nodes()) *= 1e6;             // Pa
+  exact.segment(problem.traction(0, 0), 2 * problem.columns()) *= 1e6;    // Pa
+  exact.segment(problem.jump(0, 0), 2 * problem.columns()) *= 1e-4;       // m
+  exact.segment(problem.wall_flux(0, 0), 2 * problem.columns()) *= 1e-6;  // m/s
+  exact.segment(problem.fracture_pressure(0), problem.columns()) *= 1e6;  // Pa
+  const Vector x = solve(*make(), system, system.local * exact);
+  EXPECT_LT(test::block_difference(system, x, exact), 1e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, EveryLinearSolver, testing::Values("umfpack", "mumps", "belos", "auto"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_P(EveryDirectSolver, KeepsTheOrderingOfAPattern) {
+  const auto solver = make();
+  LinearSystem system = test::poisson(20);
+  solve(*solver, system, Vector::Ones(400));
+  system.local.coeffRef(5, 5) *= 2;
+  solve(*solver, system, Vector::Ones(400));
+  EXPECT_EQ(solver->counts().orderings, 1);
+  EXPECT_EQ(solver->counts().factorizations, 2);
+  system.local.coeffRef(5, 300) = 0.1;
+  const Vector exact = test::random_vector(400, 6);
+  EXPECT_LT((solve(*solver, system, system.local * exact) - exact).norm(), 1e-10);
+  EXPECT_EQ(solver->counts().orderings, 2);
+}
+
+// Rounding leaves a floating problem's last pivot at 1e-16 or so, not at zero: a solver that looks for zeros misses it.
+TEST_P(EveryDirectSolver, RefusesAFloatingProblem) {
+  LinearSystem floating = test::poisson(60, true);
+  for (int row = 0; row < 3600; ++row)  // another scale in every row, so that sums round
+    for (SparseMatrix::InnerIterator entry(floating.local, row); entry; ++entry) entry.valueRef() *= 1 + 0.37 * row;
+  const LinearReport report = make()->factor(floating);
+  EXPECT_FALSE(report.solved);
+  EXPECT_THAT(report.reason, HasSubstr("singular"));
+  EXPECT_THAT(report.reason, HasSubstr("pore.pressure"));
+  Vector x;
+  EXPECT_FALSE(make()->solve(Vector::Ones(3600), x).solved);
+}
+
+// A rock half without support moves freely: its displacement is named, not the pressure's or the other half's.
+TEST_P(EveryDirectSolver, NamesTheBlockThatFloats) {
+  LinearSystem system = test::poisson(20);
+  const LinearSystem floating = test::poisson(12, true);
+  std::vector<Triplet> entries;
+  for (const auto& [part, first] : {std::pair<const LinearSystem*, int>{&system, 0}, {&floating, 400}})
+    for (int row = 0; row < part->local.rows(); ++row)
+      for (SparseMatrix::InnerIterator entry(part->local, row); entry; ++entry)
+        entries.emplace_back(first + row, first + static_cast<int>(entry.col()), entry.value());
+  UnknownBlock loose = floating.blocks.front();
+  loose.name = "rock.displacement";
+  loose.first = 400;
+  const LinearReport report = make()->factor(test::make_system(544, entries, {system.blocks.front(), loose}));
+  EXPECT_FALSE(report.solved);
+  EXPECT_THAT(report.reason, HasSubstr("rock.displacement"));
+}
+
+TEST_P(EveryDirectSolver, AcceptsAnIllConditionedSystem) {
+  constexpr int n = 7;  // the Hilbert matrix of this size has condition number 4.8e8
+  std::vector<Triplet> entries;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) entries.emplace_back(i, j, 1.0 / (i + j + 1));
+  const LinearSystem system = test::make_system(n, entries, {});
+  const Vector exact = Vector::Ones(n);
+  const Vector x = solve(*make(), system, system.local * exact);
+  EXPECT_LT((x - exact).norm(), 1e-6);  // epsilon times 4.8e8
+}
+
+// An open fracture in tight rock: eight decades and more between the flow along it and the leak out of it.
+TEST_P(EveryDirectSolver, DoesNotTakeContrastsForSingularity) {
+  for (const double fracture_mobility : {1e-9, 1e-6, 1e-4})
+    for (const double mobility : {1e-20, 1e-17, 1e-13}) {
+      test::FracturedBiot problem{24};
+      problem.fracture_mobility = fracture_mobility;
+      problem.mobility = mobility;
+      const LinearReport report = make()->factor(problem.build());
+      EXPECT_TRUE(report.solved) << fracture_mobility << " " << mobility << ": " << report.reason;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, EveryDirectSolver, testing::Values("umfpack", "mumps"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(MakeLinearSolver, RefusesAnUnknownTypeAndListsTheKnown) {
+  LinearOptions options;
+  options.type = "umpfack";
+  EXPECT_THAT([&] { make_linear_solver(options); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  "unknown linear solver 'umpfack' (there are: auto, umfpack, mumps, belos)"));
+}
+
+TEST(MakeLinearSolver, AutomaticallyTakesUmfpackInOneProcess) {
+  const auto solver = make_linear_solver({});
+  EXPECT_EQ(solver->name(), "auto");
+  ASSERT_TRUE(solver->factor(test::poisson(5)).solved);
+  EXPECT_EQ(solver->name(), "umfpack");
+}
+
+TEST(Blas, HasANameAndOpenBlasIsNotTheReference) {
+  const BlasInfo info = blas_in_use();
+  EXPECT_FALSE(info.name.empty());
+  EXPECT_NE(info.name, "none");
+  EXPECT_FALSE(info.is_reference && info.name.find("OpenBLAS") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprekk
