@@ -72,6 +72,15 @@ TEST(GeometrySpec, RefusesContradictions) {
   EXPECT_THAT(input_error([&] { read_geometry(box + "regions: {a: {}}"); }), HasSubstr("polygon"));
 }
 
+TEST(GeometrySpec, ExplainsItselfWithoutAnInput) {
+  Geometry geometry;
+  MeshOptions options;
+  EXPECT_THAT(explain(geometry_spec(geometry)),
+              AllOf(HasSubstr("fractures"), HasSubstr("polygon"), HasSubstr("center")));
+  EXPECT_THAT(explain(mesh_spec(options)), AllOf(HasSubstr("tip_size"), HasSubstr("structured")));
+  EXPECT_THAT(json_schema(geometry_spec(geometry)), HasSubstr("\"angle\""));
+}
+
 TEST(MeshSpec, ReadsSizes) {
   const MeshOptions options = read_mesh("{size: 0.02 m, fracture_size: 5 mm, tip_size: 1 mm, growth: 0.2}");
   EXPECT_EQ(options.kind, MeshOptions::Kind::unstructured);
