@@ -16,7 +16,8 @@ namespace {
 using testing::HasSubstr;
 
 bool same_bits(const Vector& a, const Vector& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
+  if (a.size() != b.size()) return false;
+  return a.size() == 0 || std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
 }
 
 class CheckpointTest : public TemporaryFolder {
