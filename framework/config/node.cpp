@@ -4,6 +4,7 @@
 #include <yaml-cpp/parser.h>
 
 #include <array>
+#include <cctype>
 #include <sstream>
 
 #include "framework/config/node_paths.hpp"
@@ -61,7 +62,8 @@ std::string yaml_scalar(const std::string& text) {
   for (const std::string& null : nulls) {
     if (text == null) return escaped(text);
   }
-  const bool is_negative_number = text.size() > 1 && text[0] == '-' && (std::isdigit(text[1]) != 0 || text[1] == '.');
+  const bool is_negative_number =
+      text.size() > 1 && text[0] == '-' && (std::isdigit(static_cast<unsigned char>(text[1])) != 0 || text[1] == '.');
   const bool needs_quotes = (special_first.find(text[0]) != std::string::npos && !is_negative_number) ||
                             text.find_first_of("\n\r\t,[]{}\"\\") != std::string::npos ||
                             text.find(": ") != std::string::npos || text.find(" #") != std::string::npos ||

@@ -131,16 +131,21 @@ class Spec {
   const std::string& name() const { return name_; }
   const std::string& doc() const { return doc_; }
   const std::vector<Parameter>& parameters() const { return parameters_; }
+  const std::vector<std::string>& ignored() const { return ignored_; }
   bool has_required() const;  ///< whether an empty map would be refused for want of a parameter
 
  private:
   using Reader = std::function<void(const Node& value, const ReadContext& context)>;
-  Spec& add(Parameter parameter, Reader reader);
+  Spec& add(Parameter parameter, Reader reader, Reader when_absent = nullptr);
+  void read_unknown_keys(const Node& node, std::vector<std::string>& problems, std::vector<std::string>& meant) const;
+  void read_parameter(std::size_t i, const Node& node, const ReadContext& context,
+                      const std::vector<std::string>& meant) const;
+  std::vector<std::string> parameter_names() const;
 
   std::string name_, doc_;
   std::vector<Parameter> parameters_;
-  std::vector<Reader> readers_;    ///< one a parameter
-  std::vector<Reader> on_absent_;  ///< one a parameter: what to do with a section's parent when the section is absent
+  std::vector<Reader> readers_;      ///< one a parameter
+  std::vector<Reader> when_absent_;  ///< one a parameter, given the map that lacks it; may be null
   std::vector<std::function<void(const Node&)>> checks_;
   std::vector<std::string> ignored_;
 };

@@ -1,0 +1,80 @@
+// The parameters of a Spec that are maps or lists of maps.
+#include "framework/config/data_reader.hpp"
+
+namespace sprekk {
+namespace {
+
+Parameter described(const std::string& name, const char* kind, const About& about, const Spec& inner) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.kind = kind;
+  parameter.about = about;
+  parameter.inner = std::make_shared<const Spec>(inner);
+  return parameter;
+}
+
+/// All mistakes of all entries, together.
+class Problems {
+ public:
+  template <class Action>
+  void collect(const Action& action) {
+    try {
+      action();
+    } catch (const InputError& error) {
+      all_.insert(all_.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  void throw_if_any() const {
+    if (!all_.empty()) throw InputError(all_);
+  }
+
+ private:
+  std::vector<std::string> all_;
+};
+
+}  // namespace
+
+Spec& Spec::section(const std::string& name, Spec inner, About about, bool* given) {
+  Parameter parameter = described(name, "section", about, inner);
+  const std::shared_ptr<const Spec> spec = parameter.inner;
+  if (given != nullptr) *given = false;
+  const auto read = [spec, given](const Node& node, const ReadContext& context) {
+    spec->read(node, context);
+    if (given != nullptr) *given = true;
+  };
+  const auto read_defaults = [spec, name](const Node& parent, const ReadContext& context) {
+    Node empty;
+    empty.origin = parent.origin;
+    empty.path = parent.path.empty() ? name : parent.path + "." + name;
+    if (!spec->has_required()) spec->read(empty, context);
+  };
+  if (given != nullptr) return add(std::move(parameter), read);
+  return add(std::move(parameter), read, read_defaults);
+}
+
+Spec& Spec::named_sections(const std::string& name, const Spec& example, AddEntry add_entry, About about) {
+  return add(described(name, "named sections", about, example),
+             [name, add_entry = std::move(add_entry)](const Node& node, const ReadContext& context) {
+               if (!node.is_map() && !node.is_null()) throw wrong_kind(node, name, "a map of names");
+               Problems problems;
+               for (const Node::Entry& entry : node.entries) {
+                 problems.collect([&] { add_entry(entry.key, entry.origin).read(entry.value, context); });
+               }
+               problems.throw_if_any();
+             });
+}
+
+Spec& Spec::list_of_sections(const std::string& name, const Spec& example, AddItem add_item, About about) {
+  return add(described(name, "list of sections", about, example),
+             [name, add_item = std::move(add_item)](const Node& node, const ReadContext& context) {
+               if (!node.is_list() && !node.is_null()) throw wrong_kind(node, name, "a list of maps");
+               Problems problems;
+               for (std::size_t i = 0; i < node.items.size(); ++i) {
+                 const Node& item = node.items[i];
+                 problems.collect([&] { add_item(static_cast<int>(i), item.origin).read(item, context); });
+               }
+               problems.throw_if_any();
+             });
+}
+
+}  // namespace sprekk
