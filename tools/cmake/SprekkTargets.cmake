@@ -30,9 +30,9 @@ function(sprekk_plugins name folder)
   endif()
 endfunction()
 
-# sprekk_tests(folder libraries…): one test program of all *_test.cpp in `folder`, run as its single tests by ctest.
+# sprekk_tests(folder libraries…): one test program of all sources in `folder`, run as its single tests by ctest.
 function(sprekk_tests folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
   if(NOT sources)
     return()
   endif()

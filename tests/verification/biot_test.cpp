@@ -1,0 +1,135 @@
+// Poroelastic problems with closed-form answers, run as scenes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/verification/mandel_solution.hpp"
+#include "tests/verification/scene_run.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+Vector areas(const Mesh& mesh) { return Eigen::Map<const Vector>(mesh.cell_area.data(), mesh.cell_count()); }
+
+const std::string references = std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/";
+
+/// p/p0 after m backward-Euler steps (verification.yaml: H = 1, c = 1, p0 = 1, drained at y = 0).
+double terzaghi(double y, double dt, int steps) {
+  double sum = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const double n = (k + 0.5) * M_PI;
+    sum += 2 / n * std::sin(n * y) * std::pow(1 + dt * n * n, -steps);
+  }
+  return sum;
+}
+
+double terzaghi_error(int cells) {
+  SceneRun run("verification/terzaghi.yaml", {{"mesh.cells", "[4, " + std::to_string(cells) + "]"}});
+  run.run();
+  Vector exact(run.mesh().cell_count());
+  for (int c = 0; c < exact.size(); ++c) exact[c] = terzaghi(run.mesh().cell_center[c][1], 0.01, run.steps());
+  return relative_error(areas(run.mesh()), run.field("pore.pressure"), exact);
+}
+
+TEST(Terzaghi, SeriesAgreesWithTable) {
+  for (const auto& row : read_numbers(references + "terzaghi_backward_euler_exact.csv")) {
+    if (row[0] < 1e-3) continue;  // where the series needs more terms than a test should sum
+    EXPECT_NEAR(terzaghi(row[1], row[0], 10), row[3], 1e-6) << row[0] << " " << row[1];
+  }
+}
+
+TEST(Terzaghi, IsSecondOrder) {
+  const double coarse = terzaghi_error(20), fine = terzaghi_error(40);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_GT(std::log2(coarse / fine), 1.9) << coarse << " " << fine;
+}
+
+TEST(Terzaghi, DoesNotOvershootInShortSteps) {
+  // One step of c dt/h^2 from 1e-6 to 1 with h = 1/40: the pressure must not exceed the undrained one.
+  for (const double ratio : {1e-6, 1e-4, 1e-2, 0.1, 1.0}) {
+    const std::string dt = std::to_string(ratio / 1600 * 1e6) + "e-6 s";
+    for (const char* mesh : {"{kind: structured, cells: [4, 40]}", "{size: 0.025 m}"}) {
+      SceneRun run("verification/terzaghi.yaml", {{"mesh", mesh}, {"time", "{end: " + dt + ", step: " + dt + "}"}});
+      run.run();
+      EXPECT_LT(run.field("pore.pressure").maxCoeff() - 1, 1e-10) << "c dt/h^2 = " << ratio << ", mesh " << mesh;
+      EXPECT_GT(run.field("pore.pressure").minCoeff(), -1e-10) << "c dt/h^2 = " << ratio << ", mesh " << mesh;
+    }
+  }
+}
+
+struct MandelErrors {
+  double pressure, displacement;
+};
+
+MandelErrors mandel_errors(const std::string& mesh, const std::vector<Override>& more = {}) {
+  std::vector<Override> overrides = {{"mesh", mesh}};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  SceneRun run("verification/mandel.yaml", overrides);
+  run.run();
+  const Mandel exact;
+  const int cells = run.mesh().cell_count();
+  Vector p(cells), u(2 * cells), weights(2 * cells);
+  for (int c = 0; c < cells; ++c) {
+    p[c] = exact.pressure(run.mesh().cell_center[c][0], run.time(), run.steps());
+    u.segment<2>(2 * c) = exact.displacement(run.mesh().cell_center[c], run.time(), run.steps());
+    weights.segment<2>(2 * c).setConstant(run.mesh().cell_area[c]);
+  }
+  return {relative_error(areas(run.mesh()), run.field("pore.pressure"), p),
+          relative_error(weights, run.field("rock.displacement"), u)};
+}
+
+TEST(Mandel, ClosedFormAgreesWithTable) {
+  const Mandel exact;
+  for (const auto& row : read_numbers(references + "mandel_seedrock.csv")) {
+    EXPECT_NEAR(exact.pressure(0, row[1]) / row[2], 1, 1e-6);
+    EXPECT_NEAR(exact.pressure(0.5, row[1]) / row[4], 1, 1e-6);
+    EXPECT_NEAR(exact.displacement({1, 0}, row[1])[0] / row[7], 1, 1e-6);
+    EXPECT_NEAR(exact.displacement({0, 1}, row[1])[1] / row[8], 1, 1e-6);
+  }
+}
+
+TEST(Mandel, PlateOfTheSceneFollowsTheClosedForm) {
+  const Mandel exact;
+  const std::string file = std::string(SPREKK_SOURCE_DIR) + "/configs/verification/mandel_plate.csv";
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  for (int m = 0; std::getline(stream, line); ++m) {
+    if (m == 0) continue;
+    const double time = std::stod(line), value = std::stod(line.substr(line.find(',') + 1));
+    EXPECT_NEAR(value / exact.displacement({0, 1}, time, m)[1], 1, 1e-12);
+  }
+}
+
+TEST(Mandel, IsSecondOrder) {
+  const MandelErrors coarse = mandel_errors("{size: 0.1 m}"), fine = mandel_errors("{size: 0.05 m}");
+  EXPECT_LT(fine.pressure, 2e-3);
+  EXPECT_LT(fine.displacement, 7.1e-4);  // what PorePy leaves at a comparable resolution
+  EXPECT_GT(std::log2(coarse.pressure / fine.pressure), 1.8) << coarse.pressure << " " << fine.pressure;
+  EXPECT_GT(std::log2(coarse.displacement / fine.displacement), 1.8) << coarse.displacement << " " << fine.displacement;
+}
+
+TEST(BarryMercer, AgreesWithTable) {
+  // The table's first time is the end of the scene. Backward Euler with 100 steps a quarter period errs by about
+  // pi/2/100/2 of the amplitude in phase; Richardson extrapolation from two step sizes removes it.
+  const auto rows = read_numbers(references + "barry_mercer.csv");
+  const auto value = [](double dt, const char* field, const char* at) {
+    const std::string step = std::to_string(dt * 1e6) + "e-6 s";
+    SceneRun run("verification/barry_mercer.yaml",
+                 {{"time.step", step}, {"output.probes", std::string("{probe: {of: ") + field + ", at: " + at + "}}"}});
+    run.run();
+    return run.quantity(std::string(field) == "pore.pressure" ? "probe" : "probe.x");
+  };
+  const double quarter = 1.535889741755005e-3;
+  const auto extrapolated = [&](const char* field, const char* at) {
+    return 2 * value(quarter / 100, field, at) - value(quarter / 50, field, at);
+  };
+  EXPECT_NEAR(extrapolated("pore.pressure", "[0.5, 0.5]") / rows[0][3], 1, 5e-3);
+  EXPECT_NEAR(extrapolated("pore.pressure", "[0.75, 0.5]") / rows[1][3], 1, 5e-3);
+  EXPECT_NEAR(extrapolated("rock.displacement", "[0.5, 0.5]") / rows[0][4], 1, 5e-3);
+  EXPECT_NEAR(extrapolated("rock.displacement", "[0.75, 0.5]") / rows[1][4], 1, 5e-3);
+}
+
+}  // namespace
+}  // namespace sprekk::testing

@@ -1,0 +1,149 @@
+// Contact, friction and opening against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/verification/scene_run.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+/// A square cut by a straight fracture at some angle, whose sides follow a uniform strain on the minus side of the
+/// fracture, and the same with a rigid jump on the plus side's opposite. In units with lambda = G = 1.
+std::string patch_scene(const std::string& normal_jump, const std::string& tangential_jump, double friction,
+                        const std::string& dilation) {
+  // The fracture runs through (0.5, 0.5) along t = (cos 30, sin 30); n = (sin 30, -cos 30); minus side where n·x > 0.5 n·(1,1).
+  const std::string side = "(0.5*(x-0.5) - 0.8660254037844386*(y-0.5) > 0)";
+  const auto displacement = [&](const std::string& strain, const std::string& n, const std::string& t) {
+    return "\"" + strain + " + if(" + side + ", " + n + "*(" + normal_jump + ") + " + t + "*(" + tangential_jump +
+           "), 0)\"";
+  };
+  const std::string u = "{displacement: [" + displacement("(-0.02*x + 0.001*y)", "0.5", "0.8660254037844386") + ", " +
+                        displacement("(0.001*x - 0.01*y)", "(-0.8660254037844386)", "0.5") + "]}";
+  return "{geometry: {box: {x: [0, 1], y: [0, 1]}, fractures: {cut: {points: [[0, 0.2113248654051871], [1, "
+         "0.7886751345948129]]}}}, mesh: {size: 0.12, distortion: 0.2}, components: {rock: {type: poromechanics/mpsa, "
+         "young_modulus: 2.5, poisson_ratio: 0.25, boundary: {left: " +
+         u + ", right: " + u + ", bottom: " + u + ", top: " + u + "}}, contact: {type: contact/coulomb, friction: " +
+         std::to_string(friction) + ", dilation_angle: " + dilation +
+         "}}, couplers: [{type: wall_traction, between: [rock, contact]}], schedule: [{solve: [rock, contact]}], time: "
+         "{end: 1, step: 1}}";
+}
+
+/// Traction of the uniform strain on the plus wall: n·sigma with sigma = 2 G eps + lambda tr(eps) I.
+Point uniform_traction() {
+  Tensor strain;
+  strain << -0.02, 0.001, 0.001, -0.01;
+  const Tensor stress = 2 * strain + strain.trace() * Tensor::Identity();
+  const Point n(0.5, -std::sqrt(3) / 2), t(std::sqrt(3) / 2, 0.5);
+  const Point traction = stress * n;
+  return {traction.dot(n), traction.dot(t)};
+}
+
+void expect_patch(const std::string& scene, const Point& jump, const Point& traction, double tolerance) {
+  SceneRun run = SceneRun::from_text(scene);
+  ASSERT_TRUE(run.step());
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_NEAR(run.field("contact.jump")[2 * i + k], jump[k], tolerance) << "cell " << i << " axis " << k;
+      EXPECT_NEAR(run.field("contact.traction")[2 * i + k], traction[k], tolerance) << "cell " << i << " axis " << k;
+    }
+  }
+  EXPECT_LE(run.iterations(), 6);
+}
+
+// Jumps are up to 1e-3 and tractions up to 0.06: 1e-12 is 1e-9 of them.
+TEST(ContactPatch, Sticks) {
+  expect_patch(patch_scene("0", "0", 1.0, "0"), Point::Zero(), uniform_traction(), 1e-12);
+}
+
+TEST(ContactPatch, Opens) {
+  // The minus side moves away by more than the compression: the walls are free where the strain alone would press.
+  // A rigid jump of the whole minus side with a stress-free fracture needs the uniform strain without traction on it, so the
+  // jump is exact only when the walls carry nothing: here the strain is switched off by a jump that is large.
+  SceneRun run = SceneRun::from_text(patch_scene("0.05", "0", 0.5, "0"));
+  ASSERT_TRUE(run.step());
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
+    EXPECT_NEAR(run.field("contact.traction")[2 * i], 0, 1e-12);
+    EXPECT_NEAR(run.field("contact.traction")[2 * i + 1], 0, 1e-12);
+    EXPECT_GT(run.field("contact.jump")[2 * i], 0);
+  }
+}
+
+TEST(ContactPatch, SlipsWithDilation) {
+  // Friction that the uniform traction just exceeds: f_t = mu |f_n| holds exactly for the uniform state.
+  const Point traction = uniform_traction();
+  const double friction = std::abs(traction[1] / traction[0]);
+  const double direction = traction[1] > 0 ? 1 : -1;
+  const double slip = 1e-3 * direction, opening = 1e-3 * std::tan(10 * M_PI / 180);
+  SceneRun run = SceneRun::from_text(patch_scene(std::to_string(opening * 1e9) + "e-9", std::to_string(slip), friction,
+                                                 "10 deg"));
+  ASSERT_TRUE(run.step());
+  // opening and friction enter the scene with 6 decimals of their last unit.
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
+    EXPECT_NEAR(run.field("contact.jump")[2 * i + 1] / slip, 1, 1e-3);
+    EXPECT_NEAR(run.field("contact.jump")[2 * i], std::abs(run.field("contact.jump")[2 * i + 1]) * std::tan(10 * M_PI / 180),
+                1e-15);
+    EXPECT_NEAR(run.field("contact.traction")[2 * i], traction[0], 1e-5);
+  }
+}
+
+struct CrackErrors {
+  double all, inner;  ///< relative L2 error of the jump over all of the crack, and without its outer 15 %
+};
+
+CrackErrors crack_errors(SceneRun& run, int axis, double peak) {
+  double error = 0, norm = 0, inner_error = 0, inner_norm = 0;
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
+    const FractureCell& cell = run.mesh().fracture_cells[i];
+    const double x = cell.center.norm();
+    const double exact = peak * std::sqrt(std::max(0.0, 1 - x * x));
+    const double difference = std::abs(run.field("contact.jump")[2 * i + axis]) - exact;
+    error += cell.length * difference * difference;
+    norm += cell.length * exact * exact;
+    if (x > 0.85) continue;
+    inner_error += cell.length * difference * difference;
+    inner_norm += cell.length * exact * exact;
+  }
+  return {std::sqrt(error / norm), std::sqrt(inner_error / inner_norm)};
+}
+
+std::string graded(double size) {
+  return "{size: 8, fracture_size: " + std::to_string(size) + ", growth: 0.2}";
+}
+
+TEST(Cracks, PressurizedCrackOpensLikeSneddons) {
+  const double peak = 4 / (10e9 / (1 - 0.04)) * 1e6;
+  CrackErrors previous{};
+  for (const double size : {0.1, 0.05}) {
+    SceneRun run("verification/pressurized_crack.yaml", {{"mesh", graded(size)}});
+    ASSERT_TRUE(run.step());
+    const CrackErrors errors = crack_errors(run, 0, peak);
+    if (previous.all > 0) {
+      EXPECT_LT(errors.all, 0.02);
+      EXPECT_GT(std::log2(previous.all / errors.all), 0.85) << previous.all << " " << errors.all;
+    }
+    previous = errors;
+  }
+}
+
+TEST(Cracks, FrictionalCrackSlipsLikePhans) {
+  const double normal = 100e6 * std::pow(std::sin(20 * M_PI / 180), 2);
+  const double shear = 100e6 * std::sin(20 * M_PI / 180) * std::cos(20 * M_PI / 180);
+  const double drop = shear - normal * std::tan(30 * M_PI / 180);
+  const double peak = 4 / (25e9 / (1 - 0.0625)) * drop;
+  EXPECT_NEAR(peak, 3.808e-3, 1e-6);
+  CrackErrors previous{};
+  for (const double size : {0.1, 0.05}) {
+    SceneRun run("verification/frictional_crack.yaml", {{"mesh", graded(size)}});
+    ASSERT_TRUE(run.step());
+    const CrackErrors errors = crack_errors(run, 1, peak);
+    if (previous.all > 0) {
+      EXPECT_LT(errors.all, 0.02);
+      EXPECT_GT(std::log2(previous.all / errors.all), 0.85) << previous.all << " " << errors.all;
+    }
+    previous = errors;
+  }
+}
+
+}  // namespace
+}  // namespace sprekk::testing
