@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cctype>
+#include <optional>
 #include <sstream>
 
 #include "framework/config/node_paths.hpp"
@@ -27,6 +28,21 @@ std::string escaped(const std::string& text) {
     }
   }
   return result + "\"";
+}
+
+/// The parser does not tell the commonest mistake: a tab in the indentation of the line, or of the one above.
+std::optional<Origin> tab_in_indentation(const std::string& text, const std::string& source, int line_of_error) {
+  std::istringstream lines(text);
+  int line = 0;
+  for (std::string content; std::getline(lines, content) && line <= line_of_error;) {
+    ++line;
+    const std::size_t first = content.find_first_not_of(' ');
+    const bool is_near = line + 1 >= line_of_error;
+    if (is_near && first != std::string::npos && content[first] == '\t') {
+      return Origin{source, line, static_cast<int>(first) + 1};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -90,6 +106,9 @@ Node parse_yaml(const std::string& text, const std::string& source_name) {
                        "remove the line '---' or use two files");
     }
   } catch (const YAML::Exception& error) {
+    if (const auto tab = tab_in_indentation(text, source_name, error.mark.line + 1)) {
+      throw InputError(*tab, "malformed YAML", "a tab stands in the indentation", "use spaces");
+    }
     throw InputError({source_name, error.mark.line + 1, error.mark.column + 1}, "malformed YAML", error.msg,
                      "check indentation, colons, quotes and brackets here and just above");
   }

@@ -12,7 +12,7 @@ namespace sprekk {
 namespace {
 
 std::string given_as(const std::string& name, const std::string& text) {
-  return name.empty() ? quoted(text) : quoted(name) + " is " + quoted(text);
+  return name.empty() ? quoted(text) : quoted(text) + " for " + quoted(name);
 }
 
 std::string needed(const std::string& unit) { return unit.empty() ? "a plain number" : unit; }

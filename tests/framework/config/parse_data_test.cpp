@@ -1,0 +1,135 @@
+// Expressions and the units behind them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "framework/config/units.hpp"
+#include "tests/framework/config/messages.hpp"
+
+namespace sprekk {
+namespace {
+
+using testing::HasSubstr;
+
+const Origin here{"s.yaml", 3, 4};
+const Place place{{0.3, -2.0}, 0, 5000};
+constexpr double pi = std::numbers::pi;
+
+struct Expression {
+  const char* text;
+  const char* unit;
+  double value;  ///< at x = 0.3, y = -2, t = 5000
+};
+
+class ParseExpression : public testing::TestWithParam<Expression> {};
+
+TEST_P(ParseExpression, has_its_value) {
+  const auto& [text, unit, value] = GetParam();
+  EXPECT_NEAR(parse_data(text, unit, here).at(place), value, 4e-15 * std::abs(value)) << text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    all, ParseExpression,
+    testing::Values(Expression{"20 MPa", "Pa", 2e7}, Expression{"20MPa", "Pa", 2e7}, Expression{"5 %", "", 0.05},
+                    Expression{"-3", "Pa", -3}, Expression{"x", "m", 0.3}, Expression{"x km", "m", 300},
+                    Expression{"(1 + 0.1*sin(pi*x)) MPa", "Pa", 1e6 * (1 + 0.1 * std::sin(pi * 0.3))},
+                    Expression{"(x)MPa", "Pa", 3e5}, Expression{"sin(x) MPa", "Pa", 1e6 * std::sin(0.3)},
+                    Expression{"if(t < 6*h, 0, 5e-9)", "m^2/s", 0}, Expression{"if(t < 1*h, 0, 5e-9)", "m^2/s", 5e-9},
+                    Expression{"if(t < 1*h, 0, 5) l/s", "m^3/s", 5e-3}, Expression{"2*3", "", 6},
+                    Expression{"2 * x", "", 0.6}, Expression{"x*y + t", "", 4999.4}, Expression{"-x^2", "", -0.09},
+                    Expression{"2^3^2", "", 512}, Expression{"2^-1", "", 0.5}, Expression{"10-4-3", "", 3},
+                    Expression{"2*x/3", "", 0.2}, Expression{"cos(x)", "", std::cos(0.3)},
+                    Expression{"tan(x)", "", std::tan(0.3)}, Expression{"exp(x)", "", std::exp(0.3)},
+                    Expression{"log(x)", "", std::log(0.3)}, Expression{"log10(x)", "", std::log10(0.3)},
+                    Expression{"sqrt(x)", "", std::sqrt(0.3)}, Expression{"abs(y)", "", 2},
+                    Expression{"tanh(x)", "", std::tanh(0.3)}, Expression{"sinh(x)", "", std::sinh(0.3)},
+                    Expression{"cosh(x)", "", std::cosh(0.3)}, Expression{"asin(x)", "", std::asin(0.3)},
+                    Expression{"acos(x)", "", std::acos(0.3)}, Expression{"atan(x)", "", std::atan(0.3)},
+                    Expression{"atan2(x, y)", "", std::atan2(0.3, -2)}, Expression{"erf(x)", "", std::erf(0.3)},
+                    Expression{"erfc(x)", "", std::erfc(0.3)}, Expression{"pow(x, 3)", "", 0.027},
+                    Expression{"sign(y)", "", -1}, Expression{"floor(y + 0.5)", "", -2}, Expression{"ceil(x)", "", 1},
+                    Expression{"min(x, y)", "", -2}, Expression{"max(x, y, 7)", "", 7}, Expression{"2*min", "s", 120},
+                    Expression{"min(2*min, h)", "s", 120}, Expression{"e", "", std::numbers::e},
+                    Expression{"1e3*x", "", 300}, Expression{"t/day", "", 5000. / 86400},
+                    Expression{"3*MPa + 2*kPa", "Pa", 3.002e6}, Expression{"sin(30*deg)", "", 0.5},
+                    Expression{"x < 1 && y < 0", "", 1}, Expression{"x > 1 || y > 0", "", 0},
+                    Expression{"x == 0.3", "", 1}, Expression{"x != 0.3", "", 0}, Expression{"x <= 0.3 ? 4 : 5", "", 4},
+                    Expression{"x >= 0.4", "", 0}, Expression{"if(x < 0, log(x), 2)", "", 2}));
+
+TEST(ParseData, knows_what_it_depends_on) {
+  const auto data = [](const char* text) { return parse_data(text, "", here); };
+  EXPECT_TRUE(data("2*pi").is_constant());
+  EXPECT_TRUE(data("0*3").is_zero());
+  EXPECT_TRUE(data("x").depends_on_space());
+  EXPECT_FALSE(data("x").depends_on_time());
+  EXPECT_TRUE(data("max(0, t)").depends_on_time());
+  EXPECT_FALSE(data("max(0, t)").depends_on_space());
+  EXPECT_TRUE(data("exp(y)*t").depends_on_time());
+  EXPECT_TRUE(data("exp(y)*t").depends_on_space());
+}
+
+TEST(ParseData, can_be_evaluated_by_several_threads) {
+  const Data data = parse_data("x*x + t", "", here);
+  std::vector<std::thread> threads;
+  std::vector<int> mistakes(4, 0);
+  for (int k = 0; k < 4; ++k) {
+    threads.emplace_back([&, k] {
+      for (int i = 0; i < 20'000; ++i) mistakes[k] += data.at({{k, 0}, 0, 1.0 * i}) == k * k + i ? 0 : 1;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_THAT(mistakes, testing::Each(0));
+}
+
+TEST(ParseData, says_where_an_expression_has_no_value) {
+  const Data data = parse_data("log(x)", "", here);
+  EXPECT_THAT(runtime_error_of([&] {
+                data.at({{-1, 2}, 0, 3});
+              }),
+              testing::MatchesRegex("s.yaml:3:4: the expression 'log\\(x\\)' is -?nan at x = -1, y = 2, t = 3"));
+  EXPECT_EQ(runtime_error_of([] {
+              parse_data("1/x", "", here).at({{0, 2}, 0, 3});
+            }),
+            "s.yaml:3:4: the expression '1/x' is inf at x = 0, y = 2, t = 3");
+}
+
+struct Wrong {
+  const char* text;
+  const char* unit;
+  const char* message;
+};
+
+class WrongDatum : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongDatum, is_refused) {
+  const auto& [text, unit, message] = GetParam();
+  EXPECT_THAT(input_error_of([&] { parse_data(text, unit, here, "p"); }), HasSubstr(message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    all, WrongDatum,
+    testing::Values(Wrong{"", "", "s.yaml:3:4: 'p' is empty"}, Wrong{"40 GPa", "m^2", "has the dimension of pressure"},
+                    Wrong{"sin(z)", "",
+                          "s.yaml:3:4: unknown name in the expression 'sin(z)': 'z' (it is not one of: x, y, t, "},
+                    Wrong{"sn(x)", "", "did you mean 'sin'?"}, Wrong{"sin(x", "", "malformed expression 'sin(x' ("},
+                    Wrong{"x)", "", "malformed expression"}, Wrong{"x +", "", "malformed expression"},
+                    Wrong{"x = 3", "", "('=' assigns) compare with '=='"}, Wrong{"1*2, 3", "", "it has several values"},
+                    Wrong{"if(x, 1)", "", "malformed expression"}, Wrong{"pow(x)", "", "malformed expression"},
+                    Wrong{"1/0", "", "'1/0' is not finite (it is inf)"}, Wrong{"sqrt(-1)", "", "is not finite"},
+                    Wrong{"nan", "", "is not finite"}, Wrong{"inf", "", "is not finite"},
+                    Wrong{"x + 2 m", "m",
+                          "(it is not clear what the unit 'm' belongs to) write '(x + 2) m' or multiply by the unit"},
+                    Wrong{"(x + 2) s", "m", "'(x + 2) s' for 'p' has the dimension of time (needed is length, in m)"},
+                    Wrong{"(x + 2) metre", "m", "unknown unit 'metre'"}, Wrong{"\"x\"", "", "malformed expression"},
+                    Wrong{"hello world", "", "unknown unit 'world'"}));
+
+TEST(ParseData, survives_hostile_expressions) {
+  EXPECT_THAT(input_error_of([] { parse_data(std::string(100'000, '('), "", here); }), HasSubstr("longer than 4000"));
+  EXPECT_THAT(input_error_of([] { parse_data(std::string(3'999, '('), "", here); }), HasSubstr("malformed"));
+}
+
+}  // namespace
+}  // namespace sprekk
