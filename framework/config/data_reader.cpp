@@ -123,11 +123,11 @@ Data any_datum(const Node& node, const DataRequest& request) {
                             ", an expression of x, y and t, " + "{regions: …}, {table: …} or {value: , from: , to: }";
   if (node.is_null()) throw wrong_kind(node, request.name, forms);
   if (request.about.constant_only) throw wrong_kind(node, request.name, "one number");
-  if (node.is_list() || has(node, "value")) return read_windows(node, request);
-  if (has(node, "table")) return read_tabulated(node, request);
   if (has(node, "regions")) {
     return by_region(read_by_region<Data>(node, request, [&](const Node& value) { return read_data(value, request); }));
   }
+  if (node.is_list() || has(node, "value")) return read_windows(node, request);
+  if (has(node, "table")) return read_tabulated(node, request);
   const std::string key = node.entries.empty() ? "" : node.entries.front().key;
   if (key.empty()) throw wrong_kind(node, request.name, forms);
   throw unknown_name(node.entries.front().origin, "key of " + quoted(request.name) + ":", key,
