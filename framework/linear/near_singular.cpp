@@ -35,7 +35,7 @@ double normalize(Vector& v) {
 std::string find_singularity(const LinearSystem& system, const SparseMatrix& rows, const SolveInPlace& solve,
                              const SolveInPlace& solve_transposed) {
   constexpr double suspicious = 1e8;  // a singular matrix grows a random vector by 1e16 / sqrt(n), roughly
-  constexpr double singular = 1e-13;  // fewer than three digits of a solution would be left
+  constexpr double singular = 3e-15;  // a floating rock shows 1e-16; an open fracture in tight rock has 5e-15
   const int unknowns = static_cast<int>(rows.cols());
   Vector v = scattered_unit_vector(unknowns);
   solve(v);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -36,7 +37,7 @@ double componentwise_backward_error(const SparseMatrix& a, const Vector& y, cons
 LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scaled, const Vector& b_rows,
                            const std::function<void(Vector&)>& apply_inverse, Vector& x) {
   constexpr int refinements = 3;
-  constexpr double accurate = 1e-13, acceptable = 1e-12;
+  constexpr double accurate = 1e-13, acceptable = 1e-12, useless = 1e-3;
   const SparseMatrix& a = scaled.matrix;
   const int unknowns = static_cast<int>(a.cols());
   const Vector b = scaled.row_scale.cwiseProduct(b_rows);
@@ -70,12 +71,15 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
   const double r_norm = norm(r);
   const double normwise_error = r_norm / (a_norm * y.norm() + b_norm);
   report.relative_residual = r_norm / b_norm;
-  if (!(normwise_error <= acceptable) || !x.allFinite()) {
-    char text[160];
-    std::snprintf(text, sizeof text, "the direct solve is inaccurate (backward error %.1e, relative residual %.1e)",
+  if (!(normwise_error <= acceptable) || !(report.relative_residual <= useless)) {
+    int largest = 0;  // a null vector of the matrix dominates such a solution
+    y.cwiseAbs().maxCoeff(&largest);
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "the matrix is singular to working precision (backward error %.1e, relative residual %.1e; look at ",
                   normwise_error, report.relative_residual);
+    report.reason = text + describe_unknown(system.blocks, largest) + " and its like)";
     report.solved = false;
-    report.reason = text;
   }
   return report;
 }

@@ -140,6 +140,11 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   Vector r = b, y = x;
   double r_norm = b_norm, wanted_norm = 0.5 * tolerance_ * b_norm;
   BlockResidual measured;
+  const auto is_converged = [&] {
+    constexpr double rounding = 1e-14, useless = 1e-3;
+    const bool is_at_rounding = measured.largest_ratio <= rounding && r_norm <= useless * b_norm;
+    return measured.largest_ratio <= tolerance_ && (r_norm <= tolerance_ * b_norm || is_at_rounding);
+  };
   // GMRES trusts a recurrence and one norm; this loop trusts the residual of every block, and starts again from it.
   for (int restart = 0; restart < 6 && report.iterations < max_iterations_; ++restart) {
     tpetra::copy(r, *residual);
@@ -168,17 +173,18 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     const BlockResidual before = measured;
     measured = measure(y, b, r);
     const bool stalls = restart > 0 && !(measured.largest_ratio < 0.5 * before.largest_ratio);
-    if (measured.largest_ratio <= tolerance_ || stalls) break;
-    wanted_norm = 0.5 * tolerance_ * measured.smallest_size;
+    if (is_converged() || stalls) break;
+    wanted_norm = 0.5 * tolerance_ * std::min(b_norm, measured.smallest_size);
   }
   counts_.iterations += report.iterations;
   report.relative_residual = r_norm / b_norm;
   x = data_->scaled.column_scale.cwiseProduct(y);
-  if (!(measured.largest_ratio <= tolerance_)) {
+  if (!is_converged()) {
     char text[200];
-    std::snprintf(text, sizeof text,
-                  "GMRES did not converge (relative residual of the worst block %.1e after %d iterations, wanted %.1e)",
-                  measured.largest_ratio, report.iterations, tolerance_);
+    std::snprintf(
+        text, sizeof text,
+        "GMRES did not converge (relative residual %.1e, of the worst block %.1e, after %d iterations; wanted %.1e)",
+        report.relative_residual, measured.largest_ratio, report.iterations, tolerance_);
     report.solved = false;
     report.reason = text;
   }
