@@ -21,7 +21,8 @@ struct WallTractionOptions {
   }
 };
 
-/// Determines the wall traction T = f − alpha_i p_i n (Eq. 4) and the jump that the contact sees (Eq. 1).
+/// Determines the wall traction T = f − alpha_i p_i n (Eq. 4) and the jump that the contact sees (Eq. 1). The rows of T are
+/// multiplied by the compliance of the walls, and so are jumps (m): a linear solver can then tell them from zero.
 class WallTraction : public Coupler {
  public:
   WallTraction(const CouplerContext& context, const WallTractionOptions& options)
@@ -48,27 +49,27 @@ class WallTraction : public Coupler {
   }
 
   void begin_step(const StepTime&) override {
-    if (!contact_) return;
-    // How a cell's own traction changes its own jump, as a stiffness.
+    // How a cell's own traction changes its own jump.
     const Field& traction = rock_.wall_traction();
-    Vector stiffness = Vector::Zero(traction.size());
+    Vector compliance = Vector::Zero(traction.size());
     for (const LinearExpression::Term& term : rock_.displacement_jump().terms)
       if (term.field == &traction)
-        for (int i = 0; i < traction.size(); ++i) stiffness[i] = -term.matrix.coeff(i, i);
-    replicate(mesh_, Location::fracture_cell, 2, stiffness);
-    contact_->set_wall_stiffness(stiffness.cwiseInverse());
+        for (int i = 0; i < traction.size(); ++i) compliance[i] = -term.matrix.coeff(i, i);
+    replicate(mesh_, Location::fracture_cell, 2, compliance);
+    compliance_ = compliance;
+    if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
   }
 
   void assemble(Assembly& assembly, const StepTime&) const override {
     const Field& traction = rock_.wall_traction();
     if (assembly.has_row(traction)) {
-      assembly.add(traction, traction.now());
-      assembly.diagonal(traction, traction, Vector::Ones(traction.size()));
+      assembly.add(traction, compliance_.cwiseProduct(traction.now()));
+      assembly.diagonal(traction, traction, compliance_);
       if (contact_) {
-        assembly.add(traction, -contact_->traction().now());
-        assembly.diagonal(traction, contact_->traction(), -Vector::Ones(traction.size()));
+        assembly.add(traction, -compliance_.cwiseProduct(contact_->traction().now()));
+        assembly.diagonal(traction, contact_->traction(), -compliance_);
       }
-      if (fluid_) assembly.linear(traction, normal_load_, fluid_->pressure());
+      if (fluid_) assembly.linear(traction, normal_load_, fluid_->pressure(), 1, &compliance_);
     }
     if (!contact_ || !assembly.has_row(contact_->jump())) return;
     const Field& jump = contact_->jump();
@@ -82,6 +83,7 @@ class WallTraction : public Coupler {
   RockWalls& rock_;
   FractureContact* contact_;
   FractureFluid* fluid_;
+  Vector compliance_;         ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
   SparseMatrix normal_load_;  ///< 2 fracture cells × fracture cells: pressure pushes the plus wall along −n
 };
 

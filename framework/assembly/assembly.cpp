@@ -34,6 +34,11 @@ void Assembly::compare_with(const Field& row, double magnitude) {
   round_off_bases_[found->second] = std::max(round_off_bases_[found->second], magnitude);
 }
 
+void Assembly::compare_round_off(const Field& row, double largest) {
+  const auto found = index_.find(&row);
+  if (found != index_.end()) round_off_bases_[found->second] = std::max(round_off_bases_[found->second], largest);
+}
+
 void Assembly::fix(const Field& row, int i, double target, double scale) {
   const auto found = index_.find(&row);
   if (found == index_.end()) return;

@@ -26,6 +26,8 @@ class Assembly {
   void add(const Field& row, const Vector& values);
   /// Something else that the residual is to be small against, in the units of the equation.
   void compare_with(const Field& row, double magnitude);
+  /// A bound of the numbers whose differences make up the residual: they leave round-off of their own size in it.
+  void compare_round_off(const Field& row, double largest);
   /// d residual(row) / d column += factor · diag(weights) · block; ignored unless both are unknowns here. `block` and
   /// `weights` must outlive the assembly.
   void derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor = 1,

@@ -10,6 +10,7 @@ int entity_count(const Mesh& mesh, Location location) {
     case Location::face: return mesh.face_count();
     case Location::node: return mesh.node_count();
     case Location::fracture_cell: return mesh.fracture_cell_count();
+    case Location::fracture_point: return static_cast<int>(mesh.fracture_points.size());
     case Location::wall: return mesh.wall_count();
   }
   throw std::logic_error("unknown location");

@@ -9,8 +9,9 @@
 
 namespace sprekk {
 
-/// The entities that carry a field's values. Walls are numbered 2 i + side for fracture cell i.
-enum class Location { cell, face, node, fracture_cell, wall };
+/// The entities that carry a field's values. Walls are numbered 2 i + side for fracture cell i; fracture points are the
+/// ends of fracture cells.
+enum class Location { cell, face, node, fracture_cell, fracture_point, wall };
 int entity_count(const Mesh& mesh, Location location);
 
 /// unknown: determined by its owner's balance law. input: given to its owner; a coupler may determine it, else it keeps

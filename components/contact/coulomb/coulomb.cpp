@@ -91,22 +91,22 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
     double n_fn = 0, n_un = 0, n_ut = 0;                  // derivatives of the normal residual
     double t_fn = 0, t_ft = 0, t_un = 0, t_ut = 0;        // and of the tangential one
     if (t.normal > 0) {
-      residual[2 * i] = f_n;
-      residual[2 * i + 1] = f_t;
-      n_fn = 1;
-      t_ft = 1;
+      residual[2 * i] = f_n / c_n;
+      residual[2 * i + 1] = f_t / c_t;
+      n_fn = 1 / c_n;
+      t_ft = 1 / c_t;
     } else {
-      residual[2 * i] = -c_n * t.gap;
-      n_un = -c_n;
-      n_ut = -c_n * gap_by_t;
+      residual[2 * i] = -t.gap;
+      n_un = -1;
+      n_ut = -gap_by_t;
       if (std::abs(t.tangential) <= t.bound) {
-        residual[2 * i + 1] = f_t - t.tangential;
-        t_ut = -c_t;
+        residual[2 * i + 1] = (f_t - t.tangential) / c_t;
+        t_ut = -1;
       } else {
         const double direction = t.tangential > 0 ? 1 : -1;
-        residual[2 * i + 1] = f_t - direction * t.bound;
-        const double by_normal = direction * friction_[i];
-        t_ft = 1;
+        residual[2 * i + 1] = (f_t - direction * t.bound) / c_t;
+        const double by_normal = direction * friction_[i] / c_t;
+        t_ft = 1 / c_t;
         t_fn = by_normal;
         t_un = by_normal * c_n;
         t_ut = by_normal * c_n * gap_by_t;
@@ -121,9 +121,9 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
                                    {2 * i + 1, 2 * i + 1, t_ut}});
   }
   assembly.add(traction_, residual);
-  // What the residual is small against: the tractions, and where all is open those that would undo the jumps.
-  assembly.compare_with(traction_, traction_.now().lpNorm<Eigen::Infinity>());
-  assembly.compare_with(traction_, stiffness_.cwiseProduct(jump_.now()).lpNorm<Eigen::Infinity>());
+  // What the residual is small against: the jumps, and where all of them stick those that the tractions would make.
+  assembly.compare_with(traction_, traction_.now().cwiseQuotient(stiffness_).lpNorm<Eigen::Infinity>());
+  assembly.compare_with(traction_, jump_.now().lpNorm<Eigen::Infinity>());
   if (!assembly.wants_derivatives()) return;
   SparseMatrix tractions(2 * count, 2 * count), jumps(2 * count, 2 * count);
   tractions.setFromTriplets(by_traction.begin(), by_traction.end());

@@ -32,6 +32,11 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                            .location = Location::fracture_cell,
                                            .unit = "Pa",
                                            .doc = "Fluid pressure in the fractures"})),
+      flux_(context.fields.add(mesh_, {.owner = context.name,
+                                       .name = "flux",
+                                       .location = Location::fracture_point,
+                                       .unit = "m^2/s",
+                                       .doc = "Flux along the fractures, from the first to the second cell of a point"})),
       aperture_(context.fields.add(mesh_, {.owner = context.name,
                                            .name = "aperture",
                                            .location = Location::fracture_cell,
@@ -97,36 +102,30 @@ std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
 
 }  // namespace
 
-void FractureFlow::make_links() {
-  if (linked_ && linked_version_ == mesh_.version) return;
-  linked_ = true;
-  linked_version_ = mesh_.version;
+void FractureFlow::make_links(double time) {
   links_.clear();
-  for (const FracturePoint& point : mesh_.fracture_points)
-    if (point.cells.size() == 2) links_.push_back({point.cells[0], point.cells[1]});
-  if (options_.gravity.is_zero()) return;
-  for (Link& link : links_) {
-    const Point &a = mesh_.fracture_cells[link.first].center, &b = mesh_.fracture_cells[link.second].center;
-    link.gravity = options_.fluid_density * options_.gravity.at({a, 0, 0}).dot(a - b);
+  for (int i = 0; i < static_cast<int>(mesh_.fracture_points.size()); ++i) {
+    const FracturePoint& point = mesh_.fracture_points[i];
+    Link link{i, point.cells[0], none};
+    Point other = point.position;
+    if (point.cells.size() == 2) {
+      link.second = point.cells[1];
+      other = mesh_.fracture_cells[link.second].center;
+    } else {
+      if (point.kind != FracturePoint::Kind::on_boundary) continue;
+      const auto found = options_.boundary.find(mesh_.side_names[point.side]);
+      if (found == options_.boundary.end()) continue;
+      link.boundary_pressure = found->second.at({point.position, 0, time});
+    }
+    if (!options_.gravity.is_zero())
+      link.gravity = options_.fluid_density * options_.gravity.at({point.position, 0, 0})
+                                                  .dot(mesh_.fracture_cells[link.first].center - other);
+    links_.push_back(link);
   }
 }
 
 void FractureFlow::begin_step(const StepTime& step) {
-  make_links();
-  links_.erase(std::remove_if(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; }),
-               links_.end());
-  for (const FracturePoint& point : mesh_.fracture_points) {
-    if (point.kind != FracturePoint::Kind::on_boundary) continue;
-    const auto found = options_.boundary.find(mesh_.side_names[point.side]);
-    if (found == options_.boundary.end()) continue;
-    const int cell = point.cells[0];
-    Link link{cell, none};
-    link.boundary_pressure = found->second.at({point.position, 0, step.end});
-    if (!options_.gravity.is_zero())
-      link.gravity = options_.fluid_density * options_.gravity.at({point.position, 0, 0})
-                                                  .dot(mesh_.fracture_cells[cell].center - point.position);
-    links_.push_back(link);
-  }
+  make_links(step.end);
   prescribe(step);
 }
 
@@ -179,26 +178,25 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
   return kappa;
 }
 
-FractureFlow::Flux FractureFlow::flux(const Link& link) const {
-  // Resistances in series: half a cell on each side.
+FractureFlow::Conductance FractureFlow::conductance(const Link& link) const {
   const Transmissivity first = transmissivity(link.first);
   const double half = 0.5 * mesh_.fracture_cells[link.first].length;
-  const double p_first = pressure_.now()[link.first];
-  if (link.second == none) {
-    const double drop = p_first - link.boundary_pressure - link.gravity;
-    return {first.value / half * drop, first.value / half, first.by_aperture / half * drop, 0};
-  }
+  if (link.second == none) return {first.value / half, first.by_aperture / half, 0};
   const Transmissivity second = transmissivity(link.second);
   const double other_half = 0.5 * mesh_.fracture_cells[link.second].length;
-  const double drop = p_first - pressure_.now()[link.second] - link.gravity;
-  if (first.value == 0 || second.value == 0) return {0, 0, 0, 0};
-  const double conductance = 1 / (half / first.value + other_half / second.value);
-  const double by_first = conductance * conductance * half / (first.value * first.value) * first.by_aperture;
-  const double by_second = conductance * conductance * other_half / (second.value * second.value) * second.by_aperture;
-  return {conductance * drop, conductance, by_first * drop, by_second * drop};
+  if (first.value == 0 || second.value == 0) return {0, 0, 0};
+  const double value = 1 / (half / first.value + other_half / second.value);
+  return {value, value * value * half / (first.value * first.value) * first.by_aperture,
+          value * value * other_half / (second.value * second.value) * second.by_aperture};
+}
+
+double FractureFlow::pressure_drop(const Link& link) const {
+  const double second = link.second == none ? link.boundary_pressure : pressure_.now()[link.second];
+  return pressure_.now()[link.first] - second - link.gravity;
 }
 
 void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
+  assemble_fluxes(assembly, step);
   if (!assembly.has_row(pressure_)) return;
   const int count = mesh_.fracture_cell_count();
   Vector stored(count), capacity(count), stored_by_aperture(count);
@@ -210,34 +208,58 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
     stored_by_aperture[i] = length * (1 + compressibility_[i] * change);
   }
   assembly.add(pressure_, stored);
+  assembly.compare_round_off(pressure_, capacity.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
   assembly.diagonal(pressure_, pressure_, capacity);
   assembly.diagonal(pressure_, aperture_, stored_by_aperture);
   assembly.add(pressure_, -step.dt * source_);
 
-  Vector outflow = Vector::Zero(count);
-  std::vector<Triplet> by_pressure, by_aperture;
+  std::vector<Triplet> outflow;
   for (const Link& link : links_) {
-    const Flux f = flux(link);
-    const int a = link.first, b = link.second;
-    outflow[a] += f.value;
-    by_pressure.emplace_back(a, a, step.dt * f.by_pressure);
-    by_aperture.emplace_back(a, a, step.dt * f.by_first);
-    if (b == none) continue;
-    outflow[b] -= f.value;
-    by_pressure.emplace_back(a, b, -step.dt * f.by_pressure);
-    by_pressure.emplace_back(b, a, -step.dt * f.by_pressure);
-    by_pressure.emplace_back(b, b, step.dt * f.by_pressure);
-    by_aperture.emplace_back(a, b, step.dt * f.by_second);
-    by_aperture.emplace_back(b, a, -step.dt * f.by_first);
-    by_aperture.emplace_back(b, b, -step.dt * f.by_second);
+    outflow.emplace_back(link.first, link.point, step.dt);
+    if (link.second != none) outflow.emplace_back(link.second, link.point, -step.dt);
   }
-  assembly.add(pressure_, step.dt * outflow);
+  SparseMatrix divergence(count, flux_.size());
+  divergence.setFromTriplets(outflow.begin(), outflow.end());
+  assembly.add(pressure_, divergence * flux_.now());
+  assembly.derivative(pressure_, flux_, std::move(divergence));
+}
+
+void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
+  if (!assembly.has_row(flux_)) return;
+  const int points = flux_.size(), count = mesh_.fracture_cell_count();
+  // Each row is divided by its conductance plus that of a cell's storage, and so is well scaled from sealed to wide open.
+  const auto storage_conductance = [&](int cell) {
+    return mesh_.fracture_cells[cell].length * initial_aperture_[cell] * compressibility_[cell] / step.dt;
+  };
+  Vector of_flux = Vector::Ones(points), drop = Vector::Zero(points);
+  std::vector<Triplet> by_pressure, by_aperture;
+  double largest_pressure = 0;
+  for (const Link& link : links_) {
+    const Conductance c = conductance(link);
+    const double reference = storage_conductance(link.first);
+    const double scale = c.value + reference > 0 ? 1 / (c.value + reference) : 1;
+    const double dp = pressure_drop(link), q = flux_.now()[link.point];
+    of_flux[link.point] = scale;
+    drop[link.point] = -scale * c.value * dp;
+    largest_pressure = std::max(largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
+    by_pressure.emplace_back(link.point, link.first, -scale * c.value);
+    // d/da of scale (q − C dp), with the scale's own derivative −scale^2 C'.
+    const auto by = [&](double c_by) { return -scale * c_by * dp - scale * scale * c_by * (q - c.value * dp); };
+    by_aperture.emplace_back(link.point, link.first, by(c.by_first));
+    if (link.second == none) continue;
+    by_pressure.emplace_back(link.point, link.second, scale * c.value);
+    by_aperture.emplace_back(link.point, link.second, by(c.by_second));
+  }
+  assembly.add(flux_, of_flux.cwiseProduct(flux_.now()));
+  assembly.add(flux_, drop);
+  assembly.compare_round_off(flux_, largest_pressure);
+  assembly.diagonal(flux_, flux_, of_flux);
   if (!assembly.wants_derivatives()) return;
-  SparseMatrix pressures(count, count), apertures(count, count);
+  SparseMatrix pressures(points, count), apertures(points, count);
   pressures.setFromTriplets(by_pressure.begin(), by_pressure.end());
   apertures.setFromTriplets(by_aperture.begin(), by_aperture.end());
-  assembly.derivative(pressure_, pressure_, std::move(pressures));
-  assembly.derivative(pressure_, aperture_, std::move(apertures));
+  assembly.derivative(flux_, pressure_, std::move(pressures));
+  assembly.derivative(flux_, aperture_, std::move(apertures));
 }
 
 void FractureFlow::constrain(Assembly& assembly) const {
@@ -254,7 +276,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
     books[3 * i + 1] += step.dt * source_[i];
   }
   for (const Link& link : links_)
-    if (link.second == none) books[3 * link.first + 2] += step.dt * flux(link).value;
+    if (link.second == none) books[3 * link.first + 2] += step.dt * flux_.now()[link.point];
   books_.set(std::move(books));
 }
 
