@@ -80,10 +80,11 @@ std::string yaml_scalar(const std::string& text) {
   }
   const bool is_negative_number =
       text.size() > 1 && text[0] == '-' && (std::isdigit(static_cast<unsigned char>(text[1])) != 0 || text[1] == '.');
-  const bool needs_quotes = (special_first.find(text[0]) != std::string::npos && !is_negative_number) ||
-                            text.find_first_of("\n\r\t,[]{}\"\\") != std::string::npos ||
-                            text.find(": ") != std::string::npos || text.find(" #") != std::string::npos ||
-                            text.back() == ' ' || text.back() == ':';
+  const bool ends_document = text.rfind("...", 0) == 0;
+  const bool needs_quotes =
+      ends_document || (special_first.find(text[0]) != std::string::npos && !is_negative_number) ||
+      text.find_first_of("\n\r\t,[]{}\"\\?") != std::string::npos || text.find(": ") != std::string::npos ||
+      text.find(" #") != std::string::npos || text.back() == ' ' || text.back() == ':';
   return needs_quotes ? escaped(text) : text;
 }
 

@@ -54,6 +54,14 @@ TEST(NodeText, is_yaml_that_reads_back) {
   EXPECT_EQ(parse_yaml(node.text(), "s.yaml").text(), node.text());
 }
 
+TEST(YamlScalar, quotes_what_yaml_would_misread) {
+  for (const std::string text : {"x <= 1 ? 2 : 3", "...", "- a", "a #b", "null", "", "a: b", "{", "*a", "%Y", "b?",
+                                 "c:", "tab\there", "-", "--- x", "say \"hi\"", "back\\slash", " a ", "two\nlines"}) {
+    EXPECT_EQ(parse_yaml("{k: " + yaml_scalar(text) + "}", "s.yaml").find("k")->scalar, text);
+  }
+  EXPECT_EQ(yaml_scalar("-2.5 m^2/s"), "-2.5 m^2/s");
+}
+
 struct Malformed {
   const char* name;
   std::string text;
