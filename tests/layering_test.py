@@ -70,12 +70,15 @@ def physics_violations(path, text):
         yield f"{path}:{line} names {match.group()} (the framework knows no physics)"
 
 
-def counterpart_violations(root, path):
+def counterpart_violations(root, path, includes):
+    """A test is named after the file it tests, or tests how files of its folder work together and includes them."""
     if not path.endswith("_test.cpp") or FREE_TESTS.search(path):
         return
     tested = path[len("tests/"):-len("_test.cpp")]
-    if not any((root / (tested + ending)).exists() for ending in (".hpp", ".cpp", "")):
-        yield f"{path} tests nothing (there is no {tested}.hpp or .cpp)"
+    folder = tested.rpartition("/")[0] + "/"
+    has_file = any((root / (tested + ending)).exists() for ending in (".hpp", ".cpp", ""))
+    if not has_file and not any(header.startswith(folder) for header in includes):
+        yield f"{path} tests nothing (there is no {tested}.hpp, and it includes nothing of {folder})"
 
 
 def cycle_violations(edges):
@@ -99,7 +102,7 @@ def violations(root):
         includes = includes_of[path] = INCLUDE.findall(text)
         found += include_violations(path, includes)
         found += physics_violations(path, text)
-        found += counterpart_violations(root, path)
+        found += counterpart_violations(root, path, includes)
         parts = path.split("/")
         if parts[0] == "framework" and len(parts) > 2:
             needed = {header.split("/")[1] for header in includes if header.startswith("framework/") and header.count("/") > 1}
@@ -120,7 +123,7 @@ PLANTED = (
     ("framework/a/a.hpp", "#include <yaml-cpp/yaml.h>\n", "brings yaml-cpp/yaml.h to components"),
     ("framework/a/a.cpp", "\n\ndouble fluid_pressure = 0;\n", "framework/a/a.cpp:3 names fluid_pressure"),
     ("framework/a/a.cpp", "struct BiotTerm;\n", "names BiotTerm"),
-    ("tests/framework/a/gone_test.cpp", "", "tests/framework/a/gone_test.cpp tests nothing"),
+    ("tests/framework/a/gone_test.cpp", '#include "framework/b/b.hpp"\n', "tests/framework/a/gone_test.cpp tests nothing"),
     ("framework/b/b.cpp", '#include "framework/a/a.hpp"\n', "framework/a and framework/b include each other"),
 )
 
@@ -136,6 +139,7 @@ CLEAN = {
     "couplers/b.cpp": '#include "components/capabilities/c.hpp"\n#include "couplers/helper.hpp"\n',
     "tests/components/flow/mpfa_test.cpp": '#include "couplers/b.hpp"\n',
     "tests/framework/a/a_test.cpp": '#include "components/flow/flow.hpp"\n',
+    "tests/framework/a/together_test.cpp": '#include "framework/a/a.hpp"\n',
     "tests/verification/mandel_test.cpp": "",
 }
 
