@@ -108,7 +108,7 @@ CrackErrors crack_errors(SceneRun& run, int axis, double peak) {
 }
 
 std::string graded(double size) {
-  return "{size: 8, fracture_size: " + std::to_string(size) + ", growth: 0.2}";
+  return "{size: 8, fracture_size: " + std::to_string(size) + ", growth: 0.1}";
 }
 
 TEST(Cracks, PressurizedCrackOpensLikeSneddons) {

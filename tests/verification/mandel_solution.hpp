@@ -29,7 +29,7 @@ struct Mandel {
       double low = k * M_PI + 1e-9, high = (k + 0.5) * M_PI - 1e-12;
       for (int i = 0; i < 200; ++i) {
         const double middle = 0.5 * (low + high);
-        (std::sin(middle) - ratio * middle * std::cos(middle) > 0 ? high : low) = middle;
+        (std::tan(middle) > ratio * middle ? high : low) = middle;
       }
       roots.push_back(0.5 * (low + high));
     }
