@@ -71,13 +71,14 @@ def physics_violations(path, text):
 
 
 def counterpart_violations(root, path, includes):
-    """A test is named after the file it tests, or tests how files of its folder work together and includes them."""
+    """A test is named after the file it tests, or tests how files of its folder work together and includes them, maybe
+    by a helper beside it."""
     if not path.endswith("_test.cpp") or FREE_TESTS.search(path):
         return
     tested = path[len("tests/"):-len("_test.cpp")]
     folder = tested.rpartition("/")[0] + "/"
     has_file = any((root / (tested + ending)).exists() for ending in (".hpp", ".cpp", ""))
-    if not has_file and not any(header.startswith(folder) for header in includes):
+    if not has_file and not any(header.startswith((folder, "tests/" + folder)) for header in includes):
         yield f"{path} tests nothing (there is no {tested}.hpp, and it includes nothing of {folder})"
 
 

@@ -22,7 +22,7 @@
 namespace sprekk {
 namespace {
 
-/// Every `stride`-th entity from `first` on; wall fields interleave the two sides.
+/// Every `stride`-th entity from `first` on; fields on walls interleave the two sides.
 vtkSmartPointer<vtkDoubleArray> make_array(const OutputField& field, const std::string& name, int first = 0,
                                            int stride = 1) {
   const int components = field.components;
@@ -70,6 +70,17 @@ void set_points(vtkUnstructuredGrid& grid, int count, const Position& position) 
   points->SetNumberOfPoints(count);
   for (int i = 0; i < count; ++i) points->SetPoint(i, position(i).x(), position(i).y(), 0);
   grid.SetPoints(points);
+}
+
+void add_on_fracture_cells(vtkUnstructuredGrid& grid, const OutputField& field) {
+  if (field.components != dimension) {
+    grid.GetCellData()->AddArray(make_array(field, field.name));
+    return;
+  }
+  OutputField numbers = field;  // as two numbers a cell instead of a pair
+  numbers.components = 1;
+  grid.GetCellData()->AddArray(make_array(numbers, field.name + ".normal", 0, dimension));
+  grid.GetCellData()->AddArray(make_array(numbers, field.name + ".tangential", 1, dimension));
 }
 
 void require_size(const OutputField& field, const Mesh& mesh) {
@@ -131,7 +142,7 @@ void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, con
   grid->GetCellData()->AddArray(fracture);
   for (const OutputField& field : fields) {
     require_size(field, mesh);
-    if (field.location == Location::fracture_cell) grid->GetCellData()->AddArray(make_array(field, field.name));
+    if (field.location == Location::fracture_cell) add_on_fracture_cells(*grid, field);
     if (field.location == Location::wall) {
       grid->GetCellData()->AddArray(make_array(field, field.name + ".plus", static_cast<int>(Wall::plus), 2));
       grid->GetCellData()->AddArray(make_array(field, field.name + ".minus", static_cast<int>(Wall::minus), 2));

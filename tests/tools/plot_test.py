@@ -93,7 +93,7 @@ class Results(unittest.TestCase):
     def test_every_picture_is_drawn(self):
         done = subprocess.run([ROOT / "tools/plot", self.folder], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        for name in ("mesh", "matrix_a_pressure", "matrix_a_displacement", "fractures_a_pressure", "fractures_a_jump", "history"):
+        for name in ("mesh", "matrix_a_pressure", "matrix_a_displacement_length", "fractures_a_pressure", "fractures_a_jump", "history"):
             picture = (self.folder / "plots" / f"{name}.png").read_bytes()
             self.assertTrue(picture.startswith(b"\x89PNG"), name)
 

@@ -71,11 +71,12 @@ TEST_F(VtuWriter, MatrixIsReadBackToTheBit) {
   EXPECT_NE(grid->GetCellData()->GetArray("region"), nullptr);
 }
 
-TEST_F(VtuWriter, FracturesAreReadBackToTheBitWithTheirTwoWalls) {
+TEST_F(VtuWriter, FracturesAreReadBackToTheBitWithTheirWallsAndFrames) {
   const auto slip = field_on(mesh, "contact.slip", Location::fracture_cell, 1);
   const auto walls = field_on(mesh, "rock.wall_displacement", Location::wall, 2);
   const auto pressure = field_on(mesh, "pore.pressure", Location::cell, 1);
-  write_fracture_vtu(folder / "f.vtu", mesh, {slip, walls, pressure});
+  const auto jump = field_on(mesh, "contact.jump", Location::fracture_cell, 2);
+  write_fracture_vtu(folder / "f.vtu", mesh, {slip, walls, pressure, jump});
 
   vtkUnstructuredGrid* grid = read(folder / "f.vtu");
   ASSERT_EQ(grid->GetNumberOfCells(), 4);  // three cells of a quarter each, and one
@@ -90,6 +91,14 @@ TEST_F(VtuWriter, FracturesAreReadBackToTheBitWithTheirTwoWalls) {
     EXPECT_EQ(grid->GetCellData()->GetArray("fracture")->GetComponent(i, 0), i < 3 ? 0 : 1);
   }
   expect_values(grid->GetCellData()->GetArray("contact.slip[Pa]"), slip);
+  vtkDataArray* normal = grid->GetCellData()->GetArray("contact.jump.normal[Pa]");
+  vtkDataArray* tangential = grid->GetCellData()->GetArray("contact.jump.tangential[Pa]");
+  ASSERT_NE(normal, nullptr);
+  ASSERT_NE(tangential, nullptr);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(normal->GetComponent(i, 0), jump.values[2 * i]);
+    EXPECT_EQ(tangential->GetComponent(i, 0), jump.values[2 * i + 1]);
+  }
   expect_values(grid->GetCellData()->GetArray("rock.wall_displacement.plus[Pa]"), walls, 0, 2);
   expect_values(grid->GetCellData()->GetArray("rock.wall_displacement.minus[Pa]"), walls, 1, 2);
   EXPECT_EQ(grid->GetCellData()->GetArray("pore.pressure[Pa]"), nullptr);
