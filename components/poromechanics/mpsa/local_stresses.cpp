@@ -56,30 +56,60 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
   width_ = 2 * subfaces_ + columns_;
 
   split_.resize(subcells_);
-  share_.resize(subcells_);
-  double sum = 0;
-  for (int k = 0; k < subcells_; ++k) {
-    const Stiffness& c = stiffness[region.subcells[k].cell];
-    split_[k] = split_stiffness(c);
-    sum += share_[k] = region.subcells[k].area * c(2, 2);
-  }
-  mean_weight_.assign(subfaces_, Point::Zero());
-  for (int k = 0; k < subcells_; ++k) {
-    share_[k] /= sum;
-    for (int i = 0; i < 2; ++i)
-      mean_weight_[region.subcells[k].subfaces[i]] += share_[k] * region.subcells[k].gradient[i];
-  }
+  for (int k = 0; k < subcells_; ++k) split_[k] = split_stiffness(stiffness[region.subcells[k].cell]);
+  weigh_means(region, stiffness, 1);
 
   assemble(region, conditions);
-  if (eliminate(system_.data(), 2 * subfaces_, width_) < (subcells_ == 1 ? weak : 1e-12)) {
-    if (subcells_ > 1)
-      throw std::runtime_error("MPSA: singular local problem at a node of cell " +
-                               std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
+  const auto smallest_pivot = [&] { return eliminate(system_.data(), 2 * subfaces_, width_); };
+  double pivot = smallest_pivot();
+  if (subcells_ > 1 && pivot < 1e-6) {
+    // A stiff subcell among very soft ones, free to turn: it has to follow their mean gradient a little. The forces on
+    // it are theirs, and small.
+    weigh_means(region, stiffness, 0.9);
+    assemble(region, conditions);
+    pivot = smallest_pivot();
+  }
+  if (subcells_ > 1 && pivot < 1e-12)
+    throw std::runtime_error("MPSA: singular local problem at a node of cell " +
+                             std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
+  if (subcells_ == 1 && pivot < weak) {
     assemble(region, conditions);
     solve_singular(mesh, region, cells);
   }
   find_gradients(region);
   find_forces(region, stiffness);
+}
+
+void LocalStresses::weigh_means(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
+                                double most_own_share) {
+  const auto stiffness_of = [&](int k) -> const Stiffness& { return stiffness[region.subcells[k].cell]; };
+  bool is_even = true;
+  for (int k = 1; k < subcells_ && is_even; ++k) is_even = stiffness_of(k) == stiffness_of(0);
+  means_ = is_even ? 1 : subcells_;
+  share_.assign(means_ * subcells_, 0);
+  mean_weight_.assign(means_ * subfaces_, Point::Zero());
+  for (int m = 0; m < means_; ++m) {
+    double* share = share_.data() + m * subcells_;
+    double others = 0;
+    for (int k = 0; k < subcells_; ++k) {
+      const double ratio = stiffness_of(k)(2, 2) / stiffness_of(m)(2, 2);
+      share[k] = region.subcells[k].area * std::min(ratio * ratio, 1 / (ratio * ratio));
+      if (k != m) others += share[k];
+    }
+    double sum = share[m] + others;
+    if (!is_even && share[m] > most_own_share * sum) {
+      // The others together count for the rest, by their areas.
+      double area = 0;
+      for (int k = 0; k < subcells_; ++k) area += k == m ? 0 : region.subcells[k].area;
+      for (int k = 0; k < subcells_; ++k)
+        share[k] = k == m ? most_own_share : (1 - most_own_share) * region.subcells[k].area / area;
+      sum = 1;
+    }
+    for (int k = 0; k < subcells_; ++k) share[k] /= sum;
+    for (int k = 0; k < subcells_; ++k)
+      for (int i = 0; i < 2; ++i)
+        mean_weight_[m * subfaces_ + region.subcells[k].subfaces[i]] += share[k] * region.subcells[k].gradient[i];
+  }
 }
 
 void LocalStresses::assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions) {
@@ -89,13 +119,14 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
   for (int f = 0; f < subfaces_; ++f) {
     double* rows[2] = {system_.data() + 2 * f * width_, system_.data() + (2 * f + 1) * width_};
     // The forces out of the neighbours add up to zero, or to the half of what is prescribed for the face.
-    ForceMap mean = ForceMap::Zero();
-    for (const int k : region.neighbours[f]) {
+    ForceMap of_mean[2] = {ForceMap::Zero(), ForceMap::Zero()};
+    for (int side = 0; side < 2; ++side) {
+      const int k = region.neighbours[f][side];
       if (k == none) continue;
       const Subcell& subcell = region.subcells[k];
       const Point& half_face = subcell.half_face[region.place(f, k)];
       const ForceMap own = force_map(split_[k].own, half_face);
-      mean += force_map(split_[k].mean, half_face);
+      of_mean[means_ == 1 ? 0 : side] += force_map(split_[k].mean, half_face);
       for (int c = 0; c < 2; ++c) {
         for (int i = 0; i < 2; ++i)
           for (int e = 0; e < 2; ++e) {
@@ -107,14 +138,17 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
       }
     }
     // In an even medium the shares of the mean gradient cancel between the neighbours.
-    if (!mean.isZero(0)) {
+    for (int side = 0; side < 2; ++side) {
+      if (of_mean[side].isZero(0)) continue;
+      const int m = mean_of(region.neighbours[f][side]);
       for (int c = 0; c < 2; ++c)
         for (int e = 0; e < 2; ++e) {
-          const Point share(mean(c, 2 * e), mean(c, 2 * e + 1));
-          for (int g = 0; g < subfaces_; ++g) rows[c][2 * g + e] += share.dot(mean_weight_[g]);
+          const Point weight(of_mean[side](c, 2 * e), of_mean[side](c, 2 * e + 1));
+          for (int g = 0; g < subfaces_; ++g) rows[c][2 * g + e] += weight.dot(mean_weight_[m * subfaces_ + g]);
           for (int k = 0; k < subcells_; ++k) {
             const Subcell& subcell = region.subcells[k];
-            rows[c][u_columns + 2 * column(k) + e] += share_[k] * share.dot(subcell.gradient[0] + subcell.gradient[1]);
+            rows[c][u_columns + 2 * column(k) + e] +=
+                share_[m * subcells_ + k] * weight.dot(subcell.gradient[0] + subcell.gradient[1]);
           }
         }
     }
@@ -161,9 +195,9 @@ void LocalStresses::solve_singular(const Mesh& mesh, const InteractionRegion& re
 }
 
 void LocalStresses::find_gradients(const InteractionRegion& region) {
-  gradients_.assign(4 * (subcells_ + 1) * columns_, 0);
+  gradients_.assign(4 * (subcells_ + means_) * columns_, 0);
   volumes_.assign(subcells_ * columns_, 0);
-  double* mean = gradients_.data() + 4 * subcells_ * columns_;
+  double* means = gradients_.data() + 4 * subcells_ * columns_;
   for (int k = 0; k < subcells_; ++k) {
     const Subcell& subcell = region.subcells[k];
     for (int c = 0; c < 2; ++c)
@@ -172,7 +206,8 @@ void LocalStresses::find_gradients(const InteractionRegion& region) {
         for (int i = 0; i < 2; ++i)
           add_scaled(gradient, subcell.gradient[i][d], displacement(subcell.subfaces[i], c), columns_);
         gradient[2 * column(k) + c] -= subcell.gradient[0][d] + subcell.gradient[1][d];
-        add_scaled(mean + (2 * c + d) * columns_, share_[k], gradient, columns_);
+        for (int m = 0; m < means_; ++m)
+          add_scaled(means + (4 * m + 2 * c + d) * columns_, share_[m * subcells_ + k], gradient, columns_);
       }
     const double* gradient = gradients_.data() + 4 * k * columns_;
     double* volume = volumes_.data() + k * columns_;
@@ -183,7 +218,6 @@ void LocalStresses::find_gradients(const InteractionRegion& region) {
 
 void LocalStresses::find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness) {
   forces_.assign(2 * subfaces_ * columns_, 0);
-  const double* mean_gradient = gradients_.data() + 4 * subcells_ * columns_;
   for (int f = 0; f < subfaces_; ++f) {
     // Of the two equal expressions for the force, the one of the softer side suffers less from cancellation.
     int side = 0;
@@ -195,6 +229,7 @@ void LocalStresses::find_forces(const InteractionRegion& region, const std::vect
     const Point half_face = (side == 0 ? 1.0 : -1.0) * region.subcells[k].half_face[region.place(f, k)];
     const ForceMap own = force_map(split_[k].own, half_face), mean = force_map(split_[k].mean, half_face);
     const double* gradient = gradients_.data() + 4 * k * columns_;
+    const double* mean_gradient = gradients_.data() + 4 * (subcells_ + mean_of(k)) * columns_;
     for (int c = 0; c < 2; ++c) {
       double* force = forces_.data() + (2 * f + c) * columns_;
       for (int e = 0; e < 4; ++e) {

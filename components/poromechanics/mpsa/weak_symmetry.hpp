@@ -12,7 +12,7 @@ using GradientMap = Eigen::Matrix4d;
 /// From gradients to the two components of a force.
 using ForceMap = Eigen::Matrix<double, 2, 4>;
 
-/// sigma = own G + mean <G>, where <G> is the mean gradient of the interaction region: all that couples sigma_cd to the
+/// sigma = own G + mean <G>, where <G> is a mean gradient of the interaction region: all that couples sigma_cd to the
 /// transposed gradient is taken from the mean (Keilegavlen and Nordbotten 2017, Eq. 2.14). Where an anisotropic
 /// stiffness couples shear and normal components, half is taken from each, which keeps `own` symmetric positive
 /// definite.

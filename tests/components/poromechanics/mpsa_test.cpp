@@ -175,6 +175,48 @@ TEST_P(MpsaLayers, AreExact) {
 
 INSTANTIATE_TEST_SUITE_P(Contrasts, MpsaLayers, testing::Values(1e-10, 1e-3, 1e3, 1e10));
 
+/// Layers of very different stiffness, inclined, in simple shear: each keeps its own strain, up to the contrast.
+TEST(Mpsa, ShearedLayersKeepTheirStrains) {
+  const double contrast = 1e10, slope = 0.4;
+  const Point along = Point(1, slope).normalized(), across(-along[1], along[0]), middle(0.5, 0.5);
+  Geometry geometry = test::box(1, 1);
+  RegionGeometry lower;
+  lower.name = "lower";
+  lower.polygon = {Point(0, 0), Point(1, 0), Point(1, 0.5 + slope / 2), Point(0, 0.5 - slope / 2)};
+  geometry.regions = {lower};
+  const Mesh mesh = generate_mesh(geometry, test::unstructured(0.09));
+  const auto shear_modulus = [&](const Point& x) { return across.dot(x - middle) < 0 ? contrast : 1; };
+  std::vector<Stiffness> stiffness;
+  for (const Point& center : mesh.cell_center) {
+    const double shear = shear_modulus(center);
+    stiffness.push_back(isotropic_stiffness(shear, shear));
+  }
+  const auto errors = compare(
+      mesh, stiffness, mixed_conditions(mesh),
+      [&](const Point& x) -> Point { return along * across.dot(x - middle) / shear_modulus(x); },
+      [&](int c) -> Tensor { return along * across.transpose() / shear_modulus(mesh.cell_center[c]); },
+      [](int) { return 0.0; });
+  EXPECT_LT(errors.force, 1 / contrast);
+  EXPECT_LT(errors.trace, 1e-12);
+  EXPECT_LT(errors.volume, 1e-13);
+}
+
+/// A soft surrounding leaves a stiff triangle free to turn; forces and displacements stay of the size of their causes.
+TEST(Mpsa, AStiffTriangleInSoftRockIsHarmless) {
+  const Mesh mesh = generate_mesh(test::box(1, 1), test::unstructured(0.15, 0.2));
+  int inner = 0;
+  while ((mesh.cell_center[inner] - Point(0.5, 0.5)).norm() > 0.12) ++inner;
+  for (const double contrast : {1e4, 1e10, 1e16}) {
+    std::vector<Stiffness> stiffness(mesh.cell_count(), isotropic_stiffness(1, 1));
+    stiffness[inner] *= contrast;
+    const auto operators = discretize_mpsa(mesh, stiffness, traction_everywhere(mesh));
+    for (int f = 0; f < mesh.face_count(); ++f)
+      for (int row : {2 * f, 2 * f + 1})
+        for (SparseMatrix::InnerIterator entry(operators.force_displacement, row); entry; ++entry)
+          EXPECT_LT(std::abs(entry.value()), 20) << "contrast " << contrast;
+  }
+}
+
 TEST(Mpsa, PrescribedForcesAreKeptToTheLastDigit) {
   const Mesh mesh = test::fractured_square();
   const auto conditions = mixed_conditions(mesh);
