@@ -19,9 +19,10 @@ std::string labelled(const std::string& quantity, const std::string& unit);
 /// Throws std::logic_error for a field of the wrong size, std::runtime_error when the file cannot be written.
 void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
 
-/// Writes the fracture cells as lines with the fields on them, and the number of each cell's fracture. Pairs on fracture
-/// cells stand in the cell's own frame, so they become two arrays, "name.normal[unit]" and "name.tangential[unit]"; a
-/// field on walls becomes "name.plus[unit]" and "name.minus[unit]". Other fields are left out.
+/// Writes the fracture cells as lines with the fields on them, and the number of each cell's fracture. Pairs on
+/// fracture cells stand in the cell's own frame, so they become two arrays, "name.normal[unit]" and
+/// "name.tangential[unit]"; a field on walls becomes "name.plus[unit]" and "name.minus[unit]". Other fields are left
+/// out.
 void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
 
 }  // namespace sprekk
