@@ -9,6 +9,19 @@ namespace sprekk {
 
 namespace {
 
+/// Where entities are; those of one fracture cell are at one point, by which preconditioners group them.
+std::vector<Point> coordinates(const Mesh& mesh, Location location) {
+  if (location == Location::cell) return mesh.cell_center;
+  std::vector<Point> points;
+  if (location == Location::fracture_cell || location == Location::wall)
+    for (const FractureCell& cell : mesh.fracture_cells)
+      points.insert(points.end(), location == Location::wall ? 2 : 1, cell.center);
+  if (location == Location::fracture_point)
+    for (const FracturePoint& point : mesh.fracture_points)
+      points.push_back(mesh.fracture_cells[point.cells[0]].center);
+  return points;
+}
+
 UnknownBlock describe(const Mesh& mesh, const Field& field, int first) {
   UnknownBlock block;
   block.name = field.name();
@@ -19,7 +32,7 @@ UnknownBlock describe(const Mesh& mesh, const Field& field, int first) {
   block.kind = smoothing == "elasticity"        ? UnknownBlock::Kind::elasticity
                : smoothing == "scalar_elliptic" ? UnknownBlock::Kind::scalar_elliptic
                                                 : UnknownBlock::Kind::local;
-  if (field.spec().location == Location::cell) block.coordinates = mesh.cell_center;
+  block.coordinates = coordinates(mesh, field.spec().location);
   return block;
 }
 

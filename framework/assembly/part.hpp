@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "framework/assembly/assembly.hpp"
+#include "framework/assembly/levels.hpp"
+#include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
 #include "framework/field/output_field.hpp"
 
 namespace sprekk {
-
-/// The time interval that a step advances over.
-struct StepTime {
-  double start = 0;  ///< s
-  double dt = 0;     ///< s
-  double end = 0;    ///< s; start + dt, or the exact target when a step was cut to hit one
-};
 
 /// The totals of one conserved quantity since the start of the run: stored + outflow = injected.
 struct Balance {
@@ -40,10 +35,14 @@ class Part {
  public:
   virtual ~Part() = default;
 
-  /// Evaluates data at the end of the step, and rediscretizes what a changed mesh or parameter makes stale.
+  /// Evaluates the data that depend on time, as the step needs them (value_in_step), and nothing else. Called before a
+  /// run for its first and its last step, so that data without a value there are refused. Throws DataError.
+  virtual void evaluate_data(const StepTime&) {}
+  /// Evaluates data, and rediscretizes what a changed mesh or parameter makes stale.
   virtual void begin_step(const StepTime& step) = 0;
   /// Adds all terms of all its equations; the assembly keeps what its solve needs.
-  virtual void assemble(Assembly& assembly, const StepTime& step) const = 0;  /// Fixes values that are prescribed where others have equations (Assembly::fix). Called after all parts have assembled.
+  virtual void assemble(Assembly& assembly, const StepTime& step) const = 0;
+  /// Fixes values that are prescribed where others have equations (Assembly::fix). Called after all parts have assembled.
   virtual void constrain(Assembly&) const {}
 
   /// Keeps the books (derived fields) of the fields that a `solve` has just determined: what was stored, what flowed out.
@@ -57,8 +56,12 @@ class Part {
   virtual std::uint64_t discrete_state() const { return 0; }
   /// Whether any of its equations is nonlinear in the unknowns.
   virtual bool is_nonlinear() const { return false; }
+  /// The names of the stabilizations that it offers to split schemes.
+  virtual std::vector<std::string> stabilizations() const { return {}; }
   /// Adds the diagonals of a named stabilization to the fields that it knows how to stabilize.
   virtual void stabilize(const std::string& /*scheme*/, Stabilization&) const {}
+  /// Says what holds the level of potentials and what does not.
+  virtual void relate_levels(Levels&) const {}
   /// Times (s) that a step must end at, because data jump there.
   virtual std::vector<double> switch_times() const { return {}; }
   /// Quantities for history.csv, and fields for pictures.

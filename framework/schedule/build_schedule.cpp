@@ -1,6 +1,7 @@
-// From the `schedule:` of a scene to its tree of steps.
+// From the `schedule:` of a scene to what builds its tree of steps.
 #include <algorithm>
 
+#include "framework/config/units.hpp"
 #include "framework/schedule/iterate_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/sequence_step.hpp"
@@ -21,54 +22,64 @@ std::vector<Field*> ScheduleContext::solved_fields(const std::vector<std::string
 
 namespace {
 
-void check_components(const std::vector<std::string>& names, const Node& node, const ScheduleContext& context) {
-  for (const std::string& name : names)
-    if (std::find(context.component_names.begin(), context.component_names.end(), name) ==
-        context.component_names.end())
-      throw unknown_name(node.find("solve")->origin, "component", name, context.component_names);
+void check_components(const std::vector<std::string>& names, const Node& node, const ScheduleReading& reading) {
+  const Node& solve = *node.find("solve");
+  if (names.empty())
+    throw InputError(solve.origin, "the step solves for nothing", "it names no component", "write 'solve: [a, b]'");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Origin& where = solve.is_list() ? solve.items[i].origin : solve.origin;
+    const std::vector<std::string>& known = reading.component_names;
+    if (std::find(known.begin(), known.end(), names[i]) == known.end())
+      throw unknown_name(where, "component", names[i], known);
+    if (std::find(names.begin(), names.begin() + static_cast<long>(i), names[i]) != names.begin() + static_cast<long>(i))
+      throw InputError(where, "component " + quoted(names[i]) + " stands twice in one 'solve'",
+                       "a step solves for its unknowns once", "remove one of them");
+  }
 }
 
-std::unique_ptr<ScheduleStep> build_solve(const Node& node, const ScheduleContext& context) {
+ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
   SolveOptions options;
-  options.newton = context.newton;
-  options.linear = context.linear;
-  options.spec().read(node, {});
-  check_components(options.components, node, context);
-  return std::make_unique<SolveStep>(options, context);
+  options.newton = reading.newton;
+  options.linear = reading.linear;
+  const Node* stabilize = node.find("stabilize");
+  options.stabilization_origin = stabilize ? stabilize->origin : node.origin;
+  options.spec().read(node, reading.read);
+  check_components(options.components, node, reading);
+  return [options](const ScheduleContext& context) { return std::make_unique<SolveStep>(options, context); };
 }
 
 /// The options of a step that has steps inside, and these steps.
 template <class Options>
-std::unique_ptr<ScheduleStep> read_inside(const Node& node, const std::string& key, const std::string& inside_key,
-                                          Options& options, const ScheduleContext& context) {
-  const Node& whole = key == inside_key ? node : *node.find(key);
-  Spec spec = options.spec();
-  const Node* inside = nullptr;
-  spec.custom(inside_key, [&](const Node& value) { inside = &value; },
-              {.doc = "The steps inside.", .required = true});
-  spec.read(whole, {});
-  return build_schedule(*inside, context);
-}
-
-std::unique_ptr<ScheduleStep> build_iterate(const Node& node, const ScheduleContext& context) {
-  IterateOptions options;
-  auto inside = read_inside(node, "iterate", "steps", options, context);
-  return std::make_unique<IterateStep>(options, std::move(inside), context);
-}
-
-std::unique_ptr<ScheduleStep> build_subcycle(const Node& node, const ScheduleContext& context) {
-  SubcycleOptions options;
-  auto inside = read_inside(node, "subcycle", "steps", options, context);
-  return std::make_unique<SubcycleStep>(options, std::move(inside), context);
-}
-
-std::unique_ptr<ScheduleStep> build_when(const Node& node, const ScheduleContext& context) {
-  WhenOptions options;
+ScheduleBuilder read_inside(const Node& node, Options& options, const ScheduleReading& reading) {
   Spec spec = options.spec();
   const Node* inside = nullptr;
   spec.custom("steps", [&](const Node& value) { inside = &value; }, {.doc = "The steps inside.", .required = true});
-  spec.read(node, {});
-  return std::make_unique<WhenStep>(options, build_schedule(*inside, context));
+  spec.read(node, reading.read);
+  return read_schedule(*inside, reading);
+}
+
+ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
+  IterateOptions options;
+  const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading);
+  return [options, inside](const ScheduleContext& context) {
+    return std::make_unique<IterateStep>(options, inside(context), context);
+  };
+}
+
+ScheduleBuilder read_subcycle(const Node& node, const ScheduleReading& reading) {
+  SubcycleOptions options;
+  const ScheduleBuilder inside = read_inside(*node.find("subcycle"), options, reading);
+  return [options, inside](const ScheduleContext& context) {
+    return std::make_unique<SubcycleStep>(options, inside(context), context);
+  };
+}
+
+ScheduleBuilder read_when(const Node& node, const ScheduleReading& reading) {
+  WhenOptions options;
+  const ScheduleBuilder inside = read_inside(node, options, reading);
+  return [options, inside](const ScheduleContext& context) {
+    return std::make_unique<WhenStep>(options, inside(context));
+  };
 }
 
 template <class Options>
@@ -80,28 +91,38 @@ Spec example_spec() {
 }  // namespace
 
 const std::vector<ScheduleKind>& schedule_kinds() {
-  static const std::vector<ScheduleKind> kinds = {{"solve", build_solve, example_spec<SolveOptions>},
-                                                  {"iterate", build_iterate, example_spec<IterateOptions>},
-                                                  {"subcycle", build_subcycle, example_spec<SubcycleOptions>},
-                                                  {"when", build_when, example_spec<WhenOptions>}};
+  static const std::vector<ScheduleKind> kinds = {{"solve", read_solve, example_spec<SolveOptions>},
+                                                  {"iterate", read_iterate, example_spec<IterateOptions>},
+                                                  {"subcycle", read_subcycle, example_spec<SubcycleOptions>},
+                                                  {"when", read_when, example_spec<WhenOptions>}};
   return kinds;
 }
 
-std::unique_ptr<ScheduleStep> build_schedule(const Node& node, const ScheduleContext& context) {
+ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading) {
   if (node.is_list()) {
     if (node.items.empty())
       throw InputError(node.origin, "the schedule is empty", "nothing would be solved",
                        "write a step, for example 'solve: [...]'");
-    std::vector<std::unique_ptr<ScheduleStep>> steps;
-    for (const Node& item : node.items) steps.push_back(build_schedule(item, context));
-    if (steps.size() == 1) return std::move(steps.front());
-    return std::make_unique<SequenceStep>(std::move(steps));
+    std::vector<ScheduleBuilder> steps;
+    for (const Node& item : node.items) steps.push_back(read_schedule(item, reading));
+    if (steps.size() == 1) return steps.front();
+    return [steps](const ScheduleContext& context) {
+      std::vector<std::unique_ptr<ScheduleStep>> built;
+      for (const ScheduleBuilder& step : steps) built.push_back(step(context));
+      return std::make_unique<SequenceStep>(std::move(built));
+    };
   }
   std::vector<std::string> keys;
+  const ScheduleKind* found = nullptr;
   for (const ScheduleKind& kind : schedule_kinds()) {
-    if (node.is_map() && node.find(kind.key)) return kind.build(node, context);
     keys.push_back(kind.key);
+    if (!node.is_map() || !node.find(kind.key)) continue;
+    if (found)
+      throw InputError(node.origin, "one step is '" + found->key + "' and '" + kind.key + "' at once",
+                       "each step is an item of the list", "put a '-' before each of the two");
+    found = &kind;
   }
+  if (found) return found->read(node, reading);
   if (node.is_map() && !node.entries.empty())
     throw unknown_name(node.entries.front().origin, "step of the schedule", node.entries.front().key, keys);
   throw InputError(node.origin, "a step of the schedule is missing", "a step is a map such as 'solve: [pore, rock]'");

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/assembly/part.hpp"
-#include "framework/config/node.hpp"
+#include "framework/config/spec.hpp"
 #include "framework/schedule/newton.hpp"
 #include "framework/schedule/schedule_step.hpp"
 
@@ -14,26 +14,31 @@ namespace sprekk {
 struct ScheduleContext {
   const Mesh& mesh;
   FieldStore& fields;
-  std::vector<Part*> parts;                  ///< all components and couplers
-  std::vector<std::string> component_names;  ///< what a `solve` may name
-  LinearOptions linear;
-  NewtonOptions newton;
+  std::vector<Part*> parts;  ///< all components and couplers
   IterationLog log;
+  bool is_iterated = false;  ///< whether the step that is being built is inside an `iterate`
 
   /// The solved fields of the named components: their unknowns, and their inputs that a coupler determines.
   std::vector<Field*> solved_fields(const std::vector<std::string>& components) const;
 };
 
-/// Builds the steps of a `schedule:` (a list of steps, run one after the other; one step needs no list).
-/// Throws InputError for unknown steps and components.
-std::unique_ptr<ScheduleStep> build_schedule(const Node& node, const ScheduleContext& context);
+/// What a `schedule:` is read with, before there is a mesh.
+struct ScheduleReading {
+  std::vector<std::string> component_names;  ///< what a `solve` may name
+  LinearOptions linear;                      ///< of a `solve` that does not say otherwise
+  NewtonOptions newton;
+  ReadContext read;
+};
+using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;
 
-/// A kind of step, known by its key in the scene. Kinds register themselves.
-using ScheduleFactory = std::unique_ptr<ScheduleStep> (*)(const Node& node, const ScheduleContext& context);
-class Spec;
+/// Reads the steps of a `schedule:` (a list of steps, run one after the other; one step needs no list). Throws InputError
+/// for unknown steps and components; what it returns, for a stabilization that no part offers.
+ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading);
+
+/// A kind of step, known by its key in the scene.
 struct ScheduleKind {
   std::string key;
-  ScheduleFactory build;
+  ScheduleBuilder (*read)(const Node& node, const ScheduleReading& reading);
   Spec (*spec)();  ///< for `explain` and the schema
 };
 const std::vector<ScheduleKind>& schedule_kinds();

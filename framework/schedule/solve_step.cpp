@@ -1,6 +1,22 @@
 #include "framework/schedule/solve_step.hpp"
 
+#include <algorithm>
+
 namespace sprekk {
+
+namespace {
+
+void require_offered(const SolveOptions& options, const std::vector<Part*>& parts) {
+  std::vector<std::string> offered = {"none"};
+  for (const Part* part : parts) {
+    const std::vector<std::string> more = part->stabilizations();
+    offered.insert(offered.end(), more.begin(), more.end());
+  }
+  if (std::find(offered.begin(), offered.end(), options.stabilization) == offered.end())
+    throw unknown_name(options.stabilization_origin, "stabilization", options.stabilization, offered);
+}
+
+}  // namespace
 
 Spec newton_spec(NewtonOptions& options) {
   Spec spec("newton", "Semismooth Newton's method of a simultaneous system.");
@@ -34,9 +50,9 @@ Spec SolveOptions::spec() {
                      "fields that are not unknowns here keep their latest values.");
   spec.texts("solve", components, {.doc = "Names of components.", .required = true});
   spec.text("stabilize", stabilization,
-            {.doc = "A stabilization that a coupler offers for split schemes: fixed_stress, undrained or none."});
-  spec.section("newton", newton_spec(newton), {.doc = "Overrides the scene's `newton:`."});
-  spec.section("solver", solver_spec(linear), {.doc = "Overrides the scene's `solver:`."});
+            {.doc = "A stabilization that a coupler offers for split schemes, for example fixed_stress of biot; or none."});
+  spec.section("newton", newton_spec(newton), {.doc = "Overrides the scene's `newton:`."}, &overrides_newton);
+  spec.section("solver", solver_spec(linear), {.doc = "Overrides the scene's `solver:`."}, &overrides_linear);
   return spec;
 }
 
@@ -44,7 +60,9 @@ SolveStep::SolveStep(const SolveOptions& options, const ScheduleContext& context
     : options_(options),
       parts_(context.parts),
       fields_(context.solved_fields(options.components)),
-      newton_(context.mesh, fields_, context.parts, options.linear, options.newton, describe(), context.log) {}
+      newton_(context.mesh, fields_, context.parts, options.linear, options.newton, describe(), context.log) {
+  require_offered(options, context.parts);
+}
 
 std::string SolveStep::describe() const {
   std::string text = "solve";

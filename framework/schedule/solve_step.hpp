@@ -9,13 +9,16 @@ namespace sprekk {
 struct SolveOptions {
   std::vector<std::string> components;
   std::string stabilization = "none";
-  NewtonOptions newton;
+  Origin stabilization_origin;
+  NewtonOptions newton;  ///< the scene's, with what the step overrides
   LinearOptions linear;
+  bool overrides_newton = false, overrides_linear = false;
   Spec spec();
 };
 
 class SolveStep : public ScheduleStep {
  public:
+  /// Throws InputError for a stabilization that no part of the scene offers.
   SolveStep(const SolveOptions& options, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {fields_.begin(), fields_.end()}; }

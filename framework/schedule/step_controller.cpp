@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/config/units.hpp"
+
 namespace sprekk {
 
 Spec TimeOptions::spec() {
@@ -24,14 +26,30 @@ Spec TimeOptions::spec() {
   spec.check([this](const Node& node) {
     if (end <= start)
       throw InputError(node.origin, "the run has no duration", "its end is not after its start", "raise 'end'");
+    constexpr double most_steps = 1e9;
+    if ((!adaptive && (end - start) / step > most_steps) || start + step == start)
+      throw InputError(node.origin, "the step of " + quantity_text(step, "s") + " is too small",
+                       "the run is " + quantity_text(end - start, "s") + " long", "raise 'step'");
+    if (smallest && *smallest > step)
+      throw InputError(node.origin, "'smallest' is larger than 'step'",
+                       "a rejected step is cut from 'step' down to 'smallest'", "lower 'smallest'");
+    if (adaptive && largest < step)
+      throw InputError(node.origin, "'largest' is smaller than 'step'", "the first step is 'step'", "raise 'largest'");
   });
   return spec;
 }
 
 StepController::StepController(const TimeOptions& options, std::vector<double> targets)
-    : options_(options), targets_(std::move(targets)), time_(options.start), wanted_(options.step) {
-  targets_.push_back(options_.end);
-  std::sort(targets_.begin(), targets_.end());
+    : options_(options), time_(options.start), wanted_(options.step) {
+  targets.push_back(options_.end);
+  std::sort(targets.begin(), targets.end());
+  // Targets that differ by round-off (an output time at a switch) are one; of these the end stays what it is.
+  for (const double target : targets) {
+    if (targets_.empty() || target - targets_.back() > 1e-9 * options_.step)
+      targets_.push_back(target);
+    else if (target == options_.end)
+      targets_.back() = target;
+  }
 }
 
 StepTime StepController::next() const {

@@ -107,8 +107,9 @@ CrackErrors crack_errors(SceneRun& run, int axis, double peak) {
   return {std::sqrt(error / norm), std::sqrt(inner_error / inner_norm)};
 }
 
+/// The grading is refined with the crack: its error is of second order too.
 std::string graded(double size) {
-  return "{size: 8, fracture_size: " + std::to_string(size) + ", growth: 0.1}";
+  return "{size: 8, fracture_size: " + std::to_string(size) + ", growth: " + std::to_string(2 * size) + "}";
 }
 
 TEST(Cracks, PressurizedCrackOpensLikeSneddons) {

@@ -2,23 +2,25 @@
 
 #include <algorithm>
 
+#include "framework/config/units.hpp"
 #include "framework/mesh/point_location.hpp"
 
 namespace sprekk::fracture_flow {
 
 namespace {
 
+/// The region of the rock on the plus side.
+int region_of(const Mesh& mesh, int fracture_cell) {
+  return mesh.cell_region[mesh.face_cells[mesh.fracture_cells[fracture_cell].faces[0]][0]];
+}
+
 Vector evaluate_on_cells(const Mesh& mesh, const Data& data, double time) {
   Vector values(mesh.fracture_cell_count());
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
-    values[i] = data.at({cell.center, mesh.cell_region[mesh.face_cells[cell.faces[0]][0]], time});
+    values[i] = data.at({cell.center, region_of(mesh, i), time});
   }
   return values;
-}
-
-double rate_time(const Data& rate, const StepTime& step) {
-  return rate.switch_times().empty() ? step.end : 0.5 * (step.start + step.end);
 }
 
 }  // namespace
@@ -27,6 +29,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     : Component(context.name),
       mesh_(context.mesh),
       options_(options),
+      origin_(context.origin),
       pressure_(context.fields.add(mesh_, {.owner = context.name,
                                            .name = "pressure",
                                            .location = Location::fracture_cell,
@@ -66,20 +69,6 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     given_normal_permeability_ = evaluate_on_cells(mesh_, *options_.normal_permeability_value, context.start_time);
 }
 
-void FractureFlow::check_names() const {
-  std::vector<std::string> names;
-  for (const Fracture& fracture : mesh_.fractures) names.push_back(fracture.name);
-  const auto check = [&](const Where& where) {
-    if (!where.fracture.empty() && find_fracture(mesh_, where.fracture) == none)
-      throw unknown_name(where.origin, "fracture", where.fracture, names);
-  };
-  for (const auto& [name, injection] : options_.injections) check(injection.where);
-  for (const auto& [name, prescribed] : options_.prescribed) check(prescribed.where);
-  for (const auto& [side, origin] : options_.boundary_origins)
-    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
-      throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
-}
-
 namespace {
 
 std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
@@ -102,11 +91,34 @@ std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
 
 }  // namespace
 
-void FractureFlow::make_links(double time) {
+void FractureFlow::check_names() const {
+  std::vector<std::string> names;
+  for (const Fracture& fracture : mesh_.fractures) names.push_back(fracture.name);
+  const auto check = [&](const Where& where) {
+    if (!where.fracture.empty() && find_fracture(mesh_, where.fracture) == none)
+      throw unknown_name(where.origin, "fracture", where.fracture, names);
+    if (!where.at) return;
+    const FractureCell& cell = mesh_.fracture_cells[cells_at(mesh_, where).front()];
+    const double away = (cell.center - *where.at).norm();
+    if (away > cell.length)
+      throw InputError(where.origin, "there is no fracture at this place",
+                       "the nearest cell is " + quantity_text(away, "m") + " away and only " +
+                           quantity_text(cell.length, "m") + " long",
+                       "choose a point on a fracture");
+  };
+  for (const auto& [name, injection] : options_.injections) check(injection.where);
+  for (const auto& [name, prescribed] : options_.prescribed) check(prescribed.where);
+  for (const auto& [side, origin] : options_.boundary_origins)
+    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
+      throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
+}
+
+void FractureFlow::make_links(const StepTime& step) {
   links_.clear();
   for (int i = 0; i < static_cast<int>(mesh_.fracture_points.size()); ++i) {
     const FracturePoint& point = mesh_.fracture_points[i];
     Link link{i, point.cells[0], none};
+    const int region = region_of(mesh_, link.first);
     Point other = point.position;
     if (point.cells.size() == 2) {
       link.second = point.cells[1];
@@ -115,7 +127,7 @@ void FractureFlow::make_links(double time) {
       if (point.kind != FracturePoint::Kind::on_boundary) continue;
       const auto found = options_.boundary.find(mesh_.side_names[point.side]);
       if (found == options_.boundary.end()) continue;
-      link.boundary_pressure = found->second.at({point.position, 0, time});
+      link.boundary_pressure = value_in_step(found->second, {point.position, region, 0}, step);
     }
     if (!options_.gravity.is_zero())
       link.gravity = options_.fluid_density * options_.gravity.at({point.position, 0, 0})
@@ -124,10 +136,12 @@ void FractureFlow::make_links(double time) {
   }
 }
 
-void FractureFlow::begin_step(const StepTime& step) {
-  make_links(step.end);
+void FractureFlow::evaluate_data(const StepTime& step) {
+  make_links(step);
   prescribe(step);
 }
+
+void FractureFlow::begin_step(const StepTime& step) { evaluate_data(step); }
 
 void FractureFlow::prescribe(const StepTime& step) {
   source_ = Vector::Zero(mesh_.fracture_cell_count());
@@ -137,7 +151,7 @@ void FractureFlow::prescribe(const StepTime& step) {
     for (const int cell : cells) length += mesh_.fracture_cells[cell].length;
     for (const int cell : cells) {
       const FractureCell& at = mesh_.fracture_cells[cell];
-      source_[cell] += injection.rate.at({at.center, 0, rate_time(injection.rate, step)}) * at.length / length;
+      source_[cell] += value_in_step(injection.rate, {at.center, region_of(mesh_, cell), 0}, step) * at.length / length;
     }
   }
   prescribed_.clear();
@@ -145,7 +159,7 @@ void FractureFlow::prescribe(const StepTime& step) {
     for (const int cell : cells_at(mesh_, given.where)) {
       const FractureCell& at = mesh_.fracture_cells[cell];
       const double storage = at.length * initial_aperture_[cell] * compressibility_[cell];
-      prescribed_.push_back({cell, given.pressure.at({at.center, 0, step.end}), storage > 0 ? storage : at.length});
+      prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(mesh_, cell), 0}, step), storage > 0 ? storage : at.length});
     }
 }
 
@@ -208,7 +222,12 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
     stored_by_aperture[i] = length * (1 + compressibility_[i] * change);
   }
   assembly.add(pressure_, stored);
-  assembly.compare_round_off(pressure_, capacity.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
+  // The changes are small differences of apertures and of pressures.
+  double subtracted = 0;
+  for (int i = 0; i < count; ++i)
+    subtracted = std::max({subtracted, mesh_.fracture_cells[i].length * std::abs(aperture_.now()[i]),
+                           std::abs(capacity[i] * pressure_.now()[i])});
+  assembly.compare_round_off(pressure_, subtracted);
   assembly.diagonal(pressure_, pressure_, capacity);
   assembly.diagonal(pressure_, aperture_, stored_by_aperture);
   assembly.add(pressure_, -step.dt * source_);
@@ -303,6 +322,14 @@ std::vector<double> FractureFlow::switch_times() const {
   for (const auto& [name, given] : options_.prescribed) append(given.pressure);
   for (const auto& [side, pressure] : options_.boundary) append(pressure);
   return times;
+}
+
+void FractureFlow::relate_levels(Levels& levels) const {
+  const bool has_open_end =
+      std::any_of(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; });
+  if (has_open_end || !prescribed_.empty() || compressibility_.maxCoeff() > 0) return;
+  levels.floats(pressure_, origin_, "the fluid is incompressible and no pressure is given: any constant may be added to it",
+                "give a compressibility, or a pressure under 'prescribed' or 'boundary'");
 }
 
 void FractureFlow::report(std::vector<Quantity>& quantities) const {

@@ -22,6 +22,7 @@ class FractureFlow : public Component, public FractureFluid {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
+  void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void constrain(Assembly& assembly) const override;
@@ -29,6 +30,7 @@ class FractureFlow : public Component, public FractureFluid {
   void balance(std::map<std::string, Balance>& balances) const override;
   bool is_nonlinear() const override;
   std::vector<double> switch_times() const override;
+  void relate_levels(Levels& levels) const override;
   void report(std::vector<Quantity>& quantities) const override;
 
   Field& pressure() override { return pressure_; }
@@ -57,11 +59,12 @@ class FractureFlow : public Component, public FractureFluid {
   double pressure_drop(const Link& link) const;
   void assemble_fluxes(Assembly& assembly, const StepTime& step) const;
   void check_names() const;
-  void make_links(double time);
+  void make_links(const StepTime& step);
   void prescribe(const StepTime& step);
 
   const Mesh& mesh_;
   Options options_;
+  Origin origin_;
   Field& pressure_;
   Field& flux_;
   Field& aperture_;

@@ -1,0 +1,37 @@
+// What holds the level of a potential, so that no constant can be added to all of its values.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/config/input_error.hpp"
+#include "framework/field/field.hpp"
+
+namespace sprekk {
+
+/// Components say which of their unknowns float, couplers what ties or holds them. A field of which nobody says that it
+/// floats is held.
+class Levels {
+ public:
+  /// Its own equations and data leave its level open: `why`, and what would hold it.
+  void floats(const Field& field, const Origin& where, const std::string& why, const std::string& suggestion);
+  void hold(const Field& field) { held_.insert(&field); }
+  /// What holds the level of one holds that of the other.
+  void tie(const Field& one, const Field& other) { ties_.emplace_back(&one, &other); }
+  /// Throws InputError naming a field whose level nothing holds.
+  void require_held() const;
+
+ private:
+  struct Floating {
+    Origin where;
+    std::string why, suggestion;
+  };
+  std::map<const Field*, Floating> floating_;
+  std::set<const Field*> held_;
+  std::vector<std::pair<const Field*, const Field*>> ties_;
+};
+
+}  // namespace sprekk

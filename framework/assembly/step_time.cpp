@@ -1,0 +1,23 @@
+#include "framework/assembly/step_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprekk {
+
+double value_in_step(const Data& data, Place place, const StepTime& step) {
+  const std::vector<double>& jumps = data.switch_times();
+  // The end of a step and a jump that is meant to be there may differ by round-off.
+  const double tolerance = 1e-9 * step.dt;
+  const auto jump = std::lower_bound(jumps.begin(), jumps.end(), step.end - tolerance);
+  const bool jumps_at_end = jump != jumps.end() && *jump <= step.end + tolerance;
+  place.t = jumps_at_end ? std::nextafter(std::min(*jump, step.end), -std::numeric_limits<double>::infinity()) : step.end;
+  return data.at(place);
+}
+
+Point value_in_step(const VectorData& data, const Place& place, const StepTime& step) {
+  return {value_in_step(data.component[0], place, step), value_in_step(data.component[1], place, step)};
+}
+
+}  // namespace sprekk
