@@ -31,9 +31,12 @@ struct StressOperators {
   SparseMatrix volume_displacement, volume_stress, volume_boundary;  ///< cells × …
 };
 
-/// `conditions`: [f][direction]. `nodes` as for MPFA. Exact for linear displacements with piecewise constant s and
-/// stiffness whose solution is linear, on any mesh of triangles.
-/// Keilegavlen and Nordbotten 2017 (weak symmetry); Nordbotten 2016 (Biot terms and stabilization).
+/// `conditions`: [f][direction]. `nodes` as for MPFA. Exact for linear displacements with constant s, and for layers
+/// whose displacement is linear in each, on any mesh of triangles; where layers of another stiffness also shear
+/// differently, the relative error of the force next to the interface is of the order of the ratio of their
+/// stiffnesses. Keilegavlen and Nordbotten 2017 (weak symmetry; the weights of the mean differ, see LocalStresses);
+/// Nordbotten 2016 (Biot terms and stabilization). Throws std::invalid_argument for arguments that do not fit the mesh
+/// and std::runtime_error for a stiffness that is not positive definite.
 StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
                                 const std::vector<std::array<MechanicalCondition, 2>>& conditions,
                                 const std::vector<char>& nodes = {});
