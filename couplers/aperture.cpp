@@ -8,7 +8,8 @@ namespace {
 
 struct ApertureOptions {
   Spec spec() {
-    Spec spec("aperture", "The normal displacement jump opens the aperture of the fracture, a = a0 + [u]_n (below Eq. 8).");
+    Spec spec("aperture",
+              "The normal displacement jump opens the aperture of the fracture, a = a0 + [u]_n (below Eq. 8).");
     spec.ignore("type").ignore("between");
     return spec;
   }
@@ -27,6 +28,9 @@ class Aperture : public Coupler {
   }
 
   void begin_step(const StepTime&) override {}
+
+  /// The pressure holds the fracture open, and what opens stores fluid.
+  void relate_levels(Levels& levels) const override { levels.hold(fluid_.pressure()); }
 
   void assemble(Assembly& assembly, const StepTime&) const override {
     const Field& aperture = fluid_.aperture();

@@ -16,7 +16,11 @@ struct BiotOptions {
     Spec spec("biot", "Poroelastic coupling of the flow in the matrix and the deformation of the rock (Eqs. 5-7).");
     spec.ignore("type").ignore("between");
     spec.data("biot_coefficient", biot_coefficient,
-              {.range = between(0, 1), .doc = "Biot's coefficient alpha.", .source = "Eqs. 6, 7", .required = true, .material = true});
+              {.range = between(0, 1),
+               .doc = "Biot's coefficient alpha.",
+               .source = "Eqs. 6, 7",
+               .required = true,
+               .material = true});
     spec.quantity("fixed_stress_factor", fixed_stress_factor,
                   {.range = positive(),
                    .doc = "The fixed-stress stabilization of split schemes is this times alpha^2/K.",
@@ -25,8 +29,8 @@ struct BiotOptions {
   }
 };
 
-/// Adds alpha (div u − div u_old) V to the fluid balance of each cell, the compressibility of the grains (alpha − phi)/K
-/// to its storage, and −alpha (p − p_0) I to the stress.
+/// Adds alpha (div u − div u_old) V to the fluid balance of each cell, the compressibility of the grains (alpha −
+/// phi)/K to its storage, and −alpha (p − p_0) I to the stress.
 ///
 /// What is subtracted as "old" is the volume that the fluid balance has counted last, kept in `counted_volume`: so a
 /// split scheme that is not iterated counts every change of volume once, if late.
@@ -38,11 +42,14 @@ class Biot : public Coupler {
         factor_(options.fixed_stress_factor),
         fluid_(context.the<MatrixFluid>()),
         rock_(context.the<PoroelasticRock>()),
-        counted_volume_(context.fields.add(mesh_, book(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
-        stored_(context.fields.add(mesh_, book(context, "fluid_stored", "Fluid stored by the change of volume and of grains"))) {
+        counted_volume_(context.fields.add(
+            mesh_, book(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
+        stored_(context.fields.add(
+            mesh_, book(context, "fluid_stored", "Fluid stored by the change of volume and of grains"))) {
     const int cells = mesh_.cell_count();
     alpha_.resize(cells);
-    for (int c = 0; c < cells; ++c) alpha_[c] = options.biot_coefficient.at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
+    for (int c = 0; c < cells; ++c)
+      alpha_[c] = options.biot_coefficient.at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
     decoupled_ = alpha_.isZero(0);
     grain_capacity_ = Vector::Zero(cells);
     if (const Vector* porosity = fluid_.porosity_for_storage()) check_and_set_grains(context, *porosity);
@@ -78,8 +85,16 @@ class Biot : public Coupler {
     stored_.set(std::move(stored));
   }
 
-  void balance(std::map<std::string, Balance>& balances) const override { balances["fluid"].stored += stored_.now().sum(); }
+  void balance(std::map<std::string, Balance>& balances) const override {
+    balances["fluid"].stored += stored_.now().sum();
+  }
 
+  /// The level of the pressure loads the rock, and the grains store fluid.
+  void relate_levels(Levels& levels) const override {
+    if (!decoupled_) levels.hold(fluid_.pressure());
+  }
+
+  std::vector<std::string> stabilizations() const override { return {"fixed_stress"}; }
   void stabilize(const std::string& scheme, Stabilization& stabilization) const override {
     if (decoupled_ || scheme != "fixed_stress") return;
     Vector diagonal(mesh_.cell_count());

@@ -8,23 +8,25 @@ namespace {
 
 struct WallExchangeOptions {
   Spec spec() {
-    Spec spec("wall_exchange",
-              "Flux between fractures and matrix through the walls, driven by the difference of their pressures (Eq. 9).");
+    Spec spec(
+        "wall_exchange",
+        "Flux between fractures and matrix through the walls, driven by the difference of their pressures (Eq. 9).");
     spec.ignore("type").ignore("between");
     return spec;
   }
 };
 
-/// Determines lambda of every wall, from the fracture into the matrix: lambda = kappa (p_i − tr p). Its row is divided by
-/// kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well scaled from
-/// sealed to wide open walls. lambda leaves the fluid balance of the fracture: Eq. 8, in which Eq. 9 has the sign of a
-/// flux out of the fracture.
+/// Determines lambda of every wall, from the fracture into the matrix: lambda = kappa (p_i − tr p). Its row is divided
+/// by kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well scaled
+/// from sealed to wide open walls. lambda leaves the fluid balance of the fracture: Eq. 8, in which Eq. 9 has the sign
+/// of a flux out of the fracture.
 class WallExchange : public Coupler {
  public:
   WallExchange(const CouplerContext& context, const WallExchangeOptions&)
       : Coupler(context.name),
         mesh_(context.mesh),
         walls_(context.the<MatrixWalls>()),
+        fluid_(context.find<MatrixFluid>()),
         fracture_(context.the<FractureFluid>()) {
     context.determine(walls_.wall_flux());
     std::vector<Triplet> entries, sums;
@@ -82,11 +84,16 @@ class WallExchange : public Coupler {
     assembly.derivative(flux, fracture_.aperture(), SparseMatrix(by_aperture.asDiagonal() * to_walls_));
   }
 
+  void relate_levels(Levels& levels) const override {
+    if (fluid_) levels.tie(fluid_->pressure(), fracture_.pressure());
+  }
+
   bool is_nonlinear() const override { return fracture_.aperture().is_solved(); }
 
  private:
   const Mesh& mesh_;
   MatrixWalls& walls_;
+  MatrixFluid* fluid_;
   FractureFluid& fracture_;
   SparseMatrix to_walls_;  ///< walls × fracture cells
   SparseMatrix inflow_;    ///< fracture cells × walls: lambda times length

@@ -17,17 +17,13 @@ Vector evaluate_on_cells(const Mesh& mesh, const Data& data, double time) {
   return values;
 }
 
-/// Rates that jump are constant over a step, because steps end where they jump; others are taken at the step's end.
-double rate_time(const Data& rate, const StepTime& step) {
-  return rate.switch_times().empty() ? step.end : 0.5 * (step.start + step.end);
-}
-
 }  // namespace
 
 MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize)
     : Component(context.name),
       mesh_(context.mesh),
       options_(options),
+      origin_(context.origin),
       discretize_(discretize),
       pressure_(context.fields.add(mesh_, {.owner = context.name,
                                            .name = "pressure",
@@ -58,6 +54,12 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                  ? evaluate_on_cells(mesh_, *options_.storage, 0)
                  : porosity_.cwiseProduct(evaluate_on_cells(mesh_, *options_.fluid_compressibility, 0)).eval();
 
+  mobility_.resize(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
+    mobility_[c] = options_.permeability.at(place) / options_.viscosity.at(place);
+  }
+
   const auto potential = [&](const Point& x) {
     return options_.gravity.is_zero() ? 0.0 : options_.fluid_density * options_.gravity.at({x, 0, 0}).dot(x);
   };
@@ -82,11 +84,6 @@ void MatrixFlow::discretize() {
   if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
   discretized_version_ = mesh_.version;
   ++discretizations_;
-  std::vector<Tensor> mobility(mesh_.cell_count());
-  for (int c = 0; c < mesh_.cell_count(); ++c) {
-    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
-    mobility[c] = options_.permeability.at(place) / options_.viscosity.at(place);
-  }
   conditions_.assign(mesh_.face_count(), FlowCondition::none);
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) continue;
@@ -95,7 +92,7 @@ void MatrixFlow::discretize() {
     const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
     if (condition != options_.boundary.end() && condition->second.pressure) conditions_[f] = FlowCondition::pressure;
   }
-  operators_ = discretize_(mesh_, mobility, conditions_, nodes_to_discretize(mesh_));
+  operators_ = discretize_(mesh_, mobility_, conditions_, nodes_to_discretize(mesh_));
   const int rank = parallel::rank();
   outflow_of_pressure_ = cell_sums(mesh_, operators_.flux_cell, 1, rank);
   if (!wall_flux_) return;
@@ -117,16 +114,21 @@ void MatrixFlow::discretize() {
                           {wall_flux_, SparseMatrix(pick_walls * operators_.trace_boundary * boundary_of_wall_flux)}};
 }
 
-void MatrixFlow::evaluate_boundary(double time) {
+void MatrixFlow::evaluate_data(const StepTime& step) {
+  evaluate_sources(step);
   boundary_values_ = Vector::Zero(mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_side[f] == none) continue;
     const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
     if (found == options_.boundary.end()) continue;
-    const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], time};
-    if (found->second.pressure) boundary_values_[f] = found->second.pressure->at(place) - gravity_potential_face_[f];
-    if (found->second.flux) boundary_values_[f] = found->second.flux->at(place) * mesh_.face_length[f];
+    const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
+    const SideCondition& side = found->second;
+    if (side.pressure) boundary_values_[f] = value_in_step(*side.pressure, place, step) - gravity_potential_face_[f];
+    if (side.flux) boundary_values_[f] = value_in_step(*side.flux, place, step) * mesh_.face_length[f];
   }
+}
+
+void MatrixFlow::apply_boundary() {
   outflow_constant_ = cell_sums(mesh_, Vector(operators_.flux_boundary * boundary_values_), 1) -
                       outflow_of_pressure_ * gravity_potential_cell_;
   if (!wall_flux_) return;
@@ -140,24 +142,23 @@ void MatrixFlow::evaluate_sources(const StepTime& step) {
   source_ = Vector::Zero(mesh_.cell_count());
   if (!options_.source.is_zero())
     for (int c = 0; c < mesh_.cell_count(); ++c)
-      source_[c] = mesh_.cell_area[c] *
-                   options_.source.at({mesh_.cell_center[c], mesh_.cell_region[c], rate_time(options_.source, step)});
+      source_[c] =
+          mesh_.cell_area[c] * value_in_step(options_.source, {mesh_.cell_center[c], mesh_.cell_region[c], 0}, step);
   if (options_.wells.empty()) return;
   const PointLocation location(mesh_);
   for (const auto& [name, well] : options_.wells)
-    source_[location.cell_at(well.at)] += well.rate.at({well.at, 0, rate_time(well.rate, step)});
+    source_[location.cell_at(well.at)] += value_in_step(well.rate, {well.at, 0, 0}, step);
 }
 
 void MatrixFlow::begin_step(const StepTime& step) {
   discretize();
-  evaluate_boundary(step.end);
-  evaluate_sources(step);
+  evaluate_data(step);
+  apply_boundary();
 }
 
 void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(pressure_)) return;
-  const Vector capacity =
-      storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
+  const Vector capacity = storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
   assembly.add(pressure_, capacity.cwiseProduct(pressure_.now() - pressure_.accepted()));
   assembly.diagonal(pressure_, pressure_, capacity);
   assembly.linear(pressure_, outflow_of_pressure_, pressure_, step.dt);
@@ -213,8 +214,17 @@ std::vector<double> MatrixFlow::switch_times() const {
   return times;
 }
 
+void MatrixFlow::relate_levels(Levels& levels) const {
+  const bool has_pressure = std::any_of(options_.boundary.begin(), options_.boundary.end(),
+                                        [](const auto& side) { return side.second.pressure.has_value(); });
+  if (has_pressure || storage_.maxCoeff() > 0) return;
+  levels.floats(pressure_, origin_, "nothing stores fluid and no side has a pressure: any constant may be added to it",
+                "give a storage, or the pressure of a side");
+}
+
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
-  // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant one.
+  // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
+  // one.
   if (discretizations_ == 0) return;
   const Vector fluxes = face_fluxes();
   Vector velocity = Vector::Zero(2 * mesh_.cell_count());

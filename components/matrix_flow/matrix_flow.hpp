@@ -27,15 +27,15 @@ struct Well {
 };
 
 struct Options {
-  TensorData permeability;                 ///< m^2
-  Data viscosity;                          ///< Pa s
-  std::optional<Data> storage;             ///< 1/Pa
+  TensorData permeability;      ///< m^2
+  Data viscosity;               ///< Pa s
+  std::optional<Data> storage;  ///< 1/Pa
   std::optional<Data> porosity;
   std::optional<Data> fluid_compressibility;  ///< 1/Pa
-  VectorData gravity;                      ///< m/s^2
-  double fluid_density = 1000;             ///< kg/m^3
-  Data initial_pressure;                   ///< Pa
-  Data source;                             ///< 1/s
+  VectorData gravity;                         ///< m/s^2
+  double fluid_density = 1000;                ///< kg/m^3
+  Data initial_pressure;                      ///< Pa
+  Data source;                                ///< 1/s
   std::map<std::string, SideCondition> boundary;
   std::map<std::string, Well> wells;
   Spec spec(const std::string& type, const std::string& doc);
@@ -52,11 +52,13 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
  public:
   MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize);
 
+  void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
   std::vector<double> switch_times() const override;
+  void relate_levels(Levels& levels) const override;
   void output(std::vector<OutputField>& fields) const override;
   std::map<std::string, long> counts() const override { return {{"flux discretizations", discretizations_}}; }
 
@@ -72,16 +74,18 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
  private:
   void check_sides() const;
   void discretize();
-  void evaluate_boundary(double time);
   void evaluate_sources(const StepTime& step);
+  void apply_boundary();
 
   const Mesh& mesh_;
   Options options_;
+  Origin origin_;
   Discretize discretize_;
   Field& pressure_;
   Field* wall_flux_ = nullptr;  ///< exists with fractures only
   Field& books_;                ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_pressure_, porosity_, storage_, gravity_potential_cell_, gravity_potential_face_;
+  std::vector<Tensor> mobility_;  ///< m^2/(Pa s), one a cell
 
   std::uint64_t discretized_version_ = 0;
   long discretizations_ = 0;
@@ -92,7 +96,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Vector boundary_values_;             ///< one a face, see FluxOperators
   Vector outflow_constant_;            ///< m^2/s, one a cell
   LinearExpression wall_pressure_;
-  Vector source_;                      ///< m^2/s, one a cell
+  Vector source_;  ///< m^2/s, one a cell
 };
 
 }  // namespace sprekk::matrix_flow

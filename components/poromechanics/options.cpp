@@ -7,12 +7,12 @@ const Data* SideCondition::displacement_of(int direction) const {
   return displacement_along[direction] ? &*displacement_along[direction] : nullptr;
 }
 
-Point SideCondition::traction_at(const Place& place, const Point& normal) const {
+Point SideCondition::traction_in(const StepTime& step, const Place& place, const Point& normal) const {
   Point total = Point::Zero();
-  if (traction) total += traction->at(place);
+  if (traction) total += value_in_step(*traction, place, step);
   for (int k = 0; k < 2; ++k)
-    if (traction_along[k]) total[k] += traction_along[k]->at(place);
-  if (normal_stress) total += normal_stress->at(place) * normal;
+    if (traction_along[k]) total[k] += value_in_step(*traction_along[k], place, step);
+  if (normal_stress) total += value_in_step(*normal_stress, place, step) * normal;
   return total;
 }
 
@@ -68,12 +68,20 @@ Spec Options::spec() {
             "approximation with weak symmetry.");
   spec.ignore("type");
   spec.data("young_modulus", young_modulus,
-            {.unit = "Pa", .range = positive(), .doc = "Young's modulus of the drained rock.", .source = "Table 1", .material = true});
+            {.unit = "Pa",
+             .range = positive(),
+             .doc = "Young's modulus of the drained rock.",
+             .source = "Table 1",
+             .material = true});
   spec.data("poisson_ratio", poisson_ratio,
-            {.range = strictly_between(-1, 0.5), .doc = "Poisson's ratio of the drained rock.", .source = "Table 1", .material = true});
+            {.range = strictly_between(-1, 0.5),
+             .doc = "Poisson's ratio of the drained rock.",
+             .source = "Table 1",
+             .material = true});
   Spec tensor("stiffness", "Plane-strain stiffness of an anisotropic rock, instead of the two moduli.");
   const auto entry = [&](const char* name, Data& target, bool required) {
-    tensor.data(name, target, {.unit = "Pa", .doc = std::string("Entry ") + name + " of the stiffness.", .required = required});
+    tensor.data(name, target,
+                {.unit = "Pa", .doc = std::string("Entry ") + name + " of the stiffness.", .required = required});
   };
   entry("xxxx", stiffness.xxxx, true);
   entry("yyyy", stiffness.yyyy, true);
@@ -83,21 +91,28 @@ Spec Options::spec() {
   entry("yyxy", stiffness.yyxy, false);
   spec.section("stiffness", tensor, {.doc = "Of an anisotropic rock."}, &is_anisotropic);
   spec.data("bulk_modulus", bulk_modulus,
-            {.unit = "Pa", .range = positive(),
+            {.unit = "Pa",
+             .range = positive(),
              .doc = "Drained bulk modulus of an anisotropic rock, where a coupler asks for it."});
   spec.data("rock_density", rock_density,
-            {.unit = "kg/m^3", .range = non_negative(), .doc = "Density of the saturated rock; matters with gravity only.", .material = true});
+            {.unit = "kg/m^3",
+             .range = non_negative(),
+             .doc = "Density of the saturated rock; matters with gravity only.",
+             .material = true});
   spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Acceleration of gravity.", .material = true});
-  spec.vector("body_force", body_force, {.unit = "N/m^3", .doc = "Force per volume, besides gravity.", .source = "-b of Eq. 5"});
-  spec.tensor("initial_stress", initial_stress,
-              {.unit = "Pa", .doc = "Total stress in which the rock is at rest with its initial pressure; tension positive."});
+  spec.vector("body_force", body_force,
+              {.unit = "N/m^3", .doc = "Force per volume, besides gravity.", .source = "-b of Eq. 5"});
+  spec.tensor(
+      "initial_stress", initial_stress,
+      {.unit = "Pa", .doc = "Total stress in which the rock is at rest with its initial pressure; tension positive."});
   static SideCondition example;
-  spec.named_sections("boundary", side_spec(example),
-                      [this](const std::string& key, const Origin& origin) {
-                        boundary[key].origin = origin;
-                        return side_spec(boundary[key]);
-                      },
-                      {.doc = "Conditions by the name of the side (left, right, bottom, top, or of the imported mesh)."});
+  spec.named_sections(
+      "boundary", side_spec(example),
+      [this](const std::string& key, const Origin& origin) {
+        boundary[key].origin = origin;
+        return side_spec(boundary[key]);
+      },
+      {.doc = "Conditions by the name of the side (left, right, bottom, top, or of the imported mesh)."});
   spec.check([this](const Node& node) {
     if (!is_anisotropic && (!young_modulus || !poisson_ratio))
       throw InputError(node.origin, "the stiffness of '" + node.path + "' is not determined",

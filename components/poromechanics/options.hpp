@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "framework/assembly/step_time.hpp"
 #include "framework/config/spec.hpp"
 
 namespace sprekk::poromechanics {
@@ -22,8 +23,8 @@ struct SideCondition {
 
   /// The displacement of a direction (0: x, 1: y), if it is prescribed.
   const Data* displacement_of(int direction) const;
-  /// The total traction on a face with this outward unit normal (Pa).
-  Point traction_at(const Place& place, const Point& normal) const;
+  /// The total traction during a step on a face with this outward unit normal (Pa).
+  Point traction_in(const StepTime& step, const Place& place, const Point& normal) const;
   bool depends_on_time() const;
 };
 
@@ -33,15 +34,15 @@ struct AnisotropicStiffness {
 };
 
 struct Options {
-  std::optional<Data> young_modulus;   ///< Pa
+  std::optional<Data> young_modulus;  ///< Pa
   std::optional<Data> poisson_ratio;
   AnisotropicStiffness stiffness;
   bool is_anisotropic = false;
-  std::optional<Data> bulk_modulus;    ///< Pa, of an anisotropic rock
-  Data rock_density;                   ///< kg/m^3
-  VectorData gravity;                  ///< m/s^2
-  VectorData body_force;               ///< N/m^3
-  TensorData initial_stress;           ///< Pa
+  std::optional<Data> bulk_modulus;  ///< Pa, of an anisotropic rock
+  Data rock_density;                 ///< kg/m^3
+  VectorData gravity;                ///< m/s^2
+  VectorData body_force;             ///< N/m^3
+  TensorData initial_stress;         ///< Pa
   std::map<std::string, SideCondition> boundary;
   Spec spec();
 };

@@ -1,7 +1,9 @@
 #include "components/poromechanics/rock.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "framework/config/units.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -28,8 +30,14 @@ Rock::Rock(const ComponentContext& context, const Options& options)
                                                  .unit = "Pa",
                                                  .doc = "Traction on the plus wall, normal and tangential (Eq. 4)"});
   check_sides();
-  bulk_modulus_.resize(0);
-  stiffness();
+  check_held(context.origin);
+  stiffness_ = stiffness(context.origin);
+}
+
+const SideCondition* Rock::condition_of(int face) const {
+  if (mesh_.face_cells[face][1] != none || mesh_.face_side[face] == none) return nullptr;
+  const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[face]]);
+  return found == options_.boundary.end() ? nullptr : &found->second;
 }
 
 void Rock::check_sides() const {
@@ -38,7 +46,34 @@ void Rock::check_sides() const {
       throw unknown_name(condition.origin, "side of the boundary", side, mesh_.side_names);
 }
 
-std::vector<Stiffness> Rock::stiffness() {
+void Rock::check_held(const Origin& where) const {
+  // How prescribed displacements resist the rigid motions: along x, along y, and turning about the middle of the rock.
+  Point middle = Point::Zero();
+  for (const Point& center : mesh_.cell_center) middle += center / mesh_.cell_count();
+  double size = 0;
+  for (const Point& center : mesh_.face_center) size = std::max(size, (center - middle).norm());
+  Eigen::Matrix3d resistance = Eigen::Matrix3d::Zero();
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const SideCondition* condition = condition_of(f);
+    if (!condition) continue;
+    const Point arm = (mesh_.face_center[f] - middle) / size;
+    const Eigen::Vector3d motion[2] = {{1, 0, -arm[1]}, {0, 1, arm[0]}};
+    for (int k = 0; k < 2; ++k)
+      if (condition->displacement_of(k)) resistance += motion[k] * motion[k].transpose();
+  }
+  const std::string add =
+      "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to 'boundary:'";
+  for (int k = 0; k < 2; ++k)
+    if (resistance(k, k) == 0)
+      throw InputError(where, std::string("nothing holds the rock along ") + "xy"[k],
+                       std::string("no side has a displacement in ") + "xy"[k] + ", so that it may move freely", add);
+  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(resistance).eigenvalues();
+  if (eigenvalues[0] <= 1e-10 * eigenvalues[2])
+    throw InputError(where, "nothing keeps the rock from turning",
+                     "the displacements of its sides allow a small rotation about a point", add);
+}
+
+std::vector<Stiffness> Rock::stiffness(const Origin& where) {
   std::vector<Stiffness> stiffness(mesh_.cell_count());
   bulk_modulus_ = Vector::Zero(mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
@@ -47,6 +82,12 @@ std::vector<Stiffness> Rock::stiffness() {
       const AnisotropicStiffness& s = options_.stiffness;
       const double xxyy = s.xxyy.at(place), xxxy = s.xxxy.at(place), yyxy = s.yyxy.at(place);
       stiffness[c] << s.xxxx.at(place), xxyy, xxxy, xxyy, s.yyyy.at(place), yyxy, xxxy, yyxy, s.xyxy.at(place);
+      const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness[c]).eigenvalues();
+      if (eigenvalues[0] <= 0)
+        throw InputError(
+            where, "the stiffness of component '" + name() + "' is not positive definite",
+            "the rock would give way by itself; its smallest eigenvalue is " + quantity_text(eigenvalues[0], "Pa"),
+            "raise its diagonal entries, or lower the others");
       if (options_.bulk_modulus) bulk_modulus_[c] = options_.bulk_modulus->at(place);
     } else {
       const double young = options_.young_modulus->at(place), poisson = options_.poisson_ratio->at(place);
@@ -89,19 +130,18 @@ void Rock::discretize() {
   if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
   discretized_version_ = mesh_.version;
   ++discretizations_;
-  boundary_evaluated_ = false;
-  std::vector<std::array<MechanicalCondition, 2>> conditions(
-      mesh_.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
+  boundary_applied_ = false;
+  std::vector<std::array<MechanicalCondition, 2>> conditions(mesh_.face_count(),
+                                                             {MechanicalCondition::none, MechanicalCondition::none});
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) continue;
     conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
-    if (mesh_.face_side[f] == none) continue;
-    const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
-    if (condition == options_.boundary.end()) continue;
+    const SideCondition* condition = condition_of(f);
+    if (!condition) continue;
     for (int k = 0; k < 2; ++k)
-      if (condition->second.displacement_of(k)) conditions[f][k] = MechanicalCondition::displacement;
+      if (condition->displacement_of(k)) conditions[f][k] = MechanicalCondition::displacement;
   }
-  operators_ = discretize_mpsa(mesh_, stiffness(), conditions, nodes_to_discretize(mesh_));
+  operators_ = discretize_mpsa(mesh_, stiffness_, conditions, nodes_to_discretize(mesh_));
   const int rank = parallel::rank();
   const SparseMatrix outflow = cell_sums(mesh_, operators_.force_displacement, 2, rank);
   force_of_displacement_ = -outflow;
@@ -129,41 +169,55 @@ Point Rock::initial_traction(int face, const Point& normal) const {
   return options_.initial_stress.at(place) * normal;
 }
 
-void Rock::evaluate_boundary(double time) {
-  const bool depends_on_time = std::any_of(options_.boundary.begin(), options_.boundary.end(),
-                                           [](const auto& side) { return side.second.depends_on_time(); }) ||
-                               options_.body_force.depends_on_time();
-  if (boundary_evaluated_ && (!depends_on_time || boundary_time_ == time)) return;
-  boundary_evaluated_ = true;
-  boundary_time_ = time;
+bool Rock::depends_on_time() const {
+  return std::any_of(options_.boundary.begin(), options_.boundary.end(),
+                     [](const auto& side) { return side.second.depends_on_time(); }) ||
+         options_.body_force.depends_on_time() || options_.rock_density.depends_on_time() ||
+         options_.gravity.depends_on_time();
+}
+
+void Rock::evaluate_data(const StepTime& step) {
+  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
+  if (data_evaluated_ && (same_step || !depends_on_time())) return;
+  data_evaluated_ = true;
+  evaluated_for_ = step;
+  boundary_applied_ = false;
 
   boundary_values_ = Vector::Zero(2 * mesh_.face_count());
-  Vector initial_forces = Vector::Zero(2 * mesh_.face_count());
+  initial_forces_ = Vector::Zero(2 * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const double length = mesh_.face_length[f];
     const Point initial = initial_traction(f, mesh_.face_normal[f]);
-    initial_forces.segment<2>(2 * f) = length * initial;
+    initial_forces_.segment<2>(2 * f) = length * initial;
     if (mesh_.face_cells[f][1] != none) continue;
     // What tractions prescribe is the total; the stress that deformation makes is the total less the initial one.
     boundary_values_.segment<2>(2 * f) = -length * initial;
-    if (mesh_.face_side[f] == none) continue;
-    const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
-    if (found == options_.boundary.end()) continue;
-    const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], time};
-    const Point traction = found->second.traction_at(place, mesh_.face_normal[f]);
+    const SideCondition* condition = condition_of(f);
+    if (!condition) continue;
+    const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
+    const Point traction = condition->traction_in(step, place, mesh_.face_normal[f]);
     for (int k = 0; k < 2; ++k) {
-      if (const Data* displacement = found->second.displacement_of(k))
-        boundary_values_[2 * f + k] = displacement->at(place);
+      if (const Data* displacement = condition->displacement_of(k))
+        boundary_values_[2 * f + k] = value_in_step(*displacement, place, step);
       else
         boundary_values_[2 * f + k] += length * traction[k];
     }
   }
-  force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces), 2);
+  body_forces_ = Vector::Zero(2 * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], time};
-    const Point force = options_.body_force.at(place) + options_.rock_density.at(place) * options_.gravity.at(place);
-    force_constant_.segment<2>(2 * c) -= mesh_.cell_area[c] * force;
+    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
+    const Point force =
+        value_in_step(options_.body_force, place, step) +
+        value_in_step(options_.rock_density, place, step) * value_in_step(options_.gravity, place, step);
+    body_forces_.segment<2>(2 * c) = mesh_.cell_area[c] * force;
   }
+}
+
+void Rock::apply_boundary() {
+  if (boundary_applied_) return;
+  boundary_applied_ = true;
+  force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), 2);
+  force_constant_ -= body_forces_;
   volume_change_.constant = operators_.volume_boundary * boundary_values_;
   if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * boundary_values_);
   for (const Load& load : loads_) {
@@ -176,7 +230,8 @@ void Rock::evaluate_boundary(double time) {
 
 void Rock::begin_step(const StepTime& step) {
   discretize();
-  evaluate_boundary(step.end);
+  evaluate_data(step);
+  apply_boundary();
 }
 
 void Rock::assemble(Assembly& assembly, const StepTime&) const {
@@ -199,7 +254,9 @@ Vector Rock::face_forces() const {
 }
 
 std::vector<double> Rock::switch_times() const {
-  std::vector<double> times;
+  std::vector<double> times =
+      merged_switch_times({&options_.body_force.component[0], &options_.body_force.component[1], &options_.rock_density,
+                           &options_.gravity.component[0], &options_.gravity.component[1]});
   const auto append = [&](const std::optional<Data>& data) {
     if (data) times.insert(times.end(), data->switch_times().begin(), data->switch_times().end());
   };
@@ -216,7 +273,8 @@ std::vector<double> Rock::switch_times() const {
 }
 
 void Rock::output(std::vector<OutputField>& fields) const {
-  // Mean stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when constant.
+  // Mean stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when
+  // constant.
   if (discretizations_ == 0) return;
   const Vector forces = face_forces();
   Vector stress = Vector::Zero(3 * mesh_.cell_count());

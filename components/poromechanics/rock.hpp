@@ -15,8 +15,11 @@ namespace sprekk::poromechanics {
 /// Each pair of rows balances the forces on one cell (N/m): −(sum of the forces on its faces) − body force = 0.
 class Rock : public Component, public PoroelasticRock, public RockWalls {
  public:
+  /// Throws InputError for sides that do not exist, for a stiffness that is not positive definite, and when the
+  /// displacements that are prescribed let the rock move as a rigid body.
   Rock(const ComponentContext& context, const Options& options);
 
+  void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
@@ -40,10 +43,13 @@ class Rock : public Component, public PoroelasticRock, public RockWalls {
   };
 
   void check_sides() const;
-  std::vector<Stiffness> stiffness();
+  void check_held(const Origin& where) const;
+  std::vector<Stiffness> stiffness(const Origin& where);
   void discretize();
   void map_walls();
-  void evaluate_boundary(double time);
+  const SideCondition* condition_of(int face) const;  ///< nullptr where nothing is prescribed
+  bool depends_on_time() const;
+  void apply_boundary();
   Point initial_traction(int face, const Point& normal) const;
 
   const Mesh& mesh_;
@@ -54,8 +60,9 @@ class Rock : public Component, public PoroelasticRock, public RockWalls {
   std::vector<Load> loads_;
 
   std::uint64_t discretized_version_ = 0;
-  double boundary_time_ = 0;
-  bool boundary_evaluated_ = false;
+  std::vector<Stiffness> stiffness_;  ///< one a cell
+  StepTime evaluated_for_;
+  bool data_evaluated_ = false, boundary_applied_ = false;
   long discretizations_ = 0;
   StressOperators operators_;
   SparseMatrix wall_forces_;            ///< 2 faces × 2 fracture cells: boundary values that wall tractions make
@@ -63,6 +70,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls {
   SparseMatrix force_of_displacement_;  ///< momentum rows
   SparseMatrix force_of_wall_traction_;
   Vector boundary_values_;  ///< see StressOperators
+  Vector initial_forces_;   ///< of the initial stress on every face, N/m
+  Vector body_forces_;      ///< on every cell, N/m
   Vector force_constant_;
   LinearExpression volume_change_, jump_;
 };

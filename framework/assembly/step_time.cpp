@@ -12,7 +12,8 @@ double value_in_step(const Data& data, Place place, const StepTime& step) {
   const double tolerance = 1e-9 * step.dt;
   const auto jump = std::lower_bound(jumps.begin(), jumps.end(), step.end - tolerance);
   const bool jumps_at_end = jump != jumps.end() && *jump <= step.end + tolerance;
-  place.t = jumps_at_end ? std::nextafter(std::min(*jump, step.end), -std::numeric_limits<double>::infinity()) : step.end;
+  place.t =
+      jumps_at_end ? std::nextafter(std::min(*jump, step.end), -std::numeric_limits<double>::infinity()) : step.end;
   return data.at(place);
 }
 

@@ -6,6 +6,7 @@
 #include "framework/command_line/explain_command.hpp"
 #include "framework/command_line/graph_command.hpp"
 #include "framework/command_line/scene_arguments.hpp"
+#include "framework/config/resolved_yaml.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/output/build_info.hpp"
 #include "framework/output/output_folder.hpp"
@@ -19,23 +20,25 @@ namespace {
 std::string version_text() {
   const BuildInfo& build = build_info();
   const BlasInfo blas = blas_in_use();
-  std::string text = "sprekk " + build.version + " " + build.git_commit + "\n" + build.compiler + ", " + build.build_type +
-                     "\nBLAS: " + blas.name + (blas.is_reference ? " (slow: install libopenblas0-pthread)" : "") + "\n";
+  std::string text = "sprekk " + build.version + " " + build.git_commit + "\n" + build.compiler + ", " +
+                     build.build_type + "\nBLAS: " + blas.name +
+                     (blas.is_reference ? " (slow: install libopenblas0-pthread)" : "") + "\n";
   for (const auto& [name, version] : build.libraries) text += name + " " + version + "\n";
   return text;
 }
 
 void print_scene(const Scene& scene) {
-  std::size_t path_width = 0, value_width = 0;
-  for (const Scene::Resolved& r : scene.resolved) {
-    path_width = std::max(path_width, r.path.size());
-    value_width = std::max(value_width, std::min<std::size_t>(r.value.size(), 40));
-  }
-  for (const Scene::Resolved& r : scene.resolved) {
-    std::cout << r.path << std::string(path_width - r.path.size() + 2, ' ') << r.value;
-    std::cout << std::string(r.value.size() < value_width ? value_width - r.value.size() + 2 : 2, ' ') << "# " << r.origin
-              << "\n";
-  }
+  std::vector<ResolvedValue> values;
+  for (const Scene::Resolved& r : scene.resolved) values.push_back({r.path, r.value, r.origin});
+  std::cout << resolved_yaml(values);
+}
+
+void check_scene(const Scene& scene) {
+  const Model model(scene);
+  if (!parallel::is_root()) return;
+  for (const std::string& note : scene.notes) std::cerr << "note: " << note << "\n";
+  std::cout << scene.name << ": ok, " << model.mesh().cell_count() << " cells, " << model.mesh().fracture_cell_count()
+            << " fracture cells\n";
 }
 
 std::filesystem::path find_checkpoint(const std::string& given, const std::string& folder, const Scene& scene) {
@@ -59,22 +62,28 @@ int run_command_line(int argc, char** argv) {
 
   SceneArguments scene;
   RunOptions run;
-  std::string folder, checkpoint, explained, reference_folder;
+  std::string folder, checkpoint, explained, reference_folder, picture;
 
   CLI::App* run_command = app.add_subcommand("run", "Runs a scene");
   scene.add_to(*run_command);
   run_command->add_option("-o,--output", folder, "Folder for the results; results/<scene> by default");
-  CLI::Option* restart = run_command->add_option("--restart", checkpoint, "Continues from a checkpoint; by default that in the results of the scene")
+  CLI::Option* restart = run_command
+                             ->add_option("--restart", checkpoint,
+                                          "Continues from a checkpoint; by default that in the results of the scene")
                              ->expected(0, 1);
   run_command->add_flag("-q,--quiet", run.quiet, "Prints nothing unless something is wrong");
   CLI::App* check_command = app.add_subcommand("check", "Builds everything and solves nothing");
   scene.add_to(*check_command);
-  CLI::App* show_command = app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
+  CLI::App* show_command =
+      app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   scene.add_to(*show_command);
-  CLI::App* graph_command = app.add_subcommand("graph", "Prints components, couplers and schedule in the dot language");
+  CLI::App* graph_command = app.add_subcommand("graph", "Draws components, couplers and schedule");
   scene.add_to(*graph_command);
+  graph_command->add_option("-o,--output", picture,
+                            "A .dot or .svg file; without it the graph is printed in the dot language");
   CLI::App* list_command = app.add_subcommand("list", "Lists what exists");
-  CLI::App* explain_command = app.add_subcommand("explain", "Explains a type, a step of the schedule or a section of a scene");
+  CLI::App* explain_command =
+      app.add_subcommand("explain", "Explains a type, a step of the schedule or a section of a scene");
   explain_command->add_option("name", explained, "For example matrix_flow/mpfa")->required();
   CLI::App* schema_command = app.add_subcommand("schema", "Prints the JSON schema of scenes");
   CLI::App* reference_command = app.add_subcommand("reference", "Writes the reference pages");
@@ -92,14 +101,8 @@ int run_command_line(int argc, char** argv) {
     if (*schema_command) print_schema(std::cout);
     if (*reference_command) write_reference(reference_folder);
     if (*show_command) print_scene(scene.read());
-    if (*graph_command) print_graph(Model(scene.read()), std::cout);
-    if (*check_command) {
-      const Scene read = scene.read();
-      const Model model(read);
-      if (parallel::is_root())
-        std::cout << read.name << ": ok, " << model.mesh().cell_count() << " cells, " << model.mesh().fracture_cell_count()
-                  << " fracture cells\n";
-    }
+    if (*graph_command) draw_graph(Model(scene.read()), picture);
+    if (*check_command) check_scene(scene.read());
     if (*run_command) {
       const Scene read = scene.read();
       run.scene_files = scene.files;

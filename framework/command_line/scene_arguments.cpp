@@ -20,9 +20,7 @@ Scene SceneArguments::read() const {
   }
   const Node whole = load_scene(files, overrides);
   const std::string folder = std::filesystem::path(files.front()).parent_path().string();
-  Scene scene = read_scene(whole, folder.empty() ? "." : folder);
-  if (!whole.find("name")) scene.name = std::filesystem::path(files.front()).stem().string();
-  return scene;
+  return read_scene(whole, folder.empty() ? "." : folder, std::filesystem::path(files.front()).stem().string());
 }
 
 }  // namespace sprekk

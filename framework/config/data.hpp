@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +20,14 @@ struct Place {
   double t = 0;
 };
 
+/// A datum has no finite value somewhere, or leaves its range: the scene's mistake, found when it is evaluated.
+class DataError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A scalar in SI units: a number, an expression of x, y, t, a value per region, a table (CSV), or windows in time.
-/// `at` throws std::runtime_error when the function has no finite value there or leaves the parameter's range.
+/// `at` throws DataError when the function has no finite value there or leaves the parameter's range.
 class Data {
  public:
   Data(double constant = 0);  // NOLINT: a number is a datum
@@ -35,8 +42,8 @@ class Data {
   bool depends_on_space() const { return depends_on_space_; }
   /// The ends of the time windows (s), sorted, for the time stepper to hit exactly. A window [from, to) has its value
   /// at `from` and zero at `to`: the value at a switch time is the one that holds right after it. A step that ends at
-  /// a switch time should therefore take its data from before the end (its midpoint, say), as the data do not
-  /// jump inside the step. Jumps hidden in an expression, if(t < 6*h, …), are not among them.
+  /// a switch time should therefore take its data from before it (value_in_step). Jumps hidden in an expression, if(t <
+  /// 6*h, …), are not among them.
   const std::vector<double>& switch_times() const { return switch_times_; }
 
  private:

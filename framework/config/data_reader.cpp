@@ -155,7 +155,7 @@ Data within_range(Data data, const Origin& where, const DataRequest& request) {
   auto checked = [data = std::move(data), range, where, limits, name = request.name](const Place& place) {
     const double value = data.at(place);
     if (range.contains(value)) return value;
-    throw std::runtime_error(
+    throw DataError(
         fmt::format("{}: {} is {} at {} ({})", where.text(), quoted(name), value, place_text(place), limits));
   };
   return Data(std::move(checked), in_time, in_space, switch_times);

@@ -104,7 +104,7 @@ class Expression {
   double at(const Place& place) {
     const double value = unchecked(place);
     if (std::isfinite(value)) return value;
-    throw std::runtime_error(
+    throw DataError(
         fmt::format("{}: the expression {} is {} at {}", where_.text(), quoted(text_), value, place_text(place)));
   }
 

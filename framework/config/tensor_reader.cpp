@@ -49,9 +49,8 @@ TensorData definite(TensorData tensor, const Origin& where, const DataRequest& r
   if (tensor.xy.is_zero()) return tensor;
   const auto checked = [where, name = request.name](const std::vector<double>& values, const Place& place) {
     if (is_positive_definite(values[0], values[1], values[2])) return values[2];
-    throw std::runtime_error(fmt::format("{}: {} is not positive definite at {} (xx = {}, yy = {}, xy = {})",
-                                         where.text(), quoted(name), place_text(place), values[0], values[1],
-                                         values[2]));
+    throw DataError(fmt::format("{}: {} is not positive definite at {} (xx = {}, yy = {}, xy = {})", where.text(),
+                                quoted(name), place_text(place), values[0], values[1], values[2]));
   };
   tensor.xy = combined({tensor.xx, tensor.yy, tensor.xy}, checked);
   return tensor;

@@ -18,14 +18,24 @@ Mesh make_mesh(const Scene& scene) {
   return mesh;
 }
 
+/// Data that have no value before the run has begun are wrong input.
+template <class Build>
+auto refusing_bad_data(const Build& build) {
+  try {
+    return build();
+  } catch (const DataError& error) {
+    throw InputError(error.what());
+  }
+}
+
 }  // namespace
 
 Model::Model(const Scene& scene, IterationLog log) : scene_(scene), mesh_(make_mesh(scene)) {
-  std::vector<std::string> names;
   for (const Scene::ComponentEntry& entry : scene_.components) {
-    components_.push_back(entry.build({entry.name, mesh_, fields_, scene_.time.start, entry.origin}));
+    components_.push_back(refusing_bad_data([&] {
+      return entry.build({entry.name, mesh_, fields_, scene_.time.start, entry.origin});
+    }));
     parts_.push_back(components_.back().get());
-    names.push_back(entry.name);
   }
   for (const Scene::CouplerEntry& entry : scene_.couplers) {
     std::vector<Component*> between;
@@ -33,13 +43,14 @@ Model::Model(const Scene& scene, IterationLog log) : scene_(scene), mesh_(make_m
       for (const auto& component : components_)
         if (component->name() == name) between.push_back(component.get());
     const CouplerContext context(entry.name, mesh_, fields_, between, entry.origin);
-    couplers_.push_back(entry.build(context));
+    couplers_.push_back(refusing_bad_data([&] { return entry.build(context); }));
     context.check_all_used();
     parts_.push_back(couplers_.back().get());
   }
-  const ScheduleContext context{mesh_, fields_, parts_, names, scene_.linear, scene_.newton, std::move(log)};
-  schedule_ = build_schedule(scene_.schedule(), context);
+  schedule_ = scene_.schedule({mesh_, fields_, parts_, std::move(log)});
   check_determined();
+  refusing_bad_data([this] { check_data(); });
+  check_levels();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_);
 }
 
@@ -55,9 +66,24 @@ void Model::check_determined() const {
                        "component '" + spec.owner + "' needs a coupler of type '" + spec.needs_coupler + "'",
                        "add '- {type: " + spec.needs_coupler + ", between: [" + spec.owner + ", …]}' to 'couplers:'");
     if (field->is_solved() && field->size() > 0 && std::find(solved.begin(), solved.end(), field.get()) == solved.end())
-      throw InputError(scene_.schedule().origin, "no step solves for " + field->name(),
+      throw InputError(scene_.schedule_origin(), "no step solves for " + field->name(),
                        "the schedule does not name component '" + spec.owner + "'", "add it to a 'solve'");
   }
+}
+
+void Model::check_data() {
+  const TimeOptions& time = scene_.time;
+  const double step = std::min(time.step, time.end - time.start);
+  for (Part* part : parts_) {
+    part->evaluate_data({time.end - step, step, time.end});
+    part->evaluate_data({time.start, step, time.start + step});
+  }
+}
+
+void Model::check_levels() const {
+  Levels levels;
+  for (const Part* part : parts_) part->relate_levels(levels);
+  levels.require_held();
 }
 
 StepStatus Model::attempt(const StepTime& step) {

@@ -12,8 +12,8 @@ namespace sprekk {
 
 class Model {
  public:
-  /// Builds everything and solves nothing. Throws InputError for combinations that cannot work: a missing capability, an
-  /// input that a coupler should determine, an unknown that no step solves for.
+  /// Builds everything and solves nothing. Throws InputError for combinations that cannot work: a missing capability,
+  /// an input that a coupler should determine, an unknown that no step solves for, data without a value.
   Model(const Scene& scene, IterationLog log = {});
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
@@ -41,6 +41,8 @@ class Model {
 
  private:
   void check_determined() const;
+  void check_data();
+  void check_levels() const;
 
   Scene scene_;
   Mesh mesh_;

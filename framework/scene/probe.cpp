@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "framework/config/units.hpp"
 #include "framework/mesh/point_location.hpp"
 
 namespace sprekk {
@@ -48,22 +49,46 @@ Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& m
   if (location != Location::cell && location != Location::fracture_cell)
     throw InputError(options.origin, "the field " + options.of + " cannot be probed",
                      "it lives neither on cells nor on fracture cells", "choose another field");
+  check_names(mesh, options);
   if (options.at)
     weigh_point(mesh, options);
   else
     weigh_domain(mesh, options);
 }
 
+void Probe::check_names(const Mesh& mesh, const ProbeOptions& options) const {
+  const bool on_fracture = field_->spec().location == Location::fracture_cell;
+  std::vector<std::string> fractures;
+  for (const Fracture& fracture : mesh.fractures) fractures.push_back(fracture.name);
+  const auto check = [&](const char* what, const std::string& name, bool fits, const std::vector<std::string>& known) {
+    if (name.empty()) return;
+    if (!fits)
+      throw InputError(options.origin, "probe '" + name_ + "' names a " + what,
+                       options.of + " lives " + (on_fracture ? "on fractures" : "in the rock"), "remove it");
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw unknown_name(options.origin, what, name, known);
+  };
+  check("fracture", options.fracture, on_fracture, fractures);
+  check("region", options.region, !on_fracture, mesh.region_names);
+}
+
 void Probe::weigh_point(const Mesh& mesh, const ProbeOptions& options) {
   if (field_->spec().location == Location::fracture_cell) {
     int best = none;
     for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
-      if (!options.fracture.empty() && mesh.fractures[mesh.fracture_cells[i].fracture].name != options.fracture) continue;
+      if (!options.fracture.empty() && mesh.fractures[mesh.fracture_cells[i].fracture].name != options.fracture)
+        continue;
       const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *options.at).norm(); };
       if (best == none || distance(i) < distance(best)) best = i;
     }
     if (best == none)
       throw InputError(options.origin, "probe '" + name_ + "' finds no fracture", "there is none of this name");
+    const double away = (mesh.fracture_cells[best].center - *options.at).norm();
+    if (away > mesh.fracture_cells[best].length)
+      throw InputError(options.origin, "probe '" + name_ + "' lies away from the fractures",
+                       "the nearest fracture cell is " + quantity_text(away, "m") + " away and only " +
+                           quantity_text(mesh.fracture_cells[best].length, "m") + " long",
+                       "choose a point on a fracture");
     weights_ = {{best, 1.0}};
     return;
   }

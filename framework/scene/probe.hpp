@@ -5,25 +5,25 @@
 #include <string>
 #include <vector>
 
+#include "framework/assembly/part.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/field/field_store.hpp"
-#include "framework/assembly/part.hpp"
 
 namespace sprekk {
 
 struct ProbeOptions {
   Origin origin;
-  std::string of;            ///< a field, "pore.pressure"
-  std::optional<Point> at;   ///< m
-  std::string fracture;      ///< name
-  std::string region;        ///< name
+  std::string of;           ///< a field, "pore.pressure"
+  std::optional<Point> at;  ///< m
+  std::string fracture;     ///< name
+  std::string region;       ///< name
   std::string take = "value";
   Spec spec();
 };
 
 /// Linear in the field, or an extreme. At a point of the matrix: the value there of the linear function that fits the
-/// cells around it (least squares; exact for linear fields); on a fracture: that of the nearest cell. Over a fracture or
-/// region: the mean, integral, smallest or largest value.
+/// cells around it (least squares; exact for linear fields); on a fracture: that of the nearest cell. Over a fracture
+/// or region: the mean, integral, smallest or largest value.
 class Probe {
  public:
   /// Throws InputError for unknown fields, fractures, regions, and points outside of the mesh.
@@ -32,6 +32,7 @@ class Probe {
   void measure(std::vector<Quantity>& quantities) const;
 
  private:
+  void check_names(const Mesh& mesh, const ProbeOptions& options) const;
   void weigh_point(const Mesh& mesh, const ProbeOptions& options);
   void weigh_domain(const Mesh& mesh, const ProbeOptions& options);
 

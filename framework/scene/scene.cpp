@@ -1,8 +1,11 @@
 #include "framework/scene/scene.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <set>
 
+#include "framework/config/units.hpp"
 #include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/geometry_spec.hpp"
 #include "framework/schedule/schedule_context.hpp"
@@ -13,7 +16,9 @@ namespace sprekk {
 Spec OutputOptions::spec() {
   Spec spec("output", "What is written, and when.");
   spec.quantity("every", every,
-                {.unit = "s", .range = positive(), .doc = "Fields are written at the multiples of this after the start; by default at the end only."});
+                {.unit = "s",
+                 .range = positive(),
+                 .doc = "Fields are written at the multiples of this after the start; by default at the end only."});
   spec.quantities("times", times, {.unit = "s", .doc = "Further times at which fields are written."});
   spec.flag("fields", fields, {.doc = "Whether fields are written for ParaView."});
   spec.quantity("checkpoint_every", checkpoint_every,
@@ -30,19 +35,21 @@ Spec OutputOptions::spec() {
 
 namespace {
 
-const std::vector<std::string> section_names = {"name",       "geometry", "mesh",   "materials", "components", "couplers",
-                                                "schedule",   "time",     "output", "solver",    "newton"};
+const std::vector<std::string> section_names = {"name",     "geometry", "mesh",   "materials", "components", "couplers",
+                                                "schedule", "time",     "output", "solver",    "newton"};
 
 void check_sections(const Node& whole) {
   if (!whole.is_map())
-    throw InputError(whole.origin, "the scene is not a map", "a scene has sections such as 'geometry:' and 'components:'");
+    throw InputError(whole.origin, "the scene is not a map",
+                     "a scene has sections such as 'geometry:' and 'components:'");
   for (const Node::Entry& entry : whole.entries)
     if (std::find(section_names.begin(), section_names.end(), entry.key) == section_names.end())
       throw unknown_name(entry.origin, "section of a scene", entry.key, section_names);
-  for (const char* needed : {"geometry", "components", "schedule", "time"})
+  for (const std::string needed : {"geometry", "components", "schedule", "time"})
     if (!whole.find(needed))
-      throw InputError(whole.origin, std::string("the section '") + needed + "' is missing", "a scene needs it",
-                       "see 'sprekk explain " + std::string(needed) + "'");
+      throw InputError(
+          whole.origin, "the section '" + needed + "' is missing", "a scene needs it",
+          needed == "components" || needed == "schedule" ? "see 'sprekk list'" : "see 'sprekk explain " + needed + "'");
 }
 
 /// What `materials:` may hold: every parameter of a registered type that is declared as a material's.
@@ -74,15 +81,62 @@ std::string type_of(const Node& node, const std::string& what) {
   return type->scalar;
 }
 
+/// Names become parts of the names of fields, "pore.pressure", of columns and of files.
+void check_name(const Node::Entry& entry) {
+  const auto is_allowed = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+  if (!std::all_of(entry.key.begin(), entry.key.end(), is_allowed))
+    throw InputError(entry.origin, "component " + quoted(entry.key) + " cannot be called this",
+                     "names are made of letters, digits, '_' and '-'", "choose another name");
+}
+
 void read_components(Scene& scene, const ReadContext& read) {
   const Node& components = *scene.whole.find("components");
   if (!components.is_map() || components.entries.empty())
     throw InputError(components.origin, "there are no components", "they hold the physics", "see 'sprekk list'");
   for (const Node::Entry& entry : components.entries) {
+    check_name(entry);
     const std::string type = type_of(entry.value, "component '" + entry.key + "'");
-    const ComponentType& registered = Registry::instance().component(type, entry.value.find("type")->origin);
+    const Node& type_node = *entry.value.find("type");
+    const ComponentType& registered = Registry::instance().component(type, type_node.origin);
+    read.record(type_node.path, yaml_scalar(type), type_node.origin.text());
     scene.components.push_back({entry.key, type, entry.origin, registered.read(entry.value, read)});
   }
+}
+
+std::vector<std::string> component_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Scene::ComponentEntry& component : scene.components) names.push_back(component.name);
+  return names;
+}
+
+std::vector<std::string> read_between(const Node& coupler, const std::string& type,
+                                      const std::vector<std::string>& components) {
+  const Node* between = coupler.find("between");
+  if (!between || !between->is_list() || between->items.empty())
+    throw InputError(between ? between->origin : coupler.origin, "coupler " + type + " does not say what it couples",
+                     "'between' lists the names of components", "write 'between: [a, b]'");
+  std::vector<std::string> names;
+  for (const Node& name : between->items) {
+    if (!name.is_scalar())
+      throw InputError(name.origin, quoted(name.text()) + " is not the name of a component",
+                       "'between' lists names: " + listed(components), "write 'between: [a, b]'");
+    if (std::find(components.begin(), components.end(), name.scalar) == components.end())
+      throw unknown_name(name.origin, "component", name.scalar, components);
+    if (std::find(names.begin(), names.end(), name.scalar) != names.end())
+      throw InputError(name.origin, "coupler " + type + " names component " + quoted(name.scalar) + " twice",
+                       "it joins different components", "remove one of them");
+    names.push_back(name.scalar);
+  }
+  return names;
+}
+
+/// The same terms would count twice.
+void check_is_first(const Scene& scene, const Scene::CouplerEntry& entry) {
+  const std::set<std::string> joined(entry.between.begin(), entry.between.end());
+  for (const Scene::CouplerEntry& other : scene.couplers)
+    if (other.type == entry.type && std::set<std::string>(other.between.begin(), other.between.end()) == joined)
+      throw InputError(entry.origin, "coupler " + entry.type + " joins the same components a second time",
+                       "the first is at " + other.origin.text(), "remove one of them");
 }
 
 void read_couplers(Scene& scene, const ReadContext& read) {
@@ -91,38 +145,67 @@ void read_couplers(Scene& scene, const ReadContext& read) {
   if (!couplers->is_list())
     throw InputError(couplers->origin, "'couplers' is not a list", "each coupler is an item",
                      "write '- {type: …, between: […]}'");
-  std::vector<std::string> names;
-  for (const Scene::ComponentEntry& component : scene.components) names.push_back(component.name);
   for (const Node& item : couplers->items) {
     const std::string type = type_of(item, "a coupler");
-    const CouplerType& registered = Registry::instance().coupler(type, item.find("type")->origin);
-    Scene::CouplerEntry entry{type, type, item.origin, {}, {}};
+    const Node& type_node = *item.find("type");
+    const CouplerType& registered = Registry::instance().coupler(type, type_node.origin);
+    Scene::CouplerEntry entry{type, type, item.origin, read_between(item, type, component_names(scene)), {}};
+    check_is_first(scene, entry);
     const auto same = std::count_if(scene.couplers.begin(), scene.couplers.end(),
                                     [&](const Scene::CouplerEntry& other) { return other.type == type; });
     if (same > 0) entry.name += "#" + std::to_string(same + 1);
-    const Node* between = item.find("between");
-    if (!between || !between->is_list() || between->items.empty())
-      throw InputError(item.origin, "coupler " + type + " does not say what it couples",
-                       "'between' lists the names of components", "write 'between: [a, b]'");
-    for (const Node& name : between->items) {
-      if (std::find(names.begin(), names.end(), name.scalar) == names.end())
-        throw unknown_name(name.origin, "component", name.scalar, names);
-      entry.between.push_back(name.scalar);
-    }
+    read.record(type_node.path, yaml_scalar(type), type_node.origin.text());
+    read.record(item.find("between")->path, item.find("between")->text(), item.find("between")->origin.text());
     entry.build = registered.read(item, read);
     scene.couplers.push_back(std::move(entry));
   }
 }
 
+void read_name(Scene& scene, const std::string& default_name, const ReadContext& read) {
+  const Node* name = scene.whole.find("name");
+  scene.name = name ? name->scalar : default_name;
+  if (name && (!name->is_scalar() || name->scalar.empty()))
+    throw InputError(name->origin, "the name of the scene is not a text", "results are found by it",
+                     "write 'name: a_name'");
+  read.record("name", yaml_scalar(scene.name), name ? name->origin.text() : "default");
+}
+
+/// A section that the scene does not have is read as well: so its defaults are known, and what it requires is missed.
+Node section(const Node& whole, const std::string& key) {
+  if (const Node* node = whole.find(key)) return *node;
+  Node empty;
+  empty.kind = Node::Kind::map;
+  empty.origin = whole.origin;
+  empty.path = key;
+  return empty;
+}
+
+void check_output(const Scene& scene) {
+  constexpr double most_outputs = 1e6;
+  if (!scene.output.every) return;
+  const double count = (scene.time.end - scene.time.start) / *scene.output.every;
+  if (count > most_outputs)
+    throw InputError(scene.whole.find("output")->find("every")->origin, "fields would be written too often",
+                     "about " + quantity_text(std::round(count), "") + " times", "raise 'every'");
+}
+
+void note_unused_materials(Scene& scene, const std::set<std::string>& used) {
+  const Node* materials = scene.whole.find("materials");
+  if (!materials) return;
+  for (const Node::Entry& entry : materials->entries)
+    if (used.count(entry.key) == 0)
+      scene.notes.push_back(entry.origin.text() + ": no component of this scene uses " + quoted(entry.key));
+}
+
 }  // namespace
 
-Scene read_scene(const Node& whole, const std::string& folder) {
+Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name) {
   check_sections(whole);
+  check_materials(whole.find("materials"));
   Scene scene;
   scene.whole = whole;
-  const Node* name = whole.find("name");
-  scene.name = name && name->is_scalar() && !name->scalar.empty() ? name->scalar : "scene";
 
+  std::set<std::string> materials_used;
   ReadContext read;
   read.folder = folder;
   read.materials = whole.find("materials");
@@ -130,22 +213,23 @@ Scene read_scene(const Node& whole, const std::string& folder) {
   read.record = [&scene](const std::string& path, const std::string& value, const std::string& origin) {
     scene.resolved.push_back({path, value, origin});
   };
-  check_materials(whole.find("materials"));
-  const auto read_section = [&](const char* key, const Spec& spec) {
-    if (const Node* node = whole.find(key)) spec.read(*node, read);
-  };
+  read.material_used = [&materials_used](const std::string& key) { materials_used.insert(key); };
+  const auto read_section = [&](const char* key, const Spec& spec) { spec.read(section(whole, key), read); };
+  read_name(scene, default_name, read);
   read_section("geometry", geometry_spec(scene.geometry, folder));
   read_section("mesh", mesh_spec(scene.mesh));
-  if (const Node* mesh = whole.find("mesh")) scene.mesh.origin = mesh->origin;
   validate_geometry(scene.geometry, scene.mesh);
   read_section("time", scene.time.spec());
   read_section("output", scene.output.spec());
+  check_output(scene);
   read_section("solver", solver_spec(scene.linear));
   read_section("newton", newton_spec(scene.newton));
 
   read.region_names = mesh_names(scene.geometry).regions;
   read_components(scene, read);
   read_couplers(scene, read);
+  scene.schedule = read_schedule(*whole.find("schedule"), {component_names(scene), scene.linear, scene.newton, read});
+  note_unused_materials(scene, materials_used);
   return scene;
 }
 

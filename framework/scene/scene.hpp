@@ -7,16 +7,17 @@
 
 #include "framework/config/spec.hpp"
 #include "framework/mesh/geometry.hpp"
-#include "framework/schedule/newton.hpp"
-#include "framework/schedule/step_controller.hpp"
 #include "framework/scene/probe.hpp"
 #include "framework/scene/registry.hpp"
+#include "framework/schedule/newton.hpp"
+#include "framework/schedule/schedule_context.hpp"
+#include "framework/schedule/step_controller.hpp"
 
 namespace sprekk {
 
 struct OutputOptions {
-  std::optional<double> every;   ///< s
-  std::vector<double> times;     ///< s
+  std::optional<double> every;  ///< s
+  std::vector<double> times;    ///< s
   bool fields = true;
   std::optional<double> checkpoint_every;  ///< s of wall time
   std::map<std::string, ProbeOptions> probes;
@@ -46,17 +47,20 @@ struct Scene {
   MeshOptions mesh;
   std::vector<ComponentEntry> components;
   std::vector<CouplerEntry> couplers;
+  ScheduleBuilder schedule;
   TimeOptions time;
   OutputOptions output;
   NewtonOptions newton;
   LinearOptions linear;
   std::vector<Resolved> resolved;
+  std::vector<std::string> notes;  ///< what is not wrong but may not be meant
 
-  const Node& schedule() const { return *whole.find("schedule"); }
+  const Origin& schedule_origin() const { return whole.find("schedule")->origin; }
 };
 
-/// Reads the tree of a scene. Throws InputError for anything that can be known to be wrong before there is a mesh.
-Scene read_scene(const Node& whole, const std::string& folder);
+/// Reads the tree of a scene; tables are looked for in `folder`, and `default_name` names a scene that does not name
+/// itself. Throws InputError for anything that can be known to be wrong before there is a mesh.
+Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name = "scene");
 
 /// The specs of a scene's sections, by key, with their defaults; for `explain` and the schema.
 std::vector<Spec> scene_section_specs();

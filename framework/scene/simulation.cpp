@@ -6,12 +6,12 @@
 #include <cmath>
 #include <iostream>
 
+#include "framework/mesh/mesh_quality.hpp"
 #include "framework/output/checkpoint.hpp"
 #include "framework/output/mesh_record.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
-#include "framework/mesh/mesh_quality.hpp"
 #include "framework/scene/interrupt.hpp"
 #include "framework/scene/run_output.hpp"
 
@@ -103,9 +103,10 @@ void Run::restore() {
   const Checkpoint checkpoint = read_checkpoint(*options_.checkpoint);
   require_scene(checkpoint, *options_.checkpoint, model_.scene().name, fingerprint_);
   if (!is_same_mesh(checkpoint.mesh, model_.mesh()))
-    throw InputError("the mesh in " + options_.checkpoint->string() +
-                     " is not the one that the scene makes now (another version of the mesh generator, or another number "
-                     "of processes) start the run anew");
+    throw InputError(
+        "the mesh in " + options_.checkpoint->string() +
+        " is not the one that the scene makes now (another version of the mesh generator, or another number "
+        "of processes) start the run anew");
   restore_fields(checkpoint, *options_.checkpoint, model_.fields());
   controller_.restore(checkpoint.clock.time, checkpoint.clock.step, checkpoint.clock.next_step);
   restored_steps_ = checkpoint.clock.step;
@@ -119,8 +120,9 @@ void Run::record_start() {
   const BlasInfo blas = blas_in_use();
   record_.blas = blas.name;
   if (blas.is_reference)
-    record_.warnings.push_back("the reference BLAS is in use, which makes sparse factorizations several times slower: "
-                               "install libopenblas0-pthread");
+    record_.warnings.push_back(
+        "the reference BLAS is in use, which makes sparse factorizations several times slower: "
+        "install libopenblas0-pthread");
   record_.processes = parallel::size();
   const MeshQuality quality = mesh_quality(model_.mesh());
   record_.counters["mesh: cells"] = quality.cells;
@@ -141,9 +143,14 @@ bool Run::advance() {
   for (;;) {
     const StepTime step = controller_.next();
     StepStatus status;
-    {
+    try {
       const ScopedTimer timer(profile_, "steps");
       status = model_.attempt(step);
+    } catch (const DataError& error) {
+      model_.rewind();
+      reason_ = fmt::format("the step from {} over {} has no data: {}", duration_text(step.start),
+                            duration_text(step.dt), error.what());
+      return false;
     }
     newton_iterations_ += status.iterations;
     if (status.converged) {
@@ -230,7 +237,8 @@ void Run::finish(ExitCode code) {
   if (options_.quiet) return;
   std::cerr << profile_.table(record_.seconds) << "\n";
   for (const std::string& warning : record_.warnings) std::cerr << "warning: " << warning << "\n";
-  if (code != ExitCode::done) std::cerr << reason_ << "\nthe checkpoint is " << output_.checkpoint_path().string() << "\n";
+  if (code != ExitCode::done)
+    std::cerr << reason_ << "\nthe checkpoint is " << output_.checkpoint_path().string() << "\n";
   std::cout << "results: " << output_.path().string() << "\n";
 }
 

@@ -14,8 +14,7 @@ namespace sprekk {
 std::vector<Field*> ScheduleContext::solved_fields(const std::vector<std::string>& components) const {
   std::vector<Field*> solved;
   for (const auto& field : fields.all())
-    if (field->is_solved() &&
-        std::find(components.begin(), components.end(), field->spec().owner) != components.end())
+    if (field->is_solved() && std::find(components.begin(), components.end(), field->spec().owner) != components.end())
       solved.push_back(field.get());
   return solved;
 }
@@ -31,7 +30,8 @@ void check_components(const std::vector<std::string>& names, const Node& node, c
     const std::vector<std::string>& known = reading.component_names;
     if (std::find(known.begin(), known.end(), names[i]) == known.end())
       throw unknown_name(where, "component", names[i], known);
-    if (std::find(names.begin(), names.begin() + static_cast<long>(i), names[i]) != names.begin() + static_cast<long>(i))
+    if (std::find(names.begin(), names.begin() + static_cast<long>(i), names[i]) !=
+        names.begin() + static_cast<long>(i))
       throw InputError(where, "component " + quoted(names[i]) + " stands twice in one 'solve'",
                        "a step solves for its unknowns once", "remove one of them");
   }

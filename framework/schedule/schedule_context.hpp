@@ -31,8 +31,8 @@ struct ScheduleReading {
 };
 using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;
 
-/// Reads the steps of a `schedule:` (a list of steps, run one after the other; one step needs no list). Throws InputError
-/// for unknown steps and components; what it returns, for a stabilization that no part offers.
+/// Reads the steps of a `schedule:` (a list of steps, run one after the other; one step needs no list). Throws
+/// InputError for unknown steps and components; what it returns, for a stabilization that no part offers.
 ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading);
 
 /// A kind of step, known by its key in the scene.

@@ -12,15 +12,17 @@ Spec TimeOptions::spec() {
   spec.quantity("end", end, {.unit = "s", .doc = "End of the run.", .required = true});
   spec.quantity("step", step,
                 {.unit = "s", .range = positive(), .doc = "Time step; the first one when adaptive.", .required = true});
-  spec.quantity("smallest", smallest,
-                {.unit = "s", .range = positive(), .doc = "A rejected step is not cut below this; by default step/1e6."});
+  spec.quantity(
+      "smallest", smallest,
+      {.unit = "s", .range = positive(), .doc = "A rejected step is not cut below this; by default step/1e6."});
   Spec changing("adaptive", "Steps that follow the effort of the solver.");
   changing.quantity("largest", largest, {.unit = "s", .range = positive(), .doc = "Largest step.", .required = true});
   changing.quantity("grow", grow, {.range = {.low = 1, .low_allowed = false}, .doc = "Factor of growing steps."});
   changing.quantity("shrink", shrink, {.range = strictly_between(0, 1), .doc = "Factor of shrinking steps."});
-  changing.integer("iterations", iterations,
-                   {.range = between(1, 1000),
-                    .doc = "Steps grow while no more than half of these iterations are needed, and shrink beyond them."});
+  changing.integer(
+      "iterations", iterations,
+      {.range = between(1, 1000),
+       .doc = "Steps grow while no more than half of these iterations are needed, and shrink beyond them."});
   spec.section("adaptive", changing, {.doc = "Steps that follow the effort of the solver; else they are constant."},
                &adaptive);
   spec.check([this](const Node& node) {

@@ -35,11 +35,12 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                            .location = Location::fracture_cell,
                                            .unit = "Pa",
                                            .doc = "Fluid pressure in the fractures"})),
-      flux_(context.fields.add(mesh_, {.owner = context.name,
-                                       .name = "flux",
-                                       .location = Location::fracture_point,
-                                       .unit = "m^2/s",
-                                       .doc = "Flux along the fractures, from the first to the second cell of a point"})),
+      flux_(
+          context.fields.add(mesh_, {.owner = context.name,
+                                     .name = "flux",
+                                     .location = Location::fracture_point,
+                                     .unit = "m^2/s",
+                                     .doc = "Flux along the fractures, from the first to the second cell of a point"})),
       aperture_(context.fields.add(mesh_, {.owner = context.name,
                                            .name = "aperture",
                                            .location = Location::fracture_cell,
@@ -130,8 +131,8 @@ void FractureFlow::make_links(const StepTime& step) {
       link.boundary_pressure = value_in_step(found->second, {point.position, region, 0}, step);
     }
     if (!options_.gravity.is_zero())
-      link.gravity = options_.fluid_density * options_.gravity.at({point.position, 0, 0})
-                                                  .dot(mesh_.fracture_cells[link.first].center - other);
+      link.gravity = options_.fluid_density *
+                     options_.gravity.at({point.position, 0, 0}).dot(mesh_.fracture_cells[link.first].center - other);
     links_.push_back(link);
   }
 }
@@ -159,7 +160,8 @@ void FractureFlow::prescribe(const StepTime& step) {
     for (const int cell : cells_at(mesh_, given.where)) {
       const FractureCell& at = mesh_.fracture_cells[cell];
       const double storage = at.length * initial_aperture_[cell] * compressibility_[cell];
-      prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(mesh_, cell), 0}, step), storage > 0 ? storage : at.length});
+      prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(mesh_, cell), 0}, step),
+                             storage > 0 ? storage : at.length});
     }
 }
 
@@ -246,7 +248,8 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
 void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(flux_)) return;
   const int points = flux_.size(), count = mesh_.fracture_cell_count();
-  // Each row is divided by its conductance plus that of a cell's storage, and so is well scaled from sealed to wide open.
+  // Each row is divided by its conductance plus that of a cell's storage, and so is well scaled from sealed to wide
+  // open.
   const auto storage_conductance = [&](int cell) {
     return mesh_.fracture_cells[cell].length * initial_aperture_[cell] * compressibility_[cell] / step.dt;
   };
@@ -328,7 +331,8 @@ void FractureFlow::relate_levels(Levels& levels) const {
   const bool has_open_end =
       std::any_of(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; });
   if (has_open_end || !prescribed_.empty() || compressibility_.maxCoeff() > 0) return;
-  levels.floats(pressure_, origin_, "the fluid is incompressible and no pressure is given: any constant may be added to it",
+  levels.floats(pressure_, origin_,
+                "the fluid is incompressible and no pressure is given: any constant may be added to it",
                 "give a compressibility, or a pressure under 'prescribed' or 'boundary'");
 }
 

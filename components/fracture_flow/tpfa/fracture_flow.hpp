@@ -12,11 +12,11 @@
 
 namespace sprekk::fracture_flow {
 
-/// Unknowns: the pressure p of every fracture cell, and the flux Q through every point between them, from its first to its
-/// second cell (m^2/s). Each row of p balances the volume of fluid of one cell over the step (m^2):
+/// Unknowns: the pressure p of every fracture cell, and the flux Q through every point between them, from its first to
+/// its second cell (m^2/s). Each row of p balances the volume of fluid of one cell over the step (m^2):
 ///   L (a − a_old) + L a c_p (p − p_old) + dt (sum of Q out of it) − dt q = 0,
-/// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series. Keeping Q lets a
-/// fracture conduct 1e12 times better than rock does without loss of digits: Q is not a difference of nearly equal
+/// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series. Keeping Q lets
+/// a fracture conduct 1e12 times better than rock does without loss of digits: Q is not a difference of nearly equal
 /// pressures, and what leaves one cell enters the next to the bit.
 class FractureFlow : public Component, public FractureFluid {
  public:
