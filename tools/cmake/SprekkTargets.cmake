@@ -30,6 +30,18 @@ function(sprekk_plugins name folder)
   endif()
 endfunction()
 
+# sprekk_program(name folders…): the command line with all components and couplers, and with those in further folders, which
+# are structured like this tree.
+function(sprekk_program name)
+  add_executable(${name} ${CMAKE_SOURCE_DIR}/tools/sprekk/main.cpp)
+  target_link_libraries(${name} PRIVATE sprekk_command_line sprekk_components sprekk_couplers)
+  foreach(folder ${ARGN})
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+    target_sources(${name} PRIVATE ${sources})
+    target_include_directories(${name} PRIVATE ${folder})
+  endforeach()
+endfunction()
+
 # sprekk_tests(folder libraries…): one test program of all sources in `folder`, run as its single tests by ctest.
 function(sprekk_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
