@@ -1,9 +1,10 @@
 #include "components/poromechanics/rock.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "framework/config/units.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -86,7 +87,7 @@ std::vector<Stiffness> Rock::stiffness(const Origin& where) {
       if (eigenvalues[0] <= 0)
         throw InputError(
             where, "the stiffness of component '" + name() + "' is not positive definite",
-            "the rock would give way by itself; its smallest eigenvalue is " + quantity_text(eigenvalues[0], "Pa"),
+            "the rock would give way by itself; its smallest eigenvalue is " + fmt::format("{:.3g} Pa", eigenvalues[0]),
             "raise its diagonal entries, or lower the others");
       if (options_.bulk_modulus) bulk_modulus_[c] = options_.bulk_modulus->at(place);
     } else {

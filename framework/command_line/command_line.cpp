@@ -1,6 +1,7 @@
 #include "framework/command_line/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 
 #include "framework/command_line/explain_command.hpp"
@@ -47,6 +48,16 @@ std::filesystem::path find_checkpoint(const std::string& given, const std::strin
   return std::filesystem::path("results") / scene.name / "checkpoint.h5";
 }
 
+/// A misspelt command would otherwise be taken for a missing one.
+void require_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) == names.end())
+    throw unknown_name({"sprekk", 0, 0}, "command", argv[1], names);
+}
+
 /// Every process has met the same wrong input, or only the first one a folder that cannot be written.
 int answer_wrong_input(const InputError& error) {
   if (parallel::is_root()) std::cerr << "error: " << error.what() << "\n";
@@ -89,6 +100,11 @@ int run_command_line(int argc, char** argv) {
   CLI::App* reference_command = app.add_subcommand("reference", "Writes the reference pages");
   reference_command->add_option("folder", reference_folder, "Where to")->required();
 
+  try {
+    require_command(app, argc, argv);
+  } catch (const InputError& error) {
+    return answer_wrong_input(error);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -63,12 +63,23 @@ bool is_quantity(const std::string& text) {
   return std::string("+-*/^<>=!&|?),").find(text[next]) == std::string::npos;
 }
 
+/// "1,5 mPa*s": a number with a comma where the point belongs.
+bool has_decimal_comma(const std::string& text) {
+  const std::optional<LeadingNumber> number = leading_number(text);
+  if (!number || number->length + 1 >= text.size() || text[number->length] != ',') return false;
+  return std::isdigit(static_cast<unsigned char>(text[number->length + 1])) != 0;
+}
+
 }  // namespace
 
 Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name) {
   const std::string content = trimmed(text);
   if (content.empty()) throw InputError(where, (name.empty() ? "the datum" : quoted(name)) + " is empty");
   if (is_quantity(content)) return parse_quantity(content, unit, where, name);
+  if (has_decimal_comma(content)) {
+    throw InputError(where, quoted(text) + (name.empty() ? "" : " for " + quoted(name)) + " has a decimal comma", "",
+                     "write decimals with a point");
+  }
   const Split split = split_off_unit(content);
   if (split.unit.empty()) return parse_expression(split.expression, 1, where);
   const double scale = scale_to_si(split.unit, unit, content, where, name);

@@ -226,7 +226,10 @@ Spec& Spec::texts(const std::string& name, std::vector<std::string>& target, Abo
                std::vector<std::string> texts;
                if (node.is_scalar()) texts.push_back(node.scalar);
                if (!node.is_scalar() && !node.is_list()) throw wrong_kind(node, name, "one name or a list of names");
-               for (const Node& item : node.items) texts.push_back(read_scalar(item, name));
+               for (const Node& item : node.items) {
+                 if (!item.is_scalar()) throw wrong_kind(item, name, "one name or a list of names");
+                 texts.push_back(item.scalar);
+               }
                target = std::move(texts);
              });
 }

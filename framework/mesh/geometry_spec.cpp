@@ -36,8 +36,7 @@ Spec box_spec(const std::shared_ptr<BoxInput>& input, Box& box) {
 struct FractureInput {
   std::vector<Point> points;
   std::optional<Point> center;
-  std::optional<double> length, size;
-  double angle = 0;
+  std::optional<double> length, size, angle;
 };
 
 /// `keep` receives the fracture once it is read.
@@ -50,13 +49,13 @@ Spec fracture_spec(const std::string& name, const Origin& origin, std::function<
   spec.quantity("length", input->length,
                 {.unit = "m", .range = positive(), .doc = "The length of a straight fracture."});
   spec.quantity("angle", input->angle,
-                {.unit = "rad", .doc = "The direction of a straight fracture, counter-clockwise from the x axis."});
+                {.unit = "rad", .doc = "The direction of a straight fracture, counter-clockwise from the x axis; by default 0."});
   spec.quantity("size", input->size,
                 {.unit = "m", .range = positive(), .doc = "The length of its cells; else the mesh's fracture_size."});
   spec.check([input, name, origin, keep = std::move(keep)](const Node& whole) {
     FractureGeometry fracture{name, input->points, input->size, origin};
     const bool has_points = whole.find("points"), has_center = input->center.has_value();
-    const bool has_line = has_center || input->length || whole.find("angle");
+    const bool has_line = has_center || input->length || input->angle;
     if (has_points && has_line) {
       throw InputError(whole.origin, "fracture '" + name + "' is given twice",
                        "it has points and also center, length or angle", "keep one of the two");
@@ -67,7 +66,8 @@ Spec fracture_spec(const std::string& name, const Origin& origin, std::function<
                        "write points: [[x, y], [x, y]] or center: [x, y], length: …, angle: …");
     }
     if (has_center) {
-      const Point half = 0.5 * *input->length * Point(std::cos(input->angle), std::sin(input->angle));
+      const double angle = input->angle.value_or(0);
+      const Point half = 0.5 * *input->length * Point(std::cos(angle), std::sin(angle));
       fracture.points = {*input->center - half, *input->center + half};
     }
     keep(std::move(fracture));
@@ -107,7 +107,7 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
       {.doc =
            "Polygons that the mesh conforms to, by name; the rest is called rock, and later ones cover earlier ones."});
   spec.check([&geometry, folder](const Node& whole) {
-    const bool has_box = whole.find("box"), has_file = whole.find("file");
+    const bool has_box = whole.find("box"), has_file = geometry.is_imported();
     if (has_box == has_file) {
       throw InputError(whole.origin,
                        has_box ? "the geometry has a box and a file" : "the geometry has neither box nor file",

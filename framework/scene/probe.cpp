@@ -1,11 +1,10 @@
 #include "framework/scene/probe.hpp"
 
-#include <Eigen/Dense>
-#include <algorithm>
-#include <set>
+#include <fmt/format.h>
 
-#include "framework/config/units.hpp"
-#include "framework/mesh/point_location.hpp"
+#include <algorithm>
+
+#include "framework/mesh/linear_fit.hpp"
 
 namespace sprekk {
 
@@ -86,29 +85,16 @@ void Probe::weigh_point(const Mesh& mesh, const ProbeOptions& options) {
     const double away = (mesh.fracture_cells[best].center - *options.at).norm();
     if (away > mesh.fracture_cells[best].length)
       throw InputError(options.origin, "probe '" + name_ + "' lies away from the fractures",
-                       "the nearest fracture cell is " + quantity_text(away, "m") + " away and only " +
-                           quantity_text(mesh.fracture_cells[best].length, "m") + " long",
+                       "the nearest fracture cell is " + fmt::format("{:.3g} m", away) + " away and only " +
+                           fmt::format("{:.3g} m", mesh.fracture_cells[best].length) + " long",
                        "choose a point on a fracture");
     weights_ = {{best, 1.0}};
     return;
   }
-  const int home = PointLocation(mesh).cell_at(*options.at);
-  if (home == none)
+  weights_ = linear_fit(mesh, *options.at);
+  if (weights_.empty())
     throw InputError(options.origin, "probe '" + name_ + "' lies outside the rock", "there is no cell at its position",
                      "move it inside");
-  std::set<int> around;
-  for (const int node : mesh.cell_nodes[home])
-    for (const int cell : mesh.node_cells[node]) around.insert(cell);
-  const std::vector<int> cells(around.begin(), around.end());
-  // Minimizes sum (a + b·(x − x_p) − value)^2; the weights are the first row of the pseudo-inverse.
-  Eigen::MatrixXd basis(cells.size(), 3);
-  const double scale = std::sqrt(mesh.cell_area[home]);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Point offset = (mesh.cell_center[cells[i]] - *options.at) / scale;
-    basis.row(i) << 1, offset[0], offset[1];
-  }
-  const Eigen::MatrixXd inverse = basis.completeOrthogonalDecomposition().pseudoInverse();
-  for (std::size_t i = 0; i < cells.size(); ++i) weights_.emplace_back(cells[i], inverse(0, i));
 }
 
 void Probe::weigh_domain(const Mesh& mesh, const ProbeOptions& options) {

@@ -1,8 +1,9 @@
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
-#include "framework/config/units.hpp"
 #include "framework/mesh/point_location.hpp"
 
 namespace sprekk::fracture_flow {
@@ -103,8 +104,8 @@ void FractureFlow::check_names() const {
     const double away = (cell.center - *where.at).norm();
     if (away > cell.length)
       throw InputError(where.origin, "there is no fracture at this place",
-                       "the nearest cell is " + quantity_text(away, "m") + " away and only " +
-                           quantity_text(cell.length, "m") + " long",
+                       "the nearest cell is " + fmt::format("{:.3g} m", away) + " away and only " +
+                           fmt::format("{:.3g} m", cell.length) + " long",
                        "choose a point on a fracture");
   };
   for (const auto& [name, injection] : options_.injections) check(injection.where);
