@@ -4,7 +4,7 @@
 
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_sums.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/linear_fit.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {
@@ -46,6 +46,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                              .role = Role::input,
                                              .unit = "m/s",
                                              .doc = "Flux from the fracture into the matrix (lambda of Eq. 9)"});
+  place_wells();
   check_sides();
   initial_pressure_ = evaluate_on_cells(mesh_, options_.initial_pressure, context.start_time);
   pressure_.set_both(initial_pressure_);
@@ -73,17 +74,21 @@ void MatrixFlow::check_sides() const {
   for (const auto& [side, condition] : options_.boundary)
     if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
       throw unknown_name(condition.origin, "side of the boundary", side, mesh_.side_names);
-  const PointLocation location(mesh_);
   for (const auto& [name, well] : options_.wells)
-    if (location.cell_at(well.at) == none)
+    if (well_cells_.at(name).empty())
       throw InputError(well.origin, "well '" + name + "' lies outside the rock", "there is no cell at its position",
                        "move it inside");
+}
+
+void MatrixFlow::place_wells() {
+  for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at);
 }
 
 void MatrixFlow::discretize() {
   if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
   discretized_version_ = mesh_.version;
   ++discretizations_;
+  place_wells();
   conditions_.assign(mesh_.face_count(), FlowCondition::none);
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) continue;
@@ -144,10 +149,10 @@ void MatrixFlow::evaluate_sources(const StepTime& step) {
     for (int c = 0; c < mesh_.cell_count(); ++c)
       source_[c] =
           mesh_.cell_area[c] * value_in_step(options_.source, {mesh_.cell_center[c], mesh_.cell_region[c], 0}, step);
-  if (options_.wells.empty()) return;
-  const PointLocation location(mesh_);
-  for (const auto& [name, well] : options_.wells)
-    source_[location.cell_at(well.at)] += value_in_step(well.rate, {well.at, 0, 0}, step);
+  for (const auto& [name, well] : options_.wells) {
+    const double rate = value_in_step(well.rate, {well.at, 0, 0}, step);
+    for (const auto& [cell, weight] : well_cells_.at(name)) source_[cell] += weight * rate;
+  }
 }
 
 void MatrixFlow::begin_step(const StepTime& step) {

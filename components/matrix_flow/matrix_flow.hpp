@@ -73,6 +73,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
 
  private:
   void check_sides() const;
+  /// Spreads each well over the cells around it such that its total and its position are kept.
+  void place_wells();
   void discretize();
   void evaluate_sources(const StepTime& step);
   void apply_boundary();
@@ -91,6 +93,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   long discretizations_ = 0;
   FluxOperators operators_;
   std::vector<FlowCondition> conditions_;
+  std::map<std::string, std::vector<std::pair<int, double>>> well_cells_;  ///< cells and weights by well
   SparseMatrix outflow_of_pressure_;   ///< cells × cells: sum of fluxes out of each cell
   SparseMatrix outflow_of_wall_flux_;  ///< cells × walls
   Vector boundary_values_;             ///< one a face, see FluxOperators

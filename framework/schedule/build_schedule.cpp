@@ -1,7 +1,6 @@
 // From the `schedule:` of a scene to what builds its tree of steps.
 #include <algorithm>
 
-#include "framework/config/units.hpp"
 #include "framework/schedule/iterate_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/sequence_step.hpp"
@@ -45,22 +44,31 @@ ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
   options.stabilization_origin = stabilize ? stabilize->origin : node.origin;
   options.spec().read(node, reading.read);
   check_components(options.components, node, reading);
+  if (options.stabilization != "none" && !reading.is_iterated)
+    throw InputError(options.stabilization_origin, "'stabilize' stands outside of an 'iterate'",
+                     "it adds a term to the balance that only iterating removes", "put the steps into an 'iterate'");
   return [options](const ScheduleContext& context) { return std::make_unique<SolveStep>(options, context); };
 }
 
-/// The options of a step that has steps inside, and these steps.
+/// The options of a step that has steps inside, and these steps; `adapt` may change what they are read with.
 template <class Options>
-ScheduleBuilder read_inside(const Node& node, Options& options, const ScheduleReading& reading) {
+ScheduleBuilder read_inside(const Node& node, Options& options, ScheduleReading reading,
+                            const std::function<void(ScheduleReading&)>& adapt = {}) {
   Spec spec = options.spec();
   const Node* inside = nullptr;
   spec.custom("steps", [&](const Node& value) { inside = &value; }, {.doc = "The steps inside.", .required = true});
   spec.read(node, reading.read);
+  if (adapt) adapt(reading);
   return read_schedule(*inside, reading);
 }
 
 ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   IterateOptions options;
-  const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading);
+  const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading, [&](ScheduleReading& inner) {
+    inner.is_iterated = true;
+    // What is iterated must be solved more tightly than the iteration asks for, or it would stall.
+    inner.newton.residual = std::min(inner.newton.residual, 0.1 * options.relative);
+  });
   return [options, inside](const ScheduleContext& context) {
     return std::make_unique<IterateStep>(options, inside(context), context);
   };

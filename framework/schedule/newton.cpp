@@ -66,7 +66,8 @@ double Newton::relative_size(const Vector& update) const {
     const Field& field = *unknowns_[u];
     if (field.size() == 0) continue;
     double& s = scale[field.spec().unit];
-    s = std::max(s, field.now().lpNorm<Eigen::Infinity>());
+    // A field may vanish: its change is then small against what it was.
+    s = std::max({s, field.now().lpNorm<Eigen::Infinity>(), field.accepted().lpNorm<Eigen::Infinity>()});
     double& c = change[field.spec().unit];
     c = std::max(c, update.segment(system_.first(static_cast<int>(u)), field.size()).lpNorm<Eigen::Infinity>());
   }

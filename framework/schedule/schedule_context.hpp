@@ -16,7 +16,6 @@ struct ScheduleContext {
   FieldStore& fields;
   std::vector<Part*> parts;  ///< all components and couplers
   IterationLog log;
-  bool is_iterated = false;  ///< whether the step that is being built is inside an `iterate`
 
   /// The solved fields of the named components: their unknowns, and their inputs that a coupler determines.
   std::vector<Field*> solved_fields(const std::vector<std::string>& components) const;
@@ -28,6 +27,7 @@ struct ScheduleReading {
   LinearOptions linear;                      ///< of a `solve` that does not say otherwise
   NewtonOptions newton;
   ReadContext read;
+  bool is_iterated = false;  ///< whether the step that is being read is inside an `iterate`
 };
 using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;
 

@@ -52,7 +52,7 @@ TEST(Onset, TractionsAndSlipMatchTheCrackWithBackStress) {
   // Tractions of every cell within 0.1 MPa away from the tips; slip at the centre from two meshes within 3 %.
   std::map<double, std::vector<double>> slips;  // by time: coarse, fine
   std::map<double, double> exact;
-  for (const char* size : {"10 mm", "5 mm"}) {
+  for (const char* size : {"5 mm", "2.5 mm"}) {
     SceneRun run("paper/onset_coarse.yaml", {{"mesh.fracture_size", size}});
     run.run_until(21 * hour, [&] {
       const bool injecting = run.time() > 6 * hour;
@@ -63,9 +63,9 @@ TEST(Onset, TractionsAndSlipMatchTheCrackWithBackStress) {
         flux += run.field("pore.wall_flux")[w] * run.mesh().face_length[run.mesh().wall_face(w)];
       const Crack crack = closed_form(run.quantity("fracture_pressure"), mean_pressure(run), flux);
       for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
-        // Ten cells do not resolve the tractions of each; what they make of the slip is extrapolated below.
-        if (std::string(size) == "10 mm") continue;
-        if ((run.mesh().fracture_cells[i].center - Point(1, 1)).norm() > 0.8 * half_length) continue;
+        // On 20 cells one misses by 0.12 MPa; what they make of the slip is extrapolated below.
+        if (std::string(size) == "5 mm") continue;
+        if ((run.mesh().fracture_cells[i].center - Point(1, 1)).norm() > 0.9 * half_length) continue;
         EXPECT_NEAR(run.field("contact.traction")[2 * i], crack.normal, 0.1e6) << run.time() << " cell " << i;
         EXPECT_NEAR(std::abs(run.field("contact.traction")[2 * i + 1]), crack.shear, 0.1e6) << run.time();
       }
