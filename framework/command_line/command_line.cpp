@@ -48,12 +48,14 @@ std::filesystem::path find_checkpoint(const std::string& given, const std::strin
   return std::filesystem::path("results") / scene.name / "checkpoint.h5";
 }
 
-/// A misspelt command would otherwise be taken for a missing one.
+/// Throws InputError for a missing or misspelt command.
 void require_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+  if (argc > 1 && argv[1][0] == '-') return;
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     names.push_back(command->get_name());
+  if (argc < 2)
+    throw InputError({"sprekk"}, "a command is missing", "it is one of: " + listed(names), "see 'sprekk --help'");
   if (std::find(names.begin(), names.end(), argv[1]) == names.end())
     throw unknown_name({"sprekk", 0, 0}, "command", argv[1], names);
 }

@@ -54,7 +54,7 @@ Spec fracture_spec(const std::string& name, const Origin& origin, std::function<
                 {.unit = "m", .range = positive(), .doc = "The length of its cells; else the mesh's fracture_size."});
   spec.check([input, name, origin, keep = std::move(keep)](const Node& whole) {
     FractureGeometry fracture{name, input->points, input->size, origin};
-    const bool has_points = whole.find("points"), has_center = input->center.has_value();
+    const bool has_points = !input->points.empty(), has_center = input->center.has_value();
     const bool has_line = has_center || input->length || input->angle;
     if (has_points && has_line) {
       throw InputError(whole.origin, "fracture '" + name + "' is given twice",

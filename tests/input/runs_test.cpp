@@ -96,7 +96,7 @@ TEST(Run, ThatFailsSaysWhyAndKeepsItsLastStep) {
     EXPECT_THAT(outcome.err, HasSubstr(text));
   EXPECT_TRUE(fs::exists(folder / "results/checkpoint.h5"));
   EXPECT_EQ(rows(folder / "results/history.csv"), 1);
-  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "results/run.json")).at("exit_code"), 1);
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "results/run.json")).at("exit").at("code"), 1);
 }
 
 TEST(Run, TakesTheValueOfAWindowUntilItsEnd) {

@@ -41,7 +41,7 @@ TEST(SceneFiles, ThatAreNoScenesAreRefused) {
   expect_refused({"check", "empty.yaml"}, {"empty.yaml: the scene is empty"}, folder);
   expect_refused({"check", "binary.yaml"}, {"binary.yaml:1: not a text file"}, folder);
   expect_refused({"check", "latin.yaml"}, {"latin.yaml:1: not a text file", "not UTF-8"}, folder);
-  expect_refused({"check", "missing_half.yaml"}, {"missing_half.yaml:1:7: malformed YAML"}, folder);
+  expect_refused({"check", "missing_half.yaml"}, {"missing_half.yaml:1:1: malformed YAML"}, folder);
   expect_refused({"run", "nowhere.yaml", "-o", "results"}, {"cannot be read"}, folder);
 }
 
@@ -65,7 +65,7 @@ TEST(Settings, ThatAreWrongAreRefused) {
 
 TEST(Arguments, ThatAreWrongAreRefused) {
   const Folder folder;
-  expect_refused({}, {"run", "check", "explain"}, folder);
+  expect_refused({}, {"a command is missing", "run, check", "--help"}, folder);
   expect_refused({"chekc", flow}, {"unknown command 'chekc'", "did you mean 'check'?"}, folder);
   expect_refused({"check"}, {"scene"}, folder);
   expect_refused({"check", flow, "--setting", "a=b"}, {"--setting"}, folder);
@@ -102,7 +102,7 @@ TEST(Checkpoints, ThatCannotBeContinuedAreRefused) {
   expect_refused({"run", flow, "--restart", "text/checkpoint.h5"}, {"text/checkpoint.h5", "not an HDF5 file"}, folder);
   expect_refused({"run", flow, "--restart", "done"}, {"cannot restart from done"}, folder);
   expect_refused({"run", flow, "--set", "components.pore.viscosity=2 mPa*s", "-o", "done", "--restart"},
-                 {"done/checkpoint.h5", "another scene"}, folder);
+                 {"done/checkpoint.h5", "the scene 'flow' has changed since it was written"}, folder);
   expect_refused({"run", flow, "--set", "mesh.cells=[5, 5]", "-o", "done", "--restart"}, {"done/checkpoint.h5"},
                  folder);
   EXPECT_EQ(text_of(folder / "done/history.csv"), before);
