@@ -99,7 +99,8 @@ struct LinearOptions {
   int max_iterations = 500;
 };
 
-/// `auto`: UMFPACK in one process and MUMPS in several, Belos with the block preconditioner above a size.
+/// `auto`: UMFPACK for small systems in one process, MUMPS for larger ones and in several processes, Belos with the
+/// block preconditioner above a size.
 /// Throws std::invalid_argument for an unknown type, and for umfpack on several processes.
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
 

@@ -77,6 +77,10 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
 ScheduleBuilder read_subcycle(const Node& node, const ScheduleReading& reading) {
   SubcycleOptions options;
   const ScheduleBuilder inside = read_inside(*node.find("subcycle"), options, reading);
+  if (reading.is_iterated && options.count > 1)
+    throw InputError(node.find("subcycle")->origin, "'subcycle' stands inside of an 'iterate'",
+                     "the iteration tests the residual of one whole step, which substeps do not have",
+                     "put the 'iterate' inside of the 'subcycle', or leave one of them out");
   return [options, inside](const ScheduleContext& context) {
     return std::make_unique<SubcycleStep>(options, inside(context), context);
   };

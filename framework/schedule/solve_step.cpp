@@ -33,7 +33,7 @@ Spec newton_spec(NewtonOptions& options) {
 Spec solver_spec(LinearOptions& options) {
   Spec spec("solver", "The solver of linear systems.");
   spec.choice("type", options.type,
-              {{"auto", "UMFPACK in one process, MUMPS in several, Belos above a size"},
+              {{"auto", "UMFPACK for small systems, MUMPS for larger ones and several processes, Belos for very large ones"},
                {"umfpack", "sparse direct, one process"},
                {"mumps", "sparse direct, any number of processes"},
                {"belos", "GMRES with a block fixed-stress preconditioner and multigrid inside"}},

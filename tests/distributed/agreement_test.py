@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""agreement_test.py SPREKK MPIEXEC: two processes give the answer of one.
+
+Mandel's problem and the scene of sec. 5.1 run in one process, and on two with a distributed direct solver and with
+multigrid. Every figure of history.csv agrees to 1e-8 of the largest of its column, and of its unit where the column is zero
+but for round-off.
+"""
+
+import csv
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+program, mpiexec = sys.argv[1:3]
+configs = Path(__file__).resolve().parents[2] / "configs"
+small = ["--set", "mesh.size=0.2 m", "--set", "mesh.fracture_size=0.01 m", "--set", "time.end=9 h"]
+scenes = {"verification/mandel.yaml": [], "paper/onset_coarse.yaml": small}
+# Counts of iterations, and books that are differences of round-off, are not answers.
+left_out = ("iterations[1]", "fluid_balance_error[m^2]")
+
+
+def history(command, scene, arguments, folder):
+    result = subprocess.run(command + ["run", "-q", str(configs / scene), "-o", str(folder)] + arguments,
+                            capture_output=True, text=True, timeout=500)
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(command)} on {scene}: exit code {result.returncode}\n{result.stderr}")
+    with open(folder / "history.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def compare(scene, name, alone, together):
+    if len(alone) != len(together):
+        return [f"{scene}, {name}: {len(together)} steps instead of {len(alone)}"]
+    unit_scale = {}
+    for column in alone[0]:
+        unit = column[column.rindex("["):]
+        unit_scale[unit] = max([unit_scale.get(unit, 0)] + [abs(float(row[column])) for row in alone])
+    failures = []
+    for column in alone[0]:
+        if column in left_out:
+            continue
+        largest = max(abs(float(row[column])) for row in alone)
+        scale = max(largest, 1e-6 * unit_scale[column[column.rindex("["):]])
+        worst = max(abs(float(a[column]) - float(b[column])) for a, b in zip(alone, together))
+        if worst > 1e-8 * scale:
+            failures.append(f"{scene}, {name}, {column}: differs by {worst / scale:.2e}")
+    return failures
+
+
+failures, compared = [], 0
+with tempfile.TemporaryDirectory() as temporary:
+    for scene, arguments in scenes.items():
+        stem = Path(temporary) / Path(scene).stem
+        alone = history([program], scene, arguments, stem.with_suffix(".one"))
+        for solver in ("mumps", "belos"):
+            together = history([mpiexec, "-n", "2", program], scene, arguments + ["--set", f"solver.type={solver}"],
+                               stem.with_suffix("." + solver))
+            failures += compare(scene, f"2 processes with {solver}", alone, together)
+            compared += 1
+print("\n".join(failures))
+print(f"{compared} runs on two processes compared with one")
+sys.exit(1 if failures else 0)
