@@ -18,6 +18,7 @@ namespace sprekk {
 struct Balance {
   double stored = 0, injected = 0, outflow = 0;
   std::string unit;
+  bool is_closed = true;  ///< false where values are prescribed instead of the balance: they let an unknown amount in
 };
 
 /// A column of history.csv.

@@ -306,6 +306,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
 void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
   Balance& fluid = balances["fluid"];
   fluid.unit = "m^2";
+  fluid.is_closed = fluid.is_closed && prescribed_.empty();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     fluid.stored += books_.now()[3 * i];
     fluid.injected += books_.now()[3 * i + 1];
