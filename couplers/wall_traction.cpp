@@ -16,13 +16,15 @@ struct WallTractionOptions {
               "rock acts on the contact. The contact, or the fluid, may be left out.");
     spec.ignore("type").ignore("between");
     spec.data("fracture_biot_coefficient", fracture_biot_coefficient,
-              {.range = between(0, 1), .doc = "Part of the fluid pressure that acts on the walls.", .source = "alpha_i of Eq. 4"});
+              {.range = between(0, 1),
+               .doc = "Part of the fluid pressure that acts on the walls.",
+               .source = "alpha_i of Eq. 4"});
     return spec;
   }
 };
 
-/// Determines the wall traction T = f − alpha_i p_i n (Eq. 4) and the jump that the contact sees (Eq. 1). The rows of T are
-/// multiplied by the compliance of the walls, and so are jumps (m): a linear solver can then tell them from zero.
+/// Determines the wall traction T = f − alpha_i p_i n (Eq. 4) and the jump that the contact sees (Eq. 1). The rows of T
+/// are multiplied by the compliance of the walls, and so are jumps (m): a linear solver can then tell them from zero.
 class WallTraction : public Coupler {
  public:
   WallTraction(const CouplerContext& context, const WallTractionOptions& options)

@@ -11,7 +11,8 @@ class MatrixFluid {
  public:
   static constexpr const char* promise = "determines the pressure of the matrix";
   virtual ~MatrixFluid() = default;
-  /// Pa, one a cell. Its equation is the volume of fluid that entered each cell during the step, less what it stores (m^2).
+  /// Pa, one a cell. Its equation is the volume of fluid that entered each cell during the step, less what it stores
+  /// (m^2).
   virtual Field& pressure() = 0;
   /// The pressure (Pa) of the reference state, one a cell: the initial one.
   virtual const Vector& initial_pressure() const = 0;
@@ -23,7 +24,8 @@ class MatrixFluid {
 /// "I accept a flux through the walls of fractures, and give the pressure there."
 class MatrixWalls {
  public:
-  static constexpr const char* promise = "accepts a fluid flux through the walls of fractures and gives the pressure there";
+  static constexpr const char* promise =
+      "accepts a fluid flux through the walls of fractures and gives the pressure there";
   virtual ~MatrixWalls() = default;
   /// Input, m/s, one a wall: lambda of Eq. 9, the flux from the fracture into the matrix.
   virtual Field& wall_flux() = 0;

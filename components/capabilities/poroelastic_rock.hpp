@@ -11,8 +11,8 @@ class PoroelasticRock {
  public:
   static constexpr const char* promise = "accepts a pore pressure as a load and gives the change of volume";
   virtual ~PoroelasticRock() = default;
-  /// From now on the stress contains −alpha (p − reference) I: `pressure` one a cell (Pa), `alpha` one a cell, `reference`
-  /// one a cell (Pa). To be called while the scene is built.
+  /// From now on the stress contains −alpha (p − reference) I: `pressure` one a cell (Pa), `alpha` one a cell,
+  /// `reference` one a cell (Pa). To be called while the scene is built.
   virtual void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) = 0;
   /// div u integrated over each cell (m^2).
   virtual const LinearExpression& volume_change() const = 0;
@@ -25,7 +25,8 @@ class RockWalls {
  public:
   static constexpr const char* promise = "accepts tractions on the walls of fractures and gives the displacement jump";
   virtual ~RockWalls() = default;
-  /// Input, Pa, (normal, tangential) of each fracture cell: n·sigma on the plus wall (Eq. 4); opposite on the minus wall.
+  /// Input, Pa, (normal, tangential) of each fracture cell: n·sigma on the plus wall (Eq. 4); opposite on the minus
+  /// wall.
   virtual Field& wall_traction() = 0;
   /// u(minus) − u(plus) (Eq. 1), m, (normal, tangential) of each fracture cell.
   virtual const LinearExpression& displacement_jump() const = 0;

@@ -6,23 +6,41 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   Spec spec(type, doc);
   spec.ignore("type");
   spec.tensor("permeability", permeability,
-              {.unit = "m^2", .range = positive(), .doc = "Permeability of the rock.", .source = "Eq. 6", .required = true, .material = true});
+              {.unit = "m^2",
+               .range = positive(),
+               .doc = "Permeability of the rock.",
+               .source = "Eq. 6",
+               .required = true,
+               .material = true});
   spec.data("viscosity", viscosity,
-            {.unit = "Pa*s", .range = positive(), .doc = "Viscosity of the fluid.", .source = "Eq. 6", .required = true, .material = true});
+            {.unit = "Pa*s",
+             .range = positive(),
+             .doc = "Viscosity of the fluid.",
+             .source = "Eq. 6",
+             .required = true,
+             .material = true});
   spec.data("storage", storage,
-            {.unit = "1/Pa", .range = non_negative(),
+            {.unit = "1/Pa",
+             .range = non_negative(),
              .doc = "Specific storage as a whole; else it is porosity times fluid compressibility, completed by the "
                     "compressibility of the grains when the rock is poroelastic.",
              .source = "M below Eq. 7"});
-  spec.data("porosity", porosity,
-            {.range = between(0, 1), .doc = "Porosity.", .source = "Table 1", .material = true});
+  spec.data("porosity", porosity, {.range = between(0, 1), .doc = "Porosity.", .source = "Table 1", .material = true});
   spec.data("fluid_compressibility", fluid_compressibility,
-            {.unit = "1/Pa", .range = non_negative(), .doc = "Compressibility of the fluid.", .source = "Table 1", .material = true});
+            {.unit = "1/Pa",
+             .range = non_negative(),
+             .doc = "Compressibility of the fluid.",
+             .source = "Table 1",
+             .material = true});
   spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Acceleration of gravity.", .material = true});
   spec.quantity("fluid_density", fluid_density,
-                {.unit = "kg/m^3", .range = non_negative(), .doc = "Density of the fluid; matters with gravity only.", .material = true});
+                {.unit = "kg/m^3",
+                 .range = non_negative(),
+                 .doc = "Density of the fluid; matters with gravity only.",
+                 .material = true});
   spec.data("initial_pressure", initial_pressure, {.unit = "Pa", .doc = "Pressure at the start."});
-  spec.data("source", source, {.unit = "1/s", .doc = "Volume of fluid added per volume of rock and time.", .source = "q of Eq. 6"});
+  spec.data("source", source,
+            {.unit = "1/s", .doc = "Volume of fluid added per volume of rock and time.", .source = "q of Eq. 6"});
   static SideCondition example_side;
   const auto side_spec = [](SideCondition& side) {
     Spec inner("boundary condition of flow", "At most one of the two; none lets no fluid through.");
@@ -35,17 +53,19 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
     });
     return inner;
   };
-  spec.named_sections("boundary", side_spec(example_side),
-                      [this, side_spec](const std::string& key, const Origin& origin) {
-                        boundary[key].origin = origin;
-                        return side_spec(boundary[key]);
-                      },
-                      {.doc = "Conditions by the name of the side (left, right, bottom, top, or of the imported mesh)."});
+  spec.named_sections(
+      "boundary", side_spec(example_side),
+      [this, side_spec](const std::string& key, const Origin& origin) {
+        boundary[key].origin = origin;
+        return side_spec(boundary[key]);
+      },
+      {.doc = "Conditions by the name of the side (left, right, bottom, top, or of the imported mesh)."});
   static Well example_well;
   const auto well_spec = [](Well& well) {
     Spec inner("well", "A point that injects (or with a negative rate extracts) fluid.");
     inner.point("at", well.at, {.unit = "m", .doc = "Position.", .required = true});
-    inner.data("rate", well.rate, {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth.", .required = true});
+    inner.data("rate", well.rate,
+               {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth.", .required = true});
     return inner;
   };
   spec.named_sections("wells", well_spec(example_well),

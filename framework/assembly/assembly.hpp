@@ -1,5 +1,5 @@
-// The equations of one simultaneous solve: each term is written once, and the unknowns of the solve choose which rows and
-// which derivative blocks are kept. A term whose other field is not an unknown here uses that field's latest value.
+// The equations of one simultaneous solve: each term is written once, and the unknowns of the solve choose which rows
+// and which derivative blocks are kept. A term whose other field is not an unknown here uses that field's latest value.
 #pragma once
 
 #include <deque>
@@ -42,8 +42,8 @@ class Assembly {
   /// residual(row) += factor · diag(weights) · expression, with its derivatives.
   void linear(const Field& row, const LinearExpression& expression, double factor = 1, const Vector* weights = nullptr);
 
-  /// Replaces row i of the equation by scale · (value − target) = 0, whatever other terms it has. `scale` brings it to the
-  /// units of the equation. To be called after all terms: by Part::constrain.
+  /// Replaces row i of the equation by scale · (value − target) = 0, whatever other terms it has. `scale` brings it to
+  /// the units of the equation. To be called after all terms: by Part::constrain.
   void fix(const Field& row, int i, double target, double scale);
 
   struct Fixed {

@@ -27,11 +27,12 @@ struct Quantity {
   double value;
 };
 
-/// The diagonals that stabilize a split (see SolveStep): residual(row) += diagonal · (value − value at the solve's start).
+/// The diagonals that stabilize a split (see SolveStep): residual(row) += diagonal · (value − value at the solve's
+/// start).
 using Stabilization = std::map<const Field*, Vector>;
 
-/// A component or a coupler. Repeating a step after a rewind must give the same bits: whatever a part keeps between calls
-/// is in fields, or follows from the mesh, the parameters and the step's time.
+/// A component or a coupler. Repeating a step after a rewind must give the same bits: whatever a part keeps between
+/// calls is in fields, or follows from the mesh, the parameters and the step's time.
 class Part {
  public:
   virtual ~Part() = default;
@@ -43,10 +44,12 @@ class Part {
   virtual void begin_step(const StepTime& step) = 0;
   /// Adds all terms of all its equations; the assembly keeps what its solve needs.
   virtual void assemble(Assembly& assembly, const StepTime& step) const = 0;
-  /// Fixes values that are prescribed where others have equations (Assembly::fix). Called after all parts have assembled.
+  /// Fixes values that are prescribed where others have equations (Assembly::fix). Called after all parts have
+  /// assembled.
   virtual void constrain(Assembly&) const {}
 
-  /// Keeps the books (derived fields) of the fields that a `solve` has just determined: what was stored, what flowed out.
+  /// Keeps the books (derived fields) of the fields that a `solve` has just determined: what was stored, what flowed
+  /// out.
   virtual void after_solve(const std::vector<Field*>& /*solved*/, const StepTime&) {}
   /// Computes other derived fields from the current unknowns. Called when a step has converged, before it is accepted.
   virtual void update_derived(const StepTime&) {}

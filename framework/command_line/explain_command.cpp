@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "framework/schedule/schedule_context.hpp"
 #include "framework/scene/registry.hpp"
 #include "framework/scene/scene.hpp"
+#include "framework/schedule/schedule_context.hpp"
 
 namespace sprekk {
 
@@ -24,7 +24,8 @@ struct Explained {
 std::vector<Explained> everything() {
   std::vector<Explained> all;
   for (const Spec& spec : scene_section_specs()) all.push_back({"section", spec.name(), spec});
-  for (const ComponentType& type : Registry::instance().components()) all.push_back({"component", type.type, type.spec()});
+  for (const ComponentType& type : Registry::instance().components())
+    all.push_back({"component", type.type, type.spec()});
   for (const CouplerType& type : Registry::instance().couplers()) all.push_back({"coupler", type.type, type.spec()});
   for (const ScheduleKind& kind : schedule_kinds()) all.push_back({"step of the schedule", kind.key, kind.spec()});
   return all;
@@ -71,8 +72,7 @@ void print_schema(std::ostream& out) {
     if (item.kind == "section") properties[item.name] = inner;
     if (item.kind == "component" || item.kind == "coupler") {
       inner["properties"]["type"] = {{"const", item.name}};
-      if (item.kind == "coupler")
-        inner["properties"]["between"] = {{"type", "array"}, {"items", {{"type", "string"}}}};
+      if (item.kind == "coupler") inner["properties"]["between"] = {{"type", "array"}, {"items", {{"type", "string"}}}};
       // Required material properties may stand in `materials:`.
       if (inner.contains("required")) inner.erase("required");
       inner["required"] = {"type"};

@@ -6,21 +6,24 @@ namespace sprekk {
 
 int entity_count(const Mesh& mesh, Location location) {
   switch (location) {
-    case Location::cell: return mesh.cell_count();
-    case Location::face: return mesh.face_count();
-    case Location::node: return mesh.node_count();
-    case Location::fracture_cell: return mesh.fracture_cell_count();
-    case Location::fracture_point: return static_cast<int>(mesh.fracture_points.size());
-    case Location::wall: return mesh.wall_count();
+    case Location::cell:
+      return mesh.cell_count();
+    case Location::face:
+      return mesh.face_count();
+    case Location::node:
+      return mesh.node_count();
+    case Location::fracture_cell:
+      return mesh.fracture_cell_count();
+    case Location::fracture_point:
+      return static_cast<int>(mesh.fracture_points.size());
+    case Location::wall:
+      return mesh.wall_count();
   }
   throw std::logic_error("unknown location");
 }
 
 Field::Field(FieldSpec spec, int entities)
-    : spec_(std::move(spec)),
-      entities_(entities),
-      now_(Vector::Zero(entities * spec_.components)),
-      accepted_(now_) {}
+    : spec_(std::move(spec)), entities_(entities), now_(Vector::Zero(entities * spec_.components)), accepted_(now_) {}
 
 void Field::set(Vector values) {
   if (values.size() != size()) throw std::logic_error("field " + name() + ": wrong number of values");

@@ -60,7 +60,9 @@ class Field {
   const std::string& determined_by() const { return determined_by_; }
   void determine(const std::string& coupler);  ///< throws std::logic_error if another coupler does already
   /// Whether the field is solved for somewhere: an unknown, or an input that a coupler determines.
-  bool is_solved() const { return spec_.role == Role::unknown || (spec_.role == Role::input && !determined_by_.empty()); }
+  bool is_solved() const {
+    return spec_.role == Role::unknown || (spec_.role == Role::input && !determined_by_.empty());
+  }
 
  private:
   FieldSpec spec_;

@@ -6,11 +6,16 @@ namespace sprekk {
 
 int entity_rank(const Mesh& mesh, Location location, int entity) {
   switch (location) {
-    case Location::cell: return mesh.cell_rank[entity];
-    case Location::fracture_cell: return mesh.fracture_cell_rank(entity);
-    case Location::fracture_point: return mesh.fracture_cell_rank(mesh.fracture_points[entity].cells[0]);
-    case Location::wall: return mesh.fracture_cell_rank(entity / 2);
-    default: return 0;
+    case Location::cell:
+      return mesh.cell_rank[entity];
+    case Location::fracture_cell:
+      return mesh.fracture_cell_rank(entity);
+    case Location::fracture_point:
+      return mesh.fracture_cell_rank(mesh.fracture_points[entity].cells[0]);
+    case Location::wall:
+      return mesh.fracture_cell_rank(entity / 2);
+    default:
+      return 0;
   }
 }
 

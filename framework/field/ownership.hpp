@@ -12,8 +12,8 @@ bool is_owned(const Mesh& mesh, Location location, int entity);
 /// Makes values that are right on the owned entities right everywhere. Collective; does nothing in a single process.
 void replicate(const Mesh& mesh, Location location, int components, Vector& values);
 
-/// The nodes whose interaction regions this process has to discretize: those of its own cells, and of all walls, so that
-/// the rows of its own cells and fracture cells are complete. Empty, meaning all, in a single process.
+/// The nodes whose interaction regions this process has to discretize: those of its own cells, and of all walls, so
+/// that the rows of its own cells and fracture cells are complete. Empty, meaning all, in a single process.
 std::vector<char> nodes_to_discretize(const Mesh& mesh);
 
 }  // namespace sprekk

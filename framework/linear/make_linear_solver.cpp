@@ -20,9 +20,9 @@ class AutomaticSolver final : public LinearSolver {
     // MUMPS factorizes 1.4 to 2.8 times faster than UMFPACK, but it starts MPI, which takes as long as a small run.
     constexpr int smallest_for_mumps = 10'000;
     const auto unknowns = system.local.cols();
-    const char* const type = unknowns > largest_for_direct                                ? "belos"
+    const char* const type = unknowns > largest_for_direct                            ? "belos"
                              : parallel::size() > 1 || unknowns >= smallest_for_mumps ? "mumps"
-                                                                                          : "umfpack";
+                                                                                      : "umfpack";
     if (!chosen_ || chosen_->name() != type) {
       options_.type = type;
       chosen_ = make_linear_solver(options_);

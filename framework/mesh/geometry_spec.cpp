@@ -48,8 +48,9 @@ Spec fracture_spec(const std::string& name, const Origin& origin, std::function<
   spec.point("center", input->center, {.unit = "m", .doc = "The middle of a straight fracture."});
   spec.quantity("length", input->length,
                 {.unit = "m", .range = positive(), .doc = "The length of a straight fracture."});
-  spec.quantity("angle", input->angle,
-                {.unit = "rad", .doc = "The direction of a straight fracture, counter-clockwise from the x axis; by default 0."});
+  spec.quantity(
+      "angle", input->angle,
+      {.unit = "rad", .doc = "The direction of a straight fracture, counter-clockwise from the x axis; by default 0."});
   spec.quantity("size", input->size,
                 {.unit = "m", .range = positive(), .doc = "The length of its cells; else the mesh's fracture_size."});
   spec.check([input, name, origin, keep = std::move(keep)](const Node& whole) {

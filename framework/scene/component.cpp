@@ -14,8 +14,9 @@ InputError CouplerContext::missing(const std::string& promise) const {
 }
 
 InputError CouplerContext::ambiguous(const std::string& promise) const {
-  return InputError(origin, "coupler " + name + " between " + between_text() + " finds two components, each of which " + promise,
-                    "it joins one", "write one coupler for each");
+  return InputError(
+      origin, "coupler " + name + " between " + between_text() + " finds two components, each of which " + promise,
+      "it joins one", "write one coupler for each");
 }
 
 void CouplerContext::check_all_used() const {

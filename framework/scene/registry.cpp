@@ -9,8 +9,8 @@ namespace {
 
 template <class Type>
 void insert_sorted(std::vector<Type>& types, Type type) {
-  const auto place = std::lower_bound(types.begin(), types.end(), type,
-                                      [](const Type& a, const Type& b) { return a.type < b.type; });
+  const auto place =
+      std::lower_bound(types.begin(), types.end(), type, [](const Type& a, const Type& b) { return a.type < b.type; });
   if (place != types.end() && place->type == type.type)
     throw std::logic_error("type " + type.type + " is registered twice");
   types.insert(place, std::move(type));

@@ -18,8 +18,9 @@ Spec IterateOptions::spec() {
   until.integer("at_most", at_most, {.range = between(1, 100000), .doc = "Passes before the step is refused."});
   spec.section("until", until, {.doc = "When the iteration has converged."});
   Spec accelerate("accelerate", "Acceleration of the fixed-point iteration.");
-  accelerate.integer("anderson", anderson,
-                     {.range = between(0, 50), .doc = "Earlier passes that Anderson acceleration combines; 0 is none."});
+  accelerate.integer(
+      "anderson", anderson,
+      {.range = between(0, 50), .doc = "Earlier passes that Anderson acceleration combines; 0 is none."});
   spec.section("accelerate", accelerate, {.doc = "Acceleration of the fixed-point iteration."});
   return spec;
 }

@@ -16,8 +16,8 @@ struct IterateOptions {
   Spec spec();
 };
 
-/// Converged when the true residual of everything that is solved for inside, without any stabilization, is small against
-/// its own terms; not when updates are small.
+/// Converged when the true residual of everything that is solved for inside, without any stabilization, is small
+/// against its own terms; not when updates are small.
 class IterateStep : public ScheduleStep {
  public:
   IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);

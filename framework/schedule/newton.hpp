@@ -21,10 +21,10 @@ struct NewtonOptions {
   int undamped = 8;         ///< iterations before the line search asks for descent
 };
 
-/// Converged means: every residual is small against its own terms, and the next (simplified) Newton update, which costs a
-/// back-solve and no factorization, is small against the fields. Full steps at first, as active sets settle by
-/// themselves; descent on the sum of squares of the relative residuals when they have not after `undamped` iterations, or
-/// as soon as the discrete state cycles. Repeating a call from the same fields gives the same bits.
+/// Converged means: every residual is small against its own terms, and the next (simplified) Newton update, which costs
+/// a back-solve and no factorization, is small against the fields. Full steps at first, as active sets settle by
+/// themselves; descent on the sum of squares of the relative residuals when they have not after `undamped` iterations,
+/// or as soon as the discrete state cycles. Repeating a call from the same fields gives the same bits.
 class Newton {
  public:
   Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*> parts, const LinearOptions& linear,

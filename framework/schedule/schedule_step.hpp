@@ -15,12 +15,12 @@ namespace sprekk {
 /// One row of coupling.csv.
 struct IterationRecord {
   StepTime time;
-  std::string step;       ///< which node of the schedule: "solve pore rock", "iterate", …
+  std::string step;  ///< which node of the schedule: "solve pore rock", "iterate", …
   int iteration = 0;
-  double residual = 0;    ///< the largest relative residual of any equation
-  std::string equation;   ///< the one that has it
-  double update = 0;      ///< relative; 0 where none is computed
-  double step_length = 1; ///< of the line search
+  double residual = 0;     ///< the largest relative residual of any equation
+  std::string equation;    ///< the one that has it
+  double update = 0;       ///< relative; 0 where none is computed
+  double step_length = 1;  ///< of the line search
 };
 using IterationLog = std::function<void(const IterationRecord&)>;
 

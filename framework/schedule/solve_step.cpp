@@ -20,11 +20,13 @@ void require_offered(const SolveOptions& options, const std::vector<Part*>& part
 
 Spec newton_spec(NewtonOptions& options) {
   Spec spec("newton", "Semismooth Newton's method of a simultaneous system.");
-  spec.quantity("residual", options.residual,
-                {.range = strictly_between(0, 1), .doc = "Largest residual of an equation over the largest of its terms."});
+  spec.quantity(
+      "residual", options.residual,
+      {.range = strictly_between(0, 1), .doc = "Largest residual of an equation over the largest of its terms."});
   spec.quantity("update", options.update,
                 {.range = strictly_between(0, 1), .doc = "Largest next change of a field over its largest value."});
-  spec.integer("at_most", options.at_most, {.range = between(1, 1000), .doc = "Iterations before the step is refused."});
+  spec.integer("at_most", options.at_most,
+               {.range = between(1, 1000), .doc = "Iterations before the step is refused."});
   spec.integer("undamped", options.undamped,
                {.range = between(0, 1000), .doc = "Iterations before the line search asks for descent."});
   return spec;
@@ -32,12 +34,13 @@ Spec newton_spec(NewtonOptions& options) {
 
 Spec solver_spec(LinearOptions& options) {
   Spec spec("solver", "The solver of linear systems.");
-  spec.choice("type", options.type,
-              {{"auto", "UMFPACK for small systems, MUMPS for larger ones and several processes, Belos for very large ones"},
-               {"umfpack", "sparse direct, one process"},
-               {"mumps", "sparse direct, any number of processes"},
-               {"belos", "GMRES with a block fixed-stress preconditioner and multigrid inside"}},
-              {.doc = "Which solver."});
+  spec.choice(
+      "type", options.type,
+      {{"auto", "UMFPACK for small systems, MUMPS for larger ones and several processes, Belos for very large ones"},
+       {"umfpack", "sparse direct, one process"},
+       {"mumps", "sparse direct, any number of processes"},
+       {"belos", "GMRES with a block fixed-stress preconditioner and multigrid inside"}},
+      {.doc = "Which solver."});
   spec.quantity("tolerance", options.tolerance,
                 {.range = strictly_between(0, 1), .doc = "Relative residual of an iterative solver."});
   spec.integer("max_iterations", options.max_iterations,
@@ -46,11 +49,13 @@ Spec solver_spec(LinearOptions& options) {
 }
 
 Spec SolveOptions::spec() {
-  Spec spec("solve", "Solves for the unknowns of the named components simultaneously. All their terms count; "
-                     "fields that are not unknowns here keep their latest values.");
+  Spec spec("solve",
+            "Solves for the unknowns of the named components simultaneously. All their terms count; "
+            "fields that are not unknowns here keep their latest values.");
   spec.texts("solve", components, {.doc = "Names of components.", .required = true});
-  spec.text("stabilize", stabilization,
-            {.doc = "A stabilization that a coupler offers for split schemes, for example fixed_stress of biot; or none."});
+  spec.text(
+      "stabilize", stabilization,
+      {.doc = "A stabilization that a coupler offers for split schemes, for example fixed_stress of biot; or none."});
   spec.section("newton", newton_spec(newton), {.doc = "Overrides the scene's `newton:`."}, &overrides_newton);
   spec.section("solver", solver_spec(linear), {.doc = "Overrides the scene's `solver:`."}, &overrides_linear);
   return spec;

@@ -10,12 +10,12 @@
 namespace sprekk {
 
 struct TimeOptions {
-  double start = 0;  ///< s
-  double end = 0;    ///< s
-  double step = 0;   ///< s, the first and, unless adaptive, the standard one
+  double start = 0;                ///< s
+  double end = 0;                  ///< s
+  double step = 0;                 ///< s, the first and, unless adaptive, the standard one
   std::optional<double> smallest;  ///< s; a rejected step is not cut below it
   bool adaptive = false;
-  double largest = 0;    ///< s, of adaptive steps
+  double largest = 0;  ///< s, of adaptive steps
   double grow = 1.5, shrink = 0.5;
   int iterations = 8;  ///< adaptive steps grow while no solve needs more than half of these, and shrink beyond them
   Spec spec();

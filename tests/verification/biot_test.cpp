@@ -25,7 +25,8 @@ double terzaghi(double y, double dt, int steps) {
 }
 
 double terzaghi_error(int cells) {
-  SceneRun run("verification/terzaghi.yaml", {{"mesh.cells", "[" + std::to_string(cells / 10) + ", " + std::to_string(cells) + "]"}});
+  SceneRun run("verification/terzaghi.yaml",
+               {{"mesh.cells", "[" + std::to_string(cells / 10) + ", " + std::to_string(cells) + "]"}});
   run.run();
   Vector exact(run.mesh().cell_count());
   for (int c = 0; c < exact.size(); ++c) exact[c] = terzaghi(run.mesh().cell_center[c][1], 0.01, run.steps());
@@ -58,7 +59,8 @@ TEST(Terzaghi, OvershootStaysBelowTheKnownLimit) {
                                                   {"time", "{end: " + dt + ", step: " + dt + "}"}});
       run.run();
       const double loss = 1 - run.field("pore.pressure").minCoeff();
-      EXPECT_LT(run.field("pore.pressure").maxCoeff() - 1, 5e-3 * loss + 1e-11) << "c dt/h^2 = " << ratio << ", " << kind;
+      EXPECT_LT(run.field("pore.pressure").maxCoeff() - 1, 5e-3 * loss + 1e-11)
+          << "c dt/h^2 = " << ratio << ", " << kind;
       EXPECT_GT(run.field("pore.pressure").minCoeff(), -1e-10) << "c dt/h^2 = " << ratio << ", " << kind;
     }
   }

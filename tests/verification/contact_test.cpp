@@ -12,7 +12,8 @@ namespace {
 /// fracture, and the same with a rigid jump on the plus side's opposite. In units with lambda = G = 1.
 std::string patch_scene(const std::string& normal_jump, const std::string& tangential_jump, double friction,
                         const std::string& dilation) {
-  // The fracture runs through (0.5, 0.5) along t = (cos 30, sin 30); n = (sin 30, -cos 30); minus side where n·x > 0.5 n·(1,1).
+  // The fracture runs through (0.5, 0.5) along t = (cos 30, sin 30); n = (sin 30, -cos 30); minus side where n·x > 0.5
+  // n·(1,1).
   const std::string side = "(0.5*(x-0.5) - 0.8660254037844386*(y-0.5) > 0)";
   const auto displacement = [&](const std::string& strain, const std::string& n, const std::string& t) {
     return "\"" + strain + " + if(" + side + ", " + n + "*(" + normal_jump + ") + " + t + "*(" + tangential_jump +
@@ -23,8 +24,9 @@ std::string patch_scene(const std::string& normal_jump, const std::string& tange
   return "{geometry: {box: {x: [0, 1], y: [0, 1]}, fractures: {cut: {points: [[0, 0.2113248654051871], [1, "
          "0.7886751345948129]]}}}, mesh: {size: 0.12, distortion: 0.2}, components: {rock: {type: poromechanics/mpsa, "
          "young_modulus: 2.5, poisson_ratio: 0.25, boundary: {left: " +
-         u + ", right: " + u + ", bottom: " + u + ", top: " + u + "}}, contact: {type: contact/coulomb, friction: " +
-         std::to_string(friction) + ", dilation_angle: " + dilation +
+         u + ", right: " + u + ", bottom: " + u + ", top: " + u +
+         "}}, contact: {type: contact/coulomb, friction: " + std::to_string(friction) +
+         ", dilation_angle: " + dilation +
          "}}, couplers: [{type: wall_traction, between: [rock, contact]}], schedule: [{solve: [rock, contact]}], time: "
          "{end: 1, step: 1}}";
 }
@@ -52,14 +54,12 @@ void expect_patch(const std::string& scene, const Point& jump, const Point& trac
 }
 
 // Jumps are up to 1e-3 and tractions up to 0.06: 1e-12 is 1e-9 of them.
-TEST(ContactPatch, Sticks) {
-  expect_patch(patch_scene("0", "0", 1.0, "0"), Point::Zero(), uniform_traction(), 1e-12);
-}
+TEST(ContactPatch, Sticks) { expect_patch(patch_scene("0", "0", 1.0, "0"), Point::Zero(), uniform_traction(), 1e-12); }
 
 TEST(ContactPatch, Opens) {
   // The minus side moves away by more than the compression: the walls are free where the strain alone would press.
-  // A rigid jump of the whole minus side with a stress-free fracture needs the uniform strain without traction on it, so the
-  // jump is exact only when the walls carry nothing: here the strain is switched off by a jump that is large.
+  // A rigid jump of the whole minus side with a stress-free fracture needs the uniform strain without traction on it,
+  // so the jump is exact only when the walls carry nothing: here the strain is switched off by a jump that is large.
   SceneRun run = SceneRun::from_text(patch_scene("0.05", "0", 0.5, "0"));
   ASSERT_TRUE(run.step());
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
@@ -75,14 +75,14 @@ TEST(ContactPatch, SlipsWithDilation) {
   const double friction = std::abs(traction[1] / traction[0]);
   const double direction = traction[1] > 0 ? 1 : -1;
   const double slip = 1e-3 * direction, opening = 1e-3 * std::tan(10 * M_PI / 180);
-  SceneRun run = SceneRun::from_text(patch_scene(std::to_string(opening * 1e9) + "e-9", std::to_string(slip), friction,
-                                                 "10 deg"));
+  SceneRun run =
+      SceneRun::from_text(patch_scene(std::to_string(opening * 1e9) + "e-9", std::to_string(slip), friction, "10 deg"));
   ASSERT_TRUE(run.step());
   // opening and friction enter the scene with 6 decimals of their last unit.
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
     EXPECT_NEAR(run.field("contact.jump")[2 * i + 1] / slip, 1, 1e-3);
-    EXPECT_NEAR(run.field("contact.jump")[2 * i], std::abs(run.field("contact.jump")[2 * i + 1]) * std::tan(10 * M_PI / 180),
-                1e-15);
+    EXPECT_NEAR(run.field("contact.jump")[2 * i],
+                std::abs(run.field("contact.jump")[2 * i + 1]) * std::tan(10 * M_PI / 180), 1e-15);
     EXPECT_NEAR(run.field("contact.traction")[2 * i], traction[0], 1e-5);
   }
 }

@@ -20,7 +20,7 @@ double front(double load) {
 }
 
 struct Slip {
-  double front, at_centre, cell;  ///< m
+  double front, at_centre, cell;                   ///< m
   std::vector<std::pair<double, double>> profile;  ///< x, slip
 };
 

@@ -44,7 +44,8 @@ struct Mandel {
   double pressure(double x, double time, int steps = 0) const {
     double sum = 0;
     for (const double r : roots)
-      sum += std::sin(r) / (r - std::sin(r) * std::cos(r)) * (std::cos(r * x / a) - std::cos(r)) * decay(r, time, steps);
+      sum +=
+          std::sin(r) / (r - std::sin(r) * std::cos(r)) * (std::cos(r * x / a) - std::cos(r)) * decay(r, time, steps);
     return 2 * force * skempton * (1 + undrained_poisson) / (3 * a) * sum;
   }
 

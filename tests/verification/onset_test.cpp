@@ -19,8 +19,8 @@ struct Crack {
   double normal, shear, peak_slip;  ///< tractions (Pa, contact, normal negative) and slip at the centre (m)
 };
 
-/// Delta N = eta (p_f - p_mean - A/2), A = Q mu/(2 pi k): superposition of the irrotational Biot field of a line source of
-/// uniform pressure and of the free boundary. Q is the flux into the rock.
+/// Delta N = eta (p_f - p_mean - A/2), A = Q mu/(2 pi k): superposition of the irrotational Biot field of a line source
+/// of uniform pressure and of the free boundary. Q is the flux into the rock.
 Crack closed_form(double fluid_pressure, double mean_pressure, double flux) {
   const double eta = 0.30, source = flux * 1e-4 / (2 * M_PI * 5e-20);
   const double back_stress = eta * (fluid_pressure - mean_pressure - 0.5 * source);
@@ -85,7 +85,8 @@ TEST(Onset, SlipStaysWhenInjectionEnds) {
   run.run_until(21 * hour);
   const Vector before = run.field("contact.jump");
   run.run_until(30 * hour);
-  for (int i = 0; i < before.size(); ++i) EXPECT_NEAR(run.field("contact.jump")[i], before[i], 1e-9 * before.lpNorm<Eigen::Infinity>());
+  for (int i = 0; i < before.size(); ++i)
+    EXPECT_NEAR(run.field("contact.jump")[i], before[i], 1e-9 * before.lpNorm<Eigen::Infinity>());
 }
 
 }  // namespace

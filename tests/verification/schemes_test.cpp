@@ -72,8 +72,9 @@ TEST(Schemes, FixedStressContractsAsTheorySays) {
   std::vector<double> residuals;
   const auto config = std::string("verification/mandel.yaml");
   for (int passes = 4; passes <= 7; ++passes) {
-    SceneRun run(config, {{"schedule", "[{iterate: {until: {relative: 1e-30, at_most: " + std::to_string(passes) +
-                                           "}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: [rock]}]}}]"}});
+    SceneRun run(config,
+                 {{"schedule", "[{iterate: {until: {relative: 1e-30, at_most: " + std::to_string(passes) +
+                                   "}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: [rock]}]}}]"}});
     const StepStatus status = run.model().attempt({0, 1079, 1079});
     EXPECT_FALSE(status.converged);
     residuals.push_back(run.model().fields().at("pore.pressure").now().norm());
@@ -112,8 +113,8 @@ TEST(Schemes, OneSubstepChangesNothing) {
 }
 
 TEST(Schemes, SubstepsConserveFluidAndConvergeToSmallSteps) {
-  // Flow in four substeps of dt = 0.005 s, the rock once a step: fluid is conserved, and the answer comes near to that of
-  // small monolithic steps as dt falls.
+  // Flow in four substeps of dt = 0.005 s, the rock once a step: fluid is conserved, and the answer comes near to that
+  // of small monolithic steps as dt falls.
   const auto error = [](double dt) {
     const std::vector<Override> stiff = {{"components.pore.storage", "4 1/Pa"}, {"time.end", "0.04 s"}};
     std::vector<Override> small = stiff, cycled = stiff;

@@ -12,22 +12,30 @@ Spec Options::spec() {
             "Frictional contact of fracture walls with dilation (Eqs. 2, 3): each cell sticks, slips or is open.");
   spec.ignore("type");
   spec.data("friction", friction,
-            {.range = non_negative(), .doc = "Coefficient of friction.", .source = "mu_s of Eq. 3", .required = true, .material = true});
+            {.range = non_negative(),
+             .doc = "Coefficient of friction.",
+             .source = "mu_s of Eq. 3",
+             .required = true,
+             .material = true});
   spec.data("dilation_angle", dilation_angle,
-            {.unit = "rad", .range = between(0, 1.5), .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
-             .source = "psi below Eq. 2", .material = true});
+            {.unit = "rad",
+             .range = between(0, 1.5),
+             .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
+             .source = "psi below Eq. 2",
+             .material = true});
   return spec;
 }
 
 Coulomb::Coulomb(const ComponentContext& context, const Options& options)
     : Component(context.name),
       mesh_(context.mesh),
-      traction_(context.fields.add(mesh_, {.owner = context.name,
-                                           .name = "traction",
-                                           .location = Location::fracture_cell,
-                                           .components = 2,
-                                           .unit = "Pa",
-                                           .doc = "Contact traction on the plus wall, normal and tangential (f of Eqs. 2-4)"})),
+      traction_(context.fields.add(
+          mesh_, {.owner = context.name,
+                  .name = "traction",
+                  .location = Location::fracture_cell,
+                  .components = 2,
+                  .unit = "Pa",
+                  .doc = "Contact traction on the plus wall, normal and tangential (f of Eqs. 2-4)"})),
       jump_(context.fields.add(mesh_, {.owner = context.name,
                                        .name = "jump",
                                        .location = Location::fracture_cell,
@@ -112,13 +120,11 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
         t_ut = by_normal * c_n * gap_by_t;
       }
     }
-    by_traction.insert(by_traction.end(), {{2 * i, 2 * i, n_fn},
-                                           {2 * i + 1, 2 * i, t_fn},
-                                           {2 * i + 1, 2 * i + 1, t_ft}});
-    by_jump.insert(by_jump.end(), {{2 * i, 2 * i, n_un},
-                                   {2 * i, 2 * i + 1, n_ut},
-                                   {2 * i + 1, 2 * i, t_un},
-                                   {2 * i + 1, 2 * i + 1, t_ut}});
+    by_traction.insert(by_traction.end(),
+                       {{2 * i, 2 * i, n_fn}, {2 * i + 1, 2 * i, t_fn}, {2 * i + 1, 2 * i + 1, t_ft}});
+    by_jump.insert(
+        by_jump.end(),
+        {{2 * i, 2 * i, n_un}, {2 * i, 2 * i + 1, n_ut}, {2 * i + 1, 2 * i, t_un}, {2 * i + 1, 2 * i + 1, t_ut}});
   }
   assembly.add(traction_, residual);
   // What the residual is small against: the jumps, and where all of them stick those that the tractions would make.

@@ -13,7 +13,10 @@ Spec injection_spec(Injection& injection) {
   Spec spec("injection", "Fluid injected into a fracture; extracted with a negative rate.");
   add_where(spec, injection.where);
   spec.data("rate", injection.rate,
-            {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth, in all.", .source = "q_i of Eq. 8", .required = true});
+            {.unit = "m^2/s",
+             .doc = "Volume of fluid per time and metre of depth, in all.",
+             .source = "q_i of Eq. 8",
+             .required = true});
   return spec;
 }
 
@@ -37,11 +40,25 @@ Spec Options::spec() {
             "Flow in fractures (Eq. 8): two-point flux approximation along piecewise linear fractures.");
   spec.ignore("type");
   spec.data("viscosity", viscosity,
-            {.unit = "Pa*s", .range = positive(), .doc = "Viscosity of the fluid.", .source = "Eq. 8", .required = true, .material = true});
+            {.unit = "Pa*s",
+             .range = positive(),
+             .doc = "Viscosity of the fluid.",
+             .source = "Eq. 8",
+             .required = true,
+             .material = true});
   spec.data("fluid_compressibility", fluid_compressibility,
-            {.unit = "1/Pa", .range = non_negative(), .doc = "Compressibility of the fluid.", .source = "c_p of Eq. 8", .required = true, .material = true});
+            {.unit = "1/Pa",
+             .range = non_negative(),
+             .doc = "Compressibility of the fluid.",
+             .source = "c_p of Eq. 8",
+             .required = true,
+             .material = true});
   spec.data("initial_aperture", initial_aperture,
-            {.unit = "m", .range = positive(), .doc = "Aperture of the undeformed fracture.", .source = "a^0 below Eq. 8", .required = true});
+            {.unit = "m",
+             .range = positive(),
+             .doc = "Aperture of the undeformed fracture.",
+             .source = "a^0 below Eq. 8",
+             .required = true});
   spec.data("initial_pressure", initial_pressure, {.unit = "Pa", .doc = "Pressure at the start."});
   spec.quantity("aperture_floor", aperture_floor,
                 {.unit = "m", .range = positive(), .doc = "The hydraulic aperture does not fall below this."});
@@ -58,7 +75,10 @@ Spec Options::spec() {
             {.unit = "m/(Pa*s)", .range = non_negative(), .doc = "Of a constant normal permeability."});
   spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Acceleration of gravity.", .material = true});
   spec.quantity("fluid_density", fluid_density,
-                {.unit = "kg/m^3", .range = non_negative(), .doc = "Density of the fluid; matters with gravity only.", .material = true});
+                {.unit = "kg/m^3",
+                 .range = non_negative(),
+                 .doc = "Density of the fluid; matters with gravity only.",
+                 .material = true});
   static Injection example_injection;
   spec.named_sections("injection", injection_spec(example_injection),
                       [this](const std::string& key, const Origin& origin) {
@@ -82,7 +102,8 @@ Spec Options::spec() {
                       {.doc = "Pressures where fractures end on a side; else no fluid flows out there."});
   spec.check([this](const Node& node) {
     if (transmissivity == "constant" && !transmissivity_value)
-      throw InputError(node.origin, "'transmissivity_value' is missing", "the transmissivity is constant", "give it in m^3");
+      throw InputError(node.origin, "'transmissivity_value' is missing", "the transmissivity is constant",
+                       "give it in m^3");
     if (normal_permeability == "constant" && !normal_permeability_value)
       throw InputError(node.origin, "'normal_permeability_value' is missing", "the normal permeability is constant",
                        "give it in m/(Pa*s)");

@@ -27,17 +27,17 @@ struct PrescribedPressure {
 };
 
 struct Options {
-  Data viscosity;              ///< Pa s
-  Data fluid_compressibility;  ///< 1/Pa
-  Data initial_aperture;       ///< m
-  Data initial_pressure;       ///< Pa
+  Data viscosity;                ///< Pa s
+  Data fluid_compressibility;    ///< 1/Pa
+  Data initial_aperture;         ///< m
+  Data initial_pressure;         ///< Pa
   double aperture_floor = 1e-7;  ///< m
   std::string transmissivity = "cubic_law";
-  std::optional<Data> transmissivity_value;       ///< m^3
+  std::optional<Data> transmissivity_value;  ///< m^3
   std::string normal_permeability = "cubic_law";
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
-  VectorData gravity;         ///< m/s^2
-  double fluid_density = 1000;  ///< kg/m^3
+  VectorData gravity;                             ///< m/s^2
+  double fluid_density = 1000;                    ///< kg/m^3
   std::map<std::string, Injection> injections;
   std::map<std::string, PrescribedPressure> prescribed;
   std::map<std::string, Data> boundary;  ///< pressure by side, Pa

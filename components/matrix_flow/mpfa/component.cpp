@@ -8,7 +8,9 @@ namespace {
 
 struct MpfaOptions : Options {
   Spec spec() {
-    return Options::spec("matrix_flow/mpfa", "Flow in the matrix (Eq. 6): multi-point flux approximation, exact for linear pressures on any triangles.");
+    return Options::spec(
+        "matrix_flow/mpfa",
+        "Flow in the matrix (Eq. 6): multi-point flux approximation, exact for linear pressures on any triangles.");
   }
 };
 
