@@ -28,13 +28,13 @@ Slip run_fault(const std::string& shear, double time) {
   SceneRun run("verification/injection_fault.yaml",
                {{"components.rock.initial_stress.xy", shear}, {"time.end", std::to_string(time) + " s"}});
   run.run();
-  Slip slip{0, 0, run.mesh().fracture_cells[0].length, {}};
-  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
-    const double x = run.mesh().fracture_cells[i].center[0], value = std::abs(run.field("contact.jump")[2 * i + 1]);
-    slip.profile.emplace_back(x, value);
-    slip.at_centre = std::max(slip.at_centre, value);
-    if (value > 0) slip.front = std::max(slip.front, x + 0.5 * slip.cell);
-  }
+  Slip slip{0, 0, run.mesh().fracture_cells[0].length};
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)
+    slip.at_centre = std::max(slip.at_centre, std::abs(run.field("contact.jump")[2 * i + 1]));
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)
+    // What sticks moves by round-off.
+    if (std::abs(run.field("contact.jump")[2 * i + 1]) > 1e-9 * slip.at_centre)
+      slip.front = std::max(slip.front, run.mesh().fracture_cells[i].center[0] + 0.5 * slip.cell);
   return slip;
 }
 
