@@ -20,8 +20,7 @@ double front(double load) {
 }
 
 struct Slip {
-  double front, at_centre, cell;                   ///< m
-  std::vector<std::pair<double, double>> profile;  ///< x, slip
+  double front, at_centre, cell;  ///< m
 };
 
 Slip run_fault(const std::string& shear, double time) {
