@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -59,7 +60,7 @@ void Newton::move(const std::vector<Vector>& from, const Vector& update, double 
     unknowns_[u]->set(from[u] + length * update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size()));
 }
 
-double Newton::relative_size(const Vector& update) const {
+double Newton::relative_size(const Vector& update, const ResidualCheck& check) const {
   // Fields of one unit share a scale: a jump that is zero while everything sticks is compared with the displacements.
   std::map<std::string, double> scale, change;
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
@@ -68,6 +69,7 @@ double Newton::relative_size(const Vector& update) const {
     double& s = scale[field.spec().unit];
     // A field may vanish: its change is then small against what it was.
     s = std::max({s, field.now().lpNorm<Eigen::Infinity>(), field.accepted().lpNorm<Eigen::Infinity>()});
+    if (check.finite && check.is_round_off[u]) continue;
     double& c = change[field.spec().unit];
     c = std::max(c, update.segment(system_.first(static_cast<int>(u)), field.size()).lpNorm<Eigen::Infinity>());
   }
@@ -130,7 +132,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
       const auto assembly = assemble(Assembly::Want::residual, step);
       Vector update;
       const LinearReport report = linear_->solve(-system_.residual(*assembly), update);
-      const double size = report.solved ? relative_size(update) : 0;
+      const double size = report.solved ? relative_size(update, check) : std::numeric_limits<double>::infinity();
       if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0});
       if (size <= options_.update) return {true, "", iteration};
     }
@@ -153,7 +155,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
     seen_states.insert(state);
     check = take_step(step, update, iteration, cycling, length);
     recent_merits_.push_back(check.merit);
-    if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update), length});
+    if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length});
   }
 }
 

@@ -37,6 +37,7 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
       return check;
     }
     if (largest > tolerance * magnitude + noise) check.converged = false;
+    check.is_round_off.push_back(largest <= noise);
     if (largest <= noise || magnitude == 0) continue;
     const double relative = largest / magnitude;
     check.merit += squares / count / (magnitude * magnitude);

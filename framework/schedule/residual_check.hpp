@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "framework/assembly/assembly.hpp"
 #include "framework/assembly/block_system.hpp"
@@ -11,9 +12,10 @@ namespace sprekk {
 struct ResidualCheck {
   bool finite = true;
   bool converged = false;
-  double largest = 0;    ///< over the equations: largest residual over the magnitude of the equation's terms
-  std::string equation;  ///< that has it
-  double merit = 0;      ///< sum of squares of the equations' relative residuals
+  double largest = 0;              ///< over the equations: largest residual over the magnitude of the equation's terms
+  std::string equation;            ///< that has it
+  std::vector<char> is_round_off;  ///< of each equation: its residual is round-off of its terms
+  double merit = 0;                ///< sum of squares of the equations' relative residuals
 };
 
 /// An equation is fulfilled when its largest residual is at most `tolerance` times the largest of its terms, or is
