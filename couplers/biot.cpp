@@ -66,6 +66,7 @@ class Biot : public Coupler {
     const Field& pressure = fluid_.pressure();
     if (!assembly.has_row(pressure)) return;
     assembly.add(pressure, grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()));
+    assembly.compare_round_off(pressure, grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
     assembly.diagonal(pressure, pressure, grain_capacity_);
     if (decoupled_) return;
     assembly.linear(pressure, rock_.volume_change(), 1, &alpha_);

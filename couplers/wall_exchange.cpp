@@ -1,4 +1,6 @@
 // wall_exchange: fluid flows between a fracture and the matrix through its walls (Eq. 9).
+#include <algorithm>
+
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "framework/scene/registry.hpp"
@@ -20,6 +22,9 @@ struct WallExchangeOptions {
 /// by kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well scaled
 /// from sealed to wide open walls. lambda leaves the fluid balance of the fracture: Eq. 8, in which Eq. 9 has the sign
 /// of a flux out of the fracture.
+///
+/// What the matrix has received through each wall is kept in `exchanged`, and what of it the fracture has counted in
+/// `counted`, so that nothing is lost when the two are solved one after the other, or one of them in substeps.
 class WallExchange : public Coupler {
  public:
   WallExchange(const CouplerContext& context, const WallExchangeOptions&)
@@ -27,17 +32,24 @@ class WallExchange : public Coupler {
         mesh_(context.mesh),
         walls_(context.the<MatrixWalls>()),
         fluid_(context.find<MatrixFluid>()),
-        fracture_(context.the<FractureFluid>()) {
+        fracture_(context.the<FractureFluid>()),
+        exchanged_(context.fields.add(
+            mesh_, book(context, "exchanged", walls_.wall_flux(), "Fluid that the matrix has received"))),
+        counted_(context.fields.add(
+            mesh_, book(context, "counted", fracture_.pressure(), "Of it, what the fracture has counted"))) {
     context.determine(walls_.wall_flux());
-    std::vector<Triplet> entries, sums;
+    std::vector<Triplet> entries, sums, counts;
     for (int w = 0; w < mesh_.wall_count(); ++w) {
       entries.emplace_back(w, w / 2, 1.0);
       sums.emplace_back(w / 2, w, mesh_.fracture_cells[w / 2].length);
+      counts.emplace_back(w / 2, w, 1.0);
     }
     to_walls_.resize(mesh_.wall_count(), mesh_.fracture_cell_count());
     to_walls_.setFromTriplets(entries.begin(), entries.end());
     inflow_.resize(mesh_.fracture_cell_count(), mesh_.wall_count());
     inflow_.setFromTriplets(sums.begin(), sums.end());
+    of_both_walls_.resize(mesh_.fracture_cell_count(), mesh_.wall_count());
+    of_both_walls_.setFromTriplets(counts.begin(), counts.end());
   }
 
   void begin_step(const StepTime&) override {
@@ -54,7 +66,11 @@ class WallExchange : public Coupler {
   void assemble(Assembly& assembly, const StepTime& step) const override {
     const Field& flux = walls_.wall_flux();
     const Field& pressure = fracture_.pressure();
-    if (assembly.has_row(pressure)) assembly.linear(pressure, inflow_, flux, step.dt);
+    if (assembly.has_row(pressure)) {
+      const Vector& received = assembly.has_row(flux) ? exchanged_.accepted() : exchanged_.now();
+      assembly.add(pressure, of_both_walls_ * (received - counted_.accepted()));
+      if (assembly.has_row(flux)) assembly.linear(pressure, inflow_, flux, step.dt);
+    }
     if (!assembly.has_row(flux)) return;
 
     const FractureFluid::NormalPermeability kappa = fracture_.normal_permeability();
@@ -72,6 +88,10 @@ class WallExchange : public Coupler {
     const Vector trace_now = trace.now();
     assembly.add(flux, of_trace.cwiseProduct(trace_now));
     assembly.add(flux, of_pressure.cwiseProduct(to_walls_ * pressure.now()));
+    // The trace is itself a difference of larger numbers, where the matrix drains into a fracture of little pressure.
+    for (const LinearExpression::Term& term : trace.terms)
+      assembly.compare_round_off(
+          flux, of_trace.cwiseProduct(term.matrix.cwiseAbs() * term.field->now().cwiseAbs()).lpNorm<Eigen::Infinity>());
     if (!assembly.wants_derivatives()) return;
     for (const LinearExpression::Term& term : trace.terms)
       assembly.derivative(flux, *term.field, SparseMatrix(of_trace.asDiagonal() * term.matrix));
@@ -84,19 +104,43 @@ class WallExchange : public Coupler {
     assembly.derivative(flux, fracture_.aperture(), SparseMatrix(by_aperture.asDiagonal() * to_walls_));
   }
 
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
+    const auto has = [&](const Field& field) {
+      return std::find(solved.begin(), solved.end(), &field) != solved.end();
+    };
+    if (has(walls_.wall_flux())) {
+      Vector exchanged = exchanged_.accepted();
+      for (int w = 0; w < mesh_.wall_count(); ++w)
+        exchanged[w] += step.dt * mesh_.fracture_cells[w / 2].length * walls_.wall_flux().now()[w];
+      exchanged_.set(std::move(exchanged));
+    }
+    if (has(fracture_.pressure())) counted_.set(exchanged_.now());
+  }
+
   void relate_levels(Levels& levels) const override {
     if (fluid_) levels.tie(fluid_->pressure(), fracture_.pressure());
   }
 
-  bool is_nonlinear() const override { return fracture_.aperture().is_solved(); }
-
  private:
+  static FieldSpec book(const CouplerContext& context, const char* name, const Field& with, const char* doc) {
+    return {.owner = context.name,
+            .name = name,
+            .location = Location::wall,
+            .role = Role::derived,
+            .unit = "m^2",
+            .doc = doc,
+            .accepted_with = with.name()};
+  }
+
   const Mesh& mesh_;
   MatrixWalls& walls_;
   MatrixFluid* fluid_;
   FractureFluid& fracture_;
-  SparseMatrix to_walls_;  ///< walls × fracture cells
-  SparseMatrix inflow_;    ///< fracture cells × walls: lambda times length
+  Field& exchanged_;            ///< through each wall since the start, m^2
+  Field& counted_;              ///< the same, as the fracture has counted it, m^2
+  SparseMatrix to_walls_;       ///< walls × fracture cells
+  SparseMatrix inflow_;         ///< fracture cells × walls: lambda times length
+  SparseMatrix of_both_walls_;  ///< fracture cells × walls: ones
   Vector matrix_conductance_;
 };
 

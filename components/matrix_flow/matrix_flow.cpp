@@ -165,6 +165,7 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(pressure_)) return;
   const Vector capacity = storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
   assembly.add(pressure_, capacity.cwiseProduct(pressure_.now() - pressure_.accepted()));
+  assembly.compare_round_off(pressure_, capacity.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
   assembly.diagonal(pressure_, pressure_, capacity);
   assembly.linear(pressure_, outflow_of_pressure_, pressure_, step.dt);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);

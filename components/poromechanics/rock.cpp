@@ -144,6 +144,13 @@ void Rock::discretize() {
   }
   operators_ = discretize_mpsa(mesh_, stiffness_, conditions, nodes_to_discretize(mesh_));
   const int rank = parallel::rank();
+  if (parallel::size() > 1) {
+    // Rows of other ranks' cells are incomplete.
+    std::vector<char> own(mesh_.cell_count());
+    for (int c = 0; c < mesh_.cell_count(); ++c) own[c] = mesh_.cell_rank[c] == rank;
+    for (SparseMatrix* rows : {&operators_.volume_displacement, &operators_.volume_stress, &operators_.volume_boundary})
+      *rows = keep_rows(*rows, own);
+  }
   const SparseMatrix outflow = cell_sums(mesh_, operators_.force_displacement, 2, rank);
   force_of_displacement_ = -outflow;
   volume_change_.terms = {{&displacement_, operators_.volume_displacement}};
@@ -219,6 +226,9 @@ void Rock::apply_boundary() {
   boundary_applied_ = true;
   force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), 2);
   force_constant_ -= body_forces_;
+  if (parallel::size() > 1)
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      if (!is_owned(mesh_, Location::cell, c)) force_constant_.segment<2>(2 * c).setZero();
   volume_change_.constant = operators_.volume_boundary * boundary_values_;
   if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * boundary_values_);
   for (const Load& load : loads_) {

@@ -42,11 +42,9 @@ void Assembly::compare_round_off(const Field& row, double largest) {
 void Assembly::fix(const Field& row, int i, double target, double scale) {
   const auto found = index_.find(&row);
   if (found == index_.end()) return;
-  const int unknown = found->second;
-  residuals_[unknown][i] = scale * (row.now()[i] - target);
-  magnitudes_[unknown] = std::max(magnitudes_[unknown], scale * std::abs(target));
-  round_off_bases_[unknown] = std::max(round_off_bases_[unknown], scale * std::abs(target));
-  fixed_.push_back({unknown, i, scale});
+  const double value = row.now()[i], size = std::max(std::abs(value), std::abs(target));
+  residuals_[found->second][i] = scale * (value - target);
+  fixed_.push_back({found->second, i, scale, size > 0 ? std::abs(value - target) / size : 0});
 }
 
 void Assembly::derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor,

@@ -49,6 +49,7 @@ class Assembly {
   struct Fixed {
     int unknown, row;
     double scale;
+    double error;  ///< |value − target| over the larger of the two: these rows are judged by themselves
   };
   const std::vector<Fixed>& fixed() const { return fixed_; }
 

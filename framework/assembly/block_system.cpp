@@ -72,6 +72,8 @@ std::uint64_t BlockSystem::fingerprint(const Assembly& assembly) const {
     const int* inner = matrix.innerIndexPtr();
     for (int k = 0; k + 1 < outer[matrix.outerSize()]; k += 2)
       hash = mix(hash, (static_cast<std::uint64_t>(inner[k]) << 32) | static_cast<std::uint32_t>(inner[k + 1]));
+    const int entries = outer[matrix.outerSize()];
+    if (entries % 2 == 1) hash = mix(hash, static_cast<std::uint32_t>(inner[entries - 1]));
   }
   return hash;
 }

@@ -51,15 +51,11 @@ class Part {
   /// Keeps the books (derived fields) of the fields that a `solve` has just determined: what was stored, what flowed
   /// out.
   virtual void after_solve(const std::vector<Field*>& /*solved*/, const StepTime&) {}
-  /// Computes other derived fields from the current unknowns. Called when a step has converged, before it is accepted.
-  virtual void update_derived(const StepTime&) {}
   /// Adds this part's totals to those of the conserved quantities, by name.
   virtual void balance(std::map<std::string, Balance>&) const {}
 
   /// Changes whenever the discrete state (which cells stick, slip, are open) does; the cycle detector reads it.
   virtual std::uint64_t discrete_state() const { return 0; }
-  /// Whether any of its equations is nonlinear in the unknowns.
-  virtual bool is_nonlinear() const { return false; }
   /// The names of the stabilizations that it offers to split schemes.
   virtual std::vector<std::string> stabilizations() const { return {}; }
   /// Adds the diagonals of a named stabilization to the fields that it knows how to stabilize.

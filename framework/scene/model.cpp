@@ -88,10 +88,7 @@ void Model::check_levels() const {
 
 StepStatus Model::attempt(const StepTime& step) {
   for (Part* part : parts_) part->begin_step(step);
-  const StepStatus status = schedule_->run(step);
-  if (status.converged)
-    for (Part* part : parts_) part->update_derived(step);
-  return status;
+  return schedule_->run(step);
 }
 
 std::vector<double> Model::switch_times() const {

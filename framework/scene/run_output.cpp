@@ -38,9 +38,8 @@ void RunOutput::write_iteration(const IterationRecord& record) {
                                       {"step_length[1]", record.step_length}});
 }
 
-void RunOutput::write_fields(double time, int step, const Model& model) {
-  const std::vector<OutputField> fields = model.output();
-  if (parallel::is_root() && fields_) fields_->write(time, step, model.mesh(), fields);
+void RunOutput::write_fields(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields) {
+  if (parallel::is_root() && fields_) fields_->write(time, step, mesh, fields);
 }
 
 void RunOutput::write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const std::string& fingerprint) {

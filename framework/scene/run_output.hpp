@@ -22,7 +22,7 @@ class RunOutput {
   void open(const std::optional<double>& continue_from, bool with_fields);
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
   void write_iteration(const IterationRecord& record);
-  void write_fields(double time, int step, const Model& model);
+  void write_fields(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields);
   void write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const std::string& fingerprint);
 
   std::filesystem::path path() const { return folder_.path(); }

@@ -30,9 +30,10 @@ std::vector<double> output_times(const Scene& scene) {
   return times;
 }
 
-bool contains(const std::vector<double>& times, double time) {
+/// The step controller takes targets nearer than `tolerance` (s) for one.
+bool contains(const std::vector<double>& times, double time, double tolerance) {
   for (const double other : times)
-    if (std::abs(other - time) <= 1e-12 * std::max(std::abs(time), 1e-300)) return true;
+    if (std::abs(other - time) <= tolerance) return true;
   return false;
 }
 
@@ -154,13 +155,16 @@ bool Run::advance() {
     }
     newton_iterations_ += status.iterations;
     if (status.converged) {
+      // Both before the step is accepted: which cells slip shows in what changed since the last accepted step.
+      const bool writes_fields = contains(output_times_, step.end, 1e-9 * model_.scene().time.step);
       const std::vector<Quantity> quantities = model_.quantities();
+      const std::vector<OutputField> fields = writes_fields ? model_.output() : std::vector<OutputField>();
       model_.accept();
       controller_.accepted(step, status.iterations);
       const ScopedTimer timer(profile_, "output");
       output_.write_history(step, status.iterations, quantities);
       for (const Quantity& q : quantities) record_.results[labelled(q.name, q.unit)] = q.value;
-      if (contains(output_times_, step.end)) output_.write_fields(step.end, controller_.steps(), model_);
+      if (writes_fields) output_.write_fields(step.end, controller_.steps(), model_.mesh(), fields);
       return true;
     }
     model_.rewind();

@@ -87,6 +87,10 @@ ScheduleBuilder read_subcycle(const Node& node, const ScheduleReading& reading) 
 }
 
 ScheduleBuilder read_when(const Node& node, const ScheduleReading& reading) {
+  if (reading.is_iterated)
+    throw InputError(node.find("when")->origin, "'when' stands inside of an 'iterate'",
+                     "the iteration tests the residual of everything inside, also of what is not run",
+                     "put the 'iterate' inside of the 'when'");
   WhenOptions options;
   const ScheduleBuilder inside = read_inside(node, options, reading);
   return [options, inside](const ScheduleContext& context) {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/schedule/residual_check.hpp"
@@ -48,6 +50,20 @@ void IterateStep::set_scaled_values(const Vector& values) {
     fields_[u]->set(scales_[u] * values.segment(system_.first(static_cast<int>(u)), fields_[u]->size()));
 }
 
+void IterateStep::choose_scales() {
+  // Fields of one unit share a scale, as in Newton's test: a jump that is still round-off must not weigh.
+  std::map<std::string, double> largest;
+  for (const Field* field : fields_) {
+    double& l = largest[field->spec().unit];
+    if (field->size() > 0)
+      l = std::max({l, field->now().lpNorm<Eigen::Infinity>(), field->accepted().lpNorm<Eigen::Infinity>()});
+  }
+  for (std::size_t u = 0; u < fields_.size(); ++u) {
+    const double l = largest[fields_[u]->spec().unit];
+    scales_[u] = (l > 0 ? l : 1) * std::sqrt(std::max(1, fields_[u]->size()));
+  }
+}
+
 StepStatus IterateStep::run(const StepTime& step) {
   anderson_.forget();
   scales_.assign(fields_.size(), 1);
@@ -65,10 +81,7 @@ StepStatus IterateStep::run(const StepTime& step) {
     if (check.converged) return {true, "", pass};
     if (options_.anderson == 0) continue;
     if (pass == 1) {
-      for (std::size_t u = 0; u < fields_.size(); ++u) {
-        const double largest = fields_[u]->size() > 0 ? fields_[u]->now().lpNorm<Eigen::Infinity>() : 0;
-        scales_[u] = (largest > 0 ? largest : 1) * std::sqrt(std::max(1, fields_[u]->size()));
-      }
+      choose_scales();
     } else {
       set_scaled_values(anderson_.next(before, scaled_values()));
     }

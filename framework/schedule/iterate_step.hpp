@@ -28,6 +28,7 @@ class IterateStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
 
  private:
+  void choose_scales();
   Vector scaled_values() const;
   void set_scaled_values(const Vector& values);
 

@@ -15,8 +15,7 @@ namespace sprekk {
 
 Newton::Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*> parts, const LinearOptions& linear,
                const NewtonOptions& options, std::string name, IterationLog log)
-    : mesh_(mesh),
-      unknowns_(std::move(unknowns)),
+    : unknowns_(std::move(unknowns)),
       parts_(std::move(parts)),
       options_(options),
       name_(std::move(name)),
@@ -119,6 +118,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
 
   std::multiset<std::uint64_t> seen_states;
+  std::uint64_t last_state = 0;
   bool factored = false, cycling = false;
   double length = 1;
   auto check = check_residual(*assemble(Assembly::Want::residual, step), system_, options_.residual);
@@ -150,9 +150,13 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
     const LinearReport report = linear_->solve(-system_.residual(*assembly), update);
     if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
 
+    // A state that stays is no cycle; one that has been left and comes back is, if it does so again and again.
     const std::uint64_t state = discrete_state();
-    cycling = cycling || (iteration > 3 && seen_states.count(state) > 1);
-    seen_states.insert(state);
+    if (iteration == 0 || state != last_state) {
+      cycling = cycling || seen_states.count(state) > 1;
+      seen_states.insert(state);
+      last_state = state;
+    }
     check = take_step(step, update, iteration, cycling, length);
     recent_merits_.push_back(check.merit);
     if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length});

@@ -47,7 +47,6 @@ class Newton {
   double relative_size(const Vector& update, const ResidualCheck& check) const;
   ResidualCheck take_step(const StepTime& step, const Vector& update, int iteration, bool cycling, double& length);
 
-  const Mesh& mesh_;
   std::vector<Field*> unknowns_;
   std::vector<Part*> parts_;
   NewtonOptions options_;

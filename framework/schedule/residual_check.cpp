@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "framework/parallel/parallel.hpp"
 
@@ -18,7 +19,15 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
     const int end = system.first(static_cast<int>(u)) + assembly.unknowns()[u]->size();
     double largest = 0, squares = 0, count = 0;
     bool finite = true;
+    std::set<int> fixed;
+    double fixed_error = 0;
+    for (const Assembly::Fixed& row : assembly.fixed()) {
+      if (row.unknown != static_cast<int>(u)) continue;
+      fixed.insert(system.first(row.unknown) + row.row);
+      fixed_error = std::max(fixed_error, row.error);
+    }
     for (; next < rows.size() && rows[next] < end; ++next) {
+      if (fixed.count(rows[next])) continue;
       const double value = std::abs(owned[next]);
       finite = finite && std::isfinite(value);
       largest = std::max(largest, value);
@@ -36,11 +45,15 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
       check.largest = check.merit = std::numeric_limits<double>::infinity();
       return check;
     }
-    if (largest > tolerance * magnitude + noise) check.converged = false;
-    check.is_round_off.push_back(largest <= noise);
-    if (largest <= noise || magnitude == 0) continue;
-    const double relative = largest / magnitude;
-    check.merit += squares / count / (magnitude * magnitude);
+    if (largest > tolerance * magnitude + noise || fixed_error > tolerance) check.converged = false;
+    const bool is_round_off = largest <= noise || magnitude == 0;
+    check.is_round_off.push_back(is_round_off && fixed_error <= tolerance);
+    double relative = fixed_error;
+    check.merit += fixed_error * fixed_error;
+    if (!is_round_off) {
+      relative = std::max(relative, largest / magnitude);
+      check.merit += squares / count / (magnitude * magnitude);
+    }
     if (relative > check.largest) {
       check.largest = relative;
       check.equation = assembly.unknowns()[u]->name();

@@ -8,7 +8,7 @@ StepStatus SequenceStep::run(const StepTime& step) {
   StepStatus status{true, "", 0};
   for (auto& inner : steps_) {
     const StepStatus inner_status = inner->run(step);
-    status.iterations += inner_status.iterations;
+    status.iterations = std::max(status.iterations, inner_status.iterations);
     if (!inner_status.converged) return {false, inner->describe() + ": " + inner_status.reason, status.iterations};
   }
   return status;

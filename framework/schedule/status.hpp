@@ -9,7 +9,7 @@ namespace sprekk {
 struct StepStatus {
   bool converged = false;
   std::string reason;  ///< why not
-  int iterations = 0;
+  int iterations = 0;  ///< the most that any solve or iteration inside has needed
 };
 
 }  // namespace sprekk

@@ -79,7 +79,7 @@ void StepController::accepted(const StepTime& step, int iterations) {
     return;
   }
   if (iterations > options_.iterations)
-    wanted_ *= options_.shrink;
+    wanted_ = std::max(options_.smallest.value_or(options_.step * 1e-6), wanted_ * options_.shrink);
   else if (2 * iterations <= options_.iterations)
     wanted_ = std::min(options_.largest, wanted_ * options_.grow);
 }

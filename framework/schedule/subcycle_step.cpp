@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sprekk {
 
 Spec SubcycleOptions::spec() {
@@ -25,6 +27,22 @@ std::string SubcycleStep::describe() const { return fmt::format("subcycle {}", o
 StepStatus SubcycleStep::run(const StepTime& step) {
   std::vector<Vector> start;
   for (const Field* field : fields_) start.push_back(field->accepted());
+  const auto put_back = [&] {
+    for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->set_accepted(start[i]);
+  };
+  StepStatus status;
+  try {
+    status = take_substeps(step);
+  } catch (...) {  // data without a value: the step is rewound to its start
+    put_back();
+    throw;
+  }
+  put_back();
+  for (Part* part : parts_) part->begin_step(step);
+  return status;
+}
+
+StepStatus SubcycleStep::take_substeps(const StepTime& step) {
   StepStatus status{true, "", 0};
   for (int i = 0; i < options_.count && status.converged; ++i) {
     StepTime substep;
@@ -33,13 +51,11 @@ StepStatus SubcycleStep::run(const StepTime& step) {
     substep.dt = step.dt / options_.count;
     for (Part* part : parts_) part->begin_step(substep);
     const StepStatus inner = inside_->run(substep);
-    status.iterations += inner.iterations;
+    status.iterations = std::max(status.iterations, inner.iterations);
     status.converged = inner.converged;
     if (!inner.converged) status.reason = fmt::format("substep {}: {}", i + 1, inner.reason);
     for (Field* field : fields_) field->accept();
   }
-  for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->set_accepted(start[i]);
-  for (Part* part : parts_) part->begin_step(step);
   return status;
 }
 

@@ -24,6 +24,8 @@ class SubcycleStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
 
  private:
+  StepStatus take_substeps(const StepTime& step);
+
   SubcycleOptions options_;
   std::unique_ptr<ScheduleStep> inside_;
   std::vector<Part*> parts_;

@@ -81,7 +81,8 @@ State Coulomb::state(int i) const {
 std::uint64_t Coulomb::discrete_state() const {
   std::uint64_t hash = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-    hash = hash * 1000003 + static_cast<std::uint64_t>(state(i)) * 2 + (trial(i).tangential > 0);
+    hash = hash * 1000003 + static_cast<std::uint64_t>(state(i)) * 2 +
+           (state(i) == State::slip && trial(i).tangential > 0);
   return hash;
 }
 

@@ -31,7 +31,6 @@ class Coulomb : public Component, public FractureContact {
 
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime& step) const override;
-  bool is_nonlinear() const override { return true; }
   std::uint64_t discrete_state() const override;
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;

@@ -314,10 +314,6 @@ void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
   }
 }
 
-bool FractureFlow::is_nonlinear() const {
-  return aperture_.is_solved() && (options_.transmissivity == "cubic_law" || compressibility_.maxCoeff() > 0);
-}
-
 std::vector<double> FractureFlow::switch_times() const {
   std::vector<double> times;
   const auto append = [&](const Data& data) {

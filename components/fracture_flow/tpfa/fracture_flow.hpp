@@ -28,7 +28,6 @@ class FractureFlow : public Component, public FractureFluid {
   void constrain(Assembly& assembly) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
-  bool is_nonlinear() const override;
   std::vector<double> switch_times() const override;
   void relate_levels(Levels& levels) const override;
   void report(std::vector<Quantity>& quantities) const override;
