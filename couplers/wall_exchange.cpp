@@ -117,6 +117,11 @@ class WallExchange : public Coupler {
     if (has(fracture_.pressure())) counted_.set(exchanged_.now());
   }
 
+  /// What the matrix has received and the fracture has not counted yet is on its way.
+  void balance(std::map<std::string, Balance>& balances) const override {
+    balances["fluid"].stored -= (exchanged_.now() - counted_.now()).sum();
+  }
+
   void relate_levels(Levels& levels) const override {
     if (fluid_) levels.tie(fluid_->pressure(), fracture_.pressure());
   }
