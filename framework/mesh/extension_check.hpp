@@ -1,0 +1,67 @@
+// Where fractures may grow to.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// New segments at an end of a fracture.
+struct PathExtension {
+  int fracture;               ///< index into Mesh::fractures
+  bool at_end;                ///< at the last (true) or the first point of the polyline
+  std::vector<Point> points;  ///< m, from the old tip (exclusive) on
+};
+
+/// A path that a fracture cannot take: what, where and why, so that its growth can be stopped.
+class ExtensionError : public std::runtime_error {
+ public:
+  enum class Reason {
+    no_tip,            ///< the end lies on the outer boundary already, or grows twice
+    no_path,           ///< no points, points that are not finite, or segments without length
+    turns_back,        ///< by more than 90 degrees
+    leaves_mesh,       ///< crosses the outer boundary
+    crosses_fracture,  ///< or touches one: another, itself, or another extension
+    too_near           ///< passes a fracture or the outer boundary at less than least_gap sizes
+  };
+  ExtensionError(Reason reason, int extension, const Point& where, const std::string& what)
+      : std::runtime_error(what), reason_(reason), extension_(extension), where_(where) {}
+  Reason reason() const { return reason_; }
+  int extension() const { return extension_; }  ///< index into the list that was given
+  const Point& where() const { return where_; }
+
+ private:
+  Reason reason_;
+  int extension_;
+  Point where_;
+};
+
+/// The least distance between a path and anything else, in edge lengths.
+inline constexpr double least_gap = 0.5;
+/// An end nearer than this to the outer boundary, in edge lengths, is meant to lie on it.
+inline constexpr double boundary_snap = 0.01;
+/// A path that meets the outer boundary at less than this angle passes too near to it, rad (15 degrees).
+inline constexpr double least_incidence = 0.2617993877991494;
+
+/// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). Returns the
+/// extensions with ends near the outer boundary put onto it.
+std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
+                                            double size);
+
+/// What a straight path meets first.
+struct FreeLength {
+  enum class Met { nothing, fracture, boundary };
+  double length;  ///< m; infinite when nothing is met (from a point outside of the mesh)
+  Met met;
+  int index;    ///< of the fracture or the side, or none
+  Point where;  ///< from + length * direction
+};
+
+/// The way along the ray from `from` to the nearest fracture or the outer boundary. The last segment of the fracture's
+/// own given end does not count. `direction` need not be of unit length; it must not be zero (std::invalid_argument).
+FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point& from, const Point& direction);
+
+}  // namespace sprekk
