@@ -1,0 +1,52 @@
+#include "components/fine_fracture/quarter_point/auxiliary_field.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace sprekk::fine_fracture {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Muskhelishvili's Phi and Psi (derivatives of his potentials) with their derivatives:
+/// s11 + s22 = 4 Re Phi, s22 - s11 + 2i s12 = 2 (conj(z) Phi' + Psi), 2G d(u1 + i u2)/dx1 = kappa Phi - conj(Phi +
+/// conj(z) Phi' + Psi).
+struct Potentials {
+  Complex Phi, dPhi, ddPhi, Psi, dPsi;
+};
+
+/// With Psi chosen so that Phi + conj(Phi) + z Phi' + Psi vanishes on both walls.
+Potentials potentials(Auxiliary field, double r, double theta) {
+  const Complex z = std::polar(r, theta);
+  if (field == Auxiliary::force) {
+    const double b = -1 / (4 * std::numbers::pi);
+    return {b / z, -b / (z * z), 2 * b / (z * z * z), -b / z, b / (z * z)};
+  }
+  // Ahead of the tip s22 + i s12 = (K_I + i K_II) / sqrt(2 pi r).
+  const Complex K(field == Auxiliary::opening ? 1 : 0, field == Auxiliary::sliding ? 1 : 0);
+  const Complex a = std::conj(K) / (2 * std::sqrt(2 * std::numbers::pi));
+  const Complex b = std::conj(a) - 0.5 * a;
+  const Complex root = std::polar(1 / std::sqrt(r), -0.5 * theta);  // z^-1/2
+  return {a * root, -0.5 * a * root / z, 0.75 * a * root / (z * z), b * root, -0.5 * b * root / z};
+}
+
+/// From s11 + s22 and s22 - s11 + 2i s12.
+Tensor stress_of(double sum, const Complex& deviator) {
+  Tensor s;
+  s << 0.5 * (sum - deviator.real()), 0.5 * deviator.imag(), 0.5 * deviator.imag(), 0.5 * (sum + deviator.real());
+  return s;
+}
+
+}  // namespace
+
+AuxiliaryPoint auxiliary_point(Auxiliary field, const Elasticity& rock, double r, double theta) {
+  const Complex z_conj = std::polar(r, -theta);
+  const Potentials f = potentials(field, r, theta);
+  const Complex along = (rock.kolosov() * f.Phi - std::conj(f.Phi + z_conj * f.dPhi + f.Psi)) / (2 * rock.shear);
+  const Tensor stress = stress_of(4 * f.Phi.real(), 2.0 * (z_conj * f.dPhi + f.Psi));
+  const Tensor stress_along = stress_of(4 * f.dPhi.real(), 2.0 * (f.dPhi + z_conj * f.ddPhi + f.dPsi));
+  return {stress, Point(along.real(), along.imag()), rock.strain(stress_along)};
+}
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,55 @@
+#include "components/fine_fracture/quarter_point/intensities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/fine_fracture/quarter_point/interaction_integral.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+/// The domain reaches this many rosette radii from the tip if there is room.
+constexpr double domain_in_radii = 4;
+
+void correlate(const FineMesh::Tip& tip, const Elasticity& rock, const Vector& displacement, TipIntensities& result) {
+  const Point& x1 = tip.room.direction;
+  const Point x2(-x1.y(), x1.x());
+  std::array<Point, 2> opening;  // (normal, tangential) at a quarter of the radius, and at the radius
+  for (int k = 0; k < 2; ++k) {
+    const Point jump =
+        displacement.segment<2>(2 * tip.wall_nodes[0][k]) - displacement.segment<2>(2 * tip.wall_nodes[1][k]);
+    opening[k] = {jump.dot(x2), jump.dot(x1)};
+  }
+  const double factor = rock.shear * std::sqrt(2 * std::numbers::pi / tip.room.radius) / (rock.kolosov() + 1);
+  result.K_correlation = factor * (4 * opening[0] - opening[1]);
+  result.K_extrapolated = factor * (8 * opening[0] - opening[1]) / 3;
+}
+
+}  // namespace
+
+std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
+                                            const Vector& displacement) {
+  std::vector<TipIntensities> results;
+  for (const FineMesh::Tip& tip : mesh.tips) {
+    const TipRoom& room = tip.room;
+    TipIntensities result{};
+    result.crack = room.crack;
+    result.is_last = room.is_last;
+    result.position = room.position;
+    result.direction = room.direction;
+    result.domain_radius = std::min({domain_in_radii * room.radius, room.straight, room.clearance});
+    const double inner_radius = 0.5 * (result.domain_radius + room.radius);
+    const auto outer = interaction_integral(mesh, rock, loads, displacement, tip, result.domain_radius);
+    result.K = outer.K;
+    result.T = outer.T;
+    result.K_inner = interaction_integral(mesh, rock, loads, displacement, tip, inner_radius).K;
+    result.error = (result.K - result.K_inner).cwiseAbs();
+    result.energy_release_rate = result.K.squaredNorm() / rock.plane_modulus();
+    correlate(tip, rock, displacement, result);
+    results.push_back(result);
+  }
+  return results;
+}
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,35 @@
+// Stress-intensity factors of a finite-element solution.
+#pragma once
+
+#include <vector>
+
+#include "components/fine_fracture/quarter_point/elasticity.hpp"
+#include "components/fine_fracture/quarter_point/fine_mesh.hpp"
+#include "components/fine_fracture/quarter_point/loads.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// Of one tip, in its frame: x1 out of the crack along its direction, x2 = x1 turned by +90 degrees. Pairs are
+/// (K_I, K_II) in Pa m^1/2. K_I > 0 opens; K_II > 0 moves the upper wall (x2 > 0) towards +x1 against the lower.
+struct TipIntensities {
+  int crack;
+  bool is_last;     ///< the last point of the path, else the first
+  Point position;   ///< m
+  Point direction;  ///< x1
+
+  Point K;               ///< by the interaction integral over the larger domain
+  Point K_inner;         ///< over a smaller one
+  Point K_correlation;   ///< by displacement correlation with quarter points: G sqrt(2 pi / L) / (kappa + 1) [4 dv(L/4)
+                         ///< - dv(L)]
+  Point K_extrapolated;  ///< the same from dv(L/4) and dv(L) extrapolated linearly to the tip
+  double T;              ///< sigma_11 - sigma_22 at the tip, Pa
+  double energy_release_rate;  ///< (K_I^2 + K_II^2) / E', Pa m
+  Point error;                 ///< an estimate for K: how far it is from K_inner
+  double domain_radius;        ///< of the interaction integral, m
+};
+
+/// `displacement` holds (x, y) per node. The loads are those of the solution.
+std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
+                                            const Vector& displacement);
+
+}  // namespace sprekk::fine_fracture

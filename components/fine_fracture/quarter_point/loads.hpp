@@ -1,0 +1,28 @@
+// What acts on the piece of rock. Functions that are empty give zero.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "framework/types.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// Stresses are tension positive, Pa; displacements in m. All functions are called during FineModel::solve only.
+struct FineLoads {
+  /// On outline edges of kind displacement. `inside` is a point slightly inside the element that asks: it tells the
+  /// side of a crack that ends on the outline.
+  std::function<Point(const Point& x, const Point& inside)> boundary_displacement = {};
+  /// On outline edges of kind traction: total stress times outward normal.
+  std::function<Point(const Point& x, const Point& normal)> boundary_traction = {};
+  /// Total stress times normal n on the plus wall, in global components, n from plus to minus; the minus wall feels the
+  /// opposite. So a fluid pressure p is -p n. s runs from 0 to 1 along the segment.
+  std::function<Point(int crack, int segment, double s)> wall_traction = {};
+  /// u(minus) - u(plus), in global components. At a tip it is not asked for: the walls meet.
+  std::function<Point(int crack, int segment, double s)> wall_jump = {};
+  /// (xx, yy, xy) of the part of the total stress that is not elastic: total = C eps(u) + offset. For example
+  /// -alpha (p - p0) I + initial stress. Only values are used, so it may jump.
+  std::function<Eigen::Vector3d(const Point& x)> stress_offset = {};
+};
+
+}  // namespace sprekk::fine_fracture

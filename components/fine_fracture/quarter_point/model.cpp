@@ -1,0 +1,115 @@
+#include "components/fine_fracture/quarter_point/model.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <stdexcept>
+
+#include "components/fine_fracture/quarter_point/forces.hpp"
+#include "components/fine_fracture/quarter_point/quadrature.hpp"
+#include "components/fine_fracture/quarter_point/shapes.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+using ElementMatrix = Eigen::Matrix<double, 12, 12>;
+using ElementVector = Eigen::Matrix<double, 12, 1>;
+
+ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& element, const Elasticity& rock) {
+  const double lambda = rock.lambda, shear = rock.shear;
+  ElementMatrix stiffness = ElementMatrix::Zero();
+  // Both rules are exact.
+  for (const TrianglePoint& place : element.tip == none ? triangle_rule(2) : polar_rule(2, 3)) {
+    const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
+    const double factor = place.weight * p.jacobian;
+    for (int a = 0; a < 6; ++a) {
+      const double ax = factor * p.gradient(a, 0), ay = factor * p.gradient(a, 1);
+      for (int b = 0; b < 6; ++b) {
+        const double bx = p.gradient(b, 0), by = p.gradient(b, 1);
+        const double xx = ax * bx, yy = ay * by;
+        stiffness(2 * a, 2 * b) += (lambda + 2 * shear) * xx + shear * yy;
+        stiffness(2 * a + 1, 2 * b + 1) += (lambda + 2 * shear) * yy + shear * xx;
+        stiffness(2 * a, 2 * b + 1) += lambda * ax * by + shear * ay * bx;
+        stiffness(2 * a + 1, 2 * b) += lambda * ay * bx + shear * ax * by;
+      }
+    }
+  }
+  return stiffness;
+}
+
+ElementVector gather(const FineMesh::Element& element, const Vector& values) {
+  ElementVector local;
+  for (int k = 0; k < 6; ++k) local.segment<2>(2 * k) = values.segment<2>(2 * element.nodes[k]);
+  return local;
+}
+
+}  // namespace
+
+class FineModel::Factors {
+ public:
+  Factors(const FineMesh& mesh, const Unknowns& unknowns, const std::vector<ElementMatrix>& stiffness) {
+    std::vector<Triplet> entries;
+    entries.reserve(stiffness.size() * 78);
+    for (std::size_t e = 0; e < stiffness.size(); ++e) {
+      const auto& nodes = mesh.elements[e].nodes;
+      std::array<int, 12> rows;
+      for (int k = 0; k < 12; ++k) rows[k] = unknowns.of(2 * nodes[k / 2] + k % 2);
+      for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 12; ++j) {
+          if (rows[j] != none && rows[i] >= rows[j]) entries.emplace_back(rows[i], rows[j], stiffness[e](i, j));
+        }
+      }
+    }
+    Eigen::SparseMatrix<double> matrix(unknowns.count(), unknowns.count());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    factorization_.compute(matrix);
+    if (factorization_.info() != Eigen::Success) throw std::runtime_error("fine level: the stiffness is singular");
+  }
+  Vector solve(const Vector& b) const { return factorization_.solve(b); }
+
+ private:
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factorization_;
+};
+
+FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock)
+    : geometry_(std::move(geometry)),
+      rock_(rock),
+      mesh_(std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options))),
+      unknowns_(geometry_, *mesh_) {
+  stiffness_.reserve(mesh_->elements.size());
+  for (const auto& element : mesh_->elements) stiffness_.push_back(element_stiffness(*mesh_, element, rock_));
+  factors_ = std::make_unique<Factors>(*mesh_, unknowns_, stiffness_);
+}
+
+FineModel::~FineModel() = default;
+FineModel::FineModel(FineModel&&) noexcept = default;
+FineModel& FineModel::operator=(FineModel&&) noexcept = default;
+
+FineSolution FineModel::solve(const FineLoads& loads) const {
+  FineSolution solution{mesh_, rock_, unknowns_.prescribed_values(*mesh_, loads), {}, 0};
+  Vector& u = solution.displacement;
+  Vector f = external_forces(geometry_, *mesh_, loads);
+  for (std::size_t e = 0; e < stiffness_.size(); ++e) {
+    const auto& element = mesh_->elements[e];
+    const ElementVector local = gather(element, u);
+    if (local.isZero(0)) continue;
+    const ElementVector force = stiffness_[e] * local;
+    for (int k = 0; k < 6; ++k) f.segment<2>(2 * element.nodes[k]) -= force.segment<2>(2 * k);
+  }
+  Vector b = Vector::Zero(unknowns_.count());
+  for (int i = 0; i < f.size(); ++i) {
+    if (unknowns_.of(i) != none) b[unknowns_.of(i)] += f[i];
+  }
+  const Vector x = factors_->solve(b);
+  if (!x.allFinite()) throw std::runtime_error("fine level: the displacements are not finite");
+  for (int i = 0; i < u.size(); ++i) {
+    if (unknowns_.of(i) != none) u[i] += x[unknowns_.of(i)];
+  }
+  for (std::size_t e = 0; e < stiffness_.size(); ++e) {
+    const ElementVector local = gather(mesh_->elements[e], u);
+    solution.strain_energy += 0.5 * local.dot(stiffness_[e] * local);
+  }
+  solution.tips = tip_intensities(*mesh_, rock_, loads, u);
+  return solution;
+}
+
+}  // namespace sprekk::fine_fracture

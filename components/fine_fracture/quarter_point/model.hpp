@@ -1,0 +1,43 @@
+// The elastic problem of the fine level, factorized.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "components/fine_fracture/quarter_point/solution.hpp"
+#include "components/fine_fracture/quarter_point/unknowns.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// Plane-strain elasticity on quadratic triangles with quarter-point rosettes:
+/// div (C eps(u) + s) = 0 with the loads of FineLoads. The matrix is factorized once; every further solve is a
+/// back-substitution.
+class FineModel {
+ public:
+  /// Throws what make_fine_mesh throws, and std::runtime_error when the matrix is singular.
+  FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock);
+  ~FineModel();
+  FineModel(FineModel&&) noexcept;
+  FineModel& operator=(FineModel&&) noexcept;
+
+  const FineGeometry& geometry() const { return geometry_; }
+  const FineMesh& mesh() const { return *mesh_; }
+  const Elasticity& rock() const { return rock_; }
+
+  /// Throws std::runtime_error when the result is not finite.
+  FineSolution solve(const FineLoads& loads) const;
+
+ private:
+  using ElementMatrix = Eigen::Matrix<double, 12, 12>;
+  class Factors;
+
+  FineGeometry geometry_;
+  Elasticity rock_;
+  std::shared_ptr<const FineMesh> mesh_;
+  Unknowns unknowns_;
+  std::vector<ElementMatrix> stiffness_;
+  std::unique_ptr<Factors> factors_;
+};
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,37 @@
+// Displacements and stress-intensity factors of the fine level.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "components/fine_fracture/quarter_point/intensities.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// A place in an element, see shape_point.
+struct ElementPlace {
+  int element;
+  double xi, eta;
+};
+
+/// The element that holds a point, if it lies in the domain. Searches all elements.
+std::optional<ElementPlace> find_place(const FineMesh& mesh, const Point& x);
+
+struct FineSolution {
+  std::shared_ptr<const FineMesh> mesh;
+  Elasticity rock;
+  Vector displacement;               ///< (x, y) per node, m
+  std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips
+  double strain_energy;              ///< of C eps(u), J/m
+
+  Point displacement_at(const ElementPlace& place) const;
+  /// du_i/dx_j.
+  Tensor gradient_at(const ElementPlace& place) const;
+  /// C eps(u), Pa: without the offset. Infinite at a tip.
+  Tensor elastic_stress_at(const ElementPlace& place) const {
+    return rock.stress(0.5 * (gradient_at(place) + gradient_at(place).transpose()));
+  }
+};
+
+}  // namespace sprekk::fine_fracture
