@@ -1,0 +1,297 @@
+#include "framework/mesh/extension_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk {
+namespace {
+
+using Reason = ExtensionError::Reason;
+
+/// A segment counts as approached only when the path comes nearer than its beginning is.
+constexpr double approach = 0.9;
+/// Parts of one and the same path may be as near to each other as this part of the way between them along the path.
+constexpr double self_gap = 0.25;
+
+struct OwnEnd {
+  FracturePoint::Kind kind;
+  Point position, before;
+};
+
+OwnEnd own_end(const Mesh& mesh, int fracture, bool at_end) {
+  const auto& [name, first, count] = mesh.fractures[fracture];
+  const FractureCell& cell = mesh.fracture_cells[at_end ? first + count - 1 : first];
+  const FracturePoint& point = mesh.fracture_points[cell.points[at_end ? 1 : 0]];
+  return {point.kind, point.position, mesh.fracture_points[cell.points[at_end ? 0 : 1]].position};
+}
+
+Segment segment_of(const Mesh& mesh, int fracture_cell) {
+  const auto [a, b] = mesh.fracture_cells[fracture_cell].points;
+  return {mesh.fracture_points[a].position, mesh.fracture_points[b].position};
+}
+
+Segment segment_of_face(const Mesh& mesh, int face) {
+  return {mesh.nodes[mesh.face_nodes[face][0]], mesh.nodes[mesh.face_nodes[face][1]]};
+}
+
+double extent(const Mesh& mesh) {
+  Point low = mesh.nodes.front(), high = low;
+  for (const Point& x : mesh.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  return (high - low).norm();
+}
+
+/// Of `path`, the point nearest to `other`, or where they cross.
+Point meeting_point(const Segment& path, const Segment& other) {
+  Point crossing;
+  if (cross_inside(path, other, crossing)) return crossing;
+  const double from = distance(path.from, other), to = distance(path.to, other);
+  const double a = distance(other.from, path), b = distance(other.to, path);
+  if (std::min(from, to) <= std::min(a, b)) return from <= to ? path.from : path.to;
+  return a <= b ? other.from : other.to;
+}
+
+class Check {
+ public:
+  Check(const Mesh& mesh, const std::vector<PathExtension>& extensions, double size)
+      : mesh_(mesh), size_(size), touch_(1e-12 * extent(mesh)), extensions_(extensions) {}
+
+  std::vector<PathExtension> run() {
+    for (index_ = 0; index_ < static_cast<int>(extensions_.size()); ++index_) {
+      auto& [fracture, at_end, points] = extensions_[index_];
+      if (fracture < 0 || fracture >= static_cast<int>(mesh_.fractures.size())) {
+        throw std::invalid_argument("extension of fracture " + std::to_string(fracture) + ", which does not exist");
+      }
+      check_end();
+      check_form();
+      bool ends_on_boundary = snap(points.back());
+      paths_.push_back(path());
+      check_boundary(ends_on_boundary);
+      check_fractures();
+      check_itself();
+      for (int other = 0; other < index_; ++other) check_other(other);
+    }
+    return extensions_;
+  }
+
+ private:
+  [[noreturn]] void refuse(Reason reason, const Point& where, const std::string& problem,
+                           const std::string& why) const {
+    throw ExtensionError(reason, index_, where,
+                         "fracture '" + mesh_.fractures[extensions_[index_].fracture].name +
+                             "' cannot be extended: it " + problem + " at " + to_text(where) + " (" + why + ")");
+  }
+
+  void check_end() const {
+    const auto& [fracture, at_end, points] = extensions_[index_];
+    const OwnEnd end = own_end(mesh_, fracture, at_end);
+    if (end.kind != FracturePoint::Kind::tip) {
+      refuse(Reason::no_tip, end.position, "already ends", "on the outer boundary");
+    }
+    for (int i = 0; i < index_; ++i) {
+      if (extensions_[i].fracture == fracture && extensions_[i].at_end == at_end) {
+        refuse(Reason::no_tip, end.position, "is extended twice", "an end grows along one path at a time");
+      }
+    }
+  }
+
+  void check_form() const {
+    const auto& [fracture, at_end, points] = extensions_[index_];
+    const OwnEnd end = own_end(mesh_, fracture, at_end);
+    if (points.empty()) refuse(Reason::no_path, end.position, "gets no new point", "the path is empty");
+    Point from = end.position, before = end.before;
+    for (const Point& to : points) {
+      if (!to.allFinite()) refuse(Reason::no_path, from, "gets a point that is no number", "after this one");
+      if ((to - from).norm() <= std::max(touch_, 1e-6 * size_)) {
+        refuse(Reason::no_path, from, "gets a segment without length", "two points of the path are one");
+      }
+      if ((to - from).dot(from - before) < -1e-12 * (to - from).norm() * (from - before).norm()) {
+        refuse(Reason::turns_back, from, "turns back", "by more than 90 degrees");
+      }
+      before = from;
+      from = to;
+    }
+  }
+
+  /// Puts an end onto the outer boundary that is meant to lie there.
+  bool snap(Point& end) const {
+    double least = boundary_snap * size_;
+    Point nearest = end;
+    for (int face = 0; face < mesh_.face_count(); ++face) {
+      if (mesh_.face_side[face] == none) continue;
+      const Segment s = segment_of_face(mesh_, face);
+      if (distance(end, s) >= least) continue;
+      least = distance(end, s);
+      const Point along = s.to - s.from;
+      const double t = (end - s.from).dot(along) / along.squaredNorm();
+      // On a side along an axis the coordinate is taken over to the bit.
+      nearest = t <= 0 ? s.from : t >= 1 ? s.to : Point(s.from + t * along);
+      for (int axis = 0; axis < 2; ++axis) {
+        if (s.from[axis] == s.to[axis]) nearest[axis] = s.from[axis];
+      }
+    }
+    const bool is_near = least < boundary_snap * size_;
+    if (is_near) end = nearest;
+    return is_near;
+  }
+
+  std::vector<Segment> path() const {
+    const auto& [fracture, at_end, points] = extensions_[index_];
+    std::vector<Segment> segments;
+    Point from = own_end(mesh_, fracture, at_end).position;
+    for (const Point& to : points) {
+      segments.push_back({from, to});
+      from = to;
+    }
+    return segments;
+  }
+
+  /// How near the current path may come to something that is this far from its beginning.
+  double allowed(double distance_of_tip) const { return std::min(least_gap * size_, approach * distance_of_tip); }
+
+  void check_boundary(bool ends_on_boundary) const {
+    const auto& segments = paths_[index_];
+    const Point tip = segments.front().from;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const bool is_ending = ends_on_boundary && i + 1 == segments.size();
+      double first = std::numeric_limits<double>::infinity();
+      Point where = tip;
+      bool crosses = false;
+      for (int face = 0; face < mesh_.face_count(); ++face) {
+        if (mesh_.face_side[face] == none) continue;
+        const Segment side = segment_of_face(mesh_, face);
+        const Segment& s = segments[i];
+        if (is_ending && distance(s.to, side) <= touch_) {
+          const double sine = std::abs(cross(s.to - s.from, side.to - side.from)) / (s.length() * side.length());
+          if (sine < std::sin(least_incidence)) {
+            refuse(Reason::too_near, s.to, "runs along the outer boundary", "it would meet it at less than 15 degrees");
+          }
+          continue;
+        }
+        const double gap = distance(s, side);
+        if (gap > touch_ && (is_ending || gap >= allowed(distance(tip, side)))) continue;
+        const Point here = meeting_point(s, side);
+        const double way = (here - s.from).norm();
+        const bool is_crossing = gap <= touch_;
+        if (is_crossing < crosses || (is_crossing == crosses && way >= first)) continue;
+        first = way, where = here, crosses = is_crossing;
+      }
+      if (crosses) refuse(Reason::leaves_mesh, where, "leaves the mesh", "a path may end on the outer boundary");
+      if (std::isfinite(first)) {
+        refuse(Reason::too_near, where, "passes too near to the outer boundary",
+               "at less than " + std::to_string(least_gap) + " edge lengths");
+      }
+    }
+  }
+
+  /// `own_distance` of a segment of the same fracture: the way between the two along the fracture.
+  void check_pair(const Segment& s, const Segment& other, double allowed_gap, const std::string& name) const {
+    const double gap = distance(s, other);
+    const Point where = meeting_point(s, other);
+    if (gap <= touch_)
+      refuse(Reason::crosses_fracture, where, "meets " + name, "crossing and touching fractures are not supported");
+    if (gap < allowed_gap) {
+      refuse(Reason::too_near, where, "passes too near to " + name,
+             "at " + std::to_string(gap / size_) + " edge lengths");
+    }
+  }
+
+  std::string name_of(int fracture) const { return "fracture '" + mesh_.fractures[fracture].name + "'"; }
+
+  void check_fractures() const {
+    const auto& [fracture, at_end, points] = extensions_[index_];
+    const auto& segments = paths_[index_];
+    const Point tip = segments.front().from;
+    double way_ahead = 0;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f) {
+        const auto& [name, first, count] = mesh_.fractures[f];
+        double way_behind = 0;
+        for (int n = 0; n < count; ++n) {
+          // From the end that grows backwards, so that the way along the fracture adds up.
+          const int cell = at_end ? first + count - 1 - n : first + n;
+          const Segment other = segment_of(mesh_, cell);
+          if (f != fracture) {
+            check_pair(segments[i], other, allowed(distance(tip, other)), name_of(f));
+          } else if (i > 0 || n > 0) {
+            check_pair(segments[i], other, std::min(least_gap * size_, self_gap * (way_ahead + way_behind)), "itself");
+          }
+          way_behind += other.length();
+        }
+      }
+      way_ahead += segments[i].length();
+    }
+  }
+
+  void check_itself() const {
+    const auto& segments = paths_[index_];
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      double way = 0;
+      for (std::size_t j = i; j-- > 0;) {
+        if (j + 1 < i) check_pair(segments[i], segments[j], std::min(least_gap * size_, self_gap * way), "itself");
+        way += segments[j].length();
+      }
+    }
+  }
+
+  void check_other(int other) const {
+    const Point tip = paths_[index_].front().from;
+    for (const Segment& s : paths_[index_]) {
+      for (const Segment& o : paths_[other]) {
+        const double tips = (tip - paths_[other].front().from).norm();
+        check_pair(s, o, allowed(tips), "the extension of " + name_of(extensions_[other].fracture));
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const double size_;
+  const double touch_;  ///< m; nearer is in contact
+  std::vector<PathExtension> extensions_;
+  std::vector<std::vector<Segment>> paths_;
+  int index_ = 0;
+};
+
+}  // namespace
+
+std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
+                                            double size) {
+  return Check(mesh, extensions, size).run();
+}
+
+FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point& from, const Point& direction) {
+  if (!(direction.norm() > 0)) throw std::invalid_argument("free_length: the direction has no length");
+  const Point u = direction.normalized();
+  FreeLength free{std::numeric_limits<double>::infinity(), FreeLength::Met::nothing, none, from};
+  const auto meet = [&](const Segment& s, FreeLength::Met met, int index) {
+    const Point v = s.to - s.from, w = s.from - from;
+    const double determinant = cross(u, v), length = v.norm();
+    double t;
+    if (std::abs(determinant) > 1e-14 * length) {
+      t = cross(w, v) / determinant;
+      const double along = cross(w, u) / determinant;
+      if (along < -1e-12 || along > 1 + 1e-12) return;
+    } else {
+      // Parallel: met at its nearer end when it lies ahead on the same line.
+      if (std::abs(cross(w, u)) > 1e-12 * length) return;
+      t = std::min(w.dot(u), (w + v).dot(u));
+    }
+    if (t < 0 || t >= free.length) return;
+    free = {t, met, index, from + t * u};
+  };
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    if (mesh.face_side[face] != none) {
+      meet(segment_of_face(mesh, face), FreeLength::Met::boundary, mesh.face_side[face]);
+    }
+  }
+  const auto& own = mesh.fractures.at(fracture);
+  const int own_last = at_end ? own.first_cell + own.cell_count - 1 : own.first_cell;
+  for (int cell = 0; cell < mesh.fracture_cell_count(); ++cell) {
+    if (cell != own_last) meet(segment_of(mesh, cell), FreeLength::Met::fracture, mesh.fracture_cells[cell].fracture);
+  }
+  return free;
+}
+
+}  // namespace sprekk

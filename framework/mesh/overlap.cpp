@@ -1,0 +1,137 @@
+#include "framework/mesh/overlap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "framework/mesh/adjacency.hpp"
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk {
+namespace {
+
+struct Extent {
+  Point low = Point::Constant(std::numeric_limits<double>::infinity());
+  Point high = -low;
+
+  Extent() = default;
+  explicit Extent(const Corners& corners) {
+    for (const Point& x : corners) add(x);
+  }
+  void add(const Point& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  bool meets(const Extent& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+};
+
+/// Each half plane adds one corner at most; two more for what rounding makes of thin polygons.
+constexpr int most_corners = 3 + 3 + 2;
+
+/// A convex polygon, counter-clockwise.
+struct Polygon {
+  std::array<Point, most_corners> corners;
+  int count = 0;
+
+  /// What lies to the left of the line from p to q (Sutherland-Hodgman).
+  Polygon left_of(const Point& p, const Point& q) const {
+    Polygon part;
+    for (int i = 0; i < count; ++i) {
+      const Point &a = corners[i], &b = corners[(i + 1) % count];
+      const double at_a = cross(q - p, a - p), at_b = cross(q - p, b - p);
+      if (at_a >= 0) part.corners[part.count++] = a;
+      if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0)) {
+        part.corners[part.count++] = a + at_a / (at_a - at_b) * (b - a);
+      }
+      if (part.count + 2 > most_corners) break;
+    }
+    return part;
+  }
+
+  double area() const {
+    double twice = 0;
+    for (int i = 1; i + 1 < count; ++i) twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+    return 0.5 * twice;
+  }
+};
+
+/// Triangles by the buckets of a grid that their bounding boxes meet.
+class Buckets {
+ public:
+  explicit Buckets(const std::vector<Corners>& triangles) {
+    Extent whole;
+    for (const Corners& corners : triangles) {
+      for (const Point& x : corners) whole.add(x);
+    }
+    low_ = whole.low;
+    const Point size = whole.high - whole.low;
+    width_ = std::sqrt(size.x() * size.y() / static_cast<double>(triangles.size()));
+    for (int axis = 0; axis < 2; ++axis) counts_[axis] = 1 + static_cast<int>(size[axis] / width_);
+    triangles_.offsets.assign(static_cast<std::size_t>(counts_[0]) * counts_[1] + 1, 0);
+    for (const Corners& corners : triangles) {
+      for_each(Extent(corners), [&](int b) { ++triangles_.offsets[b + 1]; });
+    }
+    std::partial_sum(triangles_.offsets.begin(), triangles_.offsets.end(), triangles_.offsets.begin());
+    triangles_.items.resize(triangles_.offsets.back());
+    auto next = triangles_.offsets;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for_each(Extent(triangles[t]), [&](int b) { triangles_.items[next[b]++] = static_cast<int>(t); });
+    }
+  }
+
+  /// Ascending, each once.
+  void find(const Extent& extent, std::vector<int>& found) const {
+    found.clear();
+    for_each(extent, [&](int b) { found.insert(found.end(), triangles_[b].begin(), triangles_[b].end()); });
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+  }
+
+ private:
+  int bucket(int axis, double coordinate) const {
+    return static_cast<int>(std::clamp((coordinate - low_[axis]) / width_, 0.0, counts_[axis] - 1.0));
+  }
+  template <class Visit>
+  void for_each(const Extent& extent, const Visit& visit) const {
+    for (int j = bucket(1, extent.low.y()); j <= bucket(1, extent.high.y()); ++j) {
+      for (int i = bucket(0, extent.low.x()); i <= bucket(0, extent.high.x()); ++i) visit(j * counts_[0] + i);
+    }
+  }
+
+  Point low_;
+  double width_;
+  std::array<int, 2> counts_;
+  Adjacency triangles_;
+};
+
+}  // namespace
+
+double common_area(const Corners& a, const Corners& b) {
+  // Relative to a corner, so that coordinates far from the origin cost no digits.
+  const Point origin = a[0];
+  Polygon part;
+  for (const Point& x : b) part.corners[part.count++] = x - origin;
+  for (int k = 0; k < 3 && part.count > 0; ++k) part = part.left_of(a[k] - origin, a[(k + 1) % 3] - origin);
+  return part.count < 3 ? 0 : part.area();
+}
+
+void for_each_overlap(const std::vector<Corners>& one, const std::vector<Corners>& other,
+                      const std::function<void(int, int, double)>& visit) {
+  if (one.empty() || other.empty()) return;
+  const Buckets buckets(other);
+  std::vector<int> found;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const Extent extent(one[i]);
+    buckets.find(extent, found);
+    for (const int j : found) {
+      if (!extent.meets(Extent(other[j]))) continue;
+      const double area = common_area(one[i], other[j]);
+      if (area > 0) visit(static_cast<int>(i), j, area);
+    }
+  }
+}
+
+}  // namespace sprekk

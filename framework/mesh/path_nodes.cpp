@@ -1,0 +1,169 @@
+#include "framework/mesh/path_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk {
+namespace {
+
+/// An end counts as on the outer boundary, or as a node of it, within this part of the edge length.
+constexpr double contact = 1e-9;
+
+class Placement {
+ public:
+  Placement(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged, double size)
+      : mesh_(mesh), merged_(merged), size_(size) {
+    result_.nodes = raw.nodes;
+    for (int face = 0; face < mesh.face_count(); ++face) {
+      const auto [one, other] = mesh.face_cells[face];
+      if (other != none && mesh.cell_region[one] != mesh.cell_region[other]) interfaces_.push_back(face);
+    }
+  }
+
+  PathNodes run(const RawMesh& raw, const std::vector<PathExtension>& extensions) {
+    for (const auto& [fracture, at_end, points] : extensions) {
+      const auto& chain = raw.fractures[fracture].nodes;
+      std::vector<int> path{at_end ? chain.back() : chain.front()};
+      for (const Point& x : points) path.push_back(add(x));
+      put_end_on_boundary(path.back());
+      if (!interfaces_.empty()) {
+        meet_interfaces(path);
+        pass_interface_nodes(path);
+        cross_interfaces(path);
+      }
+      result_.paths.push_back(divide(path));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  int add(const Point& x) {
+    result_.nodes.push_back(x);
+    return static_cast<int>(result_.nodes.size()) - 1;
+  }
+  const Point& at(int node) const { return result_.nodes[node]; }
+  std::array<int, 2> ends(int face) const {
+    return {merged_[mesh_.face_nodes[face][0]], merged_[mesh_.face_nodes[face][1]]};
+  }
+  Segment segment(int face) const { return {at(ends(face)[0]), at(ends(face)[1])}; }
+  double snap(int face) const { return interface_snap * std::min(size_, mesh_.face_length[face]); }
+
+  void put_end_on_boundary(int& end) {
+    for (int face = 0; face < mesh_.face_count(); ++face) {
+      if (mesh_.face_side[face] == none || distance(at(end), segment(face)) > contact * size_) continue;
+      for (const int node : ends(face)) {
+        if ((at(node) - at(end)).norm() > contact * size_) continue;
+        end = node;
+        return;
+      }
+      result_.on_face[face].push_back(end);
+      return;
+    }
+  }
+
+  /// Points of the path near an interface become nodes of it.
+  void meet_interfaces(std::vector<int>& path) {
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      int nearest = none;
+      double least = std::numeric_limits<double>::infinity();
+      for (const int face : interfaces_) {
+        const double d = distance(at(path[i]), segment(face));
+        if (d < snap(face) && d < least) least = d, nearest = face;
+      }
+      if (nearest == none) continue;
+      const auto [a, b] = ends(nearest);
+      const int end = (at(a) - at(path[i])).norm() < (at(b) - at(path[i])).norm() ? a : b;
+      if (end == path[i]) continue;
+      // An old tip stays where it is; all other points of a path may move by this little.
+      if (i > 0 && path[i] >= static_cast<int>(merged_count()) && (at(end) - at(path[i])).norm() < snap(nearest)) {
+        path[i] = end;
+      } else {
+        result_.on_face[nearest].push_back(path[i]);
+      }
+    }
+  }
+
+  void pass_interface_nodes(std::vector<int>& path) {
+    std::vector<int> passed{path.front()};
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const Segment s{at(path[i]), at(path[i + 1])};
+      std::vector<std::pair<double, int>> found;
+      for (const int face : interfaces_) {
+        for (const int node : ends(face)) {
+          if (std::find(path.begin(), path.end(), node) != path.end()) continue;
+          if (distance(at(node), s) < snap(face)) found.emplace_back((at(node) - s.from).dot(s.to - s.from), node);
+        }
+      }
+      std::sort(found.begin(), found.end());
+      found.erase(std::unique(found.begin(), found.end()), found.end());
+      for (const auto& [way, node] : found) passed.push_back(node);
+      passed.push_back(path[i + 1]);
+    }
+    path = std::move(passed);
+  }
+
+  void cross_interfaces(std::vector<int>& path) {
+    std::vector<int> crossed{path.front()};
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const Segment s{at(path[i]), at(path[i + 1])};
+      std::vector<std::pair<double, int>> found;
+      for (const int face : interfaces_) {
+        Point crossing;
+        if (is_on(path[i], face) || is_on(path[i + 1], face) || !cross_inside(s, segment(face), crossing)) continue;
+        const int node = add(crossing);
+        result_.on_face[face].push_back(node);
+        found.emplace_back((crossing - s.from).norm(), node);
+      }
+      std::sort(found.begin(), found.end());
+      for (const auto& [way, node] : found) crossed.push_back(node);
+      crossed.push_back(path[i + 1]);
+    }
+    path = std::move(crossed);
+  }
+
+  bool is_on(int node, int face) const {
+    const auto [a, b] = ends(face);
+    if (node == a || node == b) return true;
+    const auto found = result_.on_face.find(face);
+    return found != result_.on_face.end() &&
+           std::find(found->second.begin(), found->second.end(), node) != found->second.end();
+  }
+
+  std::vector<int> divide(const std::vector<int>& path) {
+    std::vector<int> divided{path.front()};
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const Point from = at(path[i]), along = at(path[i + 1]) - from;
+      const int parts = lie_on_one_interface(path[i], path[i + 1])
+                            ? 1
+                            : std::max(1, static_cast<int>(std::lround(along.norm() / size_)));
+      for (int k = 1; k < parts; ++k) divided.push_back(add(from + k / static_cast<double>(parts) * along));
+      divided.push_back(path[i + 1]);
+    }
+    return divided;
+  }
+
+  bool lie_on_one_interface(int a, int b) const {
+    return std::any_of(interfaces_.begin(), interfaces_.end(),
+                       [&](int face) { return is_on(a, face) && is_on(b, face); });
+  }
+
+  int merged_count() const { return 1 + *std::max_element(merged_.begin(), merged_.end()); }
+
+  const Mesh& mesh_;
+  const std::vector<int>& merged_;
+  const double size_;
+  std::vector<int> interfaces_;
+  PathNodes result_;
+};
+
+}  // namespace
+
+PathNodes place_path_nodes(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
+                           const std::vector<PathExtension>& extensions, double size) {
+  return Placement(mesh, raw, merged, size).run(raw, extensions);
+}
+
+}  // namespace sprekk

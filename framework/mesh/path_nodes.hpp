@@ -1,0 +1,31 @@
+// The nodes along new paths.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "framework/mesh/extension_check.hpp"
+#include "framework/mesh/mesh.hpp"
+#include "framework/mesh/raw_mesh.hpp"
+
+namespace sprekk {
+
+/// Places of nodes are in `nodes`; what raw mesh nodes there are comes first.
+struct PathNodes {
+  std::vector<Point> nodes;
+  std::vector<std::vector<int>> paths;  ///< per extension, from the old tip (a raw node) to the new end
+  /// Faces between regions and on the outer boundary that get further nodes, in no order.
+  std::map<int, std::vector<int>> on_face;
+};
+
+/// An interface between regions and a path that come nearer to each other than this, in edge lengths, meet in a node.
+inline constexpr double interface_snap = 0.1;
+
+/// Divides paths into edges of about `size`, each segment into one or more. Where a path crosses an interface between
+/// regions both get a node; where it passes a node of the interface within interface_snap it goes through that node
+/// (and bends by as little); a point of the path this near to an interface becomes a node of it. An end on the outer
+/// boundary becomes a node of that, too. `merged` is that of to_raw_mesh. The extensions have been checked.
+PathNodes place_path_nodes(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
+                           const std::vector<PathExtension>& extensions, double size);
+
+}  // namespace sprekk

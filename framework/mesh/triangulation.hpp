@@ -1,0 +1,34 @@
+// Triangles of a plane region in which some edges are fixed.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+struct Triangulation {
+  /// An edge that must stay an edge.
+  struct FixedEdge {
+    std::array<int, 2> points;
+    bool is_barrier;  ///< an outer boundary or a fracture: no triangle shall have two of them
+  };
+  std::vector<Point> points;                  ///< m
+  std::vector<bool> is_fixed;                 ///< per point: stays where it is
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise
+  std::vector<FixedEdge> fixed_edges;         ///< all edges of the region's boundary, and others inside
+};
+
+/// The smallest angle of all triangles, rad.
+double smallest_angle(const Triangulation& triangulation);
+
+/// Triangles with two barriers, of the kind that makes the local problems of multi-point schemes singular.
+int single_corner_count(const Triangulation& triangulation);
+
+/// Raises the smallest angles: flips edges that are not fixed, moves points that are not fixed where that raises the
+/// smallest angle around them, and divides triangles that have two barriers (by a flip, or by halving their third edge,
+/// which adds a point, if that is not on the region's boundary).
+void improve(Triangulation& triangulation);
+
+}  // namespace sprekk
