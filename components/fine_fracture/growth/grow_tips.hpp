@@ -1,0 +1,58 @@
+// Lets tips grow together until they arrest (secs. 2.5 and 4.3), whatever computes their stress intensity factors.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "components/fine_fracture/growth/growth_options.hpp"
+#include "components/fine_fracture/growth/mixed_mode.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// What a tip has added: points behind the original tip, in order, the last one being the present tip. May be empty.
+struct TipPath {
+  std::vector<Point> added;
+};
+
+struct GrowingTip {
+  Point tip = Point::Zero();        ///< the original one
+  Point direction = Point::Zero();  ///< unit vector ahead of it
+  double toughness = 0;             ///< K_IC, Pa sqrt(m)
+  double youngs_prime = 0;          ///< E' = E/(1 − nu^2), Pa
+  TipPath path;                     ///< added before, to start from
+};
+
+struct TipOutcome {
+  TipPath path;  ///< all points behind the original tip, also those to start from
+  Sifs start;    ///< of the path to start from
+  Sifs end;      ///< of the final path
+  /// K_eq has come down to K_IC (or never was above it), or more growth would be shorter than the shortest increment.
+  bool arrested = false;
+  std::string reason;              ///< why growth ended
+  std::vector<std::string> notes;  ///< increments whose direction or length is not what the options ask for
+  int increments = 0;              ///< added in this call
+  double length = 0;               ///< m, added in this call
+  long evaluations = 0;            ///< of this tip's stress intensity factors
+};
+
+/// The stress intensity factors of a tip when the paths of all tips are these, in the frame of the last segment.
+using EvaluateSifs = std::function<Sifs(int tip, const std::vector<TipPath>& paths)>;
+/// How far (m) a tip may go from the end of its path towards `to`, before the boundary or another crack and with the
+/// margin that its mesh needs; at least |to − end| when nothing is in the way.
+using FreeLength = std::function<double(int tip, const TipPath& path, const Point& to)>;
+/// Whether a tip's stress intensity factors depend on the path of the other.
+using FeelsOther = std::function<bool(int tip, int other)>;
+
+/// Rounds of increments. In each, all tips with K_eq > K_IC advance together, their lengths scaled by Eq. 13, in the
+/// direction and to the length that IncrementSearch finds; then all stress intensity factors are up to date again. A
+/// tip at rest grows when others have raised its K_eq. Unstable growth (K_eq rises with the length) goes on until the
+/// tip has no free length, has added `longest` or `at_most` increments: then it is not arrested. An evaluation that
+/// gives no finite numbers stops its tip where it was before the increment. `feels` saves evaluations where tips do not
+/// see each other; without it all do.
+std::vector<TipOutcome> grow_tips(const std::vector<GrowingTip>& tips, const GrowthOptions& options,
+                                  const EvaluateSifs& evaluate, const FreeLength& free_length,
+                                  const FeelsOther& feels = {});
+
+}  // namespace sprekk::fine_fracture

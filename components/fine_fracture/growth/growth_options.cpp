@@ -1,0 +1,51 @@
+#include "components/fine_fracture/growth/growth_options.hpp"
+
+namespace sprekk::fine_fracture {
+
+Spec GrowthOptions::spec() {
+  Spec spec("growth", "How far and where tips grow once the equivalent stress intensity factor exceeds the toughness.");
+  spec.choice("direction", direction,
+              {{"implicit", "straight increments at whose end K_II vanishes: stable for any length of increment"},
+               {"explicit",
+                "maximum tangential stress at the old tip (Eq. 11): the path zigzags when the increment is longer than "
+                "0.17 (K_I/T)^2"}},
+              {.doc = "How the direction of an increment is found.",
+               .source = "Eq. 11; Goldstein and Salganik 1974; Cotterell and Rice 1980"});
+  spec.choice("length", length,
+              {{"arrest", "until K_eq falls to the toughness; the last increment is shortened to end there"},
+               {"fixed", "whole increments until K_eq is below the toughness (the paper)"}},
+              {.doc = "Where growth ends."});
+  spec.quantity("increment", increment,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Longest increment; a path is straight between its ends.",
+                 .source = "l_max of Eq. 13",
+                 .required = true});
+  spec.quantity("energy_exponent", energy_exponent,
+                {.range = non_negative(),
+                 .doc = "Power of the energy release rate in the lengths of tips that grow together.",
+                 .source = "Eq. 13"});
+  spec.quantity("relaxation", relaxation,
+                {.range = {.low = 0, .high = 1, .low_allowed = false},
+                 .doc = "Part of the explicit angle that is taken; less than 1 delays the zigzag."});
+  spec.quantity("direction_tolerance", direction_tolerance,
+                {.range = strictly_between(0, 1), .doc = "Largest |K_II|/K_I at the end of an implicit increment."});
+  spec.quantity("arrest_tolerance", arrest_tolerance,
+                {.range = strictly_between(0, 1), .doc = "Largest |K_eq/K_IC − 1| at the end of growth."});
+  spec.quantity("largest_turn", largest_turn,
+                {.unit = "rad", .range = between(0.1, 1.55), .doc = "Largest angle between two increments."});
+  spec.quantity("smallest", smallest,
+                {.range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false},
+                 .doc = "Shortest increment over the longest; a tip that would grow less waits."});
+  spec.quantity(
+      "longest", longest,
+      {.unit = "m", .range = positive(), .doc = "Most that a tip adds at once; without it there is no limit."});
+  spec.integer("at_most", at_most, {.range = between(1, 10000), .doc = "Most increments that a tip adds at once."});
+  spec.integer("tries", tries,
+               {.range = between(2, 100),
+                .doc = "Evaluations of the fine level for one increment, then the best direction so far is taken, or, "
+                       "where that is bad, the explicit one."});
+  return spec;
+}
+
+}  // namespace sprekk::fine_fracture

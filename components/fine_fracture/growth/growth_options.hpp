@@ -1,0 +1,32 @@
+// What a scene says about the growth of tips.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "framework/config/spec.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// The section `growth:`. Which directions and lengths are possible is said in growth_options.cpp.
+struct GrowthOptions {
+  std::string direction = "implicit";  ///< implicit, explicit
+  std::string length = "arrest";       ///< arrest, fixed
+  double increment = 0;                ///< l_max of Eq. 13, m
+  double energy_exponent = 0.35;       ///< of Eq. 13
+  double relaxation = 1;               ///< part of the explicit angle that is taken
+  double direction_tolerance = 1e-2;   ///< |K_II|/K_I at the end of an increment
+  double arrest_tolerance = 1e-2;      ///< |K_eq/K_IC − 1| where growth ends
+  double largest_turn = 1.4;           ///< rad
+  double smallest = 0.01;              ///< shortest increment over `increment`
+  std::optional<double> longest;       ///< m, added by a tip in one call
+  int at_most = 50;                    ///< increments of a tip in one call
+  int tries = 8;                       ///< evaluations of an increment before it is settled for less
+
+  bool is_implicit() const { return direction == "implicit"; }
+  bool seeks_arrest() const { return length == "arrest"; }
+  double smallest_length() const { return smallest * increment; }  ///< m
+  Spec spec();
+};
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,80 @@
+// The search for the direction and the length of one increment of one tip.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/fine_fracture/growth/growth_options.hpp"
+#include "components/fine_fracture/growth/mixed_mode.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// Two conditions at the end of the increment, each met within its tolerance:
+///   phi(angle) = atan2(K_II, K_I) = 0       (direction: implicit), and
+///   K_eq(length) = K_IC, or length = the full length and K_eq >= K_IC       (length: arrest).
+/// Each is solved by its own secants while the other changes too: K_eq is stationary in the angle where phi = 0
+/// (Amestoy and Leblond 1992), so one hardly disturbs the other. phi is used, and not K_II, because it stays nearly
+/// linear for large turns and tells a closed tip, phi = pi, from mode I.
+///
+///   IncrementSearch search(…);
+///   while (!search.is_settled()) search.learn(sifs at the end of the increment search.angle(), search.length());
+class IncrementSearch {
+ public:
+  /// `start`: at the tip before the increment; `full_length` in m. `stiffness_ratio`: measured over estimated
+  /// d phi/d angle of the increment before, 1 for the first.
+  IncrementSearch(const GrowthOptions& options, const Sifs& start, double toughness, double full_length,
+                  double stiffness_ratio = 1);
+
+  double angle() const { return angle_; }    ///< rad, counted from the direction ahead
+  double length() const { return length_; }  ///< m, 0 when the tip is to stay where it is
+  /// The increment may be no longer than this in its present direction.
+  void limit_length(double free_length);
+  bool is_limited() const { return is_limited_ && length_ == full_length_; }
+
+  /// What the present angle and length give. Either settles them or changes them. A settled search may be told again,
+  /// after other tips have moved: it then settles again or goes on.
+  void learn(const Sifs& end);
+
+  bool is_settled() const { return is_settled_; }
+  double stiffness_ratio() const { return stiffness_ratio_; }
+  const std::string& note() const { return note_; }  ///< what was not as it should be, or ""
+
+ private:
+  struct Direction {
+    double angle, phi;
+  };
+  struct Length {
+    double length, excess;
+  };
+  enum class Phase { searching, direction_fixed, as_it_is };
+
+  bool is_direction_met(const Sifs& end) const;
+  bool is_length_met(double k_eq) const;
+  double excess(double k_eq) const;
+  double estimated_slope(double angle) const;
+  double clamp_turn(double angle) const;
+  bool is_reversed() const;
+  double root_of_phi();
+  double next_length(const std::optional<Length>& third) const;
+  void shorten(double k_eq, double root);
+  void accept_as_it_is();
+  void fix_direction(const std::string& why);
+  void stay();
+
+  const GrowthOptions options_;
+  const Sifs start_;
+  const double toughness_;
+  double full_length_, stiffness_ratio_;
+  double angle_ = 0, length_ = 0;
+  bool is_limited_ = false, is_settled_ = false;
+  Phase phase_ = Phase::searching;
+  int tries_ = 0;
+  std::vector<Direction> directions_;  ///< tried with the present length
+  Direction best_;
+  Length shorter_, longer_;  ///< too short and too long an increment
+  bool has_longer_ = false;
+  std::string note_;
+};
+
+}  // namespace sprekk::fine_fracture
