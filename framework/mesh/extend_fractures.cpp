@@ -148,8 +148,20 @@ class Growth {
     std::map<std::array<int, 2>, std::size_t> edge_of_;
   };
 
+  /// Of the outer boundary, counter-clockwise.
+  struct OuterEdge {
+    std::vector<int> nodes;  ///< its ends and what lies between them
+    int side, region;
+  };
+
+  static bool are_in_line(const OuterEdge& a, const OuterEdge& b, const std::vector<Point>& nodes) {
+    const Point u = nodes[a.nodes.back()] - nodes[a.nodes.front()], v = nodes[b.nodes.back()] - nodes[b.nodes.front()];
+    return a.side == b.side && a.region == b.region && std::abs(cross(u, v)) <= 1e-14 * u.norm() * v.norm();
+  }
+
   void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, Refill& refill) const {
     Outline outline(refill.nodes);
+    std::vector<OuterEdge> outer_edges;
     for (std::size_t p = 0; p < part_of_path.size(); ++p) {
       if (part_of_path[p] != part) continue;
       const auto& path = path_nodes_.paths[p];
@@ -161,19 +173,25 @@ class Growth {
         const int a = merged_[mesh_.cell_nodes[cell][k]], b = merged_[mesh_.cell_nodes[cell][(k + 1) % 3]];
         const bool is_fracture = mesh_.face_fracture_cell[face] != none;
         if (next == none) {
-          const std::vector<int> nodes = divide_outer_edge(face, a, b, refill.nodes);
-          for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-            outline.add(nodes[i], nodes[i + 1], Place::rim, true);
-            refill.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, mesh_.face_side[face]});
-          }
+          outer_edges.push_back(
+              {with_added_nodes(face, a, b, refill.nodes), mesh_.face_side[face], mesh_.cell_region[cell]});
         } else if (!refill.is_removed[next]) {
           outline.add(a, b, Place::rim, is_fracture);
         } else if (is_fracture) {
           outline.add(a, b, Place::inside, true);
         } else if (mesh_.cell_region[cell] != mesh_.cell_region[next]) {
-          const std::vector<int> nodes = with_added_nodes(face, a, b, refill.nodes);
+          if (cell > next) continue;  // an edge that is divided must be so once
+          const std::vector<int> nodes = divide_interface(face, a, b, refill.nodes);
           for (std::size_t i = 0; i + 1 < nodes.size(); ++i) outline.add(nodes[i], nodes[i + 1], Place::inside, false);
         }
+      }
+    }
+    join_at_path_ends(outer_edges, refill.nodes);
+    for (const OuterEdge& edge : outer_edges) {
+      const std::vector<int> nodes = divide_outer_edge(edge.nodes, refill.nodes);
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        outline.add(nodes[i], nodes[i + 1], Place::rim, true);
+        refill.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, edge.side});
       }
     }
     const Triangulation filling = fill_cavity(outline.get(), options_.growth);
@@ -200,9 +218,55 @@ class Growth {
     return chain;
   }
 
-  std::vector<int> divide_outer_edge(int face, int a, int b, std::vector<Point>& nodes) const {
-    const std::vector<int> chain = with_added_nodes(face, a, b, nodes);
-    std::vector<int> divided{a};
+  /// So that it has edges no longer than what is between it and a path, where that is little.
+  std::vector<int> divide_interface(int face, int a, int b, std::vector<Point>& nodes) const {
+    std::vector<int> chain = with_added_nodes(face, a, b, nodes);
+    for (std::size_t i = 0; i + 1 < chain.size();) {
+      const Segment piece{nodes[chain[i]], nodes[chain[i + 1]]};
+      double away = std::numeric_limits<double>::infinity();
+      for (const auto& path : path_nodes_.paths) {
+        for (const int node : path) {
+          if (node != chain[i] && node != chain[i + 1]) away = std::min(away, distance(nodes[node], piece));
+        }
+      }
+      if (piece.length() < too_long * std::max(away, interface_snap * options_.size)) {
+        ++i;
+        continue;
+      }
+      chain.insert(chain.begin() + static_cast<int>(i) + 1, static_cast<int>(nodes.size()));
+      nodes.push_back(0.5 * (piece.from + piece.to));
+    }
+    return chain;
+  }
+
+  /// Two edges in one line become one where their common node is nearly, but not, a path's end.
+  void join_at_path_ends(std::vector<OuterEdge>& edges, const std::vector<Point>& nodes) const {
+    const auto is_needless = [&](int node) {
+      bool is_near = false;
+      for (const auto& path : path_nodes_.paths) {
+        if (node == path.back()) return false;
+        is_near = is_near || (nodes[node] - nodes[path.back()]).norm() < least_gap * options_.size;
+      }
+      for (const auto& fracture : raw_.fractures) {
+        if (node == fracture.nodes.front() || node == fracture.nodes.back()) return false;
+      }
+      return is_near;
+    };
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (!is_needless(edges[i].nodes.back())) continue;
+      for (std::size_t j = 0; j < edges.size(); ++j) {
+        if (edges[j].nodes.front() != edges[i].nodes.back() || !are_in_line(edges[i], edges[j], nodes)) continue;
+        edges[i].nodes.pop_back();
+        edges[i].nodes.insert(edges[i].nodes.end(), edges[j].nodes.begin() + 1, edges[j].nodes.end());
+        edges.erase(edges.begin() + static_cast<int>(j));
+        i = static_cast<std::size_t>(-1);  // from the beginning: the indices have moved
+        break;
+      }
+    }
+  }
+
+  std::vector<int> divide_outer_edge(const std::vector<int>& chain, std::vector<Point>& nodes) const {
+    std::vector<int> divided{chain.front()};
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       const Point from = nodes[chain[i]], along = nodes[chain[i + 1]] - from;
       double away = std::numeric_limits<double>::infinity();

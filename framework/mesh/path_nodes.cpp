@@ -28,9 +28,9 @@ class Placement {
       const auto& chain = raw.fractures[fracture].nodes;
       std::vector<int> path{at_end ? chain.back() : chain.front()};
       for (const Point& x : points) path.push_back(add(x));
-      put_end_on_boundary(path.back());
+      const bool ends_on_boundary = put_end_on_boundary(path.back());
       if (!interfaces_.empty()) {
-        meet_interfaces(path);
+        meet_interfaces(path, ends_on_boundary);
         pass_interface_nodes(path);
         cross_interfaces(path);
       }
@@ -51,22 +51,23 @@ class Placement {
   Segment segment(int face) const { return {at(ends(face)[0]), at(ends(face)[1])}; }
   double snap(int face) const { return interface_snap * std::min(size_, mesh_.face_length[face]); }
 
-  void put_end_on_boundary(int& end) {
+  bool put_end_on_boundary(int& end) {
     for (int face = 0; face < mesh_.face_count(); ++face) {
       if (mesh_.face_side[face] == none || distance(at(end), segment(face)) > contact * size_) continue;
       for (const int node : ends(face)) {
         if ((at(node) - at(end)).norm() > contact * size_) continue;
         end = node;
-        return;
+        return true;
       }
       result_.on_face[face].push_back(end);
-      return;
+      return true;
     }
+    return false;
   }
 
-  /// Points of the path near an interface become nodes of it.
-  void meet_interfaces(std::vector<int>& path) {
-    for (std::size_t i = 0; i < path.size(); ++i) {
+  /// Points of the path near an interface move onto it. An old tip and an end on the outer boundary stay.
+  void meet_interfaces(std::vector<int>& path, bool ends_on_boundary) {
+    for (std::size_t i = 1; i < path.size() - (ends_on_boundary ? 1 : 0); ++i) {
       int nearest = none;
       double least = std::numeric_limits<double>::infinity();
       for (const int face : interfaces_) {
@@ -75,12 +76,14 @@ class Placement {
       }
       if (nearest == none) continue;
       const auto [a, b] = ends(nearest);
+      if (path[i] == a || path[i] == b) continue;
+      const Segment face = segment(nearest);
       const int end = (at(a) - at(path[i])).norm() < (at(b) - at(path[i])).norm() ? a : b;
-      if (end == path[i]) continue;
-      // An old tip stays where it is; all other points of a path may move by this little.
-      if (i > 0 && path[i] >= static_cast<int>(merged_count()) && (at(end) - at(path[i])).norm() < snap(nearest)) {
+      if ((at(end) - at(path[i])).norm() < snap(nearest)) {
         path[i] = end;
       } else {
+        const Point along = face.to - face.from;
+        result_.nodes[path[i]] = face.from + (at(path[i]) - face.from).dot(along) / along.squaredNorm() * along;
         result_.on_face[nearest].push_back(path[i]);
       }
     }
@@ -149,8 +152,6 @@ class Placement {
     return std::any_of(interfaces_.begin(), interfaces_.end(),
                        [&](int face) { return is_on(a, face) && is_on(b, face); });
   }
-
-  int merged_count() const { return 1 + *std::max_element(merged_.begin(), merged_.end()); }
 
   const Mesh& mesh_;
   const std::vector<int>& merged_;

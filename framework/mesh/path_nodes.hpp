@@ -22,9 +22,9 @@ struct PathNodes {
 inline constexpr double interface_snap = 0.1;
 
 /// Divides paths into edges of about `size`, each segment into one or more. Where a path crosses an interface between
-/// regions both get a node; where it passes a node of the interface within interface_snap it goes through that node
-/// (and bends by as little); a point of the path this near to an interface becomes a node of it. An end on the outer
-/// boundary becomes a node of that, too. `merged` is that of to_raw_mesh. The extensions have been checked.
+/// regions both get a node. A path bends by up to interface_snap to pass through a node of an interface, and a point of
+/// the path this near to an interface moves onto it; interfaces stay as they are. An end on the outer boundary becomes
+/// a node of that. `merged` is that of to_raw_mesh. The extensions have been checked.
 PathNodes place_path_nodes(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
                            const std::vector<PathExtension>& extensions, double size);
 
