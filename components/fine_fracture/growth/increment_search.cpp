@@ -12,6 +12,13 @@ namespace {
 
 double phase_of(const Sifs& sifs) { return std::atan2(sifs.k2, sifs.k1); }
 
+/// A small turn changes K_II at the end of a straight increment by K_I/2 − 2 sqrt(2/pi) T sqrt(s) (Cotterell and Rice
+/// 1980). With T > 0 paths are unstable themselves, and where the second term comes near to the first the straight
+/// increment without K_II has nothing to do with them.
+bool turns_away(const Sifs& sifs, double length) {
+  return 4 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) > 0.5 * equivalent_sif(sifs);
+}
+
 }  // namespace
 
 IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start, double toughness, double full_length,
@@ -25,11 +32,13 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
       best_{0, std::numbers::pi},
       shorter_{0, excess(equivalent_sif(start))},
       longer_{full_length, 0} {
-  if (options_.is_implicit()) {
-    angle_ = local_symmetry_angle(start_, length_, options_.largest_turn);
-  } else {
+  if (!options_.is_implicit()) {
     angle_ = clamp_turn(options_.relaxation * maximum_tangential_angle(start_));
     phase_ = Phase::direction_fixed;
+  } else if (turns_away(start_, length_)) {
+    fix_direction("tension along the tip turns it away from where K_II vanishes");
+  } else {
+    angle_ = local_symmetry_angle(start_, length_, options_.largest_turn);
   }
 }
 
@@ -133,7 +142,9 @@ void IncrementSearch::learn(const Sifs& end) {
   if (phase_ == Phase::searching && tells_direction) {
     directions_.push_back({angle_, phi});
     root = root_of_phi();
-    if (tries_ >= options_.tries)
+    if (tries_ >= options_.tries && is_direction_met(end))
+      keep_direction();
+    else if (tries_ >= options_.tries)
       fix_direction("K_II did not vanish within the tries");
     else if (is_reversed())
       fix_direction("K_II grows with the turn that should remove it");
@@ -192,9 +203,13 @@ void IncrementSearch::accept_as_it_is() {
   note_ += std::string(note_.empty() ? "" : "; ") + "the length of arrest was not found within the tries";
 }
 
-void IncrementSearch::fix_direction(const std::string& why) {
+void IncrementSearch::keep_direction() {
   phase_ = Phase::direction_fixed;
   tries_ = 0;
+}
+
+void IncrementSearch::fix_direction(const std::string& why) {
+  keep_direction();
   // Nearly symmetric is better than explicit, which is unstable.
   if (std::abs(std::tan(best_.phi)) <= 10 * options_.direction_tolerance && std::cos(best_.phi) > 0) {
     angle_ = best_.angle;

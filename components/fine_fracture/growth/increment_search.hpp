@@ -59,6 +59,7 @@ class IncrementSearch {
   double next_length(const std::optional<Length>& third) const;
   void shorten(double k_eq, double root);
   void accept_as_it_is();
+  void keep_direction();
   void fix_direction(const std::string& why);
   void stay();
 

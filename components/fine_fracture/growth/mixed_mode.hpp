@@ -8,8 +8,8 @@
 
 namespace sprekk::fine_fracture {
 
-/// Stress intensity factors of a tip, Pa sqrt(m), and the stress along the walls next to it that does not grow towards
-/// the tip, T = sigma_11 − sigma_22 of the walls, Pa (0 where it is not known: directions then take longer to find).
+/// Stress intensity factors of a tip, Pa sqrt(m), and T, Pa: by how much sigma_11 of the walls next to the tip exceeds
+/// their sigma_22 (which is −p under a fluid pressure p). 0 where it is not known: directions then take longer to find.
 struct Sifs {
   double k1 = 0, k2 = 0;
   double t_stress = 0;

@@ -60,7 +60,7 @@ TEST(Arrest, of_a_crack_opened_by_point_forces) {
     EXPECT_TRUE(outcome.arrested);
     EXPECT_NEAR(start + outcome.length, exact, 2.1 * 1e-2 * exact) << increment;
     EXPECT_NEAR(equivalent_sif(outcome.end), 0.7e6, 1e-2 * 0.7e6);
-    EXPECT_LE(outcome.evaluations, 1 + std::ceil((exact - start) / increment) + 2) << increment;
+    EXPECT_LE(outcome.evaluations, 1 + std::ceil((exact - start) / increment) + 5) << increment;
     EXPECT_EQ(outcome.reason, "K_eq has come down to the toughness");
   }
 }
@@ -84,7 +84,7 @@ TEST(Arrest, of_wings_of_a_slipping_fracture_under_confinement) {
         const TipOutcome outcome = grow_one(options, k1);
         EXPECT_TRUE(outcome.arrested);
         EXPECT_NEAR(outcome.length, exact, 1.1 * tolerance * sensitivity * exact) << confinement << " " << increment;
-        EXPECT_LE(outcome.evaluations, 1 + std::ceil(exact / increment) + (tolerance < 1e-3 ? 5 : 3));
+        EXPECT_LE(outcome.evaluations, 1 + std::ceil(exact / increment) + (tolerance < 1e-3 ? 6 : 4));
       }
     }
 }

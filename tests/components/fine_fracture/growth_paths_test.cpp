@@ -148,6 +148,22 @@ TEST(ImplicitDirection, finds_the_large_kink_of_a_tip_in_shear) {
   }
 }
 
+TEST(ImplicitDirection, is_not_sought_where_tension_along_the_tip_makes_the_path_itself_unstable) {
+  // T > 0: the deviation of the crack grows, steadily and to one side (Cotterell and Rice 1980).
+  const CurvedCrack pulled{crack.half_length, crack.opening, -crack.t_stress};
+  const auto sifs = [&](int, const std::vector<TipPath>& paths) { return pulled.sifs(paths[0].added); };
+  const double increment = 0.5 * largest_stable;
+  const GrowingTip tip = misdirected(increment);
+  const TipOutcome outcome = grow_tips({tip}, whole_increments("implicit", increment, 9), sifs, unlimited)[0];
+  const std::vector<double> angles = degrees(tip.tip, outcome.path);
+  for (int step = 2; step <= 9; ++step) {
+    EXPECT_GT(angles[step], angles[step - 1]);
+    EXPECT_LT(angles[step], 2 * angles[step - 1]);
+  }
+  EXPECT_EQ(outcome.notes.size(), 9u);
+  EXPECT_EQ(outcome.evaluations, 10);
+}
+
 TEST(ImplicitDirection, falls_back_to_the_explicit_one_with_a_note) {
   // Shear that no turn removes.
   const GrowingTip tip{
