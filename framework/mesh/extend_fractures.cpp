@@ -10,6 +10,7 @@
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/cavity.hpp"
 #include "framework/mesh/fill_cavity.hpp"
+#include "framework/mesh/graded_division.hpp"
 #include "framework/mesh/overlap.hpp"
 #include "framework/mesh/path_nodes.hpp"
 #include "framework/mesh/planar.hpp"
@@ -22,7 +23,7 @@ using Place = CavityOutline::Edge::Place;
 /// Below this angle (rad) larger cavities are tried.
 constexpr double wanted_angle = 20 * std::numbers::pi / 180;
 constexpr double enlargements[] = {1, 1.25, 1.6, 2};
-/// An edge of the outer boundary is divided when it is so many times longer than what is wanted there.
+/// An edge of an interface is divided when it is so many times longer than the gap between it and a path.
 constexpr double too_long = 1.5;
 
 std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
@@ -245,7 +246,7 @@ class Growth {
       bool is_near = false;
       for (const auto& path : path_nodes_.paths) {
         if (node == path.back()) return false;
-        is_near = is_near || (nodes[node] - nodes[path.back()]).norm() < least_gap * options_.size;
+        is_near = is_near || (nodes[node] - nodes[path.back()]).norm() < options_.size;
       }
       for (const auto& fracture : raw_.fractures) {
         if (node == fracture.nodes.front() || node == fracture.nodes.back()) return false;
@@ -266,18 +267,18 @@ class Growth {
   }
 
   std::vector<int> divide_outer_edge(const std::vector<int>& chain, std::vector<Point>& nodes) const {
-    std::vector<int> divided{chain.front()};
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      const Point from = nodes[chain[i]], along = nodes[chain[i + 1]] - from;
+    const auto wanted = [&](const Point& x) {
       double away = std::numeric_limits<double>::infinity();
       for (const auto& path : paths_) {
-        for (const Segment& s : path) away = std::min(away, distance(Point(from + 0.5 * along), s));
+        for (const Segment& s : path) away = std::min(away, distance(x, s));
       }
-      const double parts = along.norm() / (options_.size + options_.growth * away);
-      const int count = parts > too_long ? static_cast<int>(std::ceil(parts / too_long)) : 1;
-      for (int k = 1; k < count; ++k) {
+      return options_.size + options_.growth * away;
+    };
+    std::vector<int> divided{chain.front()};
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      for (const Point& x : graded_division({nodes[chain[i]], nodes[chain[i + 1]]}, wanted)) {
         divided.push_back(static_cast<int>(nodes.size()));
-        nodes.push_back(from + k / static_cast<double>(count) * along);
+        nodes.push_back(x);
       }
       divided.push_back(chain[i + 1]);
     }

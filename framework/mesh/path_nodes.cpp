@@ -1,9 +1,9 @@
 #include "framework/mesh/path_nodes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "framework/mesh/graded_division.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
@@ -11,6 +11,8 @@ namespace {
 
 /// An end counts as on the outer boundary, or as a node of it, within this part of the edge length.
 constexpr double contact = 1e-9;
+/// By how many m the edges of a path grow per m away from a short one.
+constexpr double growth_along = 0.5;
 
 class Placement {
  public:
@@ -136,13 +138,21 @@ class Placement {
   }
 
   std::vector<int> divide(const std::vector<int>& path) {
+    // Interfaces may leave short pieces; the edges grow away from them.
+    std::vector<Segment> pieces;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) pieces.push_back({at(path[i]), at(path[i + 1])});
+    const auto wanted = [&](const Point& x) {
+      double least = size_;
+      for (const Segment& piece : pieces) {
+        if (piece.length() < 0.5 * size_) least = std::min(least, piece.length() + growth_along * distance(x, piece));
+      }
+      return least;
+    };
     std::vector<int> divided{path.front()};
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      const Point from = at(path[i]), along = at(path[i + 1]) - from;
-      const int parts = lie_on_one_interface(path[i], path[i + 1])
-                            ? 1
-                            : std::max(1, static_cast<int>(std::lround(along.norm() / size_)));
-      for (int k = 1; k < parts; ++k) divided.push_back(add(from + k / static_cast<double>(parts) * along));
+      if (!lie_on_one_interface(path[i], path[i + 1])) {
+        for (const Point& x : graded_division(pieces[i], wanted)) divided.push_back(add(x));
+      }
       divided.push_back(path[i + 1]);
     }
     return divided;
