@@ -7,6 +7,7 @@
 #include "framework/command_line/explain_command.hpp"
 #include "framework/command_line/graph_command.hpp"
 #include "framework/command_line/scene_arguments.hpp"
+#include "framework/command_line/sweep_command.hpp"
 #include "framework/config/resolved_yaml.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/output/build_info.hpp"
@@ -75,7 +76,7 @@ int run_command_line(int argc, char** argv) {
 
   SceneArguments scene;
   RunOptions run;
-  std::string folder, checkpoint, explained, reference_folder, picture;
+  std::string folder, checkpoint, explained, reference_folder, picture, schema_of = "scene";
 
   CLI::App* run_command = app.add_subcommand("run", "Runs a scene");
   scene.add_to(*run_command);
@@ -87,6 +88,7 @@ int run_command_line(int argc, char** argv) {
   run_command->add_flag("-q,--quiet", run.quiet, "Prints nothing unless something is wrong");
   CLI::App* check_command = app.add_subcommand("check", "Builds everything and solves nothing");
   scene.add_to(*check_command);
+  SweepCommand sweep(app);
   CLI::App* show_command =
       app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   scene.add_to(*show_command);
@@ -98,7 +100,8 @@ int run_command_line(int argc, char** argv) {
   CLI::App* explain_command =
       app.add_subcommand("explain", "Explains a type, a step of the schedule or a section of a scene");
   explain_command->add_option("name", explained, "For example matrix_flow/mpfa")->required();
-  CLI::App* schema_command = app.add_subcommand("schema", "Prints the JSON schema of scenes");
+  CLI::App* schema_command = app.add_subcommand("schema", "Prints the JSON schema of scenes, or of studies");
+  schema_command->add_option("file", schema_of, "scene or study")->check(CLI::IsMember({"scene", "study"}));
   CLI::App* reference_command = app.add_subcommand("reference", "Writes the reference pages");
   reference_command->add_option("folder", reference_folder, "Where to")->required();
 
@@ -116,11 +119,12 @@ int run_command_line(int argc, char** argv) {
   try {
     if (*list_command) print_list(std::cout);
     if (*explain_command) print_explanation(explained, std::cout);
-    if (*schema_command) print_schema(std::cout);
+    if (*schema_command) schema_of == "study" ? print_study_schema(std::cout) : print_schema(std::cout);
     if (*reference_command) write_reference(reference_folder);
     if (*show_command) print_scene(scene.read());
     if (*graph_command) draw_graph(Model(scene.read()), picture);
     if (*check_command) check_scene(scene.read());
+    if (sweep.is_called()) return static_cast<int>(sweep.run());
     if (*run_command) {
       const Scene read = scene.read();
       run.scene_files = scene.files;

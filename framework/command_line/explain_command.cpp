@@ -9,6 +9,7 @@
 #include "framework/scene/registry.hpp"
 #include "framework/scene/scene.hpp"
 #include "framework/schedule/schedule_context.hpp"
+#include "framework/study/study.hpp"
 
 namespace sprekk {
 
@@ -28,6 +29,7 @@ std::vector<Explained> everything() {
     all.push_back({"component", type.type, type.spec()});
   for (const CouplerType& type : Registry::instance().couplers()) all.push_back({"coupler", type.type, type.spec()});
   for (const ScheduleKind& kind : schedule_kinds()) all.push_back({"step of the schedule", kind.key, kind.spec()});
+  all.push_back({"other file", "study", study_spec()});
   return all;
 }
 
@@ -89,6 +91,8 @@ void print_schema(std::ostream& out) {
   properties["schedule"] = {{"oneOf", {{{"type", "array"}, {"items", {{"oneOf", steps}}}}, {{"oneOf", steps}}}}};
   out << schema.dump(2) << "\n";
 }
+
+void print_study_schema(std::ostream& out) { out << json_schema(study_spec()); }
 
 void write_reference(const std::string& folder) {
   std::filesystem::create_directories(folder);

@@ -56,8 +56,13 @@ void set_origins(Node& node, const Origin& origin) {
   }
 }
 
+/// Where a message about the path of an override points.
+Origin place_of(const Override& change) {
+  return change.key_origin.line > 0 ? change.key_origin : Origin{change.key_origin.source + " " + change.path};
+}
+
 std::vector<std::string> split_path(const Override& change) {
-  const Origin where{"--set " + change.path};
+  const Origin where = place_of(change);
   std::vector<std::string> parts{""};
   for (const char c : change.path) {
     if (c == '.') {
@@ -67,7 +72,8 @@ std::vector<std::string> split_path(const Override& change) {
     }
   }
   if (std::find(parts.begin(), parts.end(), "") != parts.end()) {
-    throw InputError(where, "empty name in the path " + quoted(change.path), "", "write --set section.key=value");
+    throw InputError(where, "empty name in the path " + quoted(change.path), "",
+                     where.line > 0 ? "write section.key" : "write --set section.key=value");
   }
   if (parts.size() > longest_path) throw InputError(where, "the path is too long", "at most 64 names");
   return parts;
@@ -78,17 +84,16 @@ Node& item_of(Node& list, const std::string& index, const Override& change) {
   const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), i);
   const bool is_index = error == std::errc{} && end == index.data() + index.size();
   if (!is_index || i < 0 || i >= static_cast<int>(list.items.size())) {
-    throw InputError({"--set " + change.path}, quoted(list.path) + " has no item " + quoted(index),
+    throw InputError(place_of(change), quoted(list.path) + " has no item " + quoted(index),
                      "it is a list of " + std::to_string(list.items.size()) + ", counted from 0");
   }
   return list.items[static_cast<std::size_t>(i)];
 }
 
 void apply(Node& root, const Override& change) {
-  const Origin origin{"--set"};
   const std::vector<std::string> parts = split_path(change);
   Node value = parse_yaml(change.value, "--set " + change.path);
-  set_origins(value, origin);
+  set_origins(value, change.value_origin);
   Node* node = &root;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (node->is_list()) {
@@ -96,7 +101,7 @@ void apply(Node& root, const Override& change) {
       continue;
     }
     if (node->is_scalar()) {
-      throw InputError({"--set " + change.path}, quoted(node->path) + " has no keys",
+      throw InputError(place_of(change), quoted(node->path) + " has no keys",
                        "it is the value " + quoted(node->scalar) + ", from " + node->origin.text());
     }
     node->kind = Node::Kind::map;  // what was not there or empty becomes a map
@@ -104,7 +109,7 @@ void apply(Node& root, const Override& change) {
     const bool removes = i + 1 == parts.size() && value.is_null();
     if (removes) {
       if (entry == nullptr) {
-        throw InputError({"--set " + change.path}, "there is no " + quoted(change.path) + " to remove",
+        throw InputError(place_of(change), "there is no " + quoted(change.path) + " to remove",
                          "an empty value removes a key", "give a value behind '='");
       }
       node->entries.erase(node->entries.begin() + (entry - node->entries.data()));
@@ -112,9 +117,9 @@ void apply(Node& root, const Override& change) {
     }
     if (entry == nullptr) {
       Node created;
-      created.origin = origin;
+      created.origin = change.value_origin;
       created.path = joined_path(node->path, parts[i]);
-      node->entries.push_back({parts[i], origin, std::move(created)});
+      node->entries.push_back({parts[i], change.key_origin, std::move(created)});
       entry = &node->entries.back();
     }
     node = &entry->value;

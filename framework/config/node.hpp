@@ -43,6 +43,7 @@ std::string yaml_scalar(const std::string& text);
 struct Override {
   std::string path;
   std::string value;
+  Origin key_origin = {"--set"}, value_origin = {"--set"};  ///< a study's overrides stand in its file
 };
 
 /// Reads and merges scene files (later files win, maps merge key by key, lists and scalars replace, a null removes the

@@ -1,0 +1,39 @@
+// The range of an axis and its ticks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+struct Tick {
+  double value;
+  std::string text;
+};
+
+class Axis {
+ public:
+  enum class Scale { linear, logarithmic };
+
+  /// An axis that holds all finite `values` (on a logarithmic one: all positive ones), with about `tick_count` ticks at
+  /// round numbers. Equal values get a range around them.
+  Axis(const std::vector<double>& values, Scale scale, int tick_count);
+  /// A linear axis over a given range.
+  Axis(double low, double high, int tick_count);
+
+  double low() const { return low_; }
+  double high() const { return high_; }
+  const std::vector<Tick>& ticks() const { return ticks_; }
+  /// 0 at the low end, 1 at the high one; NaN for what a logarithmic axis cannot show.
+  double fraction(double value) const;
+
+ private:
+  void make_linear_ticks(int count);
+  void make_decades(int count);
+
+  Scale scale_;
+  double low_ = 0, high_ = 1;
+  std::vector<Tick> ticks_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,18 @@
+// Colours that can be told apart, also by the colour-blind.
+#pragma once
+
+#include <string>
+
+namespace sprekk {
+
+/// The i-th of a set of things: eight colours (Okabe and Ito, 2008, without yellow, with grey), then again, dashed.
+struct LineStyle {
+  std::string colour;  ///< "#0072b2"
+  std::string dash;    ///< of SVG; "" for a solid line
+};
+LineStyle line_style(int i);
+
+/// From dark blue (0) over green to yellow (1): viridis, whose lightness rises evenly.
+std::string viridis(double fraction);
+
+}  // namespace sprekk

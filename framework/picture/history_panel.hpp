@@ -1,0 +1,20 @@
+// Quantities against time, in units that fit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/picture/line_plot.hpp"
+
+namespace sprekk {
+
+struct HistoryCurve {
+  std::string name;
+  std::vector<double> times, values;  ///< SI
+  LineStyle style;
+};
+
+/// A panel of curves that share the SI unit `unit`; few points are marked.
+Panel history_panel(const std::string& title, const std::string& unit, const std::vector<HistoryCurve>& curves);
+
+}  // namespace sprekk

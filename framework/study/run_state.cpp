@@ -1,0 +1,116 @@
+#include "framework/study/run_state.hpp"
+
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "framework/scene/simulation.hpp"
+
+namespace sprekk {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+constexpr std::array<std::pair<RunState::Standing, const char*>, 4> standings = {
+    {{RunState::Standing::waiting, "waiting"},
+     {RunState::Standing::done, "done"},
+     {RunState::Standing::failed, "failed"},
+     {RunState::Standing::interrupted, "interrupted"}}};
+
+RunState::Standing standing_of(const std::string& text) {
+  for (const auto& [standing, name] : standings)
+    if (text == name) return standing;
+  return RunState::Standing::waiting;
+}
+
+json read_json(const fs::path& file) {
+  std::ifstream stream(file);
+  return json::parse(stream, nullptr, false);
+}
+
+/// The last line that says something: the message of a run that did not come to write its record.
+std::string last_line(const fs::path& log) {
+  std::ifstream stream(log);
+  std::string last;
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty()) last = line;
+  return last.rfind("error: ", 0) == 0 ? last.substr(7) : last;
+}
+
+bool is_free(const fs::path& folder) { return !fs::exists(folder) || fs::is_empty(folder); }
+
+}  // namespace
+
+std::string standing_text(RunState::Standing standing) {
+  for (const auto& [value, name] : standings)
+    if (value == standing) return name;
+  return "";
+}
+
+std::map<std::string, RunState> read_states(const fs::path& folder) {
+  std::map<std::string, RunState> states;
+  const fs::path file = folder / "sweep.json";
+  if (!fs::exists(file)) return states;
+  const auto damaged = [&] {
+    return InputError(file.string() +
+                      " is not the record of a study (it is damaged, or another file) choose another folder with -o");
+  };
+  const json record = read_json(file);
+  if (!record.is_object() || !record.contains("runs") || !record["runs"].is_array()) throw damaged();
+  for (const json& run : record["runs"]) {
+    try {
+      RunState state;
+      state.name = run.at("name");
+      state.identity = run.at("identity");
+      state.standing = standing_of(run.at("state"));
+      state.exit_code = run.at("exit_code");
+      state.reason = run.at("reason");
+      state.seconds = run.at("seconds");
+      state.program = run.at("program");
+      states[state.name] = state;
+    } catch (const json::exception&) {
+      throw damaged();
+    }
+  }
+  return states;
+}
+
+Action next_action(const StudyRun& run, const std::map<std::string, RunState>& remembered, const fs::path& folder) {
+  const fs::path run_folder = folder / run.name;
+  if (is_free(run_folder)) return Action::start;
+  const auto state = remembered.find(run.name);
+  if (state == remembered.end() || state->second.identity != run.identity)
+    throw InputError("the folder " + run_folder.string() + " holds a run " +
+                     (state == remembered.end() ? "that this study does not know" : "of other values") +
+                     " (results are never overwritten) choose another folder with -o, or remove this one");
+  if (state->second.standing == RunState::Standing::done) return Action::keep;
+  // A run that came to its end while the sweep itself was killed.
+  const json record = read_json(run_folder / "run.json");
+  if (record.is_object() && record.value("/exit/code"_json_pointer, -1) == 0) return Action::keep;
+  return fs::exists(run_folder / "checkpoint.h5") ? Action::go_on : Action::start;
+}
+
+void record_end(RunState& state, int code, const fs::path& run_folder, const fs::path& log) {
+  using Standing = RunState::Standing;
+  state.exit_code = code;
+  state.standing = code == static_cast<int>(ExitCode::done)          ? Standing::done
+                   : code == static_cast<int>(ExitCode::interrupted) ? Standing::interrupted
+                                                                     : Standing::failed;
+  state.reason.clear();
+  const json record = read_json(run_folder / "run.json");
+  const bool is_whole = record.is_object() && record.contains("exit") && record.contains("program");
+  if (is_whole) {
+    state.seconds += record.value("seconds", 0.0);
+    state.program = record["program"].value("version", "") + " " + record["program"].value("git_commit", "");
+  }
+  if (state.standing != Standing::failed) return;
+  if (code < 0)
+    state.reason = std::string("ended by a signal: ") + strsignal(-code);
+  else if (is_whole && record["exit"].value("code", -1) == code)
+    state.reason = record["exit"].value("reason", "");
+  else
+    state.reason = last_line(log);
+}
+
+}  // namespace sprekk

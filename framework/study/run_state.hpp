@@ -1,0 +1,40 @@
+// Where a run of a study stands, and what is known of it: one entry of sweep.json.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "framework/study/study.hpp"
+
+namespace sprekk {
+
+struct RunState {
+  enum class Standing { waiting, done, failed, interrupted };
+
+  std::string name, identity;
+  Standing standing = Standing::waiting;
+  int exit_code = -1;   ///< of the run; minus the number of a signal that ended it
+  std::string reason;   ///< why it failed
+  double seconds = 0;   ///< wall time of all its parts
+  std::string program;  ///< version and commit of the program that ran it
+};
+
+/// What is to be done with a run whose folder may exist.
+enum class Action { keep, start, go_on };
+
+/// The states in `folder`/sweep.json by name; none when there is no such file. Throws InputError if it is damaged.
+std::map<std::string, RunState> read_states(const std::filesystem::path& folder);
+
+/// Decides for one run, given what is remembered of it. Throws InputError when its folder holds a run of other values:
+/// results are never overwritten.
+Action next_action(const StudyRun& run, const std::map<std::string, RunState>& remembered,
+                   const std::filesystem::path& folder);
+
+/// Fills in what run.json in `run_folder` and the log say about a run that has ended with `code`.
+void record_end(RunState& state, int code, const std::filesystem::path& run_folder, const std::filesystem::path& log);
+
+std::string standing_text(RunState::Standing standing);
+
+}  // namespace sprekk

@@ -1,0 +1,166 @@
+#include "framework/study/study.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <set>
+
+#include "framework/config/node_paths.hpp"
+#include "framework/config/text_file.hpp"
+#include "framework/study/scene_identity.hpp"
+
+namespace sprekk {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t most_runs = 10'000;
+constexpr std::size_t longest_name = 100;  // of a run's folder
+
+/// Without blanks, and without what does not belong into the name of a folder.
+std::string folder_text(const std::string& text) {
+  std::string result;
+  for (const unsigned char c : text) {
+    if (std::isspace(c) || c == '"' || c == '\'') continue;
+    const bool is_kept = c >= 128 || std::isalnum(c) || std::string("._-+^%").find(char(c)) != std::string::npos;
+    result += is_kept ? char(c) : '_';
+  }
+  return result;
+}
+
+std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+/// "step=1h,fracture_size=10mm"; whole paths where last parts are alike.
+std::string grid_name(const std::vector<Setting>& settings) {
+  std::string name;
+  for (const Setting& setting : settings) {
+    const auto same = std::count_if(settings.begin(), settings.end(), [&](const Setting& other) {
+      return last_part(other.path) == last_part(setting.path);
+    });
+    name += (name.empty() ? "" : ",") + (same == 1 ? last_part(setting.path) : setting.path) + "=" +
+            folder_text(setting.value);
+  }
+  return name.size() <= longest_name ? name : name.substr(0, longest_name - 17) + "-" + text_identity(name);
+}
+
+std::vector<StudyRun> grid_runs(const StudyOptions& options) {
+  std::vector<std::vector<Setting>> combinations;
+  if (!options.grid.empty()) combinations.emplace_back();
+  for (const StudyOptions::Axis& axis : options.grid) {
+    std::vector<std::vector<Setting>> longer;
+    if (combinations.size() * axis.values.size() > most_runs)
+      throw InputError(axis.values.front().key_origin, "the grid has too many runs",
+                       "more than " + std::to_string(most_runs), "shorten its lists");
+    for (const auto& combination : combinations)
+      for (const Setting& value : axis.values) {
+        longer.push_back(combination);
+        longer.back().push_back(value);
+      }
+    combinations = std::move(longer);
+  }
+  std::vector<StudyRun> runs;
+  for (const auto& combination : combinations) runs.push_back({grid_name(combination), combination, {}, ""});
+  return runs;
+}
+
+void check_names_differ(const std::vector<StudyRun>& runs) {
+  std::set<std::string> names;
+  for (const StudyRun& run : runs)
+    if (!names.insert(run.name).second)
+      throw InputError(run.settings.empty() ? Origin{} : run.settings.back().value_origin,
+                       "two runs would be called " + quoted(run.name), "their values differ too little",
+                       "name them in 'runs:'");
+}
+
+std::vector<std::string> varied_keys(const StudyOptions& options) {
+  std::vector<std::string> keys;
+  const auto add = [&](const std::string& path) {
+    if (std::find(keys.begin(), keys.end(), path) == keys.end()) keys.push_back(path);
+  };
+  for (const StudyOptions::Axis& axis : options.grid) add(axis.path);
+  for (const StudyOptions::NamedRun& run : options.runs)
+    for (const Setting& setting : run.settings) add(setting.path);
+  return keys;
+}
+
+/// As the scene has it: written, or by default.
+std::string value_of(const Scene& scene, const std::string& path) {
+  for (const Scene::Resolved& value : scene.resolved)
+    if (value.path == path) return value.value;
+  const Node* node = &scene.whole;
+  for (std::string rest = path; node && !rest.empty();) {
+    const std::size_t dot = rest.find('.');
+    node = node->find(rest.substr(0, dot));
+    rest = dot == std::string::npos ? "" : rest.substr(dot + 1);
+  }
+  return node ? node->text() : "";
+}
+
+std::vector<std::string> scene_files(const StudyOptions& options, const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const std::string& file : options.scene) {
+    const fs::path path = (folder / file).lexically_normal();
+    if (!fs::is_regular_file(path))
+      throw InputError(options.scene_origin, "there is no scene " + quoted(file), "looked for is " + path.string(),
+                       "paths are relative to the file of the study");
+    files.push_back(path.string());
+  }
+  if (files.empty()) throw InputError(options.scene_origin, "the study names no scene", "", "write 'scene: a.yaml'");
+  return files;
+}
+
+/// Reads the scene of every run, and reports the mistakes of all, each once.
+void read_scenes(Study& study) {
+  std::vector<std::string> problems;
+  for (StudyRun& run : study.runs) {
+    try {
+      const Scene scene = study.scene_of(run);
+      for (const std::string& key : study.keys) run.values.push_back(value_of(scene, key));
+      run.identity = scene_identity(scene.whole, fs::path(study.scene_files.front()).parent_path());
+    } catch (const InputError& error) {
+      for (const std::string& problem : error.problems())
+        if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(problem);
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+}  // namespace
+
+Scene Study::scene_of(const StudyRun& run) const {
+  std::vector<Override> overrides;
+  for (const Setting& setting : run.settings)
+    overrides.push_back({setting.path, setting.value, setting.key_origin, setting.value_origin});
+  const std::string folder = fs::path(scene_files.front()).parent_path().string();
+  return read_scene(load_scene(scene_files, overrides), folder.empty() ? "." : folder,
+                    fs::path(scene_files.front()).stem().string());
+}
+
+Study read_study(const std::string& file) {
+  Node whole = parse_yaml(read_text_file(file, file), file);
+  set_paths(whole, "study");
+  StudyOptions options;
+  options.spec().read(whole, {});
+
+  Study study;
+  study.name = options.name.value_or(fs::path(file).stem().string());
+  study.scene_files = scene_files(options, fs::path(file).parent_path());
+  study.keys = varied_keys(options);
+  study.runs = grid_runs(options);
+  for (const StudyOptions::NamedRun& run : options.runs) study.runs.push_back({run.name, run.settings, {}, ""});
+  check_names_differ(study.runs);
+  for (StudyRun& run : study.runs) run.settings.insert(run.settings.begin(), options.set.begin(), options.set.end());
+  study.plot = options.plot;
+  study.plot_origin = options.plot_origin;
+  study.table = options.table;
+  study.reference = options.reference;
+  if (study.reference) {
+    std::vector<std::string> names;
+    for (const StudyRun& run : study.runs) names.push_back(run.name);
+    if (std::find(names.begin(), names.end(), *study.reference) == names.end())
+      throw unknown_name(options.reference_origin, "run", *study.reference, names);
+  }
+  read_scenes(study);
+  return study;
+}
+
+}  // namespace sprekk

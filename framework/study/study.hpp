@@ -1,0 +1,76 @@
+// A study: runs of one scene that differ in some of its values. Read from a file like
+//
+//   scene: onset.yaml
+//   grid: {time.step: [0.5 h, 1 h], mesh.fracture_size: [10 mm, 20 mm]}
+//   runs: {reference: {time.step: 0.25 h, mesh.fracture_size: 5 mm}}
+//   compare: {plot: [p_C], table: {final p_C: {of: p_C, at: end}}, reference: reference}
+#pragma once
+
+#include <list>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/scene/scene.hpp"
+#include "framework/study/figure.hpp"
+
+namespace sprekk {
+
+/// A value of the scene that a study sets.
+struct Setting {
+  std::string path;
+  std::string value;  ///< YAML on one line
+  Origin key_origin, value_origin;
+};
+
+/// The file as it stands; `spec` declares it.
+struct StudyOptions {
+  struct Axis {
+    std::string path;
+    std::vector<Setting> values;
+  };
+  struct NamedRun {
+    std::string name;
+    std::vector<Setting> settings;
+  };
+
+  std::optional<std::string> name;
+  std::vector<std::string> scene;
+  std::vector<Setting> set;
+  std::vector<Axis> grid;
+  std::vector<NamedRun> runs;
+  std::vector<std::string> plot;
+  std::list<FigureOptions> table;
+  std::optional<std::string> reference;
+  Origin scene_origin, plot_origin, reference_origin;
+  Spec spec();
+};
+
+struct StudyRun {
+  std::string name;                 ///< also of its folder
+  std::vector<Setting> settings;    ///< all, in the order in which they are applied
+  std::vector<std::string> values;  ///< of the study's keys, as the run's scene has them
+  std::string identity;             ///< changes with anything that the run reads
+};
+
+struct Study {
+  std::string name;
+  std::vector<std::string> scene_files;
+  std::vector<std::string> keys;  ///< the paths that differ between runs
+  std::vector<StudyRun> runs;
+  std::vector<std::string> plot;  ///< columns, as the user wrote them
+  Origin plot_origin;
+  std::list<FigureOptions> table;
+  std::optional<std::string> reference;  ///< the name of a run
+
+  Scene scene_of(const StudyRun& run) const;
+};
+
+/// Reads the file and the scene of every run. Throws InputError for whatever is wrong in any of them.
+Study read_study(const std::string& file);
+
+/// The spec with its defaults, for `explain`, the reference and the schema.
+Spec study_spec();
+
+}  // namespace sprekk
