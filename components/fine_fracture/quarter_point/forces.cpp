@@ -31,7 +31,7 @@ void add_outline_tractions(const FineGeometry& geometry, const FineMesh& mesh, c
 void add_wall_tractions(const FineMesh& mesh, const FineLoads& loads, Vector& f) {
   for (const FineMesh::WallEdge& edge : mesh.wall_edges) {
     if (edge.walls != CrackPath::Walls::traction) continue;
-    for (const LinePoint& place : line_rule(edge_points)) {
+    for (const LinePoint& place : wall_rule(mesh, edge, edge_points)) {
       const EdgePoint p = edge_point(mesh, edge.nodes[0], place.t);
       const WallPlace wall = wall_place(mesh, edge, p.x);
       const Point force = place.weight * p.jacobian * loads.wall_traction(edge.crack, wall.segment, wall.s);

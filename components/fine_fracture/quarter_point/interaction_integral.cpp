@@ -45,15 +45,38 @@ class Integral {
   /// The constant state has the traction that acts on the walls at the tip, and sigma_11 = 0.
   void subtract_constant_state() {
     offset_at_tip_ = offset(tip_.room.position);
-    constant_ = offset_at_tip_;
     for (const FineMesh::WallEdge& edge : mesh_.wall_edges) {
-      if (!is_own(edge) || edge.walls == CrackPath::Walls::jump) continue;
+      if (!is_own(edge)) continue;
       const Point normal = frame_.transpose() * edge.normal;
-      const Point t = frame_.transpose() * wall_traction(tip_.room.position, edge);
+      if (edge.walls == CrackPath::Walls::jump) fit_traction();
+      const Point t = edge.walls == CrackPath::Walls::jump
+                          ? fitted_traction_[0]
+                          : Point(frame_.transpose() * wall_traction(tip_.room.position, edge));
       const double sign = normal.y() > 0 ? 1 : -1;
       constant_ << 0, sign * t.x(), sign * t.x(), sign * t.y();
     }
     constant_strain_ = rock_.strain(constant_ - offset_at_tip_);
+  }
+
+  /// Where a jump is prescribed up to the tip, the traction there is bounded, but that of quarter-point elements is
+  /// not: the error of their angular resolution goes with r^-1/2. A line is fitted to the traction behind the rosette.
+  void fit_traction() {
+    Eigen::Matrix2d normal_matrix = Eigen::Matrix2d::Zero(), right_side = Eigen::Matrix2d::Zero();
+    for (const FineMesh::WallEdge& edge : mesh_.wall_edges) {
+      const bool is_near = edge.crack == tip_.room.crack && edge.tip == none &&
+                           (weight(edge.nodes[0][0]) > 0 || weight(edge.nodes[0][1]) > 0);
+      if (!is_near) continue;
+      const Point normal = frame_.transpose() * edge.normal;
+      constexpr int points = 3;
+      for (const LinePoint& place : line_rule(points)) {
+        const EdgePoint p = edge_point(mesh_, edge.nodes[0], place.t);
+        const Eigen::Vector2d row(1, (p.x - tip_.room.position).norm());
+        normal_matrix += place.weight * p.jacobian * row * row.transpose();
+        right_side += place.weight * p.jacobian * row * traction_here(edge, p.x, place.t, normal).transpose();
+      }
+    }
+    const Eigen::Matrix2d fit = normal_matrix.inverse() * right_side;
+    fitted_traction_ = {fit.row(0).transpose(), fit.row(1).transpose()};
   }
 
   Point wall_traction(const Point& x, const FineMesh::WallEdge& edge) const {
@@ -115,7 +138,7 @@ class Integral {
     const Point normal = frame_.transpose() * edge.normal;
     const double upper = normal.y() < 0 ? 1 : -1;  // plus is above when the normal, towards minus, points down
     constexpr int points = 5;
-    for (const LinePoint& place : line_rule(points)) {
+    for (const LinePoint& place : wall_rule(mesh_, edge, points)) {
       const EdgePoint p = edge_point(mesh_, edge.nodes[0], place.t);
       const double q = edge.tip != none ? 1 : q_from + place.t * (q_to - q_from);
       const Point t = traction_here(edge, p.x, place.t, normal) - constant_ * normal;
@@ -131,6 +154,7 @@ class Integral {
   /// On the plus wall, in the frame of the tip. t runs along the edge's parameter.
   Point traction_here(const FineMesh::WallEdge& edge, const Point& x, double t, const Point& normal) const {
     if (edge.walls == CrackPath::Walls::traction) return frame_.transpose() * wall_traction(x, edge);
+    if (edge.tip != none) return fitted_traction_[0] + (x - tip_.room.position).norm() * fitted_traction_[1];
     Tensor stress = offset(x);
     for (int side = 0; side < 2; ++side) {
       const FineMesh::Element& element = mesh_.elements[edge.elements[side]];
@@ -159,6 +183,7 @@ class Integral {
   double radius_;
   Tensor frame_;  ///< columns x1, x2
   Tensor offset_at_tip_, constant_, constant_strain_;
+  std::array<Point, 2> fitted_traction_{Point(0, 0), Point(0, 0)};  ///< at the tip, and its change with r
   std::array<double, 3> sum_{};
 };
 

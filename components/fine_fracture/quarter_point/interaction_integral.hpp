@@ -20,7 +20,8 @@ struct InteractionResult {
 /// which is the usual domain form (Li, Shih and Needleman 1985; Yau, Wang and Corten 1980) after the body force div s
 /// has been integrated by parts: only values of s occur. Before, the constant state that the walls' traction and s have
 /// at the tip is subtracted, so that integrals converge at the tip. K = E' I / 2, sigma_11 = E' I for a unit force.
-/// Exact for walls that are straight within the radius. On walls of kind jump, t is the mean of both elements' stress.
+/// Exact for walls that are straight within the radius. On walls of kind jump, t is the mean of both elements'
+/// stress, in the rosette a line fitted to it from behind.
 InteractionResult interaction_integral(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
                                        const Vector& displacement, const FineMesh::Tip& tip, double radius);
 

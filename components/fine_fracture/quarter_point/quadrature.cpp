@@ -43,6 +43,11 @@ std::vector<TrianglePoint> dunavant(int degree) {
   } else if (degree == 4) {
     add_three(rule, 0.445948490915965, 0.223381589678011);
     add_three(rule, 0.091576213509771, 0.109951743655322);
+  } else if (degree == 5) {
+    const double root = std::sqrt(15.0);
+    rule.push_back({1.0 / 3, 1.0 / 3, 0.5 * 9 / 40});
+    add_three(rule, (6 - root) / 21, (155 - root) / 1200);
+    add_three(rule, (6 + root) / 21, (155 + root) / 1200);
   } else if (degree == 6) {
     add_three(rule, 0.249286745170910, 0.116786275726379);
     add_three(rule, 0.063089014491502, 0.050844906370207);

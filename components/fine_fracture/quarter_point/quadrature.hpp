@@ -15,7 +15,8 @@ struct LinePoint {
 /// Gauss-Legendre with n points.
 const std::vector<LinePoint>& line_rule(int n);
 
-/// Symmetric rules for polynomials of degree 2, 4 and 6 (3, 6, 12 points; Dunavant 1985).
+/// Symmetric rules for polynomials of degree 2, 4, 5 and 6 (3, 6, 7, 12 points; Dunavant 1985).
+/// Throws std::invalid_argument for other degrees.
 const std::vector<TrianglePoint>& triangle_rule(int degree);
 
 /// A product of Gauss rules in the polar coordinates of corner 0: along rays, and across them. In a quarter-point

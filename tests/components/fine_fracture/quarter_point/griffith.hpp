@@ -68,7 +68,8 @@ struct Griffith {
     f.psi = std::conj(A) * root - A * z * z / root - 2 * uniform * z;
     f.Psi = -(A - std::conj(A)) * z / root - z * f.dPhi - 2 * uniform;
     if (on_walls) {
-      // Minus the uniform far field (along, normal, shear): Phi = (along + normal)/4, Psi = (normal - along)/2 + i shear.
+      // Minus the uniform far field (along, normal, shear): Phi = (along + normal)/4, Psi = (normal - along)/2 + i
+      // shear.
       const double sum = 0.25 * (along + normal);
       const Complex deviator(0.5 * (normal - along), shear);
       f.phi -= sum * z, f.Phi -= sum, f.psi -= deviator * z, f.Psi -= deviator;
