@@ -2,21 +2,12 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
+#include "components/fine_fracture/quarter_point/element_locator.hpp"
 #include "components/fine_fracture/quarter_point/intensities.hpp"
 
 namespace sprekk::fine_fracture {
-
-/// A place in an element, see shape_point.
-struct ElementPlace {
-  int element;
-  double xi, eta;
-};
-
-/// The element that holds a point, if it lies in the domain. Searches all elements.
-std::optional<ElementPlace> find_place(const FineMesh& mesh, const Point& x);
 
 struct FineSolution {
   std::shared_ptr<const FineMesh> mesh;
@@ -25,6 +16,7 @@ struct FineSolution {
   std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips
   double strain_energy;              ///< of C eps(u), J/m
 
+  /// Places come from an ElementLocator.
   Point displacement_at(const ElementPlace& place) const;
   /// du_i/dx_j.
   Tensor gradient_at(const ElementPlace& place) const;
