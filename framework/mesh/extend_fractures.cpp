@@ -20,9 +20,16 @@ namespace {
 
 using Place = CavityOutline::Edge::Place;
 
-/// Below this angle (rad) larger cavities are tried.
-constexpr double wanted_angle = 20 * std::numbers::pi / 180;
-constexpr double enlargements[] = {1, 1.25, 1.6, 2};
+/// Below this angle (rad) other methods and larger cavities are tried.
+constexpr double wanted_angle = 25 * std::numbers::pi / 180;
+struct Attempt {
+  double enlargement;  ///< of the radius
+  MeshMethod method;
+};
+constexpr Attempt attempts[] = {{1, MeshMethod::frontal},     {1, MeshMethod::delaunay},  {1.25, MeshMethod::frontal},
+                                {1.25, MeshMethod::delaunay}, {1.6, MeshMethod::frontal}, {2, MeshMethod::frontal}};
+/// So many attempts in a row without gain are the last: small angles between lines that must stay remain.
+constexpr int most_vain_attempts = 2;
 /// An edge of an interface is divided when it is so many times longer than the gap between it and a path.
 constexpr double too_long = 1.5;
 
@@ -77,12 +84,14 @@ class Growth {
     Refill best;
     bool has_one = false;
     std::string failure;
-    for (const double enlargement : enlargements) {
+    int in_vain = 0;
+    for (const auto& [enlargement, method] : attempts) {
       try {
-        Refill next = refill(enlargement * options_.radius);
-        if (!has_one || next.is_better_than(best)) best = std::move(next);
+        Refill next = refill(enlargement * options_.radius, method);
+        in_vain = !has_one || next.is_better_than(best) ? 0 : in_vain + 1;
+        if (in_vain == 0) best = std::move(next);
         has_one = true;
-        if (best.is_good()) break;
+        if (best.is_good() || in_vain == most_vain_attempts) break;
       } catch (const std::runtime_error& error) {
         failure = error.what();
       }
@@ -91,7 +100,7 @@ class Growth {
     return best;
   }
 
-  Refill refill(double radius) const {
+  Refill refill(double radius, MeshMethod method) const {
     Refill refill;
     refill.nodes = path_nodes_.nodes;
     refill.is_removed = choose_cavity(mesh_, merged_, paths_, std::vector<double>(paths_.size(), radius));
@@ -104,7 +113,7 @@ class Growth {
     }
     std::vector<int> part_of_path;
     for (const auto& path : paths_) part_of_path.push_back(part_met(path, cells));
-    for (std::size_t p = 0; p < cells.size(); ++p) fill(cells[p], static_cast<int>(p), part_of_path, refill);
+    for (std::size_t p = 0; p < cells.size(); ++p) fill(cells[p], static_cast<int>(p), part_of_path, method, refill);
     return refill;
   }
 
@@ -160,7 +169,8 @@ class Growth {
     return a.side == b.side && a.region == b.region && std::abs(cross(u, v)) <= 1e-14 * u.norm() * v.norm();
   }
 
-  void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, Refill& refill) const {
+  void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, MeshMethod method,
+            Refill& refill) const {
     Outline outline(refill.nodes);
     std::vector<OuterEdge> outer_edges;
     for (std::size_t p = 0; p < part_of_path.size(); ++p) {
@@ -195,7 +205,7 @@ class Growth {
         refill.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, edge.side});
       }
     }
-    const Triangulation filling = fill_cavity(outline.get(), options_.growth);
+    const Triangulation filling = fill_cavity(outline.get(), options_.growth, method);
     refill.smallest_angle = std::min(refill.smallest_angle, smallest_angle(filling));
     refill.single_corners += single_corner_count(filling);
     std::vector<int> node_of = outline.nodes();

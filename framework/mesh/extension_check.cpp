@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <sstream>
+#include <tuple>
 
 #include "framework/mesh/planar.hpp"
 
@@ -72,6 +75,7 @@ class Check {
       check_fractures();
       check_itself();
       for (int other = 0; other < index_; ++other) check_other(other);
+      refuse_obstacle();
     }
     return extensions_;
   }
@@ -151,18 +155,18 @@ class Check {
   /// How near the current path may come to something that is this far from its beginning.
   double allowed(double distance_of_tip) const { return std::min(least_gap * size_, approach * distance_of_tip); }
 
-  void check_boundary(bool ends_on_boundary) const {
+  /// The same for a part of the same fracture, by the way between both along it.
+  double allowed_to_itself(double way) const { return std::min(least_gap * size_, self_gap * way); }
+
+  void check_boundary(bool ends_on_boundary) {
     const auto& segments = paths_[index_];
     const Point tip = segments.front().from;
     for (std::size_t i = 0; i < segments.size(); ++i) {
+      const Segment& s = segments[i];
       const bool is_ending = ends_on_boundary && i + 1 == segments.size();
-      double first = std::numeric_limits<double>::infinity();
-      Point where = tip;
-      bool crosses = false;
       for (int face = 0; face < mesh_.face_count(); ++face) {
         if (mesh_.face_side[face] == none) continue;
         const Segment side = segment_of_face(mesh_, face);
-        const Segment& s = segments[i];
         if (is_ending && distance(s.to, side) <= touch_) {
           const double sine = std::abs(cross(s.to - s.from, side.to - side.from)) / (s.length() * side.length());
           if (sine < std::sin(least_incidence)) {
@@ -170,37 +174,46 @@ class Check {
           }
           continue;
         }
-        const double gap = distance(s, side);
-        if (gap > touch_ && (is_ending || gap >= allowed(distance(tip, side)))) continue;
-        const Point here = meeting_point(s, side);
-        const double way = (here - s.from).norm();
-        const bool is_crossing = gap <= touch_;
-        if (is_crossing < crosses || (is_crossing == crosses && way >= first)) continue;
-        first = way, where = here, crosses = is_crossing;
-      }
-      if (crosses) refuse(Reason::leaves_mesh, where, "leaves the mesh", "a path may end on the outer boundary");
-      if (std::isfinite(first)) {
-        refuse(Reason::too_near, where, "passes too near to the outer boundary",
-               "at less than " + std::to_string(least_gap) + " edge lengths");
+        note(i, side, is_ending ? 0 : allowed(distance(tip, side)), Reason::leaves_mesh, "the outer boundary");
       }
     }
   }
 
-  /// `own_distance` of a segment of the same fracture: the way between the two along the fracture.
-  void check_pair(const Segment& s, const Segment& other, double allowed_gap, const std::string& name) const {
+  /// What stands in the way of a path. Meeting it is worse than being near to it, and of two such the first counts.
+  struct Obstacle {
+    bool is_met;
+    std::size_t segment;
+    double way, gap;  ///< m, along the segment and between both
+    Point where;
+    Reason reason;
+    std::string name;
+  };
+
+  void note(std::size_t segment, const Segment& other, double allowed_gap, Reason reason, const std::string& name) {
+    const Segment& s = paths_[index_][segment];
     const double gap = distance(s, other);
+    if (gap > touch_ && gap >= allowed_gap) return;
     const Point where = meeting_point(s, other);
-    if (gap <= touch_)
-      refuse(Reason::crosses_fracture, where, "meets " + name, "crossing and touching fractures are not supported");
-    if (gap < allowed_gap) {
-      refuse(Reason::too_near, where, "passes too near to " + name,
-             "at " + std::to_string(gap / size_) + " edge lengths");
+    const Obstacle obstacle{gap <= touch_, segment, (where - s.from).norm(), gap, where, reason, name};
+    const auto rank = [](const Obstacle& o) { return std::tuple(!o.is_met, o.segment, o.way); };
+    if (!obstacle_ || rank(obstacle) < rank(*obstacle_)) obstacle_ = obstacle;
+  }
+
+  void refuse_obstacle() const {
+    if (!obstacle_) return;
+    const auto& [is_met, segment, way, gap, where, reason, name] = *obstacle_;
+    if (!is_met) {
+      std::ostringstream why;
+      why << "at " << gap / size_ << " edge lengths, at least " << least_gap << " are needed";
+      refuse(Reason::too_near, where, "passes too near to " + name, why.str());
     }
+    if (reason == Reason::leaves_mesh) refuse(reason, where, "leaves the mesh", "a path may end on the outer boundary");
+    refuse(reason, where, "meets " + name, "crossing and touching fractures are not supported");
   }
 
   std::string name_of(int fracture) const { return "fracture '" + mesh_.fractures[fracture].name + "'"; }
 
-  void check_fractures() const {
+  void check_fractures() {
     const auto& [fracture, at_end, points] = extensions_[index_];
     const auto& segments = paths_[index_];
     const Point tip = segments.front().from;
@@ -214,9 +227,9 @@ class Check {
           const int cell = at_end ? first + count - 1 - n : first + n;
           const Segment other = segment_of(mesh_, cell);
           if (f != fracture) {
-            check_pair(segments[i], other, allowed(distance(tip, other)), name_of(f));
+            note(i, other, allowed(distance(tip, other)), Reason::crosses_fracture, name_of(f));
           } else if (i > 0 || n > 0) {
-            check_pair(segments[i], other, std::min(least_gap * size_, self_gap * (way_ahead + way_behind)), "itself");
+            note(i, other, allowed_to_itself(way_ahead + way_behind), Reason::crosses_fracture, "itself");
           }
           way_behind += other.length();
         }
@@ -225,23 +238,23 @@ class Check {
     }
   }
 
-  void check_itself() const {
+  void check_itself() {
     const auto& segments = paths_[index_];
     for (std::size_t i = 0; i < segments.size(); ++i) {
       double way = 0;
       for (std::size_t j = i; j-- > 0;) {
-        if (j + 1 < i) check_pair(segments[i], segments[j], std::min(least_gap * size_, self_gap * way), "itself");
+        if (j + 1 < i) note(i, segments[j], allowed_to_itself(way), Reason::crosses_fracture, "itself");
         way += segments[j].length();
       }
     }
   }
 
-  void check_other(int other) const {
-    const Point tip = paths_[index_].front().from;
-    for (const Segment& s : paths_[index_]) {
-      for (const Segment& o : paths_[other]) {
-        const double tips = (tip - paths_[other].front().from).norm();
-        check_pair(s, o, allowed(tips), "the extension of " + name_of(extensions_[other].fracture));
+  void check_other(int other) {
+    const double tips = (paths_[index_].front().from - paths_[other].front().from).norm();
+    for (std::size_t i = 0; i < paths_[index_].size(); ++i) {
+      for (const Segment& segment : paths_[other]) {
+        note(i, segment, allowed(tips), Reason::crosses_fracture,
+             "the extension of " + name_of(extensions_[other].fracture));
       }
     }
   }
@@ -251,7 +264,8 @@ class Check {
   const double touch_;  ///< m; nearer is in contact
   std::vector<PathExtension> extensions_;
   std::vector<std::vector<Segment>> paths_;
-  int index_ = 0;
+  int index_ = 0;  ///< of the extension that is looked at
+  std::optional<Obstacle> obstacle_;
 };
 
 }  // namespace

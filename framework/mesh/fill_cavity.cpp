@@ -170,11 +170,13 @@ void verify(const CavityOutline& outline, const Triangulation& filling) {
 
 }  // namespace
 
-Triangulation fill_cavity(const CavityOutline& outline, double growth) {
+Triangulation fill_cavity(const CavityOutline& outline, double growth, MeshMethod method) {
   Triangulation filling;
   {
     const GmshModel model;
     model.run("fill the cavity", [&] {
+      // GmshModel chooses the frontal one.
+      if (method == MeshMethod::delaunay) gmsh::option::setNumber("Mesh.Algorithm", 5);
       const Frame frame(outline.points);
       const Sizes sizes(outline, frame, growth);
       describe(outline, frame);

@@ -20,8 +20,11 @@ struct CavityOutline {
   std::vector<Edge> edges;
 };
 
+/// How gmsh places points: by layers from the edges inwards, or in the middle of the largest triangle.
+enum class MeshMethod { frontal, delaunay };
+
 /// Triangles with edge lengths that go from those of the inner edges to those of the rim, growing by `growth` m a metre
 /// where the rim allows. The points of the outline come first. Throws std::runtime_error when this fails.
-Triangulation fill_cavity(const CavityOutline& outline, double growth);
+Triangulation fill_cavity(const CavityOutline& outline, double growth, MeshMethod method);
 
 }  // namespace sprekk

@@ -17,8 +17,11 @@ constexpr double growth_along = 0.5;
 class Placement {
  public:
   Placement(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged, double size)
-      : mesh_(mesh), merged_(merged), size_(size) {
+      : mesh_(mesh), merged_(merged), size_(size), is_on_fracture_(raw.nodes.size()) {
     result_.nodes = raw.nodes;
+    for (const auto& [name, nodes] : raw.fractures) {
+      for (const int node : nodes) is_on_fracture_[node] = true;
+    }
     for (int face = 0; face < mesh.face_count(); ++face) {
       const auto [one, other] = mesh.face_cells[face];
       if (other != none && mesh.cell_region[one] != mesh.cell_region[other]) interfaces_.push_back(face);
@@ -81,7 +84,7 @@ class Placement {
       if (path[i] == a || path[i] == b) continue;
       const Segment face = segment(nearest);
       const int end = (at(a) - at(path[i])).norm() < (at(b) - at(path[i])).norm() ? a : b;
-      if ((at(end) - at(path[i])).norm() < snap(nearest)) {
+      if (!is_on_fracture_[end] && (at(end) - at(path[i])).norm() < snap(nearest)) {
         path[i] = end;
       } else {
         const Point along = face.to - face.from;
@@ -98,7 +101,7 @@ class Placement {
       std::vector<std::pair<double, int>> found;
       for (const int face : interfaces_) {
         for (const int node : ends(face)) {
-          if (std::find(path.begin(), path.end(), node) != path.end()) continue;
+          if (is_on_fracture_[node] || std::find(path.begin(), path.end(), node) != path.end()) continue;
           if (distance(at(node), s) < snap(face)) found.emplace_back((at(node) - s.from).dot(s.to - s.from), node);
         }
       }
@@ -166,6 +169,7 @@ class Placement {
   const Mesh& mesh_;
   const std::vector<int>& merged_;
   const double size_;
+  std::vector<bool> is_on_fracture_;  ///< per raw node
   std::vector<int> interfaces_;
   PathNodes result_;
 };
