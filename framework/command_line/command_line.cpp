@@ -13,6 +13,7 @@
 #include "framework/output/build_info.hpp"
 #include "framework/output/output_folder.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/report/report.hpp"
 #include "framework/scene/simulation.hpp"
 
 namespace sprekk {
@@ -76,7 +77,7 @@ int run_command_line(int argc, char** argv) {
 
   SceneArguments scene;
   RunOptions run;
-  std::string folder, checkpoint, explained, reference_folder, picture, schema_of = "scene";
+  std::string folder, checkpoint, explained, reference_folder, picture, reported, schema_of = "scene";
 
   CLI::App* run_command = app.add_subcommand("run", "Runs a scene");
   scene.add_to(*run_command);
@@ -89,6 +90,8 @@ int run_command_line(int argc, char** argv) {
   CLI::App* check_command = app.add_subcommand("check", "Builds everything and solves nothing");
   scene.add_to(*check_command);
   SweepCommand sweep(app);
+  CLI::App* report_command = app.add_subcommand("report", "Writes report.html into a folder of results");
+  report_command->add_option("folder", reported, "Where a run has written its results")->required();
   CLI::App* show_command =
       app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   scene.add_to(*show_command);
@@ -124,6 +127,7 @@ int run_command_line(int argc, char** argv) {
     if (*show_command) print_scene(scene.read());
     if (*graph_command) draw_graph(Model(scene.read()), picture);
     if (*check_command) check_scene(scene.read());
+    if (*report_command) std::cout << "report: " << write_report(reported).string() << "\n";
     if (sweep.is_called()) return static_cast<int>(sweep.run());
     if (*run_command) {
       const Scene read = scene.read();

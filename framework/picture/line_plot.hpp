@@ -25,7 +25,7 @@ struct Panel {
   std::vector<Curve> curves;
   Axis::Scale y_scale = Axis::Scale::linear;
   bool equal_axes = false;           ///< one length on both axes: for maps
-  double width = 460, height = 300;  ///< px, without the legend below
+  double width = 440, height = 300;  ///< px, without the legend below
 };
 
 /// An <svg> element that can stand in a page; a curve of very many points is thinned to what can be seen.

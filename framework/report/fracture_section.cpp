@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "framework/output/progress.hpp"
+#include "framework/picture/display_unit.hpp"
+#include "framework/report/fracture_path.hpp"
+#include "framework/report/html.hpp"
+#include "framework/report/sections.hpp"
+
+namespace sprekk {
+namespace {
+
+constexpr std::size_t most_fractures = 12;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// A fracture at the written times.
+struct Through {
+  std::vector<double> times;
+  std::vector<const Grid*> grids;
+  std::vector<std::vector<FracturePath>> paths;
+};
+
+std::map<int, Through> fractures_through_time(const RunResults& results) {
+  std::map<int, Through> all;
+  std::map<int, std::optional<PathOrigin>> origins;
+  for (const RunResults::Written& written : results.written) {
+    const Grid::Values* const number = written.fractures.find("fracture");
+    if (number == nullptr) continue;
+    std::map<int, std::vector<int>> cells;
+    for (std::size_t i = 0; i < number->values.size(); ++i)
+      cells[static_cast<int>(number->values[i])].push_back(static_cast<int>(i));
+    for (const auto& [fracture, its] : cells) {
+      all[fracture].times.push_back(written.time);
+      all[fracture].grids.push_back(&written.fractures);
+      all[fracture].paths.push_back(fracture_paths(written.fractures, its, origins[fracture]));
+    }
+  }
+  return all;
+}
+
+/// The scene's names of fractures, when there are as many as fractures.
+std::vector<std::string> fracture_names(const RunResults& results, std::size_t count) {
+  const std::string head = "geometry.fractures.";
+  std::vector<std::string> names;
+  const auto record = nlohmann::ordered_json::parse(results.record);
+  const auto parameters = record.value("/scene/parameters"_json_pointer, nlohmann::ordered_json::object());
+  for (const auto& [path, parameter] : parameters.items()) {
+    if (path.rfind(head, 0) != 0) continue;
+    const std::string name = path.substr(head.size(), path.find('.', head.size()) - head.size());
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (names.size() == count) return names;
+  names.clear();
+  for (std::size_t i = 0; i < count; ++i) names.push_back("fracture " + std::to_string(i + 1));
+  return names;
+}
+
+LineStyle time_style(std::size_t i, std::size_t count) {
+  const double fraction = count < 2 ? 0 : static_cast<double>(i) / static_cast<double>(count - 1);
+  return {viridis(0.88 * fraction), ""};
+}
+
+double largest_of(const Through& through, const std::string& array) {
+  double largest = 0;
+  for (const Grid* grid : through.grids)
+    if (const Grid::Values* values = grid->find(array))
+      for (const double value : values->values)
+        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+double longest_of(const Through& through) {
+  double longest = 0;
+  for (const auto& paths : through.paths)
+    for (const FracturePath& path : paths) longest = std::max({longest, std::abs(path.start), std::abs(path.end)});
+  return longest;
+}
+
+/// One component of an array along the fracture at all times.
+Panel panel_along(const Through& through, const Grid::Values& sample, int component) {
+  const ColumnName name = column_name(sample.name);
+  const DisplayUnit unit = display_unit(name.unit, largest_of(through, sample.name)),
+                    length = display_unit("m", longest_of(through));
+  Panel panel;
+  static const char* const axes[] = {", x", ", y"};
+  panel.title = name.quantity + (sample.components > 1 ? axes[component] : "");
+  panel.x_label = "arc length [" + length.text + "]";
+  panel.y_label = unit.text;
+  for (std::size_t t = 0; t < through.times.size(); ++t) {
+    const Grid::Values* const values = through.grids[t]->find(sample.name);
+    if (values == nullptr) continue;
+    Curve curve{display_text(through.times[t], "s"), {}, {}, time_style(t, through.times.size())};
+    for (const FracturePath& path : through.paths[t]) {
+      if (!curve.x.empty()) curve.x.push_back(nothing), curve.y.push_back(nothing);
+      for (std::size_t i = 0; i < path.cells.size(); ++i) {
+        curve.x.push_back(path.length[i] / length.scale);
+        curve.y.push_back(values->values[static_cast<std::size_t>(path.cells[i] * values->components + component)] /
+                          unit.scale);
+      }
+    }
+    curve.marked = curve.x.size() <= 40;
+    panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+/// Where the fractures run, coloured by time; those that do not grow are drawn over one another.
+Panel paths_panel(const std::map<int, Through>& all) {
+  double farthest = 0;
+  for (const auto& [fracture, through] : all)
+    for (const auto& paths : through.paths)
+      for (const FracturePath& path : paths)
+        for (const auto& point : path.points) farthest = std::max({farthest, std::abs(point[0]), std::abs(point[1])});
+  const DisplayUnit unit = display_unit("m", farthest);
+  Panel panel;
+  panel.title = "paths of the fractures";
+  panel.x_label = "x [" + unit.text + "]";
+  panel.y_label = "y [" + unit.text + "]";
+  panel.equal_axes = true;
+  panel.height = 420;
+  std::map<double, Curve> curves;  // the latest first, so that the oldest parts stay visible on top
+  std::size_t count = 0;
+  for (const auto& [fracture, through] : all) count = std::max(count, through.times.size());
+  for (const auto& [fracture, through] : all)
+    for (std::size_t t = 0; t < through.times.size(); ++t) {
+      Curve& curve = curves[-through.times[t]];
+      curve.name = display_text(through.times[t], "s");
+      curve.style = time_style(t, count);
+      for (const FracturePath& path : through.paths[t]) {
+        if (!curve.x.empty()) curve.x.push_back(nothing), curve.y.push_back(nothing);
+        for (const auto& point : path.points) {
+          curve.x.push_back(point[0] / unit.scale);
+          curve.y.push_back(point[1] / unit.scale);
+        }
+      }
+    }
+  for (auto& [time, curve] : curves) panel.curves.push_back(std::move(curve));
+  return panel;
+}
+
+bool has_grown(const std::map<int, Through>& all) {
+  return std::any_of(all.begin(), all.end(), [](const auto& entry) {
+    const auto& paths = entry.second.paths;
+    return std::any_of(paths.begin(), paths.end(), [&](const auto& at_a_time) {
+      return at_a_time.back().end - at_a_time.front().start >
+             (paths.front().back().end - paths.front().front().start) * (1 + 1e-9);
+    });
+  });
+}
+
+}  // namespace
+
+std::string fracture_section(const RunResults& results) {
+  const std::map<int, Through> all = fractures_through_time(results);
+  if (all.empty()) return "";
+  const std::vector<std::string> names = fracture_names(results, static_cast<std::size_t>(all.rbegin()->first) + 1);
+  std::string text;
+  if (has_grown(all)) text += html_panels({paths_panel(all)});
+  text += html_paragraph(
+      "Curves are coloured by time, from dark to light. The arc length begins at the end of the fracture where it was "
+      "first written; what has grown there since has negative lengths.");
+  std::size_t shown = 0;
+  for (const auto& [fracture, through] : all) {
+    if (shown++ == most_fractures) {
+      text += html_paragraph(fmt::format("The other {} fractures are left out.", all.size() - most_fractures));
+      break;
+    }
+    std::vector<Panel> panels;
+    for (const Grid::Values& sample : through.grids.back()->arrays) {
+      if (sample.name == "fracture" || sample.place != Grid::Place::cell) continue;
+      for (int c = 0; c < std::min(sample.components, 2); ++c) panels.push_back(panel_along(through, sample, c));
+    }
+    text += "<h3>" + escaped_markup(names[static_cast<std::size_t>(fracture)]) + "</h3>\n" + html_panels(panels);
+  }
+  return html_section("fractures", "Along the fractures", text);
+}
+
+}  // namespace sprekk

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "framework/picture/display_unit.hpp"
+#include "framework/picture/history_panel.hpp"
+#include "framework/report/html.hpp"
+#include "framework/report/sections.hpp"
+
+namespace sprekk {
+namespace {
+
+constexpr std::size_t most_curves = 8;  // in a panel
+constexpr double similar = 8;           // the largest ratio of the sizes of curves that share a panel
+
+/// The names under `output.probes` of the scene.
+std::set<std::string> probe_names(const RunResults& results) {
+  const nlohmann::json record = nlohmann::json::parse(results.record);
+  const std::string head = "output.probes.";
+  std::set<std::string> names;
+  const auto parameters = record.value("/scene/parameters"_json_pointer, nlohmann::json::object());
+  for (const auto& [path, parameter] : parameters.items())
+    if (path.rfind(head, 0) == 0) names.insert(path.substr(head.size(), path.find('.', head.size()) - head.size()));
+  return names;
+}
+
+bool has_numbers(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Panels of curves that share a unit. What is much smaller than the rest gets a panel of its own, where it can be
+/// seen.
+struct Group {
+  std::string unit;
+  double largest;  ///< absolute value of the first curve
+  std::vector<HistoryCurve> curves;
+};
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+void add(std::vector<Group>& groups, const std::string& unit, HistoryCurve curve) {
+  const double largest = largest_of(curve.values);
+  for (Group& group : groups) {
+    const double ratio = group.largest > 0 ? largest / group.largest : 0;
+    const bool fits = unit.empty() || largest == 0 || (ratio < similar && ratio > 1 / similar);
+    if (group.unit != unit || !fits || group.curves.size() == most_curves) continue;
+    curve.style = line_style(static_cast<int>(group.curves.size()));
+    group.curves.push_back(std::move(curve));
+    return;
+  }
+  curve.style = line_style(0);
+  groups.push_back({unit, largest, {std::move(curve)}});
+}
+
+std::vector<Panel> panels(const std::vector<Group>& groups) {
+  std::vector<Panel> result;
+  for (const Group& group : groups) {
+    std::string title = group.curves.front().name;
+    if (group.curves.size() > 1) title += ", …";
+    result.push_back(history_panel(title, group.unit, group.curves));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<ThingColumn> thing_columns(const CsvTable& history) {
+  std::vector<ThingColumn> found;
+  for (std::size_t i = 0; i < history.columns().size(); ++i) {
+    const ColumnName name = column_name(history.columns()[i]);
+    const std::size_t last = name.quantity.rfind('.');
+    if (std::count(name.quantity.begin(), name.quantity.end(), '.') != 2) continue;
+    found.push_back({name.quantity.substr(0, last), name.quantity.substr(last + 1), name.unit, static_cast<int>(i)});
+  }
+  return found;
+}
+
+std::string history_section(const RunResults& results) {
+  const CsvTable& history = results.history;
+  if (history.row_count() == 0) return "";
+  const std::vector<double> times = history.numbers("time[s]");
+  const std::set<std::string> probes = probe_names(results);
+  const std::vector<ThingColumn> things = thing_columns(history);
+  std::vector<Group> probed, reported;
+  for (std::size_t i = 0; i < history.columns().size(); ++i) {  // the first three are time, step and iterations
+    const ColumnName name = column_name(history.columns()[i]);
+    const bool is_elsewhere = std::any_of(
+        things.begin(), things.end(), [&](const ThingColumn& thing) { return thing.column == static_cast<int>(i); });
+    const std::vector<double> values = history.numbers(static_cast<int>(i));
+    if (i < 3 || is_elsewhere || !has_numbers(values)) continue;
+    const bool is_probe =
+        probes.count(name.quantity) > 0 || probes.count(name.quantity.substr(0, name.quantity.rfind('.'))) > 0;
+    add(is_probe ? probed : reported, name.unit, {name.quantity, times, values, {}});
+  }
+  std::string text;
+  if (!probed.empty()) text += "<h3>Probes</h3>\n" + html_panels(panels(probed));
+  if (!reported.empty()) text += "<h3>Reported by the components</h3>\n" + html_panels(panels(reported));
+  return html_section("history", "Against time", text);
+}
+
+std::string tip_section(const RunResults& results) {
+  const std::vector<ThingColumn> columns = thing_columns(results.history);
+  const std::vector<double> times = results.history.numbers("time[s]");
+  // One panel for each unit and thing; where a unit has one quantity only, one panel for all things.
+  std::map<std::string, std::set<std::string>> quantities;
+  for (const ThingColumn& column : columns) quantities[column.unit].insert(column.quantity);
+  std::vector<std::pair<std::string, std::vector<HistoryCurve>>> groups;  // title, curves
+  std::map<std::string, std::string> units;
+  for (const ThingColumn& column : columns) {
+    const bool is_alone = quantities[column.unit].size() == 1;
+    const std::string title =
+        is_alone ? column.quantity : column.thing + (column.unit.empty() ? "" : ", " + pretty_unit(column.unit));
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& other) { return other.first == title; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {title, {}});
+    units[title] = column.unit;
+    group->second.push_back({is_alone ? column.thing : column.quantity, times, results.history.numbers(column.column),
+                             line_style(static_cast<int>(group->second.size()))});
+  }
+  std::vector<Panel> drawn;
+  for (const auto& [title, curves] : groups) drawn.push_back(history_panel(title, units[title], curves));
+  return html_section("tips", "Tips", html_panels(drawn));
+}
+
+}  // namespace sprekk

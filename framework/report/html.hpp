@@ -1,0 +1,23 @@
+// Pieces of HTML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/picture/line_plot.hpp"
+
+namespace sprekk {
+
+/// A section with its heading; "" for no content.
+std::string html_section(const std::string& id, const std::string& title, const std::string& content);
+
+/// A table whose first row is its head; cells are text. Columns from `numbers_from` on stand to the right.
+std::string html_table(const std::vector<std::vector<std::string>>& rows, std::size_t numbers_from = 1,
+                       bool has_head = true);
+
+/// Pictures beside each other as room allows.
+std::string html_panels(const std::vector<Panel>& panels);
+
+std::string html_paragraph(const std::string& text);
+
+}  // namespace sprekk

@@ -1,0 +1,185 @@
+#include "framework/report/map_data.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "framework/picture/colours.hpp"
+#include "framework/picture/display_unit.hpp"
+#include "framework/report/base64.hpp"
+#include "framework/report/fracture_path.hpp"
+
+namespace sprekk {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int colour_count = 256;
+
+/// "xx", "yy", "xy" of "rock.stress_xx_yy_xy": names of components at the end of the name; else none.
+std::vector<std::string> named_components(const std::string& quantity, int count) {
+  std::vector<std::string> names;
+  std::string rest = quantity;
+  for (int i = 0; i < count; ++i) {
+    const std::size_t bar = rest.rfind('_');
+    if (bar == std::string::npos || rest.size() - bar > 3) return {};
+    names.insert(names.begin(), rest.substr(bar + 1));
+    rest.resize(bar);
+  }
+  return names;
+}
+
+/// The third component of a vector is there for ParaView only.
+bool is_vector(const RunResults& results, const Grid::Values& sample) {
+  if (sample.components != 3) return false;
+  for (const RunResults::Written& written : results.written) {
+    const Grid::Values* const values = written.matrix.find(sample.name);
+    for (std::size_t i = 2; values && i < values->values.size(); i += 3)
+      if (values->values[i] != 0) return false;
+  }
+  return true;
+}
+
+void add_fields(const RunResults& results, const Grid::Values& sample, std::vector<MapField>& fields) {
+  const ColumnName name = column_name(sample.name);
+  const std::vector<std::string> components = named_components(name.quantity, sample.components);
+  if (sample.components == 1) {
+    fields.push_back({name.quantity, name.unit, sample.name, 0});
+  } else if (components.empty() && is_vector(results, sample)) {
+    fields.push_back({name.quantity + ", length", name.unit, sample.name, MapField::length_of_vector});
+    fields.push_back({name.quantity + ", x", name.unit, sample.name, 0});
+    fields.push_back({name.quantity + ", y", name.unit, sample.name, 1});
+  } else {
+    for (int c = 0; c < sample.components; ++c) {
+      const std::string part = components.empty() ? std::to_string(c + 1) : components[static_cast<std::size_t>(c)];
+      fields.push_back({name.quantity + ": " + part, name.unit, sample.name, c});
+    }
+  }
+}
+
+std::vector<double> values_of(const Grid& grid, const MapField& field) {
+  std::vector<double> result;
+  const Grid::Values* const all = grid.find(field.array);
+  if (all == nullptr) return result;
+  for (std::size_t i = 0; i < all->values.size(); i += static_cast<std::size_t>(all->components))
+    result.push_back(field.component == MapField::length_of_vector
+                         ? std::hypot(all->values[i], all->values[i + 1])
+                         : all->values[i + static_cast<std::size_t>(field.component)]);
+  return result;
+}
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+  void include(const std::vector<double>& values) {
+    for (const double value : values)
+      if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  }
+};
+
+std::string packed(const std::vector<double>& values, const Range& range) {
+  std::vector<std::uint16_t> fractions;
+  const double size = range.high - range.low;
+  for (const double value : values) {
+    const double fraction = size > 0 && std::isfinite(value) ? (value - range.low) / size : 0;
+    fractions.push_back(static_cast<std::uint16_t>(std::lround(65535 * fraction)));
+  }
+  return base64_of(fractions);
+}
+
+Json mesh_json(const Grid& grid) {
+  std::vector<float> points;
+  for (const auto& point : grid.points) points.insert(points.end(), {float(point[0]), float(point[1])});
+  return {{"points", base64_of(points)},
+          {"cells", base64_of(std::vector<std::uint32_t>(grid.cells.begin(), grid.cells.end()))}};
+}
+
+/// Every fracture as a list x, y, x, y, …
+Json lines_json(const Grid& fractures) {
+  Json lines = Json::array();
+  std::vector<int> all(static_cast<std::size_t>(fractures.cell_count()));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  std::optional<PathOrigin> origin;
+  for (const FracturePath& path : fracture_paths(fractures, all, origin)) {
+    Json line = Json::array();
+    for (const auto& point : path.points) line.insert(line.end(), {point[0], point[1]});
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::size_t bytes_of(const Grid& grid, std::size_t field_count) {
+  const std::size_t mesh = 8 * grid.points.size() + 4 * grid.cells.size();
+  return (mesh + 2 * field_count * std::max<std::size_t>(grid.points.size(), grid.cells.size() / 3)) * 4 / 3;
+}
+
+/// Evenly chosen, the last among them.
+std::vector<const RunResults::Written*> chosen(const RunResults& results, std::size_t field_count, std::size_t most) {
+  std::size_t largest = 1;
+  for (const auto& written : results.written) largest = std::max(largest, bytes_of(written.matrix, field_count));
+  const std::size_t count = std::clamp<std::size_t>(most / largest, 1, results.written.size());
+  std::vector<const RunResults::Written*> result;
+  for (std::size_t i = 1; i <= count; ++i) result.push_back(&results.written[i * results.written.size() / count - 1]);
+  if (count == results.written.size() || count < 2) return result;
+  result.front() = &results.written.front();
+  return result;
+}
+
+}  // namespace
+
+std::vector<MapField> map_fields(const RunResults& results) {
+  std::vector<MapField> fields;
+  if (results.written.empty()) return fields;
+  const std::vector<Grid::Values>& arrays = results.written.back().matrix.arrays;
+  const auto add_all = [&](const auto& is_wanted) {
+    for (const Grid::Values& values : arrays)
+      if (is_wanted(values)) add_fields(results, values, fields);
+  };
+  add_all([](const Grid::Values& values) { return values.components == 1 && values.name != "region"; });
+  add_all([](const Grid::Values& values) { return values.components != 1; });
+  add_all([](const Grid::Values& values) { return values.name == "region"; });
+  return fields;
+}
+
+std::string map_json(const RunResults& results, std::size_t most_bytes) {
+  const std::vector<MapField> fields = map_fields(results);
+  Json data = {
+      {"colours", Json::array()}, {"fields", Json::array()}, {"meshes", Json::array()}, {"times", Json::array()}};
+  for (int i = 0; i < colour_count; ++i) data["colours"].push_back(viridis(i / (colour_count - 1.0)));
+  const auto times = chosen(results, fields.size(), most_bytes);
+  std::vector<Range> ranges;
+  for (const MapField& field : fields) {
+    Range range;
+    for (const RunResults::Written* written : times) range.include(values_of(written->matrix, field));
+    if (range.low > range.high) range = {0, 0};
+    const DisplayUnit unit = display_unit(field.unit, std::max(std::abs(range.low), std::abs(range.high)));
+    const Grid::Values* const array = results.written.back().matrix.find(field.array);
+    data["fields"].push_back({{"label", field.label},
+                              {"unit", unit.text},
+                              {"low", range.low / unit.scale},
+                              {"high", range.high / unit.scale},
+                              {"onPoints", array != nullptr && array->place == Grid::Place::point}});
+    ranges.push_back(range);
+  }
+  const Grid* last_mesh = nullptr;
+  for (const RunResults::Written* written : times) {
+    const Grid& grid = written->matrix;
+    if (!last_mesh || last_mesh->points != grid.points || last_mesh->cells != grid.cells) {
+      data["meshes"].push_back(mesh_json(grid));
+      last_mesh = &grid;
+    }
+    Json values = Json::array();
+    for (std::size_t i = 0; i < fields.size(); ++i) values.push_back(packed(values_of(grid, fields[i]), ranges[i]));
+    data["times"].push_back({{"text", display_text(written->time, "s")},
+                             {"mesh", data["meshes"].size() - 1},
+                             {"lines", lines_json(written->fractures)},
+                             {"values", values}});
+  }
+  std::string text = data.dump();
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; ++at) text.replace(at, 1, "\\u003c");
+  return text;  // so that no name in it can end the script that holds it
+}
+
+}  // namespace sprekk

@@ -1,0 +1,297 @@
+// Draws the fields of the matrix: triangles are filled pixel by pixel, so that values can be read back at the pointer.
+'use strict';
+(() => {
+  const source = document.getElementById('map-data');
+  if (!source) return;
+  const data = JSON.parse(source.textContent);
+  const element = (id) => document.getElementById(id);
+  const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+  const meshes = data.meshes.map((mesh) => ({
+    points: new Float32Array(bytes(mesh.points)),
+    cells: new Uint32Array(bytes(mesh.cells)),
+  }));
+  const values = data.times.map((time) => time.values.map((text) => new Uint16Array(bytes(text))));
+  const colours = data.colours.map((text) => [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16)));
+
+  const bounds = (coordinates, box = [Infinity, Infinity, -Infinity, -Infinity]) => {
+    for (let i = 0; i < coordinates.length; i += 2) {
+      box[0] = Math.min(box[0], coordinates[i]);
+      box[1] = Math.min(box[1], coordinates[i + 1]);
+      box[2] = Math.max(box[2], coordinates[i]);
+      box[3] = Math.max(box[3], coordinates[i + 1]);
+    }
+    return box;
+  };
+  const whole = bounds(meshes[0].points);
+  const lineBox = () => {
+    const lines = data.times[data.times.length - 1].lines;
+    if (!lines.length) return whole;
+    const box = lines.reduce((all, line) => bounds(line, all), undefined);
+    const room = 0.6 * Math.max(box[2] - box[0], box[3] - box[1]);
+    return [box[0] - room, box[1] - room, box[2] + room, box[3] + room];
+  };
+
+  const state = { field: 0, time: data.times.length - 1, sameScale: true, box: whole.slice() };
+
+  // Round numbers between low and high, about `count` of them.
+  const ticks = (low, high, count) => {
+    if (!(high > low)) return [{ value: low, text: String(+low.toPrecision(4)) }];
+    const least = (high - low) / count;
+    const power = 10 ** Math.floor(Math.log10(least));
+    const step = [1, 2, 5, 10].map((f) => f * power).find((s) => s >= least * (1 - 1e-9));
+    const decimals = Math.min(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), 12);
+    const found = [];
+    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
+      found.push({ value: i * step, text: (i * step + 0).toFixed(decimals) });
+    return found;
+  };
+
+  // The range of the colours, in display units.
+  const scale = (fieldIndex, timeIndex) => {
+    const field = data.fields[fieldIndex];
+    if (state.sameScale) return [field.low, field.high];
+    let low = 65535, high = 0;
+    for (const v of values[timeIndex][fieldIndex]) {
+      if (v < low) low = v;
+      if (v > high) high = v;
+    }
+    const size = (field.high - field.low) / 65535;
+    return low > high ? [0, 0] : [field.low + low * size, field.low + high * size];
+  };
+
+  // The value at each pixel of a width × height picture of `box`, NaN outside of the mesh.
+  const raster = (fieldIndex, timeIndex, box, width, height) => {
+    const { points, cells } = meshes[data.times[timeIndex].mesh];
+    const field = data.fields[fieldIndex];
+    const packed = values[timeIndex][fieldIndex];
+    const size = (field.high - field.low) / 65535;
+    const out = new Float32Array(width * height).fill(NaN);
+    if (!packed.length) return out;
+    const sx = width / (box[2] - box[0]), sy = height / (box[3] - box[1]);
+    for (let c = 0; c < cells.length; c += 3) {
+      const [a, b, d] = [cells[c], cells[c + 1], cells[c + 2]];
+      const ax = (points[2 * a] - box[0]) * sx, ay = (box[3] - points[2 * a + 1]) * sy;
+      const bx = (points[2 * b] - box[0]) * sx, by = (box[3] - points[2 * b + 1]) * sy;
+      const dx = (points[2 * d] - box[0]) * sx, dy = (box[3] - points[2 * d + 1]) * sy;
+      const area = (bx - ax) * (dy - ay) - (dx - ax) * (by - ay);
+      if (area === 0) continue;
+      const left = Math.max(0, Math.floor(Math.min(ax, bx, dx))), right = Math.min(width - 1, Math.ceil(Math.max(ax, bx, dx)));
+      const top = Math.max(0, Math.floor(Math.min(ay, by, dy))), bottom = Math.min(height - 1, Math.ceil(Math.max(ay, by, dy)));
+      const va = packed[field.onPoints ? a : c / 3], vb = packed[field.onPoints ? b : c / 3], vd = packed[field.onPoints ? d : c / 3];
+      for (let y = top; y <= bottom; ++y) {
+        for (let x = left; x <= right; ++x) {
+          const px = x + 0.5, py = y + 0.5;
+          const wd = ((bx - ax) * (py - ay) - (px - ax) * (by - ay)) / area;
+          const wb = ((px - ax) * (dy - ay) - (dx - ax) * (py - ay)) / area;
+          if (wd < -1e-6 || wb < -1e-6 || wd + wb > 1 + 1e-6) continue;
+          out[y * width + x] = field.low + size * (va + wb * (vb - va) + wd * (vd - va));
+        }
+      }
+    }
+    return out;
+  };
+
+  const paint = (context, left, top, width, height, pixels, range) => {
+    const image = context.createImageData(width, height);
+    const factor = range[1] > range[0] ? (colours.length - 1) / (range[1] - range[0]) : 0;
+    let painted = 0;
+    for (let i = 0; i < pixels.length; ++i) {
+      if (Number.isNaN(pixels[i])) continue;
+      const index = factor === 0 ? colours.length >> 1 : Math.round((pixels[i] - range[0]) * factor);
+      const colour = colours[Math.min(colours.length - 1, Math.max(0, index))];
+      image.data[4 * i] = colour[0];
+      image.data[4 * i + 1] = colour[1];
+      image.data[4 * i + 2] = colour[2];
+      image.data[4 * i + 3] = 255;
+      ++painted;
+    }
+    context.putImageData(image, left, top);
+    return painted;
+  };
+
+  const drawLines = (context, timeIndex, box, left, top, width, height, thickness) => {
+    const sx = width / (box[2] - box[0]), sy = height / (box[3] - box[1]);
+    context.save();
+    context.beginPath();
+    context.rect(left, top, width, height);
+    context.clip();
+    for (const [style, extra] of [['#ffffff', 2], ['#111111', 0]]) {
+      context.strokeStyle = style;
+      context.lineWidth = thickness + extra;
+      context.lineJoin = context.lineCap = 'round';
+      for (const line of data.times[timeIndex].lines) {
+        context.beginPath();
+        for (let i = 0; i < line.length; i += 2)
+          context.lineTo(left + (line[i] - box[0]) * sx, top + (box[3] - line[i + 1]) * sy);
+        context.stroke();
+      }
+    }
+    context.restore();
+  };
+
+  const canvas = element('map');
+  const ratio = 2;  // pixels of the picture for one of the page: sharp on screens and on paper
+  const margin = { left: 120, right: 230, top: 20, bottom: 80 };
+  const frame = { width: 1650, height: 0 };
+  let shown = { pixels: null, box: whole };
+
+  // The box with the shape of the frame.
+  const fitted = (box) => {
+    const w = box[2] - box[0], h = box[3] - box[1];
+    const shape = frame.width / frame.height;
+    const [nw, nh] = w / h < shape ? [h * shape, h] : [w, w / shape];
+    const cx = (box[0] + box[2]) / 2, cy = (box[1] + box[3]) / 2;
+    return [cx - nw / 2, cy - nh / 2, cx + nw / 2, cy + nh / 2];
+  };
+
+  const setFrame = () => {
+    const shape = (whole[3] - whole[1]) / (whole[2] - whole[0]);
+    frame.width = 1650;
+    frame.height = Math.round(frame.width * shape);
+    if (frame.height > 1150) {
+      frame.height = 1150;
+      frame.width = Math.max(700, Math.round(frame.height / shape));
+    }
+    frame.height = Math.max(frame.height, 300);
+    canvas.width = margin.left + frame.width + margin.right;
+    canvas.height = margin.top + frame.height + margin.bottom;
+    canvas.style.maxWidth = canvas.width / ratio + 'px';
+  };
+
+  const drawFrame = (context, box, range, field) => {
+    const { left, top } = margin;
+    context.fillStyle = '#1d2329';
+    context.strokeStyle = '#888';
+    context.lineWidth = 1.5;
+    context.font = 11 * ratio + 'px system-ui, Arial, sans-serif';
+    context.strokeRect(left, top, frame.width, frame.height);
+    context.textAlign = 'center';
+    context.textBaseline = 'top';
+    for (const tick of ticks(box[0], box[2], 8)) {
+      const x = left + (tick.value - box[0]) / (box[2] - box[0]) * frame.width;
+      context.strokeRect(x, top + frame.height, 0, 8);
+      context.fillText(tick.text, x, top + frame.height + 12);
+    }
+    context.fillText('x [m]', left + frame.width / 2, top + frame.height + 44);
+    context.textAlign = 'right';
+    context.textBaseline = 'middle';
+    for (const tick of ticks(box[1], box[3], 6)) {
+      const y = top + (box[3] - tick.value) / (box[3] - box[1]) * frame.height;
+      context.strokeRect(left - 8, y, 8, 0);
+      context.fillText(tick.text, left - 14, y);
+    }
+    context.save();
+    context.translate(22, top + frame.height / 2);
+    context.rotate(-Math.PI / 2);
+    context.textAlign = 'center';
+    context.fillText('y [m]', 0, 0);
+    context.restore();
+    // The colour bar.
+    const x = left + frame.width + 40, width = 34, above = 40;
+    const height = frame.height - above;
+    for (let i = 0; i < height; ++i) {
+      const index = range[1] > range[0] ? Math.round((1 - i / (height - 1)) * (colours.length - 1)) : colours.length >> 1;
+      context.fillStyle = `rgb(${colours[index].join(',')})`;
+      context.fillRect(x, top + above + i, width, 1.5);
+    }
+    context.strokeRect(x, top + above, width, height);
+    context.fillStyle = '#1d2329';
+    context.textAlign = 'left';
+    if (field.unit) context.fillText(field.unit, x, top + 16);
+    for (const tick of ticks(range[0], range[1], 7)) {
+      const share = range[1] > range[0] ? (tick.value - range[0]) / (range[1] - range[0]) : 0.5;
+      const y = top + above + (1 - share) * height;
+      context.strokeRect(x + width, y, 7, 0);
+      context.fillText(tick.text, x + width + 13, y);
+    }
+  };
+
+  const drawSmall = () => {
+    const holder = element('map-small');
+    if (data.times.length < 2) return;
+    holder.replaceChildren(...data.times.map((time, index) => {
+      const figure = document.createElement('figure');
+      const small = document.createElement('canvas');
+      small.width = 300;
+      small.height = Math.max(40, Math.min(600, Math.round(300 * frame.height / frame.width)));
+      const context = small.getContext('2d');
+      const box = fitted(state.box);
+      paint(context, 0, 0, small.width, small.height,
+            raster(state.field, index, box, small.width, small.height), scale(state.field, index));
+      drawLines(context, index, box, 0, 0, small.width, small.height, 2);
+      figure.className = index === state.time ? 'chosen' : '';
+      figure.append(small, time.text);
+      figure.addEventListener('click', () => { state.time = index; draw(); });
+      return figure;
+    }));
+  };
+
+  const draw = () => {
+    const context = canvas.getContext('2d');
+    const box = fitted(state.box);
+    const field = data.fields[state.field];
+    const range = scale(state.field, state.time);
+    const pixels = raster(state.field, state.time, box, frame.width, frame.height);
+    context.fillStyle = '#ffffff';
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    canvas.dataset.pixels = paint(context, margin.left, margin.top, frame.width, frame.height, pixels, range);
+    canvas.dataset.field = field.label;
+    drawLines(context, state.time, box, margin.left, margin.top, frame.width, frame.height, 3.5);
+    drawFrame(context, box, range, field);
+    shown = { pixels, box };
+    element('map-time').value = state.time;
+    element('map-time-text').textContent = data.times[state.time].text;
+    drawSmall();
+  };
+
+  const place = (event) => {
+    const where = canvas.getBoundingClientRect();
+    const x = (event.clientX - where.left) * canvas.width / where.width - margin.left;
+    const y = (event.clientY - where.top) * canvas.height / where.height - margin.top;
+    return [x, y];
+  };
+  const zoom = (factor) => {
+    const [x0, y0, x1, y1] = state.box;
+    const cx = (x0 + x1) / 2, cy = (y0 + y1) / 2, w = (x1 - x0) / 2 * factor, h = (y1 - y0) / 2 * factor;
+    state.box = [cx - w, cy - h, cx + w, cy + h];
+    draw();
+  };
+
+  let dragged = null;
+  canvas.addEventListener('pointerdown', (event) => {
+    dragged = { from: place(event), box: state.box.slice() };
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener('pointerup', () => { dragged = null; });
+  canvas.addEventListener('pointermove', (event) => {
+    const [x, y] = place(event);
+    const box = shown.box;
+    if (dragged) {
+      const mx = (x - dragged.from[0]) / frame.width * (box[2] - box[0]);
+      const my = (y - dragged.from[1]) / frame.height * (box[3] - box[1]);
+      state.box = [dragged.box[0] - mx, dragged.box[1] + my, dragged.box[2] - mx, dragged.box[3] + my];
+      draw();
+      return;
+    }
+    const inside = x >= 0 && y >= 0 && x < frame.width && y < frame.height;
+    const value = inside ? shown.pixels[Math.floor(y) * frame.width + Math.floor(x)] : NaN;
+    if (Number.isNaN(value)) return;
+    const wx = box[0] + x / frame.width * (box[2] - box[0]), wy = box[3] - y / frame.height * (box[3] - box[1]);
+    const field = data.fields[state.field];
+    element('map-value').textContent =
+        `x = ${wx.toPrecision(4)} m, y = ${wy.toPrecision(4)} m: ${field.label} = ${value.toPrecision(4)} ${field.unit}`;
+  });
+
+  element('map-time').max = data.times.length - 1;
+  element('map-time').parentElement.hidden = data.times.length < 2;
+  element('map-lines').hidden = !data.times.some((time) => time.lines.length);
+  element('map-field').addEventListener('change', (event) => { state.field = +event.target.value; draw(); });
+  element('map-time').addEventListener('input', (event) => { state.time = +event.target.value; draw(); });
+  element('map-scale').addEventListener('change', (event) => { state.sameScale = event.target.value === 'all'; draw(); });
+  element('map-whole').addEventListener('click', () => { state.box = whole.slice(); draw(); });
+  element('map-lines').addEventListener('click', () => { state.box = lineBox(); draw(); });
+  element('map-in').addEventListener('click', () => zoom(0.6));
+  element('map-out').addEventListener('click', () => zoom(1 / 0.6));
+  setFrame();
+  draw();
+})();

@@ -1,0 +1,17 @@
+// A run as a page that needs nothing but itself: curves, fields, convergence, timing.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "framework/report/run_results.hpp"
+
+namespace sprekk {
+
+/// The page as HTML. All of its pictures, styles and scripts are inside; it loads nothing.
+std::string report_page(const RunResults& results);
+
+/// Writes folder/report.html and returns its path. Throws InputError if the folder holds no results.
+std::filesystem::path write_report(const std::filesystem::path& folder);
+
+}  // namespace sprekk

@@ -1,0 +1,57 @@
+#include "framework/report/run_results.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "framework/config/input_error.hpp"
+#include "framework/config/text_file.hpp"
+
+namespace sprekk {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<Snapshot> index(RunResults& results, const char* file) {
+  try {
+    return read_index(results.folder / file);
+  } catch (const InputError& error) {
+    results.problems.emplace_back(error.what());
+    return {};
+  }
+}
+
+Grid grid(RunResults& results, const fs::path& file) {
+  try {
+    return read_grid(file);
+  } catch (const std::runtime_error& error) {
+    results.problems.emplace_back(error.what());
+    return {};
+  }
+}
+
+}  // namespace
+
+RunResults read_results(const fs::path& folder) {
+  RunResults results;
+  results.folder = folder;
+  const fs::path record = folder / "run.json";
+  if (!fs::is_regular_file(record))
+    throw InputError({folder.string()}, "this is no folder of results", "it has no run.json",
+                     "give the folder that 'sprekk run' has named");
+  results.record = read_text_file(record.string(), record.string());
+  if (!nlohmann::json::parse(results.record, nullptr, false).is_object())
+    throw InputError({record.string()}, "this is not the record of a run", "it is damaged, or another file");
+  results.history = CsvTable::read(folder / "history.csv");
+  results.coupling = CsvTable::read(folder / "coupling.csv");
+  const std::vector<Snapshot> matrix = index(results, "matrix.pvd"), fractures = index(results, "fractures.pvd");
+  results.written_count = matrix.size();
+  for (const Snapshot& snapshot : evenly_chosen(matrix, RunResults::most_times)) {
+    RunResults::Written written{snapshot.time, grid(results, snapshot.file), {}};
+    const auto lines = std::find_if(fractures.begin(), fractures.end(),
+                                    [&](const Snapshot& other) { return other.time == snapshot.time; });
+    if (lines != fractures.end()) written.fractures = grid(results, lines->file);
+    if (written.matrix.cell_count() > 0) results.written.push_back(std::move(written));
+  }
+  return results;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,45 @@
+// Fields that a run has written (.pvd, .vtu), read back.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+/// Triangles or lines with arrays on them.
+struct Grid {
+  enum class Place { cell, point };
+  struct Values {
+    std::string name;  ///< "quantity[unit]"
+    Place place;
+    int components;
+    std::vector<double> values;  ///< the components of an entity stand together
+  };
+
+  std::vector<std::array<double, 2>> points;
+  int points_per_cell = 0;
+  std::vector<int> cells;  ///< points of a cell stand together
+  std::vector<Values> arrays;
+
+  int cell_count() const { return points_per_cell == 0 ? 0 : static_cast<int>(cells.size()) / points_per_cell; }
+  /// nullptr when there is none.
+  const Values* find(const std::string& name) const;
+};
+
+/// Reads a file that write_matrix_vtu or write_fracture_vtu has written. Throws std::runtime_error.
+Grid read_grid(const std::filesystem::path& vtu);
+
+struct Snapshot {
+  double time;  ///< s
+  std::filesystem::path file;
+};
+
+/// The written times of an index file, in their order; none when it does not exist.
+std::vector<Snapshot> read_index(const std::filesystem::path& pvd);
+
+/// `count` of them, evenly chosen, the first and the last among them; all if there are fewer.
+std::vector<Snapshot> evenly_chosen(const std::vector<Snapshot>& all, std::size_t count);
+
+}  // namespace sprekk

@@ -1,0 +1,63 @@
+#include "framework/report/map_data.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace sprekk {
+namespace {
+
+using testing::ElementsAre;
+
+RunResults::Written written(double time) {
+  RunResults::Written result{time, {}, {}};
+  result.matrix.points = {{0, 0}, {1, 0}, {0, 1}};
+  result.matrix.cells = {0, 1, 2};
+  result.matrix.points_per_cell = 3;
+  result.matrix.arrays = {{"region", Grid::Place::cell, 1, {0}},
+                          {"a.velocity[m/s]", Grid::Place::cell, 3, {3, 4, 0}},
+                          {"a.stress_xx_yy_xy[Pa]", Grid::Place::cell, 3, {1, 2, 0}},
+                          {"a.p[Pa]", Grid::Place::point, 1, {0, 1e6, time}}};
+  return result;
+}
+
+std::vector<std::string> labels(const RunResults& results) {
+  std::vector<std::string> all;
+  for (const MapField& field : map_fields(results)) all.push_back(field.label);
+  return all;
+}
+
+TEST(MapFields, are_scalars_first_and_parts_of_vectors_and_tensors) {
+  RunResults results;
+  results.written = {written(1)};
+  EXPECT_THAT(labels(results),
+              ElementsAre("a.p", "a.velocity, length", "a.velocity, x", "a.velocity, y", "a.stress_xx_yy_xy: xx",
+                          "a.stress_xx_yy_xy: yy", "a.stress_xx_yy_xy: xy", "region"));
+}
+
+TEST(MapJson, writes_a_mesh_once_and_ranges_over_all_times) {
+  RunResults results;
+  results.written = {written(-2e6), written(3e6)};
+  const auto data = nlohmann::json::parse(map_json(results));
+  EXPECT_EQ(data["meshes"].size(), 1U);
+  EXPECT_EQ(data["times"].size(), 2U);
+  EXPECT_EQ(data["fields"][0]["unit"], "MPa");
+  EXPECT_EQ(data["fields"][0]["low"], -2.0);
+  EXPECT_EQ(data["fields"][0]["high"], 3.0);
+  EXPECT_EQ(data["fields"][0]["onPoints"], true);
+  EXPECT_DOUBLE_EQ(data["fields"][1]["high"], 5);
+  // 0, 1 and 3 MPa between -2 and 3: two fifths, three fifths and all of 65535, little-endian.
+  EXPECT_EQ(data["times"][1]["values"][0], "ZmaZmf//");
+}
+
+TEST(MapJson, takes_fewer_times_of_a_large_run) {
+  RunResults results;
+  for (int i = 0; i < 10; ++i) results.written.push_back(written(i));
+  const auto data = nlohmann::json::parse(map_json(results, 400));
+  EXPECT_LT(data["times"].size(), 10U);
+  EXPECT_EQ(data["times"].back()["text"], "9 s");
+}
+
+}  // namespace
+}  // namespace sprekk

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""report_test.py SPREKK: the report of a run, opened in a browser without a screen, draws and complains about nothing."""
+
+import html.parser
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SPREKK = Path(sys.argv.pop(1)).resolve()
+BROWSER = shutil.which("chromium")
+
+
+class Page(html.parser.HTMLParser):
+    """What a page holds: sections with their pictures, the canvas, and everything that it would load."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.sections, self.pictures, self.canvas, self.loaded, self.small = [], {}, {}, [], 0
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        if tag == "section":
+            self.sections.append(attributes["id"])
+        if tag == "svg":
+            self.pictures.setdefault(self.sections[-1], []).append(attributes["aria-label"])
+        if tag == "canvas":
+            self.canvas = attributes if attributes.get("id") == "map" else self.canvas
+            self.small += attributes.get("id") != "map"
+        self.loaded += [attributes[name] for name in ("src", "href") if name in attributes]
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        self.holder = tempfile.TemporaryDirectory()
+        self.folder = Path(self.holder.name)
+
+    def tearDown(self):
+        self.holder.cleanup()
+
+    def run_sprekk(self, *arguments, code=0):
+        run = subprocess.run([SPREKK, *arguments], cwd=self.folder, text=True, capture_output=True, timeout=120)
+        self.assertEqual(run.returncode, code, run.stderr)
+        return run
+
+    def report(self, scene, *settings):
+        self.run_sprekk("run", ROOT / "configs" / scene, "-o", "results", "-q",
+                        *(word for setting in settings for word in ("--set", setting)))
+        self.run_sprekk("report", "results")
+        return self.folder / "results/report.html"
+
+    def opened(self, file):
+        """The page after its script has run."""
+        self.assertTrue(BROWSER, "chromium is missing: run tools/install")
+        run = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--v=0",
+                              f"--user-data-dir={self.folder}/browser", "--virtual-time-budget=5000", "--dump-dom",
+                              file.as_uri()], text=True, capture_output=True, timeout=120)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("CONSOLE", run.stderr)
+        return Page(run.stdout)
+
+    def assert_loads_nothing(self, page, file):
+        for target in page.loaded:
+            self.assertRegex(target, r"^(#|data:)")
+        self.assertIsNone(re.search(r"@import|url\(|fetch\(|XMLHttpRequest|https?://(?!www\.w3\.org/2000/svg)",
+                                    file.read_text(encoding="utf-8")))
+
+    def test_run_with_fractures_has_all_figures(self):
+        file = self.report("tutorial/first_scene.yaml", "mesh={size: 1 m, fracture_size: 0.3 m}")
+        page = self.opened(file)
+        self.assert_loads_nothing(page, file)
+        self.assertEqual(page.sections, ["summary", "history", "maps", "fractures", "convergence", "effort", "parameters"])
+        self.assertIn("injection_pressure", page.pictures["history"])
+        for name in ("conduit.aperture", "contact.traction.normal", "contact.traction.tangential", "contact.jump.tangential"):
+            self.assertIn(name, page.pictures["fractures"])
+        self.assertIn("iterations of each step", page.pictures["convergence"])
+        self.assertEqual(page.canvas["data-field"], "pore.pressure")
+        # The block fills the frame: all pixels of it have a colour.
+        width, height = int(page.canvas["width"]) - 120 - 230, int(page.canvas["height"]) - 20 - 80
+        self.assertGreater(int(page.canvas["data-pixels"]), 0.995 * width * height)
+        self.assertEqual(page.small, 4)
+        text = file.read_text(encoding="utf-8")
+        for expected in ("first_scene", "done", "MPa", "mesh.fracture_size", "linear: factorization", "crack"):
+            self.assertIn(expected, text)
+
+    def test_run_without_fractures_or_probes(self):
+        page = self.opened(self.report("verification/terzaghi.yaml", "output.probes=~"))
+        self.assertNotIn("fractures", page.sections)
+        self.assertGreater(int(page.canvas["data-pixels"]), 0)
+
+    def test_run_without_fields(self):
+        page = self.opened(self.report("verification/terzaghi.yaml", "output.fields=false"))
+        self.assertNotIn("maps", page.sections)
+        self.assertIn("history", page.sections)
+
+    def test_tips_have_curves_and_a_run_that_failed_says_why(self):
+        file = self.report("verification/terzaghi.yaml")
+        rows = "time[s],step[s],iterations[1]," + ",".join(
+            f"tips.main_{end}.{name}" for end in ("first", "last") for name in ("K_I[Pa*m^0.5]", "K_II[Pa*m^0.5]", "length[m]"))
+        (file.parent / "history.csv").write_text(rows + "\n3600,3600,2" + ",1e5,7e5,0.05" * 2 + "\n7200,3600,2" + ",2e5,8e5,0.06" * 2 + "\n")
+        record = file.parent / "run.json"
+        text = record.read_text().replace('"code": 0', '"code": 1').replace('"reason": "done"', '"reason": "it <b>broke</b>"')
+        record.write_text(text)
+        (file.parent / "matrix.pvd").write_text("cut off")
+        self.run_sprekk("report", "results")
+        page = self.opened(file)
+        self.assertEqual(page.pictures["tips"], ["tips.main_first, Pa·√m", "length", "tips.main_last, Pa·√m"])
+        text = file.read_text(encoding="utf-8")
+        self.assertIn("it &lt;b&gt;broke&lt;/b&gt;", text)
+        self.assertIn("not a complete .pvd file", text)
+
+    def test_folder_without_results_is_refused(self):
+        run = self.run_sprekk("report", ".", code=2)
+        self.assertIn("this is no folder of results (it has no run.json)", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
