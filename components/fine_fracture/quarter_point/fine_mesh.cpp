@@ -21,7 +21,7 @@ void validate(const FineMeshOptions& options) {
   }
 }
 
-/// Grows from the rosettes' edges and from the kinks.
+/// Grows from the rosettes' edges, from the kinks and from where the kind of walls changes.
 class SizeField {
  public:
   SizeField(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, const FineMeshOptions& options)
@@ -34,10 +34,13 @@ class SizeField {
     for (const CrackPath& crack : geometry.cracks) {
       for (std::size_t i = 1; i + 1 < crack.points.size(); ++i) {
         const Point a = crack.points[i] - crack.points[i - 1], b = crack.points[i + 1] - crack.points[i];
-        // Where the walls hardly bend, stresses are hardly singular.
+        // Where the walls hardly bend, stresses are hardly singular; where prescribed jumps begin, they are.
+        const bool changes = crack.walls[i - 1] != crack.walls[i];
         const double bend = std::abs(std::atan2(cross(a, b), a.dot(b)));
         constexpr double right_angle = std::numbers::pi / 2;
-        sources_.push_back({crack.points[i], std::max(kink_size, options.far_size * (1 - 4 * bend / right_angle))});
+        sources_.push_back(
+            {crack.points[i],
+             changes ? kink_size : std::max(kink_size, options.far_size * (1 - 4 * bend / right_angle))});
       }
     }
   }

@@ -5,11 +5,13 @@
 #include <numbers>
 
 #include "components/fine_fracture/quarter_point/interaction_integral.hpp"
+#include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
 
-/// The domain reaches this many rosette radii from the tip if there is room.
+/// The domain reaches this many rosette radii from the tip if there is room. It does not reach walls of another kind:
+/// where prescribed jumps begin, tractions are singular.
 constexpr double domain_in_radii = 4;
 
 void correlate(const FineMesh::Tip& tip, const Elasticity& rock, const Vector& displacement, TipIntensities& result) {
@@ -26,6 +28,12 @@ void correlate(const FineMesh::Tip& tip, const Elasticity& rock, const Vector& d
   result.K_extrapolated = factor * (8 * opening[0] - opening[1]) / 3;
 }
 
+bool has_jump_at(const FineMesh& mesh, const FineMesh::Tip& tip) {
+  return std::any_of(mesh.wall_edges.begin(), mesh.wall_edges.end(), [&](const FineMesh::WallEdge& edge) {
+    return edge.tip != none && &mesh.tips[edge.tip] == &tip && edge.walls == CrackPath::Walls::jump;
+  });
+}
+
 }  // namespace
 
 std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
@@ -38,15 +46,17 @@ std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elastici
     result.is_last = room.is_last;
     result.position = room.position;
     result.direction = room.direction;
-    result.domain_radius = std::min({domain_in_radii * room.radius, room.straight, room.clearance});
+    result.domain_radius = std::min({domain_in_radii * room.radius, room.same_walls, room.clearance});
     const double inner_radius = 0.5 * (result.domain_radius + room.radius);
     const auto outer = interaction_integral(mesh, rock, loads, displacement, tip, result.domain_radius);
-    result.K = outer.K;
+    result.K_interaction = outer.K;
     result.T = outer.T;
     result.K_inner = interaction_integral(mesh, rock, loads, displacement, tip, inner_radius).K;
-    result.error = (result.K - result.K_inner).cwiseAbs();
-    result.energy_release_rate = result.K.squaredNorm() / rock.plane_modulus();
     correlate(tip, rock, displacement, result);
+    const bool is_given = has_jump_at(mesh, tip);
+    result.K = is_given ? result.K_extrapolated : result.K_interaction;
+    result.error = (result.K - (is_given ? result.K_correlation : result.K_inner)).cwiseAbs();
+    result.energy_release_rate = result.K.squaredNorm() / rock.plane_modulus();
     results.push_back(result);
   }
   return results;

@@ -17,15 +17,18 @@ struct TipIntensities {
   Point position;   ///< m
   Point direction;  ///< x1
 
-  Point K;               ///< by the interaction integral over the larger domain
+  /// The best of what follows: the interaction integral where walls carry tractions up to the tip. Where a jump is
+  /// prescribed up to the tip, that alone determines K: then it is K_extrapolated.
+  Point K;
+  Point K_interaction;   ///< by the interaction integral over the larger domain
   Point K_inner;         ///< over a smaller one
   Point K_correlation;   ///< by displacement correlation with quarter points: G sqrt(2 pi / L) / (kappa + 1) [4 dv(L/4)
                          ///< - dv(L)]
   Point K_extrapolated;  ///< the same from dv(L/4) and dv(L) extrapolated linearly to the tip
   double T;              ///< sigma_11 - sigma_22 at the tip, Pa
   double energy_release_rate;  ///< (K_I^2 + K_II^2) / E', Pa m
-  Point error;                 ///< an estimate for K: how far it is from K_inner
-  double domain_radius;        ///< of the interaction integral, m
+  Point error;  ///< an estimate for K: how far K_interaction is from K_inner, or K_extrapolated from K_correlation
+  double domain_radius;  ///< of the interaction integral, m
 };
 
 /// `displacement` holds (x, y) per node. The loads are those of the solution.

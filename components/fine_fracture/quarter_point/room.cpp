@@ -1,6 +1,7 @@
 #include "components/fine_fracture/quarter_point/room.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "components/fine_fracture/quarter_point/outline.hpp"
 
@@ -47,14 +48,18 @@ TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double larges
   for (std::size_t i = segments; i < walk.walls.size(); ++i) {
     room.clearance = std::min(room.clearance, distance(tip, Segment{walk.points[i], walk.points[i + 1]}));
   }
+  double to_others = std::numeric_limits<double>::infinity();
   for (std::size_t other = 0; other < geometry.cracks.size(); ++other) {
     const auto& points = geometry.cracks[other].points;
     if (static_cast<int>(other) == c) continue;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      room.clearance = std::min(room.clearance, distance(tip, Segment{points[i], points[i + 1]}));
+      to_others = std::min(to_others, distance(tip, Segment{points[i], points[i + 1]}));
     }
   }
-  room.radius = std::min({largest_radius, room.straight / (has_two_tips ? 3 : 2), room.same_walls, room.clearance / 2});
+  // A third of what separates two tips leaves a third between their rosettes.
+  room.radius = std::min(
+      {largest_radius, room.straight / (has_two_tips ? 3 : 2), room.same_walls / 2, room.clearance / 2, to_others / 3});
+  room.clearance = std::min(room.clearance, to_others);
   if (has_two_tips) room.clearance = std::min(room.clearance, room.straight - room.radius);
   return room;
 }

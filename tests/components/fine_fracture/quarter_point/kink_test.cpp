@@ -73,7 +73,7 @@ TEST(Kink, ParallelCracksNearEachOtherShareTheRoom) {
     EXPECT_GT(tip.K.x(), 0);
     EXPECT_LT(tip.error.norm(), 2e-2 * tip.K.norm());
   }
-  EXPECT_DOUBLE_EQ(model.mesh().tips[1].room.radius, 0.005);
+  EXPECT_DOUBLE_EQ(model.mesh().tips[1].room.radius, 0.01 / 3);
 }
 
 TEST(Kink, GeometryThatCannotBeMeshedIsRefused) {

@@ -67,14 +67,27 @@ TEST(WallLoads, PrescribedJumpsGiveTheIntensitiesOfTheirCrack) {
     const FineModel model(paper_box(Walls::jump), {.tip_size = radius, .far_size = 0.1, .sectors = sectors},
                           table_1_rock);
     const FineSolution solution = model.solve(loads);
-    EXPECT_LT(worst_error(solution, exact.K(), std::to_string(sectors) + " sectors"), tolerance);
+    EXPECT_LT(worst_error(solution, exact.K()), 1e-3);
     for (const TipIntensities& tip : solution.tips) {
+      EXPECT_LT(relative_error(tip.K_interaction, exact.K(), std::to_string(sectors) + " sectors"), tolerance);
       EXPECT_NEAR(tip.T, exact.T(), 3e-2 * std::abs(exact.T()));
       // Correlation reads the jumps that were prescribed, sqrt(r (2a - r)); what extrapolation leaves of it is known.
       const double quarter = std::sqrt(1 - radius / exact.a / 8), whole = std::sqrt(1 - radius / exact.a / 2);
       EXPECT_LT(relative_error(tip.K_extrapolated, exact.K() * (4 * quarter - whole) / 3, "extrapolated"), 1e-12);
     }
   }
+}
+
+TEST(WallLoads, WallsHeldTogetherUpToTheTipHaveNoIntensity) {
+  // Free walls end 2 cm before the tip: there the stress is singular, but not at the tip.
+  FineGeometry geometry = paper_box();
+  geometry.cracks[0] = {{{-0.05, 0}, {0.03, 0}, {0.05, 0}}, true, true, {Walls::traction, Walls::jump}};
+  const FineSolution solution =
+      FineModel(geometry, paper_mesh(), table_1_rock).solve(exact_outline(paper_crack(1e6, 0.7e6)));
+  EXPECT_LT(solution.tips[1].K.norm(), 1e-9 * solution.tips[0].K.norm());
+  // The other tip is that of a crack of 8 cm; the outline's displacements are of one of 10 cm.
+  EXPECT_NEAR(solution.tips[0].K.x(), 1e6 * std::sqrt(std::numbers::pi * 0.04),
+              0.02 * 1e6 * std::sqrt(0.04 * std::numbers::pi));
 }
 
 TEST(WallLoads, JumpsBesideFreeWalls) {
