@@ -10,9 +10,9 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-/// The domain reaches this many rosette radii from the tip if there is room. It does not reach walls of another kind:
-/// where prescribed jumps begin, tractions are singular.
-constexpr double domain_in_radii = 4;
+/// The domain reaches this many rosette radii from the tip if there is room. It keeps away from kinks, other cracks and
+/// from walls of another kind, where prescribed jumps begin: stresses are singular there too.
+constexpr double domain_in_radii = 4, share_of_room = 0.75;
 
 void correlate(const FineMesh::Tip& tip, const Elasticity& rock, const Vector& displacement, TipIntensities& result) {
   const Point& x1 = tip.room.direction;
@@ -46,7 +46,9 @@ std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elastici
     result.is_last = room.is_last;
     result.position = room.position;
     result.direction = room.direction;
-    result.domain_radius = std::min({domain_in_radii * room.radius, room.same_walls, room.clearance});
+    result.domain_radius =
+        std::min(domain_in_radii * room.radius,
+                 std::max(2 * room.radius, share_of_room * std::min(room.same_walls, room.clearance)));
     const double inner_radius = 0.5 * (result.domain_radius + room.radius);
     const auto outer = interaction_integral(mesh, rock, loads, displacement, tip, result.domain_radius);
     result.K_interaction = outer.K;

@@ -51,7 +51,8 @@ TEST(Griffith, ThreeCollinearSegmentsAreOneStraightCrack) {
   FineGeometry geometry = paper_box();
   geometry.cracks[0] = {{{-0.05, 0}, {-0.04, 0}, {0.045, 0}, {0.05, 0}}, true, true, std::vector(3, Walls::traction)};
   const FineSolution solution = FineModel(geometry, paper_mesh(), table_1_rock).solve(exact_outline(exact));
-  EXPECT_NEAR(solution.tips[1].domain_radius, 0.08, 1e-12);
+  // Three quarters of the way to the other rosette, over two points of the path.
+  EXPECT_NEAR(solution.tips[1].domain_radius, 0.06, 1e-12);
   EXPECT_LT(worst_error(solution, exact.K()), 5e-4);
 }
 
