@@ -111,20 +111,25 @@ std::string tip_section(const RunResults& results) {
   // One panel for each unit and thing; where a unit has one quantity only, one panel for all things.
   std::map<std::string, std::set<std::string>> quantities;
   for (const ThingColumn& column : columns) quantities[column.unit].insert(column.quantity);
-  std::vector<std::pair<std::string, std::vector<HistoryCurve>>> groups;  // title, curves
-  std::map<std::string, std::string> units;
+  struct TipGroup {
+    std::string title, unit;
+    std::vector<HistoryCurve> curves;
+  };
+  std::vector<TipGroup> groups;
   for (const ThingColumn& column : columns) {
     const bool is_alone = quantities[column.unit].size() == 1;
-    const std::string title =
-        is_alone ? column.quantity : column.thing + (column.unit.empty() ? "" : ", " + pretty_unit(column.unit));
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& other) { return other.first == title; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {title, {}});
-    units[title] = column.unit;
-    group->second.push_back({is_alone ? column.thing : column.quantity, times, results.history.numbers(column.column),
-                             line_style(static_cast<int>(group->second.size()))});
+    const std::string title = is_alone ? column.quantity : column.thing;
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const TipGroup& other) { return other.title == title && other.unit == column.unit; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {title, column.unit, {}});
+    group->curves.push_back({is_alone ? column.thing : column.quantity, times, results.history.numbers(column.column),
+                             line_style(static_cast<int>(group->curves.size()))});
   }
+  std::stable_sort(groups.begin(), groups.end(), [&](const TipGroup& a, const TipGroup& b) {
+    return quantities[a.unit].size() > quantities[b.unit].size();
+  });
   std::vector<Panel> drawn;
-  for (const auto& [title, curves] : groups) drawn.push_back(history_panel(title, units[title], curves));
+  for (const TipGroup& group : groups) drawn.push_back(history_panel(group.title, group.unit, group.curves));
   return html_section("tips", "Tips", html_panels(drawn));
 }
 

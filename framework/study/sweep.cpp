@@ -76,7 +76,6 @@ class Sweep {
   std::vector<Action> actions_;
   std::list<Working> working_;
   std::size_t ended_ = 0;
-  bool is_interrupted_ = false;
 };
 
 Sweep::Sweep(const Study& study, const SweepOptions& options)

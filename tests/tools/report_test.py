@@ -25,6 +25,8 @@ class Page(html.parser.HTMLParser):
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
+        if tag == "body":
+            self.body = attributes
         if tag == "section":
             self.sections.append(attributes["id"])
         if tag == "svg":
@@ -88,6 +90,30 @@ class Report(unittest.TestCase):
         for expected in ("first_scene", "done", "MPa", "mesh.fracture_size", "linear: factorization", "crack"):
             self.assertIn(expected, text)
 
+    def test_controls_draw_anew(self):
+        file = self.report("tutorial/first_scene.yaml", "mesh={size: 1 m, fracture_size: 0.3 m}")
+        use = """<script>
+          const set = (id, value, event) => {
+            document.getElementById(id).value = value;
+            document.getElementById(id).dispatchEvent(new Event(event));
+          };
+          set('map-field', 2, 'change');
+          set('map-time', 0, 'input');
+          set('map-scale', 'one', 'change');
+          for (const id of ['map-lines', 'map-in', 'map-out', 'map-out']) document.getElementById(id).click();
+          const box = document.getElementById('map').getBoundingClientRect();
+          document.getElementById('map').dispatchEvent(
+            new PointerEvent('pointermove', {clientX: box.left + box.width / 2, clientY: box.top + box.height / 2}));
+          document.body.dataset.value = document.getElementById('map-value').textContent;
+          document.body.dataset.time = document.getElementById('map-time-text').textContent;
+        </script></body>"""
+        used = self.folder / "used.html"
+        used.write_text(file.read_text(encoding="utf-8").replace("</body>", use), encoding="utf-8")
+        page = self.opened(used)
+        self.assertEqual(page.canvas["data-field"], "rock.displacement, x")
+        self.assertEqual(page.body["data-time"], "12 h")
+        self.assertRegex(page.body["data-value"], r"^x = [-0-9.]+ m, y = [-0-9.]+ m: rock\.displacement, x = [-0-9.]+ mm$")
+
     def test_run_without_fractures_or_probes(self):
         page = self.opened(self.report("verification/terzaghi.yaml", "output.probes=~"))
         self.assertNotIn("fractures", page.sections)
@@ -109,7 +135,7 @@ class Report(unittest.TestCase):
         (file.parent / "matrix.pvd").write_text("cut off")
         self.run_sprekk("report", "results")
         page = self.opened(file)
-        self.assertEqual(page.pictures["tips"], ["tips.main_first, Pa·√m", "length", "tips.main_last, Pa·√m"])
+        self.assertEqual(page.pictures["tips"], ["tips.main_first", "tips.main_last", "length"])
         text = file.read_text(encoding="utf-8")
         self.assertIn("it &lt;b&gt;broke&lt;/b&gt;", text)
         self.assertIn("not a complete .pvd file", text)
