@@ -4,6 +4,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -86,6 +87,23 @@ class Biot : public Coupler {
     stored_.set(std::move(stored));
   }
 
+  /// The fluid in the pores does not feel that the rock is described by other cells: the volume that has been counted
+  /// becomes that of the same state on the new mesh. What the two descriptions differ by in all is spread evenly over
+  /// the cells that are new, so that the total of the fluid stays to the last digit.
+  void settled(const MeshChange& change) override {
+    if (decoupled_) return;
+    Vector volume = rock_.volume_change().now();
+    replicate(mesh_, Location::cell, 1, volume);
+    double difference = 0, area = 0;
+    for (int c = 0; c < mesh_.cell_count(); ++c) {
+      difference += alpha_[c] * (volume[c] - counted_volume_.accepted()[c]);
+      if (change.cell[c] == none) area += alpha_[c] * mesh_.cell_area[c];
+    }
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      if (change.cell[c] == none && area > 0) volume[c] -= difference / area * mesh_.cell_area[c];
+    counted_volume_.set_both(std::move(volume));
+  }
+
   void balance(std::map<std::string, Balance>& balances) const override {
     balances["fluid"].stored += stored_.now().sum();
   }
@@ -113,7 +131,8 @@ class Biot : public Coupler {
             .role = Role::derived,
             .unit = "m^2",
             .doc = doc,
-            .accepted_with = fluid_.pressure().name()};
+            .accepted_with = fluid_.pressure().name(),
+            .is_amount = true};
   }
 
   void check_and_set_grains(const CouplerContext& context, const Vector& porosity) {

@@ -38,7 +38,8 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                         .role = Role::derived,
                                         .unit = "m^2",
                                         .doc = "Fluid stored, injected, and flowed out through the outer boundary",
-                                        .accepted_with = pressure_.name()})) {
+                                        .accepted_with = pressure_.name(),
+                                        .is_amount = true})) {
   if (mesh_.wall_count() > 0)
     wall_flux_ = &context.fields.add(mesh_, {.owner = context.name,
                                              .name = "wall_flux",

@@ -264,6 +264,32 @@ Vector Rock::face_forces() const {
   return forces;
 }
 
+Vector Rock::outer_displacement() const {
+  Vector values = boundary_values_;
+  if (wall_traction_) values += wall_forces_ * wall_traction_->now();
+  Vector displacement = operators_.trace_displacement * displacement_.now() + operators_.trace_boundary * values;
+  for (const Load& load : loads_)
+    displacement += operators_.trace_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  return displacement;
+}
+
+Vector Rock::pore_stress() const {
+  Vector stress = Vector::Zero(mesh_.cell_count());
+  for (const Load& load : loads_) stress -= load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  return stress;
+}
+
+Eigen::Vector3d Rock::initial_stress(int cell, const Point& x) const {
+  if (options_.initial_stress.is_zero()) return Eigen::Vector3d::Zero();
+  const Eigen::Matrix2d stress = options_.initial_stress.at({x, mesh_.cell_region[cell], 0});
+  return {stress(0, 0), stress(1, 1), stress(0, 1)};
+}
+
+std::optional<LameParameters> Rock::stiffness(int cell) const {
+  if (options_.is_anisotropic) return std::nullopt;
+  return LameParameters{stiffness_[cell](0, 1), stiffness_[cell](2, 2)};
+}
+
 std::vector<double> Rock::switch_times() const {
   std::vector<double> times =
       merged_switch_times({&options_.body_force.component[0], &options_.body_force.component[1], &options_.rock_density,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "components/capabilities/rock_state.hpp"
 #include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/options.hpp"
 #include "framework/scene/component.hpp"
@@ -13,7 +14,7 @@ namespace sprekk::poromechanics {
 /// Unknown: the displacement u of every cell, from the reference state with the initial stress and pressure:
 ///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I.
 /// Each pair of rows balances the forces on one cell (N/m): −(sum of the forces on its faces) − body force = 0.
-class Rock : public Component, public PoroelasticRock, public RockWalls {
+class Rock : public Component, public PoroelasticRock, public RockWalls, public RockState {
  public:
   /// Throws InputError for sides that do not exist, for a stiffness that is not positive definite, and when the
   /// displacements that are prescribed let the rock move as a rigid body.
@@ -31,6 +32,12 @@ class Rock : public Component, public PoroelasticRock, public RockWalls {
   const Vector& bulk_modulus() const override { return bulk_modulus_; }
   Field& wall_traction() override { return *wall_traction_; }
   const LinearExpression& displacement_jump() const override { return jump_; }
+
+  const Field& displacement() const override { return displacement_; }
+  Vector outer_displacement() const override;
+  Vector pore_stress() const override;
+  Eigen::Vector3d initial_stress(int cell, const Point& x) const override;
+  std::optional<LameParameters> stiffness(int cell) const override;
 
   /// The total force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m, x and y); for tests and output.
   Vector face_forces() const;

@@ -14,6 +14,8 @@
 
 namespace sprekk {
 
+struct MeshChange;
+
 /// The totals of one conserved quantity since the start of the run: stored + outflow = injected.
 struct Balance {
   double stored = 0, injected = 0, outflow = 0;
@@ -47,6 +49,18 @@ class Part {
   /// Fixes values that are prescribed where others have equations (Assembly::fix). Called after all parts have
   /// assembled.
   virtual void constrain(Assembly&) const {}
+
+  /// Called after the fields have been accepted or rewound, for state that is not in fields.
+  virtual void accepted() {}
+  virtual void rewound() {}
+  /// Of a part on a mesh that has grown: takes over what the same part had on the mesh before (after the values of
+  /// fields have been), and gives new entities their start.
+  virtual void carry_over(const Part& /*before*/, const MeshChange& /*change*/) {}
+  /// Called when the equilibrium on the new mesh has been found, before it is accepted.
+  virtual void settled(const MeshChange& /*change*/) {}
+  /// State that is not in fields, for checkpoints: adds named values, and takes them back.
+  virtual void save(std::map<std::string, Vector>& /*state*/) const {}
+  virtual void restore(const std::map<std::string, Vector>& /*state*/) {}
 
   /// Keeps the books (derived fields) of the fields that a `solve` has just determined: what was stored, what flowed
   /// out.

@@ -33,6 +33,9 @@ struct FieldSpec {
   /// Of a derived field that keeps the books of another (what has been stored, what has flowed out): that field's full
   /// name. Both are accepted together, also after a substep.
   std::string accepted_with = "";
+  /// Of cells: whether the value is an amount in the cell (m^2 of fluid), and not a density or a mean. A change of the
+  /// mesh divides amounts by area, and averages everything else (Eq. 17).
+  bool is_amount = false;
   std::string full_name() const { return owner + "." + name; }
 };
 

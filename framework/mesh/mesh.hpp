@@ -24,8 +24,9 @@ struct FractureCell {
   std::array<int, 2> points;  ///< its ends, indices into Mesh::fracture_points, along the polyline's direction
   Point center;
   double length;
-  Point normal;   ///< unit, from the plus to the minus side
-  Point tangent;  ///< unit, from points[0] to points[1]; (normal, tangent) is right-handed: tangent = (-n_y, n_x)
+  Point normal;        ///< unit, from the plus to the minus side
+  Point tangent;       ///< unit, from points[0] to points[1]; (normal, tangent) is right-handed: tangent = (-n_y, n_x)
+  bool grown = false;  ///< whether it came into being during the run
 };
 
 /// A point between fracture cells, or an end of a fracture.

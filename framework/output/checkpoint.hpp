@@ -14,6 +14,7 @@ struct Checkpoint {
     double time = 0;       ///< s, of the accepted step
     int step = 0;          ///< accepted steps so far
     double next_step = 0;  ///< s, the size that the controller wants to try next
+    double held_step = 0;  ///< s, the size that it holds after a growth event, or 0
   };
   struct Values {
     Vector now, accepted;

@@ -72,13 +72,16 @@ void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
 
   std::vector<int> topology;
   std::vector<double> geometry;
+  std::vector<int> grown;
   for (const FractureCell& cell : mesh.fracture_cells) {
+    grown.push_back(cell.grown);
     topology.insert(topology.end(), {cell.fracture, cell.faces[0], cell.faces[1], cell.points[0], cell.points[1]});
     geometry.insert(geometry.end(), {cell.center.x(), cell.center.y(), cell.length, cell.normal.x(), cell.normal.y(),
                                      cell.tangent.x(), cell.tangent.y()});
   }
   file.integers("mesh/fracture_cells/topology", topology);
   file.doubles("mesh/fracture_cells/geometry", geometry);
+  file.integers("mesh/fracture_cells/grown", grown);
 
   std::vector<double> positions;
   std::vector<int> kinds;
@@ -103,12 +106,20 @@ void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
   const auto topology = read_lists<5>(file, "mesh/fracture_cells/topology");
   const std::string geometry_path = "mesh/fracture_cells/geometry";
   const auto geometry = grouped<std::array<double, 7>>(file.doubles(geometry_path), geometry_path);
-  if (topology.size() != geometry.size()) throw Hdf5Error("array " + geometry_path + " has a wrong length");
+  const std::vector<int> grown = file.integers("mesh/fracture_cells/grown");
+  if (topology.size() != geometry.size() || topology.size() != grown.size())
+    throw Hdf5Error("array " + geometry_path + " has a wrong length");
   for (std::size_t i = 0; i < topology.size(); ++i) {
     const auto& t = topology[i];
     const auto& g = geometry[i];
-    mesh.fracture_cells.push_back(
-        {t[0], {t[1], t[2]}, {t[3], t[4]}, Point(g[0], g[1]), g[2], Point(g[3], g[4]), Point(g[5], g[6])});
+    mesh.fracture_cells.push_back({t[0],
+                                   {t[1], t[2]},
+                                   {t[3], t[4]},
+                                   Point(g[0], g[1]),
+                                   g[2],
+                                   Point(g[3], g[4]),
+                                   Point(g[5], g[6]),
+                                   grown[i] != 0});
   }
 
   const auto positions = read_points(file, "mesh/fracture_points/positions");

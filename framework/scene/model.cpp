@@ -30,7 +30,9 @@ auto refusing_bad_data(const Build& build) {
 
 }  // namespace
 
-Model::Model(const Scene& scene, IterationLog log) : scene_(scene), mesh_(make_mesh(scene)) {
+Model::Model(const Scene& scene, IterationLog log) : Model(scene, make_mesh(scene), std::move(log)) {}
+
+Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), mesh_(std::move(mesh)) {
   for (const Scene::ComponentEntry& entry : scene_.components) {
     components_.push_back(refusing_bad_data([&] {
       return entry.build({entry.name, mesh_, fields_, scene_.time.start, entry.origin});
@@ -47,7 +49,9 @@ Model::Model(const Scene& scene, IterationLog log) : scene_(scene), mesh_(make_m
     context.check_all_used();
     parts_.push_back(couplers_.back().get());
   }
-  schedule_ = scene_.schedule({mesh_, fields_, parts_, std::move(log)});
+  std::map<std::string, Part*> named;
+  for (const auto& component : components_) named[component->name()] = component.get();
+  schedule_ = scene_.schedule({mesh_, fields_, parts_, std::move(log), named, scene_.time.step, &growing_});
   check_determined();
   refusing_bad_data([this] { check_data(); });
   check_levels();
@@ -89,6 +93,26 @@ void Model::check_levels() const {
 StepStatus Model::attempt(const StepTime& step) {
   for (Part* part : parts_) part->begin_step(step);
   return schedule_->run(step);
+}
+
+void Model::accept() {
+  fields_.accept();
+  for (Part* part : parts_) part->accepted();
+}
+
+void Model::rewind() {
+  fields_.rewind();
+  for (Part* part : parts_) part->rewound();
+}
+
+std::map<std::string, Vector> Model::extra_state() const {
+  std::map<std::string, Vector> state;
+  for (const Part* part : parts_) part->save(state);
+  return state;
+}
+
+void Model::restore_extra_state(const std::map<std::string, Vector>& state) {
+  for (Part* part : parts_) part->restore(state);
 }
 
 std::vector<double> Model::switch_times() const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/scene/scene.hpp"
+#include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/schedule_step.hpp"
 
 namespace sprekk {
@@ -15,6 +16,8 @@ class Model {
   /// Builds everything and solves nothing. Throws InputError for combinations that cannot work: a missing capability,
   /// an input that a coupler should determine, an unknown that no step solves for, data without a value.
   Model(const Scene& scene, IterationLog log = {});
+  /// The same on a mesh that has grown, or that comes from a checkpoint.
+  Model(const Scene& scene, Mesh mesh, IterationLog log = {});
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
@@ -32,8 +35,14 @@ class Model {
   /// One attempt at a step from the accepted state: evaluates data, runs the schedule. Leaves the current values at the
   /// end of the step when it converged; the caller accepts or rewinds.
   StepStatus attempt(const StepTime& step);
-  void accept() { fields_.accept(); }
-  void rewind() { fields_.rewind(); }
+  void accept();
+  void rewind();
+
+  /// The steps of the schedule that let the mesh grow.
+  const std::vector<GrowStep*>& growing() const { return growing_; }
+  /// What parts keep besides fields, and its return (Part::save, restore).
+  std::map<std::string, Vector> extra_state() const;
+  void restore_extra_state(const std::map<std::string, Vector>& state);
 
   std::vector<double> switch_times() const;
   std::vector<Quantity> quantities() const;  ///< for history.csv
@@ -50,6 +59,7 @@ class Model {
   std::vector<std::unique_ptr<Component>> components_;
   std::vector<std::unique_ptr<Coupler>> couplers_;
   std::vector<Part*> parts_;
+  std::vector<GrowStep*> growing_;
   std::unique_ptr<ScheduleStep> schedule_;
   std::vector<Probe> probes_;
 };

@@ -51,6 +51,7 @@ void RunOutput::write_checkpoint(const Model& model, const Checkpoint::Clock& cl
   checkpoint.clock = clock;
   checkpoint.mesh = model.mesh();
   checkpoint.fields = field_values(model.fields());
+  checkpoint.extra = model.extra_state();
   sprekk::write_checkpoint(checkpoint_path(), checkpoint);
 }
 

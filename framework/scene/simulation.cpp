@@ -6,12 +6,14 @@
 #include <cmath>
 #include <iostream>
 
+#include "framework/config/units.hpp"
 #include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/partition.hpp"
 #include "framework/output/checkpoint.hpp"
-#include "framework/output/mesh_record.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/scene/change_mesh.hpp"
 #include "framework/scene/interrupt.hpp"
 #include "framework/scene/run_output.hpp"
 
@@ -56,15 +58,25 @@ class Run {
   ExitCode execute();
 
  private:
+  IterationLog log() {
+    return [this](const IterationRecord& record) { output_.write_iteration(record); };
+  }
   void restore();
   void record_start();
+  void retire_counts();  ///< adds what the model has counted to the totals
+  void resolve_stop();
+  bool reaches_stop(const std::vector<Quantity>& quantities) const;
+  bool take_over(std::size_t grow_step);
+  bool repeats_with_growth();
+  bool grow_after();
   ExitCode loop();
   bool advance();  ///< one accepted step; false with reason_ when none is possible
   void finish(ExitCode code);
 
   const RunOptions& options_;
   RunOutput output_;
-  Model model_;
+  std::optional<Checkpoint> checkpoint_;  ///< that the run goes on from, until it has been taken over
+  std::unique_ptr<Model> model_;
   std::vector<double> output_times_;
   StepController controller_;
   Profile profile_;
@@ -72,7 +84,11 @@ class Run {
   std::string fingerprint_, reason_;
   double began_;
   long newton_iterations_ = 0, rejected_ = 0;
-  int restored_steps_ = 0;
+  int restored_steps_ = 0, passes_ = 0;
+  long growth_events_ = 0;
+  bool is_settled_ = true, is_stopped_ = false;
+  double stop_value_ = 0;  ///< in the unit of TimeOptions::stop
+  LinearCounts linear_counts_;
 };
 
 OutputFolder choose_folder(const Scene& scene, const RunOptions& options) {
@@ -89,32 +105,45 @@ std::vector<double> targets(const std::vector<double>& outputs, std::vector<doub
   return switches;
 }
 
+/// A run that goes on has the mesh of its checkpoint, which may have grown.
+std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Checkpoint>& checkpoint, IterationLog log) {
+  if (!checkpoint) return std::make_unique<Model>(scene, std::move(log));
+  Mesh mesh = checkpoint->mesh;
+  partition(mesh, parallel::size());
+  return std::make_unique<Model>(scene, std::move(mesh), std::move(log));
+}
+
+std::optional<Checkpoint> read_if_given(const Scene& scene, const RunOptions& options) {
+  if (!options.checkpoint) return std::nullopt;
+  Checkpoint checkpoint = read_checkpoint(*options.checkpoint);
+  require_scene(checkpoint, *options.checkpoint, scene.name, scene_fingerprint(scene));
+  return checkpoint;
+}
+
 Run::Run(const Scene& scene, const RunOptions& options)
     : options_(options),
       output_(choose_folder(scene, options)),
-      model_(scene, [this](const IterationRecord& record) { output_.write_iteration(record); }),
+      checkpoint_(read_if_given(scene, options)),
+      model_(make_model(scene, checkpoint_, log())),
       output_times_(output_times(scene)),
-      controller_(scene.time, targets(output_times_, model_.switch_times())),
+      controller_(scene.time, targets(output_times_, model_->switch_times())),
       fingerprint_(scene_fingerprint(scene)),
       began_(now()) {
-  if (options_.checkpoint) restore();
+  if (scene.time.has_stop) resolve_stop();
+  if (checkpoint_) restore();
 }
 
 void Run::restore() {
-  const Checkpoint checkpoint = read_checkpoint(*options_.checkpoint);
-  require_scene(checkpoint, *options_.checkpoint, model_.scene().name, fingerprint_);
-  if (!is_same_mesh(checkpoint.mesh, model_.mesh()))
-    throw InputError(
-        "the mesh in " + options_.checkpoint->string() +
-        " is not the one that the scene makes now (another version of the mesh generator, or another number "
-        "of processes) start the run anew");
-  restore_fields(checkpoint, *options_.checkpoint, model_.fields());
-  controller_.restore(checkpoint.clock.time, checkpoint.clock.step, checkpoint.clock.next_step);
-  restored_steps_ = checkpoint.clock.step;
+  restore_fields(*checkpoint_, *options_.checkpoint, model_->fields());
+  model_->restore_extra_state(checkpoint_->extra);
+  const Checkpoint::Clock& clock = checkpoint_->clock;
+  controller_.restore(clock.time, clock.step, clock.next_step, clock.held_step);
+  restored_steps_ = clock.step;
+  checkpoint_.reset();
 }
 
 void Run::record_start() {
-  const Scene& scene = model_.scene();
+  const Scene& scene = model_->scene();
   record_.scene_name = scene.name;
   record_.scene_files = options_.scene_files;
   for (const Scene::Resolved& r : scene.resolved) record_.parameters.push_back({r.path, r.value, r.origin});
@@ -125,19 +154,87 @@ void Run::record_start() {
         "the reference BLAS is in use, which makes sparse factorizations several times slower: "
         "install libopenblas0-pthread");
   record_.processes = parallel::size();
-  const MeshQuality quality = mesh_quality(model_.mesh());
+  const MeshQuality quality = mesh_quality(model_->mesh());
   record_.counters["mesh: cells"] = quality.cells;
   record_.counters["mesh: fracture cells"] = quality.fracture_cells;
   record_.results["mesh_smallest_angle[rad]"] = quality.smallest_angle;
-  record_.counters["objects: components"] = static_cast<long>(model_.components().size());
-  record_.counters["objects: couplers"] = static_cast<long>(model_.couplers().size());
-  record_.counters["objects: fields"] = static_cast<long>(model_.fields().all().size());
+  record_.counters["objects: components"] = static_cast<long>(model_->components().size());
+  record_.counters["objects: couplers"] = static_cast<long>(model_->couplers().size());
+  record_.counters["objects: fields"] = static_cast<long>(model_->fields().all().size());
   long unknowns = 0;
-  for (const Field* field : model_.schedule().unknowns()) {
+  for (const Field* field : model_->schedule().unknowns()) {
     unknowns += field->size();
     record_.counters["unknowns: " + field->name()] = field->size();
   }
   record_.counters["unknowns"] = unknowns;
+}
+
+void Run::resolve_stop() {
+  const TimeOptions::Stop& stop = model_->scene().time.stop;
+  std::vector<std::string> names;
+  for (const Quantity& quantity : model_->quantities()) {
+    names.push_back(quantity.name);
+    if (quantity.name == stop.of) {
+      stop_value_ = parse_quantity(stop.reaches, quantity.unit, stop.origin, "reaches");
+      return;
+    }
+  }
+  throw unknown_name(stop.origin, "quantity of history.csv", stop.of, names);
+}
+
+bool Run::reaches_stop(const std::vector<Quantity>& quantities) const {
+  const TimeOptions& time = model_->scene().time;
+  return time.has_stop && std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& quantity) {
+           return quantity.name == time.stop.of && quantity.value >= stop_value_;
+         });
+}
+
+void Run::retire_counts() {
+  model_->schedule().add_counts(linear_counts_);
+  for (const Part* part : model_->parts())
+    for (const auto& [name, count] : part->counts()) record_.counters[name] += count;
+}
+
+/// Puts the model onto the mesh with the paths that the step has found, from its accepted state.
+bool Run::take_over(std::size_t grow_step) {
+  const ScopedTimer timer(profile_, "change of mesh");
+  const double time = controller_.time(), standard = model_->scene().time.step;
+  MeshChangeResult changed = change_mesh(*model_, grow_step, {time - standard, standard, time}, log());
+  retire_counts();
+  model_ = std::move(changed.model);
+  ++growth_events_;
+  if (changed.settling.converged) return true;
+  reason_ = "the state could not be settled on the mesh that has grown: " + changed.settling.reason;
+  return false;
+}
+
+/// Whether the step that has converged is to be repeated on a mesh that has grown.
+bool Run::repeats_with_growth() {
+  for (std::size_t i = 0; i < model_->growing().size(); ++i) {
+    const GrowStep& grow = *model_->growing()[i];
+    if (grow.extensions().empty() || !grow.repeats_step() || passes_ >= grow.options().passes) continue;
+    ++passes_;
+    is_settled_ = take_over(i);
+    return true;
+  }
+  passes_ = 0;
+  return false;
+}
+
+/// After an accepted step: takes growth over, and holds the steps small until it has settled.
+bool Run::grow_after() {
+  bool is_unsettled = false;
+  for (std::size_t i = 0; i < model_->growing().size(); ++i) {
+    const GrowStep& grow = *model_->growing()[i];
+    if (grow.is_unsettled()) is_unsettled = true;
+    if (grow.extensions().empty()) continue;
+    const double small = grow.options().cut * model_->scene().time.step;
+    if (!take_over(i)) return false;
+    controller_.hold(small);
+    return true;
+  }
+  if (!is_unsettled) controller_.release();
+  return true;
 }
 
 bool Run::advance() {
@@ -146,32 +243,37 @@ bool Run::advance() {
     StepStatus status;
     try {
       const ScopedTimer timer(profile_, "steps");
-      status = model_.attempt(step);
+      status = model_->attempt(step);
     } catch (const DataError& error) {
-      model_.rewind();
+      model_->rewind();
       reason_ = fmt::format("the step from {} over {} has no data: {}", duration_text(step.start),
                             duration_text(step.dt), error.what());
       return false;
     }
     newton_iterations_ += status.iterations;
+    if (status.converged && repeats_with_growth()) {
+      if (!is_settled_) return false;
+      continue;
+    }
     if (status.converged) {
       // Both before the step is accepted: which cells slip shows in what changed since the last accepted step.
-      const bool writes_fields = contains(output_times_, step.end, 1e-9 * model_.scene().time.step);
-      const std::vector<Quantity> quantities = model_.quantities();
-      const std::vector<OutputField> fields = writes_fields ? model_.output() : std::vector<OutputField>();
-      model_.accept();
+      const std::vector<Quantity> quantities = model_->quantities();
+      is_stopped_ = reaches_stop(quantities);
+      const bool writes_fields = is_stopped_ || contains(output_times_, step.end, 1e-9 * model_->scene().time.step);
+      const std::vector<OutputField> fields = writes_fields ? model_->output() : std::vector<OutputField>();
+      model_->accept();
       controller_.accepted(step, status.iterations);
       const ScopedTimer timer(profile_, "output");
       output_.write_history(step, status.iterations, quantities);
       for (const Quantity& q : quantities) record_.results[labelled(q.name, q.unit)] = q.value;
-      if (writes_fields) output_.write_fields(step.end, controller_.steps(), model_.mesh(), fields);
-      return true;
+      if (writes_fields) output_.write_fields(step.end, controller_.steps(), model_->mesh(), fields);
+      return grow_after();
     }
-    model_.rewind();
+    model_->rewind();
     ++rejected_;
     reason_ = fmt::format("the step from {} over {} did not converge: {}", duration_text(step.start),
                           duration_text(step.dt), status.reason);
-    if (!controller_.rejected(step)) {
+    if (!controller_.rejected(step, status.retry_dt)) {
       reason_ += " (the step is as small as allowed)";
       return false;
     }
@@ -181,14 +283,15 @@ bool Run::advance() {
 ExitCode Run::loop() {
   const InterruptGuard interrupt;
   Progress progress(Progress::style_for(STDERR_FILENO, parallel::is_root(), options_.quiet), std::cerr,
-                    model_.scene().time.start, model_.scene().time.end);
-  const double checkpoint_every = model_.scene().output.checkpoint_every.value_or(600);
+                    model_->scene().time.start, model_->scene().time.end);
+  const double checkpoint_every = model_->scene().output.checkpoint_every.value_or(600);
   double last_checkpoint = now();
   const auto checkpoint = [&] {
-    output_.write_checkpoint(model_, {controller_.time(), controller_.steps(), controller_.wanted()}, fingerprint_);
+    output_.write_checkpoint(
+        *model_, {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held()}, fingerprint_);
     last_checkpoint = now();
   };
-  while (!controller_.is_finished()) {
+  while (!controller_.is_finished() && !is_stopped_) {
     const long rejected_before = rejected_;
     const bool advanced = advance();
     if (rejected_ > rejected_before) progress.event("step cut: " + reason_);
@@ -215,15 +318,14 @@ void Run::finish(ExitCode code) {
   record_.counters["steps accepted"] = controller_.steps() - restored_steps_;
   record_.counters["steps rejected"] = rejected_;
   record_.counters["iterations"] = newton_iterations_;
-  LinearCounts counts;
-  model_.schedule().add_counts(counts);
+  retire_counts();
+  const LinearCounts& counts = linear_counts_;
+  if (growth_events_ > 0) record_.counters["changes of the mesh"] = growth_events_;
   record_.counters["linear: orderings"] = counts.orderings;
   record_.counters["linear: factorizations"] = counts.factorizations;
   record_.counters["linear: factorizations reused"] = counts.reused;
   record_.counters["linear: solves"] = counts.solves;
   record_.counters["linear: iterations"] = counts.iterations;
-  for (const Part* part : model_.parts())
-    for (const auto& [name, count] : part->counts()) record_.counters[name] += count;
   // What the linear solvers used is part of the steps; the rest of the steps is assembly and everything else.
   Profile::Entry& steps = profile_.at("steps");
   const auto move_time = [&](const char* name, double seconds, long calls, long reuses) {
@@ -248,7 +350,7 @@ void Run::finish(ExitCode code) {
 
 ExitCode Run::execute() {
   record_start();
-  output_.open(options_.checkpoint ? std::optional(controller_.time()) : std::nullopt, model_.scene().output.fields);
+  output_.open(options_.checkpoint ? std::optional(controller_.time()) : std::nullopt, model_->scene().output.fields);
   if (parallel::is_root()) record_.write(output_.path() / "run.json", profile_);
   const ExitCode code = loop();
   finish(code);

@@ -1,6 +1,7 @@
 // From the `schedule:` of a scene to what builds its tree of steps.
 #include <algorithm>
 
+#include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/iterate_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/sequence_step.hpp"
@@ -76,7 +77,9 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
 
 ScheduleBuilder read_subcycle(const Node& node, const ScheduleReading& reading) {
   SubcycleOptions options;
-  const ScheduleBuilder inside = read_inside(*node.find("subcycle"), options, reading);
+  const ScheduleBuilder inside = read_inside(*node.find("subcycle"), options, reading, [&](ScheduleReading& inner) {
+    inner.is_substep = inner.is_substep || options.count > 1;
+  });
   if (reading.is_iterated && options.count > 1)
     throw InputError(node.find("subcycle")->origin, "'subcycle' stands inside of an 'iterate'",
                      "the iteration tests the residual of one whole step, which substeps do not have",
@@ -98,6 +101,28 @@ ScheduleBuilder read_when(const Node& node, const ScheduleReading& reading) {
   };
 }
 
+ScheduleBuilder read_grow(const Node& node, const ScheduleReading& reading) {
+  if (reading.is_iterated || reading.is_substep)
+    throw InputError(node.find("grow")->origin, "'grow' stands inside of an 'iterate' or a 'subcycle'",
+                     "the mesh changes between whole time steps only", "put it behind them");
+  GrowOptions options;
+  options.newton = reading.newton;
+  options.linear = reading.linear;
+  options.origin = node.find("grow")->origin;
+  options.spec().read(node, reading.read);
+  const std::vector<std::string>& known = reading.component_names;
+  std::vector<std::string> named = options.settle;
+  named.push_back(options.component);
+  for (const std::string& name : named)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw unknown_name(options.origin, "component", name, known);
+  return [options](const ScheduleContext& context) {
+    auto step = std::make_unique<GrowStep>(options, context);
+    if (context.growing) context.growing->push_back(step.get());
+    return step;
+  };
+}
+
 template <class Options>
 Spec example_spec() {
   static Options options;
@@ -110,7 +135,8 @@ const std::vector<ScheduleKind>& schedule_kinds() {
   static const std::vector<ScheduleKind> kinds = {{"solve", read_solve, example_spec<SolveOptions>},
                                                   {"iterate", read_iterate, example_spec<IterateOptions>},
                                                   {"subcycle", read_subcycle, example_spec<SubcycleOptions>},
-                                                  {"when", read_when, example_spec<WhenOptions>}};
+                                                  {"when", read_when, example_spec<WhenOptions>},
+                                                  {"grow", read_grow, example_spec<GrowOptions>}};
   return kinds;
 }
 

@@ -1,6 +1,7 @@
 // What the steps of a schedule are built from.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct ScheduleContext {
   FieldStore& fields;
   std::vector<Part*> parts;  ///< all components and couplers
   IterationLog log;
+  std::map<std::string, Part*> named = {};          ///< the components by their names in the scene
+  double standard_step = 0;                         ///< s
+  std::vector<class GrowStep*>* growing = nullptr;  ///< collects the steps that change the mesh
 
   /// The solved fields of the named components: their unknowns, and their inputs that a coupler determines.
   std::vector<Field*> solved_fields(const std::vector<std::string>& components) const;
@@ -28,6 +32,7 @@ struct ScheduleReading {
   NewtonOptions newton;
   ReadContext read;
   bool is_iterated = false;  ///< whether the step that is being read is inside an `iterate`
+  bool is_substep = false;   ///< and inside a `subcycle` of several
 };
 using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;
 

@@ -25,7 +25,13 @@ Spec TimeOptions::spec() {
        .doc = "Steps grow while no more than half of these iterations are needed, and shrink beyond them."});
   spec.section("adaptive", changing, {.doc = "Steps that follow the effort of the solver; else they are constant."},
                &adaptive);
+  Spec stopping("stop", "Ends the run early.");
+  stopping.text("of", stop.of, {.doc = "A column of history.csv without its unit.", .required = true});
+  stopping.text("reaches", stop.reaches, {.doc = "The value, with its unit, that ends the run.", .required = true});
+  spec.section("stop", stopping, {.doc = "Ends the run after the step in which a quantity reaches a value."},
+               &has_stop);
   spec.check([this](const Node& node) {
+    if (const Node* given = node.find("stop")) stop.origin = given->origin;
     if (end <= start)
       throw InputError(node.origin, "the run has no duration", "its end is not after its start", "raise 'end'");
     constexpr double most_steps = 1e9;
@@ -74,6 +80,10 @@ StepTime StepController::next() const {
 void StepController::accepted(const StepTime& step, int iterations) {
   time_ = step.end;
   ++steps_;
+  if (held_ > 0) {
+    wanted_ = std::min(held_, wanted_ * options_.grow);
+    return;
+  }
   if (!options_.adaptive) {
     wanted_ = std::min(options_.step, wanted_ * options_.grow);
     return;
@@ -84,17 +94,26 @@ void StepController::accepted(const StepTime& step, int iterations) {
     wanted_ = std::min(options_.largest, wanted_ * options_.grow);
 }
 
-bool StepController::rejected(const StepTime& step) {
+bool StepController::rejected(const StepTime& step, double retry) {
   const double smallest = options_.smallest.value_or(options_.step * 1e-6);
   if (step.dt <= smallest) return false;
-  wanted_ = std::max(smallest, step.dt * options_.shrink);
+  wanted_ = std::max(smallest, retry > 0 ? std::min(retry, step.dt) : step.dt * options_.shrink);
   return true;
 }
 
-void StepController::restore(double time, int steps, double wanted) {
+void StepController::hold(double step) { held_ = wanted_ = step; }
+
+void StepController::release() {
+  if (held_ == 0) return;
+  held_ = 0;
+  wanted_ = options_.step;
+}
+
+void StepController::restore(double time, int steps, double wanted, double held) {
   time_ = time;
   steps_ = steps;
   wanted_ = wanted;
+  held_ = held;
 }
 
 }  // namespace sprekk

@@ -17,6 +17,14 @@ struct TimeOptions {
   bool adaptive = false;
   double largest = 0;  ///< s, of adaptive steps
   double grow = 1.5, shrink = 0.5;
+  /// Ends the run before `end`, after the first step at whose end a column of history.csv has reached a value.
+  struct Stop {
+    std::string of;       ///< the quantity, without its unit
+    std::string reaches;  ///< with its unit
+    Origin origin;
+  };
+  Stop stop;
+  bool has_stop = false;
   int iterations = 8;  ///< adaptive steps grow while no solve needs more than half of these, and shrink beyond them
   Spec spec();
 };
@@ -35,16 +43,20 @@ class StepController {
   StepTime next() const;
 
   void accepted(const StepTime& step, int iterations);
-  /// Cuts the step; false when it is as small as allowed.
-  bool rejected(const StepTime& step);
+  /// Cuts the step, to `retry` (s) if that is given; false when it is as small as allowed.
+  bool rejected(const StepTime& step, double retry = 0);
+  /// Holds all steps at this size (s) until `release`; the standard size then returns at once.
+  void hold(double step);
+  void release();
+  double held() const { return held_; }  ///< s, 0 when nothing is held
 
   /// Continues from a checkpoint.
-  void restore(double time, int steps, double wanted);
+  void restore(double time, int steps, double wanted, double held = 0);
 
  private:
   TimeOptions options_;
   std::vector<double> targets_;
-  double time_, wanted_;
+  double time_, wanted_, held_ = 0;
   int steps_ = 0;
 };
 

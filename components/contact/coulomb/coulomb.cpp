@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::contact {
@@ -59,6 +60,13 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
   stiffness_ = Vector::Ones(2 * count);
 }
 
+void Coulomb::carry_over(const Part&, const MeshChange& change) {
+  bonded_.resize(change.fracture_cell.size());
+  for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = change.fracture_cell[i] == none;
+}
+
+void Coulomb::settled(const MeshChange&) { bonded_.clear(); }
+
 Coulomb::Trial Coulomb::trial(int i) const {
   const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
   const double u_n = jump_.now()[2 * i], u_t = jump_.now()[2 * i + 1];
@@ -99,7 +107,11 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
     const double gap_by_t = -t.slip_sign * dilation_[i];  // d gap / d [u]_t; d gap / d [u]_n is 1
     double n_fn = 0, n_un = 0, n_ut = 0;                  // derivatives of the normal residual
     double t_fn = 0, t_ft = 0, t_un = 0, t_ut = 0;        // and of the tangential one
-    if (t.normal > 0) {
+    if (is_bonded(i)) {
+      residual[2 * i] = -jump_.now()[2 * i];
+      residual[2 * i + 1] = -jump_.now()[2 * i + 1];
+      n_un = t_ut = -1;
+    } else if (t.normal > 0) {
       residual[2 * i] = f_n / c_n;
       residual[2 * i + 1] = f_t / c_t;
       n_fn = 1 / c_n;

@@ -30,6 +30,9 @@ class Coulomb : public Component, public FractureContact {
   Coulomb(const ComponentContext& context, const Options& options);
 
   void begin_step(const StepTime&) override {}
+  /// Cells that have grown hold together, [u] = 0, until the state without them has been found on the new mesh.
+  void carry_over(const Part& before, const MeshChange& change) override;
+  void settled(const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   std::uint64_t discrete_state() const override;
   void report(std::vector<Quantity>& quantities) const override;
@@ -40,6 +43,7 @@ class Coulomb : public Component, public FractureContact {
   void set_wall_stiffness(const Vector& stiffness) override { stiffness_ = stiffness; }
 
   State state(int cell) const;
+  bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
   struct Trial {
@@ -52,6 +56,7 @@ class Coulomb : public Component, public FractureContact {
   Field& traction_;
   Field& jump_;
   Vector friction_, dilation_;  ///< mu_s, tan psi
+  std::vector<char> bonded_;    ///< empty for none
   Vector stiffness_;            ///< c, Pa/m, (normal, tangential) of each cell
 };
 

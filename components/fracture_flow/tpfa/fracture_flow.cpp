@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "framework/mesh/mesh_change.hpp"
 #include "framework/mesh/point_location.hpp"
 
 namespace sprekk::fracture_flow {
@@ -61,6 +62,8 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                      "add fractures to `geometry:` or remove the component");
   check_names();
   initial_aperture_ = evaluate_on_cells(mesh_, options_.initial_aperture, context.start_time);
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    if (mesh_.fracture_cells[i].grown) initial_aperture_[i] = options_.grown_aperture;
   aperture_.set_both(initial_aperture_);
   pressure_.set_both(evaluate_on_cells(mesh_, options_.initial_pressure, context.start_time));
   viscosity_ = evaluate_on_cells(mesh_, options_.viscosity, context.start_time);
@@ -71,8 +74,35 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     given_normal_permeability_ = evaluate_on_cells(mesh_, *options_.normal_permeability_value, context.start_time);
 }
 
+void FractureFlow::carry_over(const Part&, const MeshChange& change) {
+  const auto is_new = [&](int cell) { return change.fracture_cell[cell] == none; };
+  Vector pressure = pressure_.now(), aperture = aperture_.accepted();
+  std::vector<char> known(pressure.size());
+  for (int i = 0; i < pressure.size(); ++i) known[i] = !is_new(i);
+  // New cells lie one behind the other at the ends of old ones: each sweep reaches the next.
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    for (int i = 0; i < pressure.size(); ++i) {
+      if (known[i]) continue;
+      for (const int point : mesh_.fracture_cells[i].points)
+        for (const int other : mesh_.fracture_points[point].cells)
+          if (known[other] && !known[i]) {
+            pressure[i] = pressure[other];
+            known[i] = 1;
+            goes_on = true;
+          }
+    }
+  }
+  if (options_.grown_fluid == "drawn")
+    for (int i = 0; i < aperture.size(); ++i)
+      if (is_new(i)) aperture[i] = 0;
+  pressure_.set_both(std::move(pressure));
+  aperture_.set_accepted(std::move(aperture));
+}
+
 namespace {
 
+/// A whole fracture is what it was at the start: what has grown is no part of it.
 std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
   std::vector<int> cells;
   if (where.at) {
@@ -86,7 +116,8 @@ std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
     return {nearest};
   }
   for (int i = 0; i < mesh.fracture_cell_count(); ++i)
-    if (where.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == where.fracture)
+    if (!mesh.fracture_cells[i].grown &&
+        (where.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == where.fracture))
       cells.push_back(i);
   return cells;
 }

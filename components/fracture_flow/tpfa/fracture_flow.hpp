@@ -22,6 +22,8 @@ class FractureFlow : public Component, public FractureFluid {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
+  /// Cells that have grown start at the pressure of their neighbours; whether they start with fluid is a parameter.
+  void carry_over(const Part& before, const MeshChange& change) override;
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;

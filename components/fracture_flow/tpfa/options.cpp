@@ -60,6 +60,17 @@ Spec Options::spec() {
              .source = "a^0 below Eq. 8",
              .required = true});
   spec.data("initial_pressure", initial_pressure, {.unit = "Pa", .doc = "Pressure at the start."});
+  Spec grown("grown", "What the cells of a fracture that grows start with.");
+  grown.quantity("aperture", grown_aperture,
+                 {.unit = "m",
+                  .range = non_negative(),
+                  .doc = "Initial aperture of cells that have grown; opening adds to it.",
+                  .source = "a0 of a_i = a0 + [u]_n, below Eq. 8"});
+  grown.choice("fluid", grown_fluid,
+               {{"drawn", "they are empty, and draw their fluid from what is around them"},
+                {"filled", "they are full, at the pressure of the cell that they continue"}},
+               {.doc = "The fluid in it at the moment of growth."});
+  spec.section("grown", grown, {.doc = "What the cells of a fracture that grows start with."});
   spec.quantity("aperture_floor", aperture_floor,
                 {.unit = "m", .range = positive(), .doc = "The hydraulic aperture does not fall below this."});
   spec.choice("transmissivity", transmissivity,

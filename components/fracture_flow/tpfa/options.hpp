@@ -31,6 +31,8 @@ struct Options {
   Data fluid_compressibility;    ///< 1/Pa
   Data initial_aperture;         ///< m
   Data initial_pressure;         ///< Pa
+  double grown_aperture = 1e-5;  ///< m
+  std::string grown_fluid = "drawn";
   double aperture_floor = 1e-7;  ///< m
   std::string transmissivity = "cubic_law";
   std::optional<Data> transmissivity_value;  ///< m^3

@@ -1,0 +1,49 @@
+// Capabilities of growing fractures.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "components/capabilities/rock_state.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+/// The coarse level as tips see it: the reconstruction of boundary data of sec. 3.2. Lengths s (m) along a fracture
+/// count from its first point. Tractions and jumps are in global components.
+class TipSurroundings {
+ public:
+  virtual ~TipSurroundings() = default;
+  /// To be called before anything else is asked about new values of the fields.
+  virtual void update() = 0;
+  /// Changes whenever an answer may.
+  virtual std::uint64_t version() const = 0;
+
+  /// Throws std::runtime_error where the rock is anisotropic.
+  virtual LameParameters stiffness(const Point& x) const = 0;
+  /// m; `inside`, a point near x in the part of the rock that asks, tells the side of a fracture.
+  virtual Point displacement(const Point& x, const Point& inside) const = 0;
+  /// Pa, (xx, yy, xy): stress without strain, of the pore pressure and the initial stress.
+  virtual Eigen::Vector3d stress_offset(const Point& x, const Point& inside) const = 0;
+  /// Whether the walls are held by their jump (Eq. 15) or by their traction.
+  virtual bool gives_jumps() const = 0;
+  virtual Point wall_traction(int fracture, double s) const = 0;  ///< Pa, n·sigma of the plus wall, fluid included
+  virtual Point wall_jump(int fracture, double s) const = 0;      ///< m, u(minus) − u(plus)
+  /// Pa, in the fracture cell at an end; 0 where no fluid is known.
+  virtual double fluid_pressure(int fracture, bool at_end) const = 0;
+  virtual double accepted_fluid_pressure(int fracture, bool at_end) const = 0;
+  /// m, the tangential and normal jump of the cell at an end, its size.
+  virtual double jump_at_tip(int fracture, bool at_end) const = 0;
+  /// epsilon_p of sec. 4.4.2: the part of the coarse mesh size from which on a path is handed to the coarse level.
+  virtual double propagation_threshold() const = 0;
+};
+
+/// "I have tips that can grow."
+class FractureTips {
+ public:
+  static constexpr const char* promise = "has tips that can grow";
+  virtual ~FractureTips() = default;
+  /// To be called while the scene is built; it must outlive this object.
+  virtual void accept_surroundings(TipSurroundings& surroundings) = 0;
+};
+
+}  // namespace sprekk

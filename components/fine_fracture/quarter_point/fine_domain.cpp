@@ -1,0 +1,168 @@
+#include "components/fine_fracture/quarter_point/fine_domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace sprekk::fine_fracture {
+
+FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last) {
+  FracturePath path;
+  const Fracture& cells = mesh.fractures[fracture];
+  const auto append = [&](const Point& x, double arc) {
+    const std::size_t n = path.points.size();
+    if (n >= 2) {
+      // A point on the way straight on replaces the one before, but not where the coarse level begins or ends.
+      const Point a = path.points[n - 1] - path.points[n - 2], b = x - path.points[n - 1];
+      const bool is_end_of_coarse = path.arc[n - 1] == 0 || path.arc[n - 1] == path.length;
+      if (a.dot(b) > (1 - 1e-10) * a.norm() * b.norm() && !is_end_of_coarse) {
+        path.points.pop_back();
+        path.arc.pop_back();
+      }
+    }
+    path.points.push_back(x);
+    path.arc.push_back(arc);
+  };
+  path.length = 0;
+  for (int i = 0; i < cells.cell_count; ++i) path.length += mesh.fracture_cells[cells.first_cell + i].length;
+  const auto end_point = [&](bool at_end) -> const FracturePoint& {
+    const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (at_end ? cells.cell_count - 1 : 0)];
+    return mesh.fracture_points[cell.points[at_end ? 1 : 0]];
+  };
+  double arc = 0;
+  Point last = end_point(false).position;
+  for (const Point& x : added_first.added) {
+    arc -= (x - last).norm();
+    last = x;
+  }
+  for (auto x = added_first.added.rbegin(); x != added_first.added.rend(); ++x) {
+    append(*x, arc);
+    const Point& next = x + 1 == added_first.added.rend() ? end_point(false).position : *(x + 1);
+    arc += (*x - next).norm();
+  }
+  arc = 0;
+  append(end_point(false).position, 0);
+  for (int i = 0; i < cells.cell_count; ++i) {
+    const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
+    arc += cell.length;
+    append(mesh.fracture_points[cell.points[1]].position, i + 1 == cells.cell_count ? path.length : arc);
+  }
+  arc = path.length;
+  last = end_point(true).position;
+  for (const Point& x : added_last.added) {
+    arc += (x - last).norm();
+    append(x, arc);
+    last = x;
+  }
+  path.first_is_tip = end_point(false).kind == FracturePoint::Kind::tip;
+  path.last_is_tip = end_point(true).kind == FracturePoint::Kind::tip;
+  return path;
+}
+
+namespace {
+
+struct Rectangle {
+  Point low, high;
+  double depth(const Point& x) const { return std::min((x - low).minCoeff(), (high - x).minCoeff()); }
+};
+
+Rectangle bounds(const Mesh& mesh) {
+  Rectangle box{mesh.nodes[0], mesh.nodes[0]};
+  for (const Point& x : mesh.nodes) {
+    box.low = box.low.cwiseMin(x);
+    box.high = box.high.cwiseMax(x);
+  }
+  return box;
+}
+
+/// The part of the segment inside, as two parameters; empty when the first is not below the second.
+std::pair<double, double> clipped(const Rectangle& box, const Point& from, const Point& to) {
+  double first = 0, last = 1;
+  for (int k = 0; k < dimension; ++k) {
+    const double d = to[k] - from[k];
+    if (d == 0) {
+      if (from[k] < box.low[k] || from[k] > box.high[k]) return {1, 0};
+      continue;
+    }
+    const double a = (box.low[k] - from[k]) / d, b = (box.high[k] - from[k]) / d;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return {first, last};
+}
+
+/// Onto the outline to the last digit.
+Point snapped(const Rectangle& box, Point x) {
+  const double near = 1e-9 * (box.high - box.low).maxCoeff();
+  for (int k = 0; k < dimension; ++k) {
+    if (std::abs(x[k] - box.low[k]) < near) x[k] = box.low[k];
+    if (std::abs(x[k] - box.high[k]) < near) x[k] = box.high[k];
+  }
+  return x;
+}
+
+/// How near the outline comes to a tip or a kink that is inside of the rock; what lies on the outer boundary is not
+/// counted.
+double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const FracturePath& path : paths)
+    for (const Point& x : path.points)
+      for (int k = 0; k < dimension; ++k) {
+        if (x[1 - k] < box.low[1 - k] || x[1 - k] > box.high[1 - k]) continue;
+        if (box.low[k] > rock.low[k]) gap = std::min(gap, std::abs(x[k] - box.low[k]));
+        if (box.high[k] < rock.high[k]) gap = std::min(gap, std::abs(x[k] - box.high[k]));
+      }
+  return gap;
+}
+
+}  // namespace
+
+FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
+                       double size, double gap, CrackPath::Walls coarse_walls) {
+  const Rectangle rock = bounds(mesh);
+  Rectangle box;
+  for (double factor = 1; factor < 1.5; factor += 0.02) {
+    const Point half = Point::Constant(0.5 * factor * size);
+    box = {(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
+    if (smallest_gap(box, rock, paths) >= gap) break;
+  }
+  FineDomain domain;
+  domain.geometry.outline = {box.low, {box.high[0], box.low[1]}, box.high, {box.low[0], box.high[1]}};
+  for (int f = 0; f < static_cast<int>(paths.size()); ++f) {
+    const FracturePath& path = paths[f];
+    bool is_open = false;  // whether the last crack goes on
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const Point &a = path.points[i], &b = path.points[i + 1];
+      const auto [first, last] = clipped(box, a, b);
+      if (last - first <= 1e-9) {
+        is_open = false;
+        continue;
+      }
+      const auto at = [&](double t) { return snapped(box, t == 0 ? a : t == 1 ? b : Point(a + t * (b - a))); };
+      const auto arc = [&](double t) { return path.arc[i] + t * (path.arc[i + 1] - path.arc[i]); };
+      if (!is_open || first > 0) {
+        domain.geometry.cracks.push_back({{at(first)}, i == 0 && first == 0 && path.first_is_tip, false, {}});
+        domain.sources.push_back({f, {arc(first)}});
+        if (f == tip.fracture && !tip.at_end && i == 0 && first == 0) {
+          domain.crack = static_cast<int>(domain.sources.size()) - 1;
+          domain.is_last = false;
+        }
+      }
+      CrackPath& crack = domain.geometry.cracks.back();
+      crack.points.push_back(at(last));
+      const double middle = 0.5 * (arc(first) + arc(last));
+      crack.walls.push_back(middle < 0 || middle > path.length ? CrackPath::Walls::traction : coarse_walls);
+      domain.sources.back().arc.push_back(arc(last));
+      is_open = last == 1;
+      if (i + 2 == path.points.size() && last == 1) {
+        crack.last_is_tip = path.last_is_tip;
+        if (f == tip.fracture && tip.at_end) domain.crack = static_cast<int>(domain.sources.size()) - 1;
+      }
+    }
+  }
+  if (domain.crack == none) throw std::runtime_error("the domain of a tip does not contain the tip");
+  return domain;
+}
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,370 @@
+#include "components/fine_fracture/quarter_point/tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "framework/mesh/mesh_change.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::fine_fracture {
+
+Spec TipsOptions::spec() {
+  Spec spec("fine_fracture/quarter_point",
+            "Tips of fractures: stress-intensity factors from a fine level around each, and growth (secs. 2.5, 4.3).");
+  spec.ignore("type");
+  spec.quantity("size", size,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Side of the square around a tip; what reaches out of the rock is cut off.",
+                 .source = "l of sec. 3.1",
+                 .required = true});
+  spec.quantity("mesh_ratio", mesh_ratio,
+                {.range = {.low = 0, .high = 1, .low_allowed = false},
+                 .doc = "Edge length at the tip over that of the coarse level.",
+                 .source = "epsilon_m of sec. 4.1"});
+  spec.integer("sectors", sectors, {.range = between(8, 64), .doc = "Quarter-point elements around a tip."});
+  spec.quantity("toughness", toughness,
+                {.unit = "Pa*m^0.5",
+                 .range = positive(),
+                 .doc = "K_IC; without it tips do not grow.",
+                 .source = "sec. 2.5",
+                 .material = true});
+  spec.choice("factors", factors,
+              {{"interaction_integral", "over a domain around the tip, with the tractions of the walls"},
+               {"displacement_correlation", "from the nodes of the quarter-point elements (the paper)"}},
+              {.doc = "How stress-intensity factors follow from the displacement.", .source = "sec. 4.3"});
+  spec.quantity("cavity", cavity,
+                {.range = positive(),
+                 .doc = "The coarse mesh changes within this many of its edge lengths around a path it takes over.",
+                 .source = "sec. 4.1"});
+  spec.quantity("skip_below", skip_below,
+                {.range = between(0, 1),
+                 .doc = "The fine level of a tip is not solved while twice the K_eq that the jump behind it stands for "
+                        "is below this part of the toughness; 0: always solved."});
+  spec.section("growth", growth.spec(), {.doc = "How tips grow."});
+  return spec;
+}
+
+namespace {
+
+bool is_tip(const Mesh& mesh, const TipEnd& end) {
+  const Fracture& cells = mesh.fractures[end.fracture];
+  const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 : 0)];
+  return mesh.fracture_points[cell.points[end.at_end ? 1 : 0]].kind == FracturePoint::Kind::tip;
+}
+
+const FractureCell& end_cell(const Mesh& mesh, const TipEnd& end) {
+  const Fracture& cells = mesh.fractures[end.fracture];
+  return mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 : 0)];
+}
+
+/// Of the original fracture's cell at this end.
+double original_size(const Mesh& mesh, const TipEnd& end) {
+  const Fracture& cells = mesh.fractures[end.fracture];
+  for (int i = 0; i < cells.cell_count; ++i) {
+    const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 - i : i)];
+    if (!cell.grown) return cell.length;
+  }
+  return end_cell(mesh, end).length;
+}
+
+double length_of(const Point& from, const TipPath& path) {
+  double length = 0;
+  Point last = from;
+  for (const Point& x : path.added) {
+    length += (x - last).norm();
+    last = x;
+  }
+  return length;
+}
+
+}  // namespace
+
+Tips::Tips(const ComponentContext& context, const TipsOptions& options)
+    : Component(context.name), mesh_(context.mesh), options_(options) {
+  for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f)
+    for (const bool at_end : {false, true}) {
+      const TipEnd end{f, at_end};
+      if (!is_tip(mesh_, end)) continue;
+      Tip tip;
+      tip.end = end;
+      tip.name = mesh_.fractures[f].name + (at_end ? "_last" : "_first");
+      tip.coarse_size = original_size(mesh_, end);
+      tips_.push_back(std::move(tip));
+    }
+}
+
+Point Tips::position(const Tip& tip, const TipPath& path) const {
+  if (!path.added.empty()) return path.added.back();
+  return mesh_.fracture_points[end_cell(mesh_, tip.end).points[tip.end.at_end ? 1 : 0]].position;
+}
+
+Point Tips::direction(const Tip& tip) const {
+  const Point& tangent = end_cell(mesh_, tip.end).tangent;
+  return tip.end.at_end ? tangent : Point(-tangent);
+}
+
+std::vector<TipPath> Tips::paths_now() const {
+  std::vector<TipPath> paths;
+  for (const Tip& tip : tips_) paths.push_back(tip.now.path);
+  return paths;
+}
+
+std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) const {
+  const TipPath nothing;
+  std::vector<const TipPath*> of_end(2 * mesh_.fractures.size(), &nothing);
+  for (std::size_t i = 0; i < tips_.size(); ++i) of_end[2 * tips_[i].end.fracture + tips_[i].end.at_end] = &added[i];
+  std::vector<FracturePath> paths;
+  for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f)
+    paths.push_back(fracture_path(mesh_, f, *of_end[2 * f], *of_end[2 * f + 1]));
+  return paths;
+}
+
+namespace {
+
+bool is_same(const FineGeometry& a, const FineGeometry& b) {
+  return a.outline == b.outline &&
+         std::equal(a.cracks.begin(), a.cracks.end(), b.cracks.begin(), b.cracks.end(),
+                    [](const CrackPath& x, const CrackPath& y) { return x.points == y.points && x.walls == y.walls; });
+}
+
+}  // namespace
+
+Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
+  Tip& tip = tips_[index];
+  // The square stays where the coarse tip is while the path grows in it.
+  const Point center = position(tip, {});
+  FineMeshOptions mesh;
+  mesh.tip_size = options_.mesh_ratio * tip.coarse_size;
+  mesh.far_size = std::max(mesh.tip_size, options_.size / 10);
+  mesh.sectors = options_.sectors;
+  const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
+  FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls);
+  if (!tip.model || !is_same(domain.geometry, tip.domain.geometry)) {
+    const LameParameters lame = surroundings_->stiffness(center);
+    tip.model.emplace(domain.geometry, mesh, Elasticity{lame.lambda, lame.shear});
+    ++meshes_;
+  }
+  tip.domain = std::move(domain);
+  return solve(tip);
+}
+
+Sifs Tips::solve(Tip& tip) {
+  ++solves_;
+  std::vector<double> lengths;
+  for (const Fracture& fracture : mesh_.fractures) {
+    double length = 0;
+    for (int i = 0; i < fracture.cell_count; ++i) length += mesh_.fracture_cells[fracture.first_cell + i].length;
+    lengths.push_back(length);
+  }
+  const FineDomain& domain = tip.domain;
+  const auto arc = [&](int crack, int segment, double s) {
+    const std::vector<double>& along = domain.sources[crack].arc;
+    return along[segment] + s * (along[segment + 1] - along[segment]);
+  };
+  FineLoads loads;
+  loads.boundary_displacement = [&](const Point& x, const Point& inside) {
+    return surroundings_->displacement(x, inside);
+  };
+  loads.stress_offset = [&](const Point& x) { return surroundings_->stress_offset(x, x); };
+  loads.wall_traction = [&](int crack, int segment, double s) -> Point {
+    const int fracture = domain.sources[crack].fracture;
+    const double at = arc(crack, segment, s);
+    // What has grown on the fine level is open and feels the fluid (design: the walls that grow carry its pressure).
+    const std::vector<Point>& points = domain.geometry.cracks[crack].points;
+    const Point along = (points[segment + 1] - points[segment]).normalized();
+    const Point normal(along[1], -along[0]);
+    const double middle = arc(crack, segment, 0.5);
+    if (middle < 0) return -surroundings_->fluid_pressure(fracture, false) * normal;
+    if (middle > lengths[fracture]) return -surroundings_->fluid_pressure(fracture, true) * normal;
+    return surroundings_->wall_traction(fracture, at);
+  };
+  loads.wall_jump = [&](int crack, int segment, double s) {
+    return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s));
+  };
+  const FineSolution solution = tip.model->solve(loads);
+  for (const TipIntensities& found : solution.tips) {
+    if (found.crack != domain.crack || found.is_last != domain.is_last) continue;
+    const Point k = options_.factors == "interaction_integral" ? found.K : found.K_correlation;
+    return {k[0], k[1], found.T};
+  }
+  throw std::logic_error("the fine level has lost its tip");
+}
+
+double Tips::load(const Sifs& sifs) const {
+  return options_.toughness ? equivalent_sif(sifs) / *options_.toughness : 0;
+}
+
+bool Tips::is_safe(const Tip& tip) const {
+  if (!options_.toughness || options_.skip_below == 0) return false;
+  // Williams' field: the jump at a distance r behind the tip is (8/E') sqrt(r/(2 pi)) K.
+  const LameParameters lame = surroundings_->stiffness(position(tip, {}));
+  const double distance = 0.5 * end_cell(mesh_, tip.end).length;
+  const double estimate = Elasticity{lame.lambda, lame.shear}.plane_modulus() / 8 *
+                          std::sqrt(2 * std::numbers::pi / distance) *
+                          surroundings_->jump_at_tip(tip.end.fracture, tip.end.at_end);
+  constexpr double shear_to_equivalent = 1.25, safety = 2;
+  return safety * shear_to_equivalent * estimate < options_.skip_below * *options_.toughness;
+}
+
+Growing::Load Tips::examine(const StepTime&) {
+  surroundings_->update();
+  Load loads;
+  const std::vector<TipPath> paths = paths_now();
+  for (std::size_t i = 0; i < tips_.size(); ++i) {
+    Tip& tip = tips_[i];
+    const double now = surroundings_->fluid_pressure(tip.end.fracture, tip.end.at_end);
+    const double before = surroundings_->accepted_fluid_pressure(tip.end.fracture, tip.end.at_end);
+    if (now != before) loads.unsettled = std::max(loads.unsettled, std::abs(now - before) / std::max(now, before));
+    if (tip.answered_for == surroundings_->version()) {
+      ++kept_;
+    } else if (tip.now.path.added.empty() && is_safe(tip)) {
+      ++skipped_;
+    } else {
+      tip.now.sifs = evaluate(i, paths);
+      tip.answered_for = surroundings_->version();
+    }
+    loads.now = std::max(loads.now, load(tip.now.sifs));
+    loads.accepted = std::max(loads.accepted, load(tip.accepted.sifs));
+  }
+  return loads;
+}
+
+double Tips::free_way(const Tip& tip, const TipPath& path, const Point& to) const {
+  const Point from = position(tip, path);
+  const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, to - from);
+  return free.length - tip.coarse_size;
+}
+
+std::vector<PathExtension> Tips::grow(const StepTime&) {
+  std::vector<GrowingTip> growing;
+  for (const Tip& tip : tips_) {
+    const LameParameters lame = surroundings_->stiffness(position(tip, {}));
+    growing.push_back({position(tip, {}), direction(tip), *options_.toughness,
+                       Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path});
+  }
+  GrowthOptions growth = options_.growth;
+  // A path stays well inside of its square.
+  growth.longest = std::min(growth.longest.value_or(options_.size), 0.2 * options_.size);
+  const std::vector<TipOutcome> outcomes = grow_tips(
+      growing, growth,
+      [this](int tip, const std::vector<TipPath>& paths) {
+        const Sifs sifs = evaluate(tip, paths);
+        return sifs;
+      },
+      [this](int tip, const TipPath& path, const Point& to) { return free_way(tips_[tip], path, to); });
+  std::vector<PathExtension> extensions;
+  for (std::size_t i = 0; i < tips_.size(); ++i) {
+    Tip& tip = tips_[i];
+    const TipOutcome& outcome = outcomes[i];
+    increments_ += outcome.increments;
+    notes_.insert(notes_.end(), outcome.notes.begin(), outcome.notes.end());
+    if (outcome.increments == 0) continue;
+    tip.now.path = outcome.path;
+    tip.now.sifs = outcome.end;
+    const double length = length_of(position(tip, {}), tip.now.path);
+    if (length < surroundings_->propagation_threshold() * tip.coarse_size) continue;
+    extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip)});
+    double handed_over = 0;
+    Point last = position(tip, {});
+    for (const Point& x : extensions.back().points) {
+      handed_over += (x - last).norm();
+      last = x;
+    }
+    tip.now.grown += handed_over;
+    tip.now.path.added.clear();
+  }
+  return extensions;
+}
+
+/// The path with no edges shorter than half of the coarse mesh size, except for a single one (sec. 4.4.2).
+std::vector<Point> Tips::coarse_path(const Tip& tip) const {
+  const double shortest = 0.5 * tip.coarse_size;
+  std::vector<Point> points;
+  Point last = position(tip, {});
+  for (const Point& x : tip.now.path.added) {
+    if ((x - last).norm() < shortest) continue;
+    points.push_back(x);
+    last = x;
+  }
+  const Point& end = tip.now.path.added.back();
+  if (points.empty())
+    points.push_back(end);
+  else
+    points.back() = end;
+  return points;
+}
+
+CavityOptions Tips::cavity() const {
+  double size = 0;
+  for (const Tip& tip : tips_) size = std::max(size, tip.coarse_size);
+  return {options_.cavity * size, size, 0.3};
+}
+
+void Tips::accepted() {
+  for (Tip& tip : tips_) tip.accepted = tip.now;
+}
+
+void Tips::rewound() {
+  for (Tip& tip : tips_) {
+    tip.now = tip.accepted;
+    tip.answered_for = 0;
+  }
+}
+
+void Tips::carry_over(const Part& before, const MeshChange&) {
+  const auto& old = dynamic_cast<const Tips&>(before);
+  for (Tip& tip : tips_)
+    for (const Tip& same : old.tips_)
+      if (same.end.fracture == tip.end.fracture && same.end.at_end == tip.end.at_end) tip.now = tip.accepted = same.now;
+}
+
+void Tips::save(std::map<std::string, Vector>& state) const {
+  for (const Tip& tip : tips_) {
+    const State& kept = tip.accepted;
+    Vector values(4 + 2 * kept.path.added.size());
+    values.head<4>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown;
+    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(4 + 2 * i) = kept.path.added[i];
+    state[name() + "." + tip.name] = std::move(values);
+  }
+}
+
+void Tips::restore(const std::map<std::string, Vector>& state) {
+  for (Tip& tip : tips_) {
+    const auto found = state.find(name() + "." + tip.name);
+    if (found == state.end() || found->second.size() < 4) continue;
+    const Vector& values = found->second;
+    State kept;
+    kept.sifs = {values[0], values[1], values[2]};
+    kept.grown = values[3];
+    for (int i = 4; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
+    tip.now = tip.accepted = kept;
+  }
+}
+
+void Tips::report(std::vector<Quantity>& quantities) const {
+  for (const Tip& tip : tips_) {
+    const std::string prefix = name() + "." + tip.name + ".";
+    quantities.push_back({prefix + "K_I", "Pa*m^0.5", tip.now.sifs.k1});
+    quantities.push_back({prefix + "K_II", "Pa*m^0.5", tip.now.sifs.k2});
+    quantities.push_back({prefix + "K_eq", "Pa*m^0.5", equivalent_sif(tip.now.sifs)});
+    quantities.push_back({prefix + "length", "m", tip.now.grown + length_of(position(tip, {}), tip.now.path)});
+  }
+}
+
+std::map<std::string, long> Tips::counts() const {
+  return {{"tips: solves", solves_},
+          {"tips: meshes", meshes_},
+          {"tips: answers kept", kept_},
+          {"tips: ruled out", skipped_},
+          {"tips: increments", increments_}};
+}
+
+namespace {
+
+const RegisterComponent<Tips, TipsOptions> registration("fine_fracture/quarter_point");
+
+}  // namespace
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,90 @@
+// The tips of all fractures, each with a fine level of its own around it (secs. 2.5, 3.1, 4.3).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/capabilities/fracture_tips.hpp"
+#include "components/fine_fracture/growth/grow_tips.hpp"
+#include "components/fine_fracture/quarter_point/fine_domain.hpp"
+#include "components/fine_fracture/quarter_point/model.hpp"
+#include "framework/config/spec.hpp"
+#include "framework/scene/component.hpp"
+#include "framework/schedule/growing.hpp"
+
+namespace sprekk::fine_fracture {
+
+struct TipsOptions {
+  double size = 0;          ///< m, l of sec. 4.3
+  double mesh_ratio = 0.5;  ///< epsilon_m
+  int sectors = 16;
+  std::optional<double> toughness;  ///< Pa m^0.5
+  std::string factors = "interaction_integral";
+  double cavity = 4;  ///< radius in coarse mesh sizes
+  double skip_below = 0.5;
+  GrowthOptions growth;
+  Spec spec();
+};
+
+/// Has no unknowns of the coarse level: it looks at the coarse level's state around each tip (TipSurroundings), finds
+/// the stress-intensity factors there, and lets tips grow. A path that is shorter than the coarse level wants to know
+/// of is kept and shapes the fine level until it is handed over.
+class Tips : public Component, public FractureTips, public Growing {
+ public:
+  Tips(const ComponentContext& context, const TipsOptions& options);
+
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly&, const StepTime&) const override {}
+  void accepted() override;
+  void rewound() override;
+  void carry_over(const Part& before, const MeshChange& change) override;
+  void save(std::map<std::string, Vector>& state) const override;
+  void restore(const std::map<std::string, Vector>& state) override;
+  void report(std::vector<Quantity>& quantities) const override;
+  std::map<std::string, long> counts() const override;
+
+  void accept_surroundings(TipSurroundings& surroundings) override { surroundings_ = &surroundings; }
+
+  Load examine(const StepTime& step) override;
+  std::vector<PathExtension> grow(const StepTime& step) override;
+  CavityOptions cavity() const override;
+
+ private:
+  /// What a step may change and a rewind takes back.
+  struct State {
+    TipPath path;  ///< not yet known to the coarse level
+    Sifs sifs;
+    double grown = 0;  ///< m, handed over to the coarse level
+  };
+  struct Tip {
+    TipEnd end;
+    std::string name;
+    double coarse_size;  ///< m, Delta H: the length of the original cell at this end
+    State now, accepted;
+    // A factorization is reused while the geometry is what it was, and an answer while the coarse level is.
+    std::optional<FineModel> model;
+    FineDomain domain;
+    std::uint64_t answered_for = 0;
+  };
+
+  Point position(const Tip& tip, const TipPath& path) const;
+  Point direction(const Tip& tip) const;
+  std::vector<FracturePath> paths_with(const std::vector<TipPath>& added) const;
+  std::vector<TipPath> paths_now() const;
+  Sifs evaluate(std::size_t tip, const std::vector<TipPath>& paths);
+  Sifs solve(Tip& tip);
+  bool is_safe(const Tip& tip) const;
+  double load(const Sifs& sifs) const;
+  double free_way(const Tip& tip, const TipPath& path, const Point& to) const;
+  std::vector<Point> coarse_path(const Tip& tip) const;
+
+  const Mesh& mesh_;
+  TipsOptions options_;
+  TipSurroundings* surroundings_ = nullptr;
+  std::vector<Tip> tips_;
+  long solves_ = 0, meshes_ = 0, kept_ = 0, skipped_ = 0, increments_ = 0;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,50 @@
+#include "couplers/two_level/along_fracture.hpp"
+
+#include <algorithm>
+
+namespace sprekk::couplers {
+
+AlongFracture::AlongFracture(const Mesh& mesh, int fracture) {
+  const Fracture& all = mesh.fractures[fracture];
+  double length = 0;
+  for (int i = all.first_cell; i < all.first_cell + all.cell_count; ++i) {
+    const FractureCell& cell = mesh.fracture_cells[i];
+    if (!cells_.empty()) cells_.back().continues = cells_.back().tangent.dot(cell.tangent) > 1 - 1e-8;
+    cells_.push_back({i, length, length + cell.length, false, cell.normal, cell.tangent});
+    length += cell.length;
+  }
+  const auto is_tip = [&](int point) { return mesh.fracture_points[point].kind == FracturePoint::Kind::tip; };
+  tip_at_first_ = is_tip(mesh.fracture_cells[cells_.front().index].points[0]);
+  tip_at_last_ = is_tip(mesh.fracture_cells[cells_.back().index].points[1]);
+}
+
+std::size_t AlongFracture::cell_at(double s) const {
+  const auto after =
+      std::upper_bound(cells_.begin(), cells_.end(), s, [](double at, const Cell& cell) { return at < cell.end; });
+  return std::min<std::size_t>(after - cells_.begin(), cells_.size() - 1);
+}
+
+Point AlongFracture::at(double s, const Vector& values) const {
+  const std::size_t i = cell_at(s);
+  const Cell& cell = cells_[i];
+  const double middle = 0.5 * (cell.begin + cell.end);
+  Point local = values.segment<2>(2 * cell.index);
+  const bool ahead = s > middle;
+  if (ahead ? cell.continues : (i > 0 && cells_[i - 1].continues)) {
+    const Cell& other = cells_[ahead ? i + 1 : i - 1];
+    const double part = (s - middle) / (0.5 * (other.begin + other.end) - middle);
+    local += part * (Point(values.segment<2>(2 * other.index)) - local);
+  }
+  return global(cell, local);
+}
+
+Point AlongFracture::vanishing_at_tips(double s, const Vector& values) const {
+  const Cell &first = cells_.front(), &last = cells_.back();
+  if (tip_at_first_ && s < 0.5 * (first.begin + first.end))
+    return s / (0.5 * (first.begin + first.end)) * at(s, values);
+  const double to_end = last.end - s, half = 0.5 * (last.end - last.begin);
+  if (tip_at_last_ && to_end < half) return std::max(0.0, to_end / half) * at(s, values);
+  return at(s, values);
+}
+
+}  // namespace sprekk::couplers

@@ -1,0 +1,33 @@
+// From values of cells and outer faces to values of nodes, and between nodes (Eqs. 18, 19).
+#pragma once
+
+#include "framework/mesh/mesh.hpp"
+#include "framework/mesh/point_location.hpp"
+
+namespace sprekk::couplers {
+
+/// Linear in each cell between its nodes. Nodes on a fracture exist on both of its sides, and so do their values.
+class NodalValues {
+ public:
+  enum class From {
+    cells_and_faces,  ///< the linear function that fits the cells and the faces with one cell around the node (least
+                      ///< squares, weights 1/distance^2): exact for linear fields
+    cells,            ///< the same of the cells alone
+    mean_of_cells     ///< the area-weighted mean of the cells (Eq. 17): off by the strain times the distance at a wall
+  };
+  /// Keeps a pointer to the mesh.
+  NodalValues(const Mesh& mesh, From from);
+  /// `cells`: `components` values a cell; `faces`: as many a face, or empty.
+  void set(int components, const Vector& cells, const Vector& faces);
+  /// The values in cell `cell` at x.
+  Vector at(int cell, const Point& x) const;
+
+ private:
+  const Mesh* mesh_;
+  From from_;
+  int components_ = 0;
+  SparseMatrix from_cells_, from_faces_;  ///< nodes × entities
+  Eigen::MatrixXd values_;                ///< nodes × components
+};
+
+}  // namespace sprekk::couplers

@@ -1,0 +1,148 @@
+// two_level: gives tips the coarse level's state around them (Eqs. 15-19), and takes their paths over.
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/fracture_tips.hpp"
+#include "components/capabilities/poroelastic_rock.hpp"
+#include "couplers/two_level/along_fracture.hpp"
+#include "couplers/two_level/nodal_values.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+struct TwoLevelOptions {
+  std::string reconstruction = "wall_traction";
+  double propagation_threshold = 0.5;
+  Spec spec() {
+    Spec spec(
+        "two_level",
+        "Between the coarse level and the tips of fractures: boundary data for the fine level (Eqs. 15-19), and "
+        "its paths for the coarse level (sec. 4.4.2). Between the rock, the tips, and the fluid in the fractures, "
+        "whose pressure the walls carry that grow on the fine level (without it they carry none).");
+    spec.ignore("type").ignore("between");
+    spec.choice("reconstruction", reconstruction,
+                {{"wall_traction", "walls feel the tractions of the coarse level, which are smooth at tips"},
+                 {"wall_jump", "walls have the displacement jump of the coarse level (Eq. 15)"},
+                 {"cell_centred",
+                  "the same with jumps and displacements between cell centres, where strain counts as slip: for "
+                  "comparison with the paper's scripts only"}},
+                {.doc = "What the walls of the fine level take from the coarse one.", .source = "sec. 4.4.1"});
+    spec.quantity("propagation_threshold", propagation_threshold,
+                  {.range = positive(),
+                   .doc = "The part of the coarse mesh size at which a path is handed to the coarse level.",
+                   .source = "epsilon_p of sec. 4.4.2"});
+    return spec;
+  }
+};
+
+class TwoLevel : public Coupler, public TipSurroundings {
+ public:
+  TwoLevel(const CouplerContext& context, const TwoLevelOptions& options)
+      : Coupler(context.name),
+        mesh_(context.mesh),
+        options_(options),
+        rock_(context.the<RockState>()),
+        walls_(context.the<RockWalls>()),
+        fluid_(context.find<FractureFluid>()),
+        location_(mesh_),
+        displacement_(mesh_, is_cell_centred() ? NodalValues::From::mean_of_cells : NodalValues::From::cells_and_faces),
+        pore_stress_(mesh_, NodalValues::From::cells) {
+    for (int i = 0; i < static_cast<int>(mesh_.fractures.size()); ++i) along_.emplace_back(mesh_, i);
+    context.the<FractureTips>().accept_surroundings(*this);
+  }
+
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly&, const StepTime&) const override {}
+
+  void update() override {
+    if (updated_for_ == version()) return;
+    updated_for_ = version();
+    displacement_.set(2, rock_.displacement().now(), rock_.outer_displacement());
+    pore_stress_.set(1, rock_.pore_stress(), {});
+    traction_ = walls_.wall_traction().now();
+    jump_ = is_cell_centred() ? jump_between_cells() : walls_.displacement_jump().now();
+  }
+
+  std::uint64_t version() const override {
+    return 1 + rock_.displacement().version() + walls_.wall_traction().version() +
+           (fluid_ ? fluid_->pressure().version() : 0);
+  }
+
+  LameParameters stiffness(const Point& x) const override {
+    const auto stiffness = rock_.stiffness(cell_at(x));
+    if (!stiffness)
+      throw std::runtime_error("the fine level of fracture tips needs an isotropic rock; it is anisotropic here");
+    return *stiffness;
+  }
+
+  Point displacement(const Point& x, const Point& inside) const override {
+    return displacement_.at(cell_at(inside), x);
+  }
+
+  Eigen::Vector3d stress_offset(const Point& x, const Point& inside) const override {
+    const int cell = cell_at(inside);
+    const double pore = pore_stress_.at(cell, x)[0];
+    return rock_.initial_stress(cell, x) + Eigen::Vector3d(pore, pore, 0);
+  }
+
+  bool gives_jumps() const override { return options_.reconstruction != "wall_traction"; }
+  Point wall_traction(int fracture, double s) const override { return along_[fracture].at(s, traction_); }
+  Point wall_jump(int fracture, double s) const override { return along_[fracture].vanishing_at_tips(s, jump_); }
+
+  double fluid_pressure(int fracture, bool at_end) const override {
+    return fluid_ ? fluid_->pressure().now()[end_cell(fracture, at_end)] : 0;
+  }
+  double accepted_fluid_pressure(int fracture, bool at_end) const override {
+    return fluid_ ? fluid_->pressure().accepted()[end_cell(fracture, at_end)] : 0;
+  }
+  double jump_at_tip(int fracture, bool at_end) const override {
+    return jump_.segment<2>(2 * end_cell(fracture, at_end)).norm();
+  }
+  double propagation_threshold() const override { return options_.propagation_threshold; }
+
+ private:
+  bool is_cell_centred() const { return options_.reconstruction == "cell_centred"; }
+
+  int end_cell(int fracture, bool at_end) const {
+    const Fracture& cells = mesh_.fractures[fracture];
+    return at_end ? cells.first_cell + cells.cell_count - 1 : cells.first_cell;
+  }
+
+  int cell_at(const Point& x) const {
+    const int cell = location_.cell_at(x);
+    if (cell == none) throw std::runtime_error(fmt::format("({:.6g} m, {:.6g} m) is outside of the rock", x[0], x[1]));
+    return cell;
+  }
+
+  /// The difference of nodal displacements that are means of cells, in the middle of each fracture cell.
+  Vector jump_between_cells() const {
+    Vector jump(2 * mesh_.fracture_cell_count());
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+      const FractureCell& cell = mesh_.fracture_cells[i];
+      Point side[2];
+      for (int k = 0; k < 2; ++k) side[k] = displacement_.at(mesh_.face_cells[cell.faces[k]][0], cell.center);
+      const Point difference = side[1] - side[0];
+      jump.segment<2>(2 * i) = Point(difference.dot(cell.normal), difference.dot(cell.tangent));
+    }
+    return jump;
+  }
+
+  const Mesh& mesh_;
+  TwoLevelOptions options_;
+  RockState& rock_;
+  RockWalls& walls_;
+  FractureFluid* fluid_;
+  PointLocation location_;
+  NodalValues displacement_, pore_stress_;
+  std::vector<AlongFracture> along_;
+  Vector traction_, jump_;
+  std::uint64_t updated_for_ = 0;
+};
+
+const RegisterCoupler<TwoLevel, TwoLevelOptions> registration("two_level");
+
+}  // namespace
+}  // namespace sprekk::couplers

@@ -1,0 +1,86 @@
+#include "framework/scene/change_mesh.hpp"
+
+#include <stdexcept>
+
+#include "framework/mesh/partition.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+
+namespace {
+
+Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh& old_mesh) {
+  const int components = old.spec().components;
+  Vector values = Vector::Zero(static_cast<int>(change.cell.size()) * components);
+  // Row by row: the overlap of a new cell with the old ones, over the old area (shares) or its own (a mean).
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> overlap = change.overlap;
+  for (int cell = 0; cell < static_cast<int>(change.cell.size()); ++cell) {
+    if (change.cell[cell] != none) {
+      values.segment(cell * components, components) =
+          old.accepted().segment(change.cell[cell] * components, components);
+      continue;
+    }
+    double area = 0;
+    for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) area += entry.value();
+    for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) {
+      const int from = static_cast<int>(entry.col());
+      const double weight = entry.value() / (old.spec().is_amount ? old_mesh.cell_area[from] : area);
+      values.segment(cell * components, components) += weight * old.accepted().segment(from * components, components);
+    }
+  }
+  return values;
+}
+
+/// Entities that have been kept, `parts` of the field's entities each (two walls a fracture cell).
+void copy_kept(const Field& old, const std::vector<int>& origin, int parts, Vector& values) {
+  const int width = parts * old.spec().components;
+  for (int i = 0; i < static_cast<int>(origin.size()); ++i)
+    if (origin[i] != none) values.segment(i * width, width) = old.accepted().segment(origin[i] * width, width);
+}
+
+}  // namespace
+
+void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, FieldStore& after) {
+  for (const auto& field : after.all()) {
+    const Field& old = before.at(field->name());
+    Vector values = field->accepted();
+    switch (field->spec().location) {
+      case Location::cell:
+        values = transferred_cells(old, change, old_mesh);
+        break;
+      case Location::fracture_cell:
+        copy_kept(old, change.fracture_cell, 1, values);
+        break;
+      case Location::wall:
+        copy_kept(old, change.fracture_cell, 2, values);
+        break;
+      case Location::fracture_point:
+        copy_kept(old, change.fracture_point, 1, values);
+        break;
+      default:
+        throw std::logic_error("field " + field->name() + " cannot be carried to another mesh");
+    }
+    field->set_both(std::move(values));
+  }
+}
+
+MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const StepTime& data, IterationLog log) {
+  const GrowStep& step = *before.growing()[grow_step];
+  GrownMesh grown = extend_fractures(before.mesh(), step.extensions(), step.cavity());
+  partition(grown.mesh, parallel::size());
+  for (std::size_t i = 0; i < grown.mesh.fracture_cells.size(); ++i) {
+    const int origin = grown.change.fracture_cell[i];
+    grown.mesh.fracture_cells[i].grown = origin == none || before.mesh().fracture_cells[origin].grown;
+  }
+  MeshChangeResult result{std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), {}};
+  Model& model = *result.model;
+  transfer_fields(before.fields(), grown.change, before.mesh(), model.fields());
+  for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);
+  for (Part* part : model.parts()) part->begin_step(data);
+  result.settling = model.growing()[grow_step]->settle(data);
+  for (Part* part : model.parts()) part->settled(grown.change);
+  model.accept();
+  return result;
+}
+
+}  // namespace sprekk

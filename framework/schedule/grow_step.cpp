@@ -1,0 +1,81 @@
+#include "framework/schedule/grow_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sprekk {
+
+Spec GrowOptions::spec() {
+  Spec spec("grow",
+            "Lets fractures grow (sec. 3.2, 4.4.2, 4.5). After growth the state is settled on the new mesh, and small "
+            "steps follow until the change at the tips has faded.");
+  spec.text("grow", component, {.doc = "The component with growing fractures.", .required = true});
+  spec.texts("settle", settle,
+             {.doc = "The components whose unknowns are put into equilibrium on the new mesh, everything else held: "
+                     "rock and contact.",
+              .required = true});
+  spec.choice("update", update,
+              {{"after_step", "the step is accepted, and the mesh grows between it and the next"},
+               {"repeat_step", "the step is repeated on the mesh that has grown, until nothing grows any more"}},
+              {.doc = "When the mesh takes over what has grown."});
+  spec.integer("passes", passes,
+               {.range = between(1, 1000), .doc = "Of repeat_step: how often one step is repeated at most."});
+  spec.quantity("cut", cut,
+                {.range = {.low = 0, .high = 1, .low_allowed = false},
+                 .doc = "Steps after a growth event are this part of the standard one.",
+                 .source = "epsilon of sec. 4.5"});
+  spec.quantity("settled", settled,
+                {.range = positive(),
+                 .doc = "The standard step returns when the pressure at the tips changes by less than this part."});
+  spec.quantity("overshoot", overshoot,
+                {.range = positive(),
+                 .doc = "A step is repeated with a smaller one when the load of a tip passes that of growth by more "
+                        "than this part."});
+  return spec;
+}
+
+namespace {
+
+Growing* find_growing(const GrowOptions& options, const ScheduleContext& context) {
+  const auto found = context.named.find(options.component);
+  auto* growing = found == context.named.end() ? nullptr : dynamic_cast<Growing*>(found->second);
+  if (!growing)
+    throw InputError(options.origin, "component '" + options.component + "' does not grow",
+                     std::string("a 'grow' step needs a component that ") + Growing::promise,
+                     "name a component of type fine_fracture/…");
+  return growing;
+}
+
+SolveOptions settle_options(const GrowOptions& options) {
+  SolveOptions solve;
+  solve.components = options.settle;
+  solve.newton = options.newton;
+  solve.linear = options.linear;
+  return solve;
+}
+
+}  // namespace
+
+GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
+    : options_(options),
+      growing_(find_growing(options, context)),
+      settle_(settle_options(options), context),
+      smallest_step_(options.cut * context.standard_step) {}
+
+StepStatus GrowStep::run(const StepTime& step) {
+  extensions_.clear();
+  load_ = growing_->examine(step);
+  const double most = 1 + options_.overshoot;
+  if (load_.now > most && step.dt > smallest_step_ * (1 + 1e-9)) {
+    StepStatus status{false, fmt::format("a tip is {:.3g} times past the load of growth", load_.now), 0};
+    const double rise = load_.now - load_.accepted;
+    const double part = rise > 0 ? (1 + 0.5 * options_.overshoot - load_.accepted) / rise : 0.1;
+    status.retry_dt = std::max(smallest_step_, step.dt * std::clamp(part, 0.01, 0.9));
+    return status;
+  }
+  if (load_.now >= 1) extensions_ = growing_->grow(step);
+  return {true, "", 0};
+}
+
+}  // namespace sprekk

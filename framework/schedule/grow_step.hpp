@@ -1,0 +1,53 @@
+// grow: lets fractures grow after the steps before it, and settles the state on the mesh that has grown with them.
+#pragma once
+
+#include "framework/schedule/growing.hpp"
+#include "framework/schedule/solve_step.hpp"
+
+namespace sprekk {
+
+struct GrowOptions {
+  std::string component;
+  std::vector<std::string> settle;
+  std::string update = "after_step";
+  int passes = 20;          ///< of repeat_step
+  double cut = 1e-2;        ///< the part of the standard step that follows a growth event
+  double settled = 1e-2;    ///< relative change over a step from which on the standard step returns
+  double overshoot = 0.02;  ///< by how much a step may pass the load of growth before it is repeated with a smaller one
+  Origin origin;
+  NewtonOptions newton;
+  LinearOptions linear;
+  Spec spec();
+};
+
+/// Asks the component for its tips' load. A step at whose end the load is past 1 + overshoot is refused, with the size
+/// that would just have reached it, so that growth starts when it is due; but none is cut below `cut` of the standard
+/// one. Then the tips grow, and the mesh is to take over what extensions() says: Model does so between two attempts.
+class GrowStep : public ScheduleStep {
+ public:
+  /// Throws InputError when the component has nothing that grows.
+  GrowStep(const GrowOptions& options, const ScheduleContext& context);
+  StepStatus run(const StepTime& step) override;
+  std::vector<const Field*> unknowns() const override { return {}; }
+  std::string describe() const override { return "grow " + options_.component; }
+  void add_counts(LinearCounts& counts) const override { settle_.add_counts(counts); }
+
+  const GrowOptions& options() const { return options_; }
+  bool repeats_step() const { return options_.update == "repeat_step"; }
+  const std::vector<PathExtension>& extensions() const { return extensions_; }
+  CavityOptions cavity() const { return growing_->cavity(); }
+  /// Whether a growth event still shows at the tips.
+  bool is_unsettled() const { return load_.unsettled > options_.settled; }
+  /// Solves for the components of `settle` at fixed values of everything else, with data as in the given step.
+  StepStatus settle(const StepTime& step) { return settle_.run(step); }
+
+ private:
+  GrowOptions options_;
+  Growing* growing_;
+  SolveStep settle_;
+  double smallest_step_;  ///< s; no step is refused below it
+  Growing::Load load_;
+  std::vector<PathExtension> extensions_;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,31 @@
+// What a `grow` step asks of the component that has growing fractures.
+#pragma once
+
+#include <vector>
+
+#include "framework/assembly/step_time.hpp"
+#include "framework/mesh/extend_fractures.hpp"
+
+namespace sprekk {
+
+/// "I have fractures that can grow."
+class Growing {
+ public:
+  static constexpr const char* promise = "has fractures that can grow";
+  virtual ~Growing() = default;
+
+  /// How near the tips are to growth, from the current values of the fields.
+  struct Load {
+    double now = 0;        ///< the largest of all tips; a tip grows from 1 on
+    double accepted = 0;   ///< the same at the start of the step
+    double unsettled = 0;  ///< largest relative change over the step of what a growth event disturbs at the tips
+  };
+  virtual Load examine(const StepTime& step) = 0;
+  /// Lets the tips grow until they arrest. Returns what the mesh is to take over; what is too short to be taken over
+  /// is kept and counts from the next step on, if this one is accepted.
+  virtual std::vector<PathExtension> grow(const StepTime& step) = 0;
+  /// How the mesh changes around a path that it takes over.
+  virtual CavityOptions cavity() const = 0;
+};
+
+}  // namespace sprekk
