@@ -30,8 +30,8 @@ Spec GrowOptions::spec() {
                  .doc = "The standard step returns when the pressure at the tips changes by less than this part."});
   spec.quantity("overshoot", overshoot,
                 {.range = positive(),
-                 .doc = "A step is repeated with a smaller one when the load of a tip passes that of growth by more "
-                        "than this part."});
+                 .doc = "A step is repeated with a smaller one when the load of a tip that has not grown yet passes "
+                        "that of growth by more than this part."});
   return spec;
 }
 
@@ -67,14 +67,21 @@ StepStatus GrowStep::run(const StepTime& step) {
   extensions_.clear();
   load_ = growing_->examine(step);
   const double most = 1 + options_.overshoot;
-  if (load_.now > most && step.dt > smallest_step_ * (1 + 1e-9)) {
-    StepStatus status{false, fmt::format("a tip is {:.3g} times past the load of growth", load_.now), 0};
-    const double rise = load_.now - load_.accepted;
+  if (load_.onset > most && step.dt > smallest_step_ * (1 + 1e-9)) {
+    StepStatus status{false, fmt::format("a tip is at {:.3g} times the load of growth", load_.onset), 0};
+    const double rise = load_.onset - load_.accepted;
     const double part = rise > 0 ? (1 + 0.5 * options_.overshoot - load_.accepted) / rise : 0.1;
     status.retry_dt = std::max(smallest_step_, step.dt * std::clamp(part, 0.01, 0.9));
     return status;
   }
-  if (load_.now >= 1) extensions_ = growing_->grow(step);
+  if (load_.now <= 1) return {true, "", 0};
+  Growing::Growth growth = growing_->grow(step);
+  if (!growth.arrested && step.dt > smallest_step_ * (1 + 1e-9)) {
+    StepStatus status{false, "tips grow further than the mesh can follow in one step", 0};
+    status.retry_dt = std::max(smallest_step_, 0.4 * step.dt);
+    return status;
+  }
+  extensions_ = std::move(growth.extensions);
   return {true, "", 0};
 }
 

@@ -20,9 +20,10 @@ struct GrowOptions {
   Spec spec();
 };
 
-/// Asks the component for its tips' load. A step at whose end the load is past 1 + overshoot is refused, with the size
-/// that would just have reached it, so that growth starts when it is due; but none is cut below `cut` of the standard
-/// one. Then the tips grow, and the mesh is to take over what extensions() says: Model does so between two attempts.
+/// Asks the component for its tips' load. A step at whose end the load of a tip that has not grown yet is past
+/// 1 + overshoot is refused, with the size that would just have reached it, so that growth starts when it is due; so is
+/// one in which tips grow further than the mesh can follow. But none is cut below `cut` of the standard step. What the
+/// mesh is to take over is in extensions(): the run does so between two attempts.
 class GrowStep : public ScheduleStep {
  public:
   /// Throws InputError when the component has nothing that grows.

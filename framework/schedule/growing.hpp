@@ -17,13 +17,18 @@ class Growing {
   /// How near the tips are to growth, from the current values of the fields.
   struct Load {
     double now = 0;        ///< the largest of all tips; a tip grows from 1 on
+    double onset = 0;      ///< the largest of those that have not grown yet
     double accepted = 0;   ///< the same at the start of the step
     double unsettled = 0;  ///< largest relative change over the step of what a growth event disturbs at the tips
   };
   virtual Load examine(const StepTime& step) = 0;
-  /// Lets the tips grow until they arrest. Returns what the mesh is to take over; what is too short to be taken over
-  /// is kept and counts from the next step on, if this one is accepted.
-  virtual std::vector<PathExtension> grow(const StepTime& step) = 0;
+  struct Growth {
+    std::vector<PathExtension> extensions;  ///< what the mesh is to take over
+    bool arrested = true;                   ///< whether all tips came to rest before they had to be taken over
+  };
+  /// Lets the tips grow until they arrest, or until the mesh must take over what they have grown. What is too short
+  /// for that is kept and counts from the next step on, if this one is accepted.
+  virtual Growth grow(const StepTime& step) = 0;
   /// How the mesh changes around a path that it takes over.
   virtual CavityOptions cavity() const = 0;
 };

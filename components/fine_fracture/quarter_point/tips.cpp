@@ -225,7 +225,11 @@ Growing::Load Tips::examine(const StepTime&) {
       tip.now.sifs = evaluate(i, paths);
       tip.answered_for = surroundings_->version();
     }
-    loads.now = std::max(loads.now, load(tip.now.sifs));
+    // At the end of an increment the load is 1 to within its tolerance: that is no reason to grow again.
+    const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
+    loads.now = std::max(loads.now, load(tip.now.sifs) / (1 + rest));
+    if (tip.now.grown > 0 || !tip.now.path.added.empty()) continue;
+    loads.onset = std::max(loads.onset, load(tip.now.sifs));
     loads.accepted = std::max(loads.accepted, load(tip.accepted.sifs));
   }
   return loads;
@@ -237,7 +241,11 @@ double Tips::free_way(const Tip& tip, const TipPath& path, const Point& to) cons
   return free.length - tip.coarse_size;
 }
 
-std::vector<PathExtension> Tips::grow(const StepTime&) {
+double Tips::longest_path(const Tip& tip) const {
+  return std::max(surroundings_->propagation_threshold() * tip.coarse_size, options_.growth.increment);
+}
+
+Growing::Growth Tips::grow(const StepTime&) {
   std::vector<GrowingTip> growing;
   for (const Tip& tip : tips_) {
     const LameParameters lame = surroundings_->stiffness(position(tip, {}));
@@ -245,8 +253,9 @@ std::vector<PathExtension> Tips::grow(const StepTime&) {
                        Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path});
   }
   GrowthOptions growth = options_.growth;
-  // A path stays well inside of its square.
-  growth.longest = std::min(growth.longest.value_or(options_.size), 0.2 * options_.size);
+  // Beyond what the coarse level wants to know of, its answer counts: the fluid's pressure falls as tips go on.
+  if (!growth.longest)
+    for (const Tip& tip : tips_) growth.longest = std::max(growth.longest.value_or(0), longest_path(tip));
   const std::vector<TipOutcome> outcomes = grow_tips(
       growing, growth,
       [this](int tip, const std::vector<TipPath>& paths) {
@@ -254,13 +263,15 @@ std::vector<PathExtension> Tips::grow(const StepTime&) {
         return sifs;
       },
       [this](int tip, const TipPath& path, const Point& to) { return free_way(tips_[tip], path, to); });
-  std::vector<PathExtension> extensions;
+  Growth result;
+  std::vector<PathExtension>& extensions = result.extensions;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
     const TipOutcome& outcome = outcomes[i];
     increments_ += outcome.increments;
     notes_.insert(notes_.end(), outcome.notes.begin(), outcome.notes.end());
     if (outcome.increments == 0) continue;
+    result.arrested = result.arrested && outcome.arrested;
     tip.now.path = outcome.path;
     tip.now.sifs = outcome.end;
     const double length = length_of(position(tip, {}), tip.now.path);
@@ -275,7 +286,7 @@ std::vector<PathExtension> Tips::grow(const StepTime&) {
     tip.now.grown += handed_over;
     tip.now.path.added.clear();
   }
-  return extensions;
+  return result;
 }
 
 /// The path with no edges shorter than half of the coarse mesh size, except for a single one (sec. 4.4.2).

@@ -47,7 +47,7 @@ class Tips : public Component, public FractureTips, public Growing {
   void accept_surroundings(TipSurroundings& surroundings) override { surroundings_ = &surroundings; }
 
   Load examine(const StepTime& step) override;
-  std::vector<PathExtension> grow(const StepTime& step) override;
+  Growth grow(const StepTime& step) override;
   CavityOptions cavity() const override;
 
  private:
@@ -76,6 +76,8 @@ class Tips : public Component, public FractureTips, public Growing {
   Sifs solve(Tip& tip);
   bool is_safe(const Tip& tip) const;
   double load(const Sifs& sifs) const;
+  /// How far a tip may be from what the coarse level knows of, m.
+  double longest_path(const Tip& tip) const;
   double free_way(const Tip& tip, const TipPath& path, const Point& to) const;
   std::vector<Point> coarse_path(const Tip& tip) const;
 
