@@ -63,24 +63,26 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
       settle_(settle_options(options), context),
       smallest_step_(options.cut * context.standard_step) {}
 
+StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) const {
+  StepStatus status{false, reason, 0};
+  const double rise = now - before;
+  const double part = rise > 0 ? (1 + 0.5 * options_.overshoot - before) / rise : 0.5;
+  status.retry_dt = std::max(smallest_step_, step.dt * std::clamp(part, 0.01, 0.9));
+  return status;
+}
+
 StepStatus GrowStep::run(const StepTime& step) {
   extensions_.clear();
   load_ = growing_->examine(step);
   const double most = 1 + options_.overshoot;
-  if (load_.onset > most && step.dt > smallest_step_ * (1 + 1e-9)) {
-    StepStatus status{false, fmt::format("a tip is at {:.3g} times the load of growth", load_.onset), 0};
-    const double rise = load_.onset - load_.accepted;
-    const double part = rise > 0 ? (1 + 0.5 * options_.overshoot - load_.accepted) / rise : 0.1;
-    status.retry_dt = std::max(smallest_step_, step.dt * std::clamp(part, 0.01, 0.9));
-    return status;
-  }
+  if (load_.onset > most && may_shrink(step))
+    return refused(fmt::format("a tip is at {:.3g} times the load of growth", load_.onset), step, load_.onset_accepted,
+                   load_.onset);
   if (load_.now <= 1) return {true, "", 0};
   Growing::Growth growth = growing_->grow(step);
-  if (!growth.arrested && step.dt > smallest_step_ * (1 + 1e-9)) {
-    StepStatus status{false, "tips grow further than the mesh can follow in one step", 0};
-    status.retry_dt = std::max(smallest_step_, 0.4 * step.dt);
-    return status;
-  }
+  // Growth that does not arrest begins when the load is reached: there is nothing to find by smaller steps then.
+  if (!growth.arrested && load_.now > most && may_shrink(step))
+    return refused("tips grow further than the mesh can follow in one step", step, load_.accepted, load_.now);
   extensions_ = std::move(growth.extensions);
   return {true, "", 0};
 }

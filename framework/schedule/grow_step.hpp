@@ -43,6 +43,10 @@ class GrowStep : public ScheduleStep {
   StepStatus settle(const StepTime& step) { return settle_.run(step); }
 
  private:
+  /// Refuses a step, for one at whose end the load is just past that of growth.
+  StepStatus refused(const std::string& reason, const StepTime& step, double before, double now) const;
+  bool may_shrink(const StepTime& step) const { return step.dt > smallest_step_ * (1 + 1e-9); }
+
   GrowOptions options_;
   Growing* growing_;
   SolveStep settle_;

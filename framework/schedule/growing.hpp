@@ -16,10 +16,11 @@ class Growing {
 
   /// How near the tips are to growth, from the current values of the fields.
   struct Load {
-    double now = 0;        ///< the largest of all tips; a tip grows from 1 on
-    double onset = 0;      ///< the largest of those that have not grown yet
-    double accepted = 0;   ///< the same at the start of the step
-    double unsettled = 0;  ///< largest relative change over the step of what a growth event disturbs at the tips
+    double now = 0;             ///< the largest of all tips; a tip grows from 1 on
+    double accepted = 0;        ///< the same at the start of the step
+    double onset = 0;           ///< the largest of those tips that have not grown yet
+    double onset_accepted = 0;  ///< the same at the start of the step
+    double unsettled = 0;       ///< largest relative change over the step of what a growth event disturbs at the tips
   };
   virtual Load examine(const StepTime& step) = 0;
   struct Growth {

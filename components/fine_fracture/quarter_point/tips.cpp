@@ -228,9 +228,10 @@ Growing::Load Tips::examine(const StepTime&) {
     // At the end of an increment the load is 1 to within its tolerance: that is no reason to grow again.
     const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
     loads.now = std::max(loads.now, load(tip.now.sifs) / (1 + rest));
+    loads.accepted = std::max(loads.accepted, load(tip.accepted.sifs) / (1 + rest));
     if (tip.now.grown > 0 || !tip.now.path.added.empty()) continue;
     loads.onset = std::max(loads.onset, load(tip.now.sifs));
-    loads.accepted = std::max(loads.accepted, load(tip.accepted.sifs));
+    loads.onset_accepted = std::max(loads.onset_accepted, load(tip.accepted.sifs));
   }
   return loads;
 }
@@ -275,7 +276,8 @@ Growing::Growth Tips::grow(const StepTime&) {
     tip.now.path = outcome.path;
     tip.now.sifs = outcome.end;
     const double length = length_of(position(tip, {}), tip.now.path);
-    if (length < surroundings_->propagation_threshold() * tip.coarse_size) continue;
+    // Whole increments may fall short of the threshold by what their last one was shortened.
+    if (length < 0.95 * surroundings_->propagation_threshold() * tip.coarse_size) continue;
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip)});
     double handed_over = 0;
     Point last = position(tip, {});
