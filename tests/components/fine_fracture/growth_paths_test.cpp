@@ -1,10 +1,13 @@
 // Directions of growing tips: where explicit ones zigzag and implicit ones do not, large kinks, mirrored problems.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
-#include "curved_crack.hpp"
+#include "components/fine_fracture/growth/grow_tips.hpp"
+#include "tests/components/fine_fracture/curved_crack.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
