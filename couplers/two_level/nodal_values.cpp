@@ -1,6 +1,6 @@
 #include "couplers/two_level/nodal_values.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Eigenvalues>
 
 namespace sprekk::couplers {
 
@@ -20,21 +20,36 @@ NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from
     if (from == From::cells_and_faces)
       for (const int face : mesh.node_faces[node])
         if (mesh.face_cells[face][1] == none) sources.emplace_back(face, mesh.face_center[face]);
-    // Minimizes the sum of (a + b·(x_i − x) − v_i)^2 / |x_i − x|^2; a is the value at the node.
+    // Minimizes the sum of w_i (a + b·(x_i − x) − v_i)^2 with w_i = 1/|x_i − x|^2; a is the value at the node. At the
+    // optimum a = v̄ − b·(x̄ − x) with the weighted means, and b follows from the differences to them alone.
     const int count = static_cast<int>(sources.size());
-    double scale = 0;
-    for (const auto& [entity, at] : sources) scale = std::max(scale, (at - x).norm());
-    Eigen::MatrixXd basis(count, 3);
     Vector weight(count);
+    Point mean = Point::Zero();
     for (int i = 0; i < count; ++i) {
-      const Point offset = (sources[i].second - x) / scale;
-      weight[i] = 1 / offset.norm();
-      basis.row(i) = weight[i] * Eigen::RowVector3d(1, offset[0], offset[1]);
+      const Point offset = sources[i].second - x;
+      weight[i] = 1 / offset.squaredNorm();
+      mean += weight[i] * offset;
     }
-    const Eigen::MatrixXd inverse = basis.completeOrthogonalDecomposition().pseudoInverse();
+    mean /= weight.sum();
+    weight /= weight.sum();
+    Tensor moment = Tensor::Zero();
+    for (int i = 0; i < count; ++i) {
+      const Point centred = sources[i].second - x - mean;
+      moment += weight[i] * centred * centred.transpose();
+    }
+    // One or two sources (in corners) say nothing about some direction: there b is zero, so that constants stay exact.
+    const Eigen::SelfAdjointEigenSolver<Tensor> directions(moment);
+    Tensor inverse = Tensor::Zero();
+    for (int k = 0; k < dimension; ++k) {
+      const Point along = directions.eigenvectors().col(k);
+      if (directions.eigenvalues()[k] > 1e-12 * mean.squaredNorm() &&
+          directions.eigenvalues()[k] > 1e-12 * moment.trace())
+        inverse += along * along.transpose() / directions.eigenvalues()[k];
+    }
+    const Point slope = inverse * mean;
     for (int i = 0; i < count; ++i)
       (i < static_cast<int>(cell_count) ? cells : faces)
-          .emplace_back(node, sources[i].first, inverse(0, i) * weight[i]);
+          .emplace_back(node, sources[i].first, weight[i] * (1 - slope.dot(sources[i].second - x - mean)));
   }
   from_cells_.resize(mesh.node_count(), mesh.cell_count());
   from_cells_.setFromTriplets(cells.begin(), cells.end());

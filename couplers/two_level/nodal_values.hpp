@@ -12,7 +12,7 @@ class NodalValues {
   enum class From {
     cells_and_faces,  ///< the linear function that fits the cells and the faces with one cell around the node (least
                       ///< squares, weights 1/distance^2): exact for linear fields
-    cells,            ///< the same of the cells alone
+    cells,            ///< the same of the cells alone; with less than three around a node, the least gradient that fits
     mean_of_cells     ///< the area-weighted mean of the cells (Eq. 17): off by the strain times the distance at a wall
   };
   /// Keeps a pointer to the mesh.
