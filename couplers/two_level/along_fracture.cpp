@@ -41,7 +41,7 @@ Point AlongFracture::at(double s, const Vector& values) const {
 Point AlongFracture::vanishing_at_tips(double s, const Vector& values) const {
   const Cell &first = cells_.front(), &last = cells_.back();
   if (tip_at_first_ && s < 0.5 * (first.begin + first.end))
-    return s / (0.5 * (first.begin + first.end)) * at(s, values);
+    return std::max(0.0, s / (0.5 * (first.begin + first.end))) * at(s, values);
   const double to_end = last.end - s, half = 0.5 * (last.end - last.begin);
   if (tip_at_last_ && to_end < half) return std::max(0.0, to_end / half) * at(s, values);
   return at(s, values);

@@ -13,7 +13,7 @@ class AlongFracture {
 
   /// The (normal, tangential) values of all fracture cells of the mesh, at s (m), in global components.
   Point at(double s, const Vector& values) const;
-  /// The same, for values that vanish at the ends that are tips: linear to 0 there.
+  /// The same, for values that vanish at the ends that are tips: linear to 0 there, and 0 beyond.
   Point vanishing_at_tips(double s, const Vector& values) const;
 
  private:
