@@ -1,0 +1,188 @@
+// Values that go over to a mesh that has grown.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "framework/mesh/extend_fractures.hpp"
+#include "framework/mesh/generate_mesh.hpp"
+#include "framework/scene/change_mesh.hpp"
+#include "tests/framework/mesh/growth_checks.hpp"
+
+namespace sprekk::test {
+namespace {
+
+constexpr double size = 0.02;
+
+/// Two fractures; the second one grows at its first point, so that its cells and those of walls are renumbered.
+struct Case {
+  Mesh mesh;
+  GrownMesh grown;
+};
+Case grown_at_first_point() {
+  Geometry geometry = box(0, 1, 0, 1);
+  geometry.fractures = {fracture("still", {{0.2, 0.2}, {0.4, 0.25}}), fracture("main", {{0.5, 0.5}, {0.7, 0.6}})};
+  Mesh mesh = generate_mesh(geometry, {.size = 0.1, .fracture_size = size});
+  GrownMesh grown = extend_fractures(mesh, {straight(mesh, 1, false, 3 * size, 0.4)},
+                                     {.radius = 5 * size, .size = size, .growth = 0.3});
+  return {std::move(mesh), std::move(grown)};
+}
+
+FieldSpec spec(Location location, int components = 1, bool is_amount = false) {
+  FieldSpec spec;
+  spec.owner = "part";
+  spec.name = "value";
+  spec.location = location;
+  spec.components = components;
+  spec.is_amount = is_amount;
+  return spec;
+}
+
+/// The field after the transfer; before it, the new one has `start` everywhere.
+struct Transferred {
+  Vector accepted, now;
+};
+Transferred transfer(const Case& c, const FieldSpec& spec, const Vector& values, double start = -5) {
+  FieldStore before, after;
+  before.add(c.mesh, spec).set_both(values);
+  before.at("part.value").set(Vector::Constant(values.size(), 1e30));  // only what has been accepted goes over
+  Field& field = after.add(c.grown.mesh, spec);
+  field.set_both(Vector::Constant(field.size(), start));
+  transfer_fields(before, c.grown.change, c.mesh, after);
+  return {field.accepted(), field.now()};
+}
+
+/// Different in every digit.
+Vector varied(int count) {
+  Vector values(count);
+  for (int i = 0; i < count; ++i) values[i] = 2 + std::sin(1 + 1.7 * i);
+  return values;
+}
+
+TEST(TransferFields, ConstantsStay) {
+  const Case c = grown_at_first_point();
+  Vector values(2 * c.mesh.cell_count());
+  for (int i = 0; i < c.mesh.cell_count(); ++i) values.segment<2>(2 * i) = Point(3e6, -0.7);
+  const Transferred result = transfer(c, spec(Location::cell, 2), values);
+  ASSERT_EQ(result.accepted.size(), 2 * c.grown.mesh.cell_count());
+  for (int i = 0; i < c.grown.mesh.cell_count(); ++i) {
+    EXPECT_NEAR(result.accepted[2 * i], 3e6, 1e-14 * 3e6);
+    EXPECT_NEAR(result.accepted[2 * i + 1], -0.7, 1e-14);
+  }
+  EXPECT_EQ(result.now, result.accepted);
+}
+
+TEST(TransferFields, KeptCellsStayToTheBit) {
+  const Case c = grown_at_first_point();
+  ASSERT_FALSE(c.grown.change.new_cells.empty());
+  for (const bool is_amount : {false, true}) {
+    const Vector values = varied(2 * c.mesh.cell_count());
+    const Vector result = transfer(c, spec(Location::cell, 2, is_amount), values).accepted;
+    for (int i = 0; i < c.grown.mesh.cell_count(); ++i)
+      if (const int from = c.grown.change.cell[i]; from != none) {
+        EXPECT_EQ(Point(result.segment<2>(2 * i)), Point(values.segment<2>(2 * from)));
+      }
+  }
+}
+
+TEST(TransferFields, TotalsStay) {
+  const Case c = grown_at_first_point();
+  const Vector values = varied(2 * c.mesh.cell_count());
+  // Of an amount, per component; of a density, times the areas.
+  const Vector amounts = transfer(c, spec(Location::cell, 2, true), values).accepted;
+  const Vector densities = transfer(c, spec(Location::cell, 2), values).accepted;
+  for (const int component : {0, 1}) {
+    double amount_before = 0, amount_after = 0, density_before = 0, density_after = 0;
+    for (int i = 0; i < c.mesh.cell_count(); ++i) {
+      amount_before += values[2 * i + component];
+      density_before += c.mesh.cell_area[i] * values[2 * i + component];
+    }
+    for (int i = 0; i < c.grown.mesh.cell_count(); ++i) {
+      amount_after += amounts[2 * i + component];
+      density_after += c.grown.mesh.cell_area[i] * densities[2 * i + component];
+    }
+    EXPECT_NEAR(amount_after, amount_before, 1e-13 * amount_before);
+    EXPECT_NEAR(density_after, density_before, 1e-13 * density_before);
+  }
+}
+
+TEST(TransferFields, NewCellsTakeTheirShare) {
+  // An amount in proportion to the area is one of a constant density, whatever the overlaps are; a mean is bounded by
+  // what is averaged.
+  const Case c = grown_at_first_point();
+  Vector areas(c.mesh.cell_count());
+  for (int i = 0; i < areas.size(); ++i) areas[i] = c.mesh.cell_area[i];
+  const Vector amounts = transfer(c, spec(Location::cell, 1, true), areas).accepted;
+  for (int i = 0; i < c.grown.mesh.cell_count(); ++i)
+    EXPECT_NEAR(amounts[i], c.grown.mesh.cell_area[i], 1e-12 * c.grown.mesh.cell_area[i]);
+  const Vector values = varied(c.mesh.cell_count());
+  const Vector means = transfer(c, spec(Location::cell), values).accepted;
+  for (const int i : c.grown.change.new_cells) {
+    double low = 1e30, high = -1e30;
+    for (SparseMatrix::InnerIterator entry(c.grown.change.overlap, i); entry; ++entry) {
+      low = std::min(low, values[entry.col()]);
+      high = std::max(high, values[entry.col()]);
+    }
+    EXPECT_GE(means[i], low - 1e-14);
+    EXPECT_LE(means[i], high + 1e-14);
+  }
+}
+
+/// The old fracture cell with the same middle, found by place.
+int same_place(const Mesh& old, const FractureCell& cell) {
+  for (int i = 0; i < old.fracture_cell_count(); ++i)
+    if ((old.fracture_cells[i].center - cell.center).norm() < 1e-12) return i;
+  return none;
+}
+
+TEST(TransferFields, FracturesAndWallsFollowAGrowthAtTheFirstPoint) {
+  const Case c = grown_at_first_point();
+  const Vector cells = varied(2 * c.mesh.fracture_cell_count()), walls = varied(2 * c.mesh.wall_count());
+  const Vector new_cells = transfer(c, spec(Location::fracture_cell, 2), cells).accepted;
+  const Vector new_walls = transfer(c, spec(Location::wall, 2), walls).accepted;
+  int kept = 0, moved = 0;
+  for (int i = 0; i < c.grown.mesh.fracture_cell_count(); ++i) {
+    const FractureCell& cell = c.grown.mesh.fracture_cells[i];
+    const int from = same_place(c.mesh, cell);
+    if (from == none) {
+      EXPECT_EQ(Point(new_cells.segment<2>(2 * i)), Point(-5, -5));
+      EXPECT_EQ(Eigen::Vector4d(new_walls.segment<4>(4 * i)), Eigen::Vector4d::Constant(-5));
+      continue;
+    }
+    ++kept;
+    moved += from != i ? 1 : 0;
+    EXPECT_EQ(Point(new_cells.segment<2>(2 * i)), Point(cells.segment<2>(2 * from)));
+    for (const int side : {0, 1}) {
+      // The wall on the same side: its normal is the same.
+      const Point normal = c.grown.mesh.face_normal[cell.faces[side]];
+      const int old_side = normal.dot(c.mesh.face_normal[c.mesh.fracture_cells[from].faces[0]]) > 0 ? 0 : 1;
+      EXPECT_EQ(Point(new_walls.segment<2>(2 * (2 * i + side))), Point(walls.segment<2>(2 * (2 * from + old_side))));
+    }
+  }
+  EXPECT_EQ(kept, c.mesh.fracture_cell_count());
+  EXPECT_EQ(c.grown.mesh.fracture_cell_count() - kept, 3);
+  EXPECT_EQ(moved, c.mesh.fractures[1].cell_count);
+}
+
+TEST(TransferFields, FracturePointsFollow) {
+  const Case c = grown_at_first_point();
+  const Vector values = varied(static_cast<int>(c.mesh.fracture_points.size()));
+  const Vector result = transfer(c, spec(Location::fracture_point), values).accepted;
+  int fresh = 0;
+  for (std::size_t i = 0; i < c.grown.mesh.fracture_points.size(); ++i) {
+    int from = none;
+    for (std::size_t k = 0; k < c.mesh.fracture_points.size(); ++k)
+      if (c.mesh.fracture_points[k].position == c.grown.mesh.fracture_points[i].position) from = static_cast<int>(k);
+    fresh += from == none ? 1 : 0;
+    EXPECT_EQ(result[static_cast<int>(i)], from == none ? -5 : values[from]);
+  }
+  EXPECT_EQ(fresh, 3);
+}
+
+TEST(TransferFields, RefusesFieldsOnNodesAndFaces) {
+  const Case c = grown_at_first_point();
+  EXPECT_THROW(transfer(c, spec(Location::node), Vector::Zero(c.mesh.node_count())), std::logic_error);
+  EXPECT_THROW(transfer(c, spec(Location::face), Vector::Zero(c.mesh.face_count())), std::logic_error);
+}
+
+}  // namespace
+}  // namespace sprekk::test
