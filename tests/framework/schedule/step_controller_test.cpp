@@ -51,5 +51,92 @@ TEST(StepController, ContinuesWhereItWas) {
   EXPECT_EQ(ends(part), ends(whole));
 }
 
+TEST(StepController, RepeatsAStepWithTheSizeThatIsAskedFor) {
+  TimeOptions options = hours(10);
+  options.smallest = 0.1;
+  StepController controller(options, {});
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.3));
+  EXPECT_EQ(controller.next().dt, 0.3);
+  // Never larger than what was refused, never below the smallest.
+  EXPECT_TRUE(controller.rejected(controller.next(), 5));
+  EXPECT_EQ(controller.next().dt, 0.3);
+  EXPECT_TRUE(controller.rejected(controller.next(), 1e-9));
+  EXPECT_EQ(controller.next().dt, 0.1);
+  EXPECT_FALSE(controller.rejected(controller.next(), 0.05));
+  // Without an opinion: `shrink`.
+  StepController other(options, {});
+  EXPECT_TRUE(other.rejected(other.next(), 0));
+  EXPECT_EQ(other.next().dt, options.shrink);
+}
+
+TEST(StepController, GrowsBackAfterARetry) {
+  StepController controller(hours(10), {});
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.5));
+  std::vector<double> sizes;
+  for (int i = 0; i < 4; ++i) {
+    sizes.push_back(controller.next().dt);
+    controller.accepted(controller.next(), 1);
+  }
+  EXPECT_EQ(sizes, (std::vector<double>{0.5, 0.75, 1, 1}));
+}
+
+TEST(StepController, HoldsASizeUntilItIsReleased) {
+  for (const bool adaptive : {false, true}) {
+    TimeOptions options = hours(10);
+    options.adaptive = adaptive;
+    options.largest = 4;
+    StepController controller(options, {0.7});
+    controller.hold(0.25);
+    std::vector<double> ends;
+    for (int i = 0; i < 3; ++i) {
+      const StepTime step = controller.next();
+      ends.push_back(step.end);
+      controller.accepted(step, 1);
+    }
+    // Targets are met all the same; an adaptive run halves the last two steps before one.
+    EXPECT_NEAR(ends[0], 0.25, 1e-15);
+    EXPECT_NEAR(ends[1], adaptive ? 0.475 : 0.5, 1e-15);
+    EXPECT_EQ(ends[2], 0.7);
+    EXPECT_EQ(controller.held(), 0.25);
+    EXPECT_EQ(controller.wanted(), 0.25);
+    controller.release();
+    EXPECT_EQ(controller.held(), 0);
+    EXPECT_EQ(controller.next().dt, 1);
+  }
+}
+
+TEST(StepController, ReleasingWhatIsNotHeldChangesNothing) {
+  StepController controller(hours(10), {});
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.5));
+  controller.release();
+  EXPECT_EQ(controller.next().dt, 0.5);
+}
+
+TEST(StepController, ARetryWhileHeldGrowsBackToWhatIsHeld) {
+  StepController controller(hours(10), {});
+  controller.hold(0.4);
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.2));
+  std::vector<double> sizes;
+  for (int i = 0; i < 4; ++i) {
+    sizes.push_back(controller.next().dt);
+    controller.accepted(controller.next(), 1);
+  }
+  EXPECT_EQ(sizes[0], 0.2);
+  EXPECT_NEAR(sizes[1], 0.3, 1e-15);
+  EXPECT_EQ(sizes[2], 0.4);
+  EXPECT_EQ(sizes[3], 0.4);
+}
+
+TEST(StepController, ContinuesWhatWasHeld) {
+  StepController whole(hours(3), {}), part(hours(3), {});
+  whole.hold(0.25);
+  whole.accepted(whole.next(), 1);
+  part.restore(whole.time(), whole.steps(), whole.wanted(), whole.held());
+  EXPECT_EQ(part.held(), 0.25);
+  EXPECT_EQ(ends(part), ends(whole));
+  part.release();
+  EXPECT_EQ(part.next().dt, 1);
+}
+
 }  // namespace
 }  // namespace sprekk

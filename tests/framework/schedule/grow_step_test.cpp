@@ -1,0 +1,228 @@
+// When growth lets a step pass, what it refuses, and what it hands on.
+#include "framework/schedule/grow_step.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "framework/mesh/generate_mesh.hpp"
+#include "framework/schedule/schedule_context.hpp"
+#include "tests/framework/config/messages.hpp"
+
+namespace sprekk {
+namespace {
+
+using testing::HasSubstr;
+
+class Still : public Part {
+ public:
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly&, const StepTime&) const override {}
+};
+
+/// Tips of which the test says what they do.
+class Tips : public Still, public Growing {
+ public:
+  Load examine(const StepTime&) override { return load; }
+  Growth grow(const StepTime&) override {
+    ++grown;
+    return growth;
+  }
+  CavityOptions cavity() const override { return {.radius = 0.3, .size = 0.1, .growth = 0.4}; }
+
+  Load load;
+  Growth growth;
+  int grown = 0;
+};
+
+Mesh two_cells() {
+  Geometry geometry;
+  geometry.box.high = Point(1, 1);
+  MeshOptions options;
+  options.kind = MeshOptions::Kind::structured;
+  options.cells = {1, 1};
+  return generate_mesh(geometry, options);
+}
+
+constexpr double standard = 100;  // s
+
+/// A schedule `text` for the components `tips` and `rock`, the latter with one unknown.
+struct Schedule {
+  explicit Schedule(const std::string& text) {
+    FieldSpec spec;
+    spec.owner = "rock";
+    spec.name = "height";
+    spec.location = Location::cell;
+    fields.add(mesh, spec);
+    ScheduleReading reading;
+    reading.component_names = {"rock", "tips"};
+    ScheduleContext context{mesh, fields, {&rock, &tips}, {}, {{"rock", &rock}, {"tips", &tips}}, standard, &growing};
+    schedule = read_schedule(parse_yaml(text, "scene.yaml"), reading)(context);
+  }
+
+  GrowStep& step() { return *growing.at(0); }
+
+  Mesh mesh = two_cells();
+  FieldStore fields;
+  Still rock;
+  Tips tips;
+  std::vector<GrowStep*> growing;
+  std::unique_ptr<ScheduleStep> schedule;
+};
+
+const char* const usual = "- {grow: tips, settle: [rock], cut: 0.01, overshoot: 0.02, settled: 0.05}";
+const PathExtension some_extension{3, true, {Point(0.1, 0.2)}};
+
+TEST(GrowStep, DoesNothingBelowTheLoadOfGrowth) {
+  Schedule run(usual);
+  run.tips.load = {.now = 1, .accepted = 0.9, .onset = 1, .onset_accepted = 0.9};
+  run.tips.growth.extensions = {some_extension};
+  const StepStatus status = run.schedule->run({0, standard, standard});
+  EXPECT_TRUE(status.converged);
+  EXPECT_EQ(status.retry_dt, 0);
+  EXPECT_EQ(run.tips.grown, 0);
+  EXPECT_TRUE(run.step().extensions().empty());
+}
+
+TEST(GrowStep, HandsOnWhatHasGrown) {
+  Schedule run(usual);
+  run.tips.load = {.now = 1.019, .accepted = 0.9, .onset = 1.019, .onset_accepted = 0.9};
+  run.tips.growth.extensions = {some_extension};
+  EXPECT_TRUE(run.schedule->run({0, standard, standard}).converged);
+  EXPECT_EQ(run.tips.grown, 1);
+  ASSERT_EQ(run.step().extensions().size(), 1u);
+  EXPECT_EQ(run.step().extensions()[0].fracture, 3);
+  EXPECT_EQ(run.step().extensions()[0].points[0], Point(0.1, 0.2));
+  EXPECT_EQ(run.step().cavity().radius, 0.3);
+  // They are those of the last run alone.
+  run.tips.load.now = run.tips.load.onset = 0.5;
+  EXPECT_TRUE(run.schedule->run({standard, standard, 2 * standard}).converged);
+  EXPECT_TRUE(run.step().extensions().empty());
+}
+
+TEST(GrowStep, RefusesAStepThatPassesTheOnset) {
+  Schedule run(usual);
+  run.tips.load = {.now = 1.5, .accepted = 0.6, .onset = 1.4, .onset_accepted = 0.8};
+  const StepStatus status = run.schedule->run({0, standard, standard});
+  EXPECT_FALSE(status.converged);
+  EXPECT_THAT(status.reason, HasSubstr("1.4 times"));
+  EXPECT_EQ(run.tips.grown, 0);
+  // Where a load that rises linearly, from 0.8 to 1.4, is half of the overshoot above 1.
+  EXPECT_NEAR(status.retry_dt, standard * (1.01 - 0.8) / (1.4 - 0.8), 1e-12 * standard);
+}
+
+TEST(GrowStep, TheRepeatedStepReachesTheLoadAndIsTaken) {
+  Schedule run(usual);
+  const double before = 0.4, rate = 0.02;  // of the load, 1/s
+  double dt = standard;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const double load = before + rate * dt;
+    run.tips.load = {.now = load, .accepted = before, .onset = load, .onset_accepted = before};
+    const StepStatus status = run.schedule->run({0, dt, dt});
+    EXPECT_EQ(status.converged, attempt == 1);
+    if (!status.converged) dt = status.retry_dt;
+  }
+  EXPECT_GT(run.tips.load.now, 1);
+  EXPECT_EQ(run.tips.grown, 1);
+}
+
+TEST(GrowStep, TipsThatHaveGrownBeforeDoNotRefuseAStepInWhichTheyArrest) {
+  Schedule run(usual);
+  run.tips.load = {.now = 1.5, .accepted = 1, .onset = 0.7, .onset_accepted = 0.5};
+  run.tips.growth.extensions = {some_extension};
+  EXPECT_TRUE(run.schedule->run({0, standard, standard}).converged);
+  EXPECT_EQ(run.step().extensions().size(), 1u);
+}
+
+TEST(GrowStep, RefusesAStepWithMoreGrowthThanTheMeshCanFollow) {
+  Schedule run(usual);
+  run.tips.load = {.now = 1.5, .accepted = 0.9, .onset = 0.7, .onset_accepted = 0.5};
+  run.tips.growth = {{some_extension}, false};
+  const StepStatus status = run.schedule->run({0, standard, standard});
+  EXPECT_FALSE(status.converged);
+  EXPECT_NEAR(status.retry_dt, standard * (1.01 - 0.9) / (1.5 - 0.9), 1e-12 * standard);
+  EXPECT_TRUE(run.step().extensions().empty());
+  // It is taken when the load has only just been reached: smaller steps would find nothing else.
+  run.tips.load.now = 1.02;
+  EXPECT_TRUE(run.schedule->run({0, standard, standard}).converged);
+  EXPECT_EQ(run.step().extensions().size(), 1u);
+}
+
+TEST(GrowStep, RefusesNoStepAtTheSmallestSize) {
+  Schedule run(usual);
+  run.tips.load = {.now = 5, .accepted = 0.9, .onset = 5, .onset_accepted = 0.9};
+  run.tips.growth = {{some_extension}, false};
+  const double smallest = 0.01 * standard;
+  for (const double dt : {smallest, 0.5 * smallest, smallest * (1 + 1e-10)}) {
+    EXPECT_TRUE(run.schedule->run({0, dt, dt}).converged);
+    EXPECT_EQ(run.step().extensions().size(), 1u);
+  }
+  // And cuts none below it: (1.01 − 0.9)/(5 − 0.9) of 2 s is less.
+  const StepStatus status = run.schedule->run({0, 2 * smallest, 2 * smallest});
+  EXPECT_FALSE(status.converged);
+  EXPECT_EQ(status.retry_dt, smallest);
+}
+
+TEST(GrowStep, ARetryIsAlwaysShorter) {
+  Schedule run(usual);
+  const double steep = 1e9, over = 1.5;
+  for (const auto& [before, now] :
+       {std::pair(0.999, steep), {1.4999, over}, {1.6, over}, {over, over}, {0.0, 1.0201}}) {
+    run.tips.load = {.now = now, .accepted = before, .onset = now, .onset_accepted = before};
+    const StepStatus status = run.schedule->run({0, standard, standard});
+    EXPECT_FALSE(status.converged);
+    EXPECT_GE(status.retry_dt, 0.01 * standard);
+    EXPECT_LE(status.retry_dt, 0.9 * standard);
+  }
+}
+
+TEST(GrowStep, SaysWhetherTheTipsHaveSettled) {
+  Schedule run(usual);
+  EXPECT_FALSE(run.step().is_unsettled());
+  run.tips.load.unsettled = 0.051;
+  run.schedule->run({0, standard, standard});
+  EXPECT_TRUE(run.step().is_unsettled());
+  run.tips.load.unsettled = 0.049;
+  run.schedule->run({0, standard, standard});
+  EXPECT_FALSE(run.step().is_unsettled());
+}
+
+TEST(GrowStep, ReadsHowTheMeshFollows) {
+  EXPECT_FALSE(Schedule(usual).step().repeats_step());
+  Schedule run("- {grow: tips, settle: [rock], update: repeat_step, passes: 7}");
+  EXPECT_TRUE(run.step().repeats_step());
+  EXPECT_EQ(run.step().options().passes, 7);
+  EXPECT_EQ(run.step().describe(), "grow tips");
+  EXPECT_TRUE(run.step().unknowns().empty());
+}
+
+std::string refusal(const std::string& schedule) {
+  return input_error_of([&] { Schedule run(schedule); });
+}
+
+TEST(GrowStep, RefusesAComponentThatDoesNotGrow) {
+  EXPECT_THAT(refusal("- {grow: rock, settle: [rock]}"), HasSubstr("component 'rock' does not grow"));
+}
+
+TEST(GrowStep, RefusesUnknownNames) {
+  for (const char* schedule : {"- {grow: tisp, settle: [rock]}", "- {grow: tips, settle: [rock, tisp]}"}) {
+    const std::string message = refusal(schedule);
+    EXPECT_THAT(message, HasSubstr("tisp"));
+    EXPECT_THAT(message, HasSubstr("tips"));  // what is near to it
+    EXPECT_THAT(message, HasSubstr("scene.yaml:1"));
+  }
+}
+
+TEST(GrowStep, RefusesToStandInsideOfIterationsAndSubcycles) {
+  const std::string inside = "{steps: [{solve: [rock]}, {grow: tips, settle: [rock]}]";
+  for (const std::string& schedule : {"- iterate: " + inside + "}", "- subcycle: " + inside + ", count: 2}"})
+    EXPECT_THAT(refusal(schedule), HasSubstr("'grow' stands inside of an 'iterate' or a 'subcycle'")) << schedule;
+}
+
+TEST(GrowStep, RefusesOptionsWithoutSense) {
+  for (const char* option : {"cut: 0", "cut: 1.5", "settled: 0", "overshoot: -1", "passes: 0", "update: never"})
+    EXPECT_NE(refusal(std::string("- {grow: tips, settle: [rock], ") + option + "}"), "no error") << option;
+  EXPECT_NE(refusal("- {grow: tips}"), "no error");
+}
+
+}  // namespace
+}  // namespace sprekk
