@@ -13,8 +13,8 @@
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
-#include "framework/scene/change_mesh.hpp"
 #include "framework/scene/interrupt.hpp"
+#include "framework/scene/mesh_growth.hpp"
 #include "framework/scene/run_output.hpp"
 
 namespace sprekk {
@@ -63,12 +63,11 @@ class Run {
   }
   void restore();
   void record_start();
-  void retire_counts();  ///< adds what the model has counted to the totals
+  void retire_counts(const Model& model);  ///< adds what the model has counted to the totals
+  bool follows_growth();                   ///< false when the mesh could not
+  bool fails_with_growth();
   void resolve_stop();
   bool reaches_stop(const std::vector<Quantity>& quantities) const;
-  bool take_over(std::size_t grow_step);
-  bool repeats_with_growth();
-  bool grow_after();
   ExitCode loop();
   bool advance();  ///< one accepted step; false with reason_ when none is possible
   void finish(ExitCode code);
@@ -79,14 +78,14 @@ class Run {
   std::unique_ptr<Model> model_;
   std::vector<double> output_times_;
   StepController controller_;
+  MeshGrowth growth_;
   Profile profile_;
   RunRecord record_;
   std::string fingerprint_, reason_;
   double began_;
   long newton_iterations_ = 0, rejected_ = 0;
-  int restored_steps_ = 0, passes_ = 0;
-  long growth_events_ = 0;
-  bool is_settled_ = true, is_stopped_ = false;
+  int restored_steps_ = 0;
+  bool is_stopped_ = false;
   double stop_value_ = 0;  ///< in the unit of TimeOptions::stop
   LinearCounts linear_counts_;
 };
@@ -127,6 +126,7 @@ Run::Run(const Scene& scene, const RunOptions& options)
       model_(make_model(scene, checkpoint_, log())),
       output_times_(output_times(scene)),
       controller_(scene.time, targets(output_times_, model_->switch_times())),
+      growth_(model_, controller_, log(), [this](const Model& model) { retire_counts(model); }),
       fingerprint_(scene_fingerprint(scene)),
       began_(now()) {
   if (scene.time.has_stop) resolve_stop();
@@ -189,52 +189,20 @@ bool Run::reaches_stop(const std::vector<Quantity>& quantities) const {
          });
 }
 
-void Run::retire_counts() {
-  model_->schedule().add_counts(linear_counts_);
-  for (const Part* part : model_->parts())
+void Run::retire_counts(const Model& model) {
+  model.schedule().add_counts(linear_counts_);
+  for (const Part* part : model.parts())
     for (const auto& [name, count] : part->counts()) record_.counters[name] += count;
 }
 
-/// Puts the model onto the mesh with the paths that the step has found, from its accepted state.
-bool Run::take_over(std::size_t grow_step) {
+bool Run::fails_with_growth() {
+  reason_ = growth_.reason();
+  return false;
+}
+
+bool Run::follows_growth() {
   const ScopedTimer timer(profile_, "change of mesh");
-  const double time = controller_.time(), standard = model_->scene().time.step;
-  MeshChangeResult changed = change_mesh(*model_, grow_step, {time - standard, standard, time}, log());
-  retire_counts();
-  model_ = std::move(changed.model);
-  ++growth_events_;
-  if (changed.settling.converged) return true;
-  reason_ = "the state could not be settled on the mesh that has grown: " + changed.settling.reason;
-  return false;
-}
-
-/// Whether the step that has converged is to be repeated on a mesh that has grown.
-bool Run::repeats_with_growth() {
-  for (std::size_t i = 0; i < model_->growing().size(); ++i) {
-    const GrowStep& grow = *model_->growing()[i];
-    if (grow.extensions().empty() || !grow.repeats_step() || passes_ >= grow.options().passes) continue;
-    ++passes_;
-    is_settled_ = take_over(i);
-    return true;
-  }
-  passes_ = 0;
-  return false;
-}
-
-/// After an accepted step: takes growth over, and holds the steps small until it has settled.
-bool Run::grow_after() {
-  bool is_unsettled = false;
-  for (std::size_t i = 0; i < model_->growing().size(); ++i) {
-    const GrowStep& grow = *model_->growing()[i];
-    if (grow.is_unsettled()) is_unsettled = true;
-    if (grow.extensions().empty()) continue;
-    const double small = grow.options().cut * model_->scene().time.step;
-    if (!take_over(i)) return false;
-    controller_.hold(small);
-    return true;
-  }
-  if (!is_unsettled) controller_.release();
-  return true;
+  return growth_.after_acceptance() != MeshGrowth::Outcome::failed || fails_with_growth();
 }
 
 bool Run::advance() {
@@ -251,9 +219,11 @@ bool Run::advance() {
       return false;
     }
     newton_iterations_ += status.iterations;
-    if (status.converged && repeats_with_growth()) {
-      if (!is_settled_) return false;
-      continue;
+    if (status.converged) {
+      const ScopedTimer timer(profile_, "change of mesh");
+      const MeshGrowth::Outcome outcome = growth_.before_acceptance();
+      if (outcome == MeshGrowth::Outcome::changed) continue;
+      if (outcome == MeshGrowth::Outcome::failed) return fails_with_growth();
     }
     if (status.converged) {
       // Both before the step is accepted: which cells slip shows in what changed since the last accepted step.
@@ -267,7 +237,7 @@ bool Run::advance() {
       output_.write_history(step, status.iterations, quantities);
       for (const Quantity& q : quantities) record_.results[labelled(q.name, q.unit)] = q.value;
       if (writes_fields) output_.write_fields(step.end, controller_.steps(), model_->mesh(), fields);
-      return grow_after();
+      return follows_growth();
     }
     model_->rewind();
     ++rejected_;
@@ -318,9 +288,9 @@ void Run::finish(ExitCode code) {
   record_.counters["steps accepted"] = controller_.steps() - restored_steps_;
   record_.counters["steps rejected"] = rejected_;
   record_.counters["iterations"] = newton_iterations_;
-  retire_counts();
+  retire_counts(*model_);
   const LinearCounts& counts = linear_counts_;
-  if (growth_events_ > 0) record_.counters["changes of the mesh"] = growth_events_;
+  if (growth_.changes() > 0) record_.counters["changes of the mesh"] = growth_.changes();
   record_.counters["linear: orderings"] = counts.orderings;
   record_.counters["linear: factorizations"] = counts.factorizations;
   record_.counters["linear: factorizations reused"] = counts.reused;

@@ -29,20 +29,24 @@ SceneRun::SceneRun(const Scene& scene) {
   std::vector<double> targets = model_->switch_times();
   targets.insert(targets.end(), scene.output.times.begin(), scene.output.times.end());
   controller_ = std::make_unique<StepController>(scene.time, targets);
+  growth_ = std::make_unique<MeshGrowth>(model_, *controller_);
 }
 
 bool SceneRun::step() {
   for (;;) {
     const StepTime step = controller_->next();
     const StepStatus status = model_->attempt(step);
+    if (status.converged && growth_->before_acceptance() == MeshGrowth::Outcome::changed) continue;
     if (status.converged) {
       iterations_ = status.iterations;
       model_->accept();
       controller_->accepted(step, status.iterations);
-      return true;
+      if (growth_->after_acceptance() != MeshGrowth::Outcome::failed) return true;
+      ADD_FAILURE() << growth_->reason();
+      return false;
     }
     model_->rewind();
-    if (!controller_->rejected(step)) {
+    if (!controller_->rejected(step, status.retry_dt)) {
       ADD_FAILURE() << "t = " << step.end << " s: " << status.reason;
       return false;
     }

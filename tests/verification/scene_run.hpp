@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/config/node.hpp"
+#include "framework/scene/mesh_growth.hpp"
 #include "framework/scene/model.hpp"
 #include "framework/schedule/step_controller.hpp"
 
@@ -29,6 +30,7 @@ class SceneRun {
 
   /// One accepted step; fails the test with the reason when it does not converge.
   bool step();
+  long mesh_changes() const { return growth_->changes(); }
   /// Steps until the time (s) is reached; `after_step` may be empty.
   void run_until(double time, const std::function<void()>& after_step = {});
   void run() { run_until(model_->scene().time.end); }
@@ -38,8 +40,10 @@ class SceneRun {
 
  private:
   explicit SceneRun(const Scene& scene);
+  SceneRun(const SceneRun&) = delete;
   std::unique_ptr<Model> model_;
   std::unique_ptr<StepController> controller_;
+  std::unique_ptr<MeshGrowth> growth_;
   int iterations_ = 0;
 };
 

@@ -102,8 +102,9 @@ Point snapped(const Rectangle& box, Point x) {
   return x;
 }
 
-/// How near the outline comes to a tip or a kink that is inside of the rock; what lies on the outer boundary is not
-/// counted.
+/// How near the outline comes to a tip or a kink that is inside of the rock, or to a segment that runs along one of its
+/// sides (to the segment's farthest place, so that those that cross a side do not count). What lies on the outer
+/// boundary is not counted.
 double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths) {
   double gap = std::numeric_limits<double>::infinity();
   for (const FracturePath& path : paths)
@@ -112,6 +113,21 @@ double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vect
         if (x[1 - k] < box.low[1 - k] || x[1 - k] > box.high[1 - k]) continue;
         if (box.low[k] > rock.low[k]) gap = std::min(gap, std::abs(x[k] - box.low[k]));
         if (box.high[k] < rock.high[k]) gap = std::min(gap, std::abs(x[k] - box.high[k]));
+      }
+  for (const FracturePath& path : paths)
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
+      for (int k = 0; k < dimension; ++k) {
+        // The part beside the two sides across k.
+        Rectangle strip = rock;
+        strip.low[1 - k] = box.low[1 - k];
+        strip.high[1 - k] = box.high[1 - k];
+        const Point &a = path.points[i], &b = path.points[i + 1];
+        const auto [first, last] = clipped(strip, a, b);
+        if (last - first <= 1e-9) continue;
+        const double from = a[k] + first * (b[k] - a[k]), to = a[k] + last * (b[k] - a[k]);
+        const auto farthest = [&](double side) { return std::max(std::abs(from - side), std::abs(to - side)); };
+        if (box.low[k] > rock.low[k]) gap = std::min(gap, farthest(box.low[k]));
+        if (box.high[k] < rock.high[k]) gap = std::min(gap, farthest(box.high[k]));
       }
   return gap;
 }

@@ -37,8 +37,9 @@ struct FineDomain {
   bool is_last = true;  ///< the tip is its last point, else the first
 };
 
-/// A square of side `size` (m) around `center`, clipped by the box that the rock fills, with all paths in it. A tip or
-/// an outline that are too near to one another (nearer than `gap`, m) are kept apart by a slightly larger square.
+/// A square of side `size` (m) around `center`, clipped by the box that the rock fills, with all paths in it. A tip,
+/// a kink or a segment along a side that the outline would be nearer to than `gap` (m) is avoided by a slightly larger
+/// square.
 /// `coarse_walls` is how the walls of the coarse level are held; what has been added feels tractions.
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
                        double size, double gap, CrackPath::Walls coarse_walls);

@@ -214,6 +214,7 @@ Growing::Load Tips::examine(const StepTime&) {
   const std::vector<TipPath> paths = paths_now();
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
+    if (tip.now.is_stopped) continue;
     const double now = surroundings_->fluid_pressure(tip.end.fracture, tip.end.at_end);
     const double before = surroundings_->accepted_fluid_pressure(tip.end.fracture, tip.end.at_end);
     if (now != before) loads.unsettled = std::max(loads.unsettled, std::abs(now - before) / std::max(now, before));
@@ -263,16 +264,21 @@ Growing::Growth Tips::grow(const StepTime&) {
         const Sifs sifs = evaluate(tip, paths);
         return sifs;
       },
-      [this](int tip, const TipPath& path, const Point& to) { return free_way(tips_[tip], path, to); });
+      [this](int tip, const TipPath& path, const Point& to) {
+        return tips_[tip].now.is_stopped ? 0 : free_way(tips_[tip], path, to);
+      });
   Growth result;
   std::vector<PathExtension>& extensions = result.extensions;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
     const TipOutcome& outcome = outcomes[i];
     increments_ += outcome.increments;
-    notes_.insert(notes_.end(), outcome.notes.begin(), outcome.notes.end());
+    // What neither arrests nor uses up its length has something in its way.
+    const bool is_blocked =
+        !outcome.arrested && outcome.length < *growth.longest * (1 - 1e-9) && outcome.increments < growth.at_most;
+    tip.now.is_stopped = tip.now.is_stopped || is_blocked;
     if (outcome.increments == 0) continue;
-    result.arrested = result.arrested && outcome.arrested;
+    result.arrested = result.arrested && (outcome.arrested || is_blocked);
     tip.now.path = outcome.path;
     tip.now.sifs = outcome.end;
     const double length = length_of(position(tip, {}), tip.now.path);
@@ -336,9 +342,9 @@ void Tips::carry_over(const Part& before, const MeshChange&) {
 void Tips::save(std::map<std::string, Vector>& state) const {
   for (const Tip& tip : tips_) {
     const State& kept = tip.accepted;
-    Vector values(4 + 2 * kept.path.added.size());
-    values.head<4>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown;
-    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(4 + 2 * i) = kept.path.added[i];
+    Vector values(5 + 2 * kept.path.added.size());
+    values.head<5>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped;
+    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(5 + 2 * i) = kept.path.added[i];
     state[name() + "." + tip.name] = std::move(values);
   }
 }
@@ -346,12 +352,13 @@ void Tips::save(std::map<std::string, Vector>& state) const {
 void Tips::restore(const std::map<std::string, Vector>& state) {
   for (Tip& tip : tips_) {
     const auto found = state.find(name() + "." + tip.name);
-    if (found == state.end() || found->second.size() < 4) continue;
+    if (found == state.end() || found->second.size() < 5) continue;
     const Vector& values = found->second;
     State kept;
     kept.sifs = {values[0], values[1], values[2]};
     kept.grown = values[3];
-    for (int i = 4; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
+    kept.is_stopped = values[4] != 0;
+    for (int i = 5; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
   }
 }
@@ -362,6 +369,7 @@ void Tips::report(std::vector<Quantity>& quantities) const {
     quantities.push_back({prefix + "K_I", "Pa*m^0.5", tip.now.sifs.k1});
     quantities.push_back({prefix + "K_II", "Pa*m^0.5", tip.now.sifs.k2});
     quantities.push_back({prefix + "K_eq", "Pa*m^0.5", equivalent_sif(tip.now.sifs)});
+    quantities.push_back({prefix + "stopped", "1", tip.now.is_stopped ? 1.0 : 0.0});
     quantities.push_back({prefix + "length", "m", tip.now.grown + length_of(position(tip, {}), tip.now.path)});
   }
 }

@@ -55,7 +55,8 @@ class Tips : public Component, public FractureTips, public Growing {
   struct State {
     TipPath path;  ///< not yet known to the coarse level
     Sifs sifs;
-    double grown = 0;  ///< m, handed over to the coarse level
+    double grown = 0;         ///< m, handed over to the coarse level
+    bool is_stopped = false;  ///< before another fracture or the boundary: it grows no more
   };
   struct Tip {
     TipEnd end;
@@ -86,7 +87,6 @@ class Tips : public Component, public FractureTips, public Growing {
   TipSurroundings* surroundings_ = nullptr;
   std::vector<Tip> tips_;
   long solves_ = 0, meshes_ = 0, kept_ = 0, skipped_ = 0, increments_ = 0;
-  std::vector<std::string> notes_;
 };
 
 }  // namespace sprekk::fine_fracture

@@ -226,6 +226,26 @@ TEST(FineDomain, KeepsItsOutlineAwayFromTipsAndKinks) {
   }
 }
 
+TEST(FineDomain, KeepsItsOutlineAwayFromFracturesThatRunAlongIt) {
+  for (const double away : {-0.009, -1e-6, 0.0, 1e-6, 0.009}) {
+    // Past both ends of the lower side of the square, and of the left one.
+    const double y = 0.3 + away, x = 0.8 + away;
+    for (const bool is_upright : {false, true}) {
+      const Mesh mesh = rock_with(
+          {{Point(0.9, 0.5), Point(1, 0.5)},
+           is_upright ? std::vector{Point(x, 0.1), Point(x, 0.9)} : std::vector{Point(0.2, y), Point(1.6, y)}});
+      const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+      EXPECT_NO_THROW(validate(domain.geometry));
+      const Point low = domain.geometry.outline[0];
+      EXPECT_GE(is_upright ? std::abs(x - low[0]) : std::abs(y - low[1]), gap);
+    }
+  }
+  // A crack that crosses a side, or leaves through a corner of the square, is no reason.
+  const Mesh diagonal = rock_with({{Point(0.6, 0.1), Point(1, 0.5)}});
+  EXPECT_NEAR(width(fine_domain(diagonal, paths_of(diagonal), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction)),
+              0.4, rounding);
+}
+
 TEST(FineDomain, DoesNotAvoidTheRocksOwnBoundary) {
   // An end on the outer boundary is no reason for a larger square.
   const Mesh mesh = rock_with({{Point(0, 0.5), Point(0.15, 0.5)}});

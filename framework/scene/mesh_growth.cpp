@@ -1,0 +1,55 @@
+#include "framework/scene/mesh_growth.hpp"
+
+#include "framework/scene/change_mesh.hpp"
+
+namespace sprekk {
+
+MeshGrowth::MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log,
+                       std::function<void(const Model&)> retire)
+    : model_(model), controller_(controller), log_(std::move(log)), retire_(std::move(retire)) {}
+
+/// Puts the model onto the mesh with the paths that the step has found, from its accepted state.
+MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
+  const double time = controller_.time(), standard = model_->scene().time.step;
+  MeshChangeResult changed;
+  try {
+    changed = change_mesh(*model_, grow_step, {time - standard, standard, time}, log_);
+  } catch (const std::runtime_error& error) {
+    reason_ = std::string("the mesh cannot follow a fracture: ") + error.what();
+    return Outcome::failed;
+  }
+  if (retire_) retire_(*model_);
+  model_ = std::move(changed.model);
+  ++changes_;
+  if (changed.settling.converged) return Outcome::changed;
+  reason_ = "the state could not be settled on the mesh that has grown: " + changed.settling.reason;
+  return Outcome::failed;
+}
+
+MeshGrowth::Outcome MeshGrowth::before_acceptance() {
+  for (std::size_t i = 0; i < model_->growing().size(); ++i) {
+    const GrowStep& grow = *model_->growing()[i];
+    if (grow.extensions().empty() || !grow.repeats_step() || passes_ >= grow.options().passes) continue;
+    ++passes_;
+    return take_over(i);
+  }
+  passes_ = 0;
+  return Outcome::nothing;
+}
+
+MeshGrowth::Outcome MeshGrowth::after_acceptance() {
+  bool is_unsettled = false;
+  for (std::size_t i = 0; i < model_->growing().size(); ++i) {
+    const GrowStep& grow = *model_->growing()[i];
+    is_unsettled = is_unsettled || grow.is_unsettled();
+    if (grow.extensions().empty()) continue;
+    const double small = grow.options().cut * model_->scene().time.step;
+    const Outcome outcome = take_over(i);
+    if (outcome == Outcome::changed) controller_.hold(small);
+    return outcome;
+  }
+  if (!is_unsettled) controller_.release();
+  return Outcome::nothing;
+}
+
+}  // namespace sprekk
