@@ -138,10 +138,14 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths,
                        double size, double gap, CrackPath::Walls coarse_walls) {
   const Rectangle rock = bounds(mesh);
   Rectangle box;
-  for (double factor = 1; factor < 1.5; factor += 0.02) {
+  double widest = -1;
+  for (double factor = 1; factor < 1.5 && widest < gap; factor += 0.02) {
     const Point half = Point::Constant(0.5 * factor * size);
-    box = {(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
-    if (smallest_gap(box, rock, paths) >= gap) break;
+    const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
+    const double found = smallest_gap(larger, rock, paths);
+    if (found <= widest) continue;
+    widest = found;
+    box = larger;
   }
   FineDomain domain;
   domain.geometry.outline = {box.low, {box.high[0], box.low[1]}, box.high, {box.low[0], box.high[1]}};

@@ -39,7 +39,7 @@ struct FineDomain {
 
 /// A square of side `size` (m) around `center`, clipped by the box that the rock fills, with all paths in it. A tip,
 /// a kink or a segment along a side that the outline would be nearer to than `gap` (m) is avoided by a slightly larger
-/// square.
+/// square, less than 1.5 times as large; where none is that far away, by the one that is farthest.
 /// `coarse_walls` is how the walls of the coarse level are held; what has been added feels tractions.
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
                        double size, double gap, CrackPath::Walls coarse_walls);

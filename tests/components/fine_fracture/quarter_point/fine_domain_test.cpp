@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::test {
@@ -244,6 +247,23 @@ TEST(FineDomain, KeepsItsOutlineAwayFromFracturesThatRunAlongIt) {
   const Mesh diagonal = rock_with({{Point(0.6, 0.1), Point(1, 0.5)}});
   EXPECT_NEAR(width(fine_domain(diagonal, paths_of(diagonal), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction)),
               0.4, rounding);
+}
+
+TEST(FineDomain, KeepsAsFarAwayAsItCan) {
+  // A zigzag with a kink every 12 mm leaves the square: no outline is a gap of 10 mm away from all of them. Squares
+  // grow by 4 mm a side, so that one is at least 4 mm away from the kinks on its both sides.
+  std::vector<Point> zigzag;
+  for (int i = 0; i <= 60; ++i) zigzag.push_back(Point(1 - 0.012 * i, 0.5 + (i % 2 == 0 ? 0 : 0.004)));
+  const Mesh mesh = rock_with({zigzag});
+  for (const double shift : {0.0, 0.001, 0.005, 0.011}) {
+    const FineDomain domain =
+        fine_domain(mesh, paths_of(mesh), {0, false}, Point(1 + shift, 0.5), 0.4, gap, Walls::traction);
+    EXPECT_NO_THROW(validate(domain.geometry));
+    double nearest = gap;
+    for (const Point& x : zigzag) nearest = std::min(nearest, std::abs(x[0] - domain.geometry.outline[0][0]));
+    EXPECT_GE(nearest, 0.004 - rounding);
+    EXPECT_LT(width(domain), 1.5 * 0.4);
+  }
 }
 
 TEST(FineDomain, DoesNotAvoidTheRocksOwnBoundary) {
