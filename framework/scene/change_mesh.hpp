@@ -19,9 +19,10 @@ struct MeshChangeResult {
   StepStatus settling;           ///< of the solve that put it into equilibrium
 };
 
-/// Builds the model on the mesh with the extensions that the step (an index into Model::growing) has found, carries the
+/// Builds the model on the mesh with the extensions of a step (an index into Model::growing), carries the
 /// accepted state over and settles it (GrowStep::settle, with data as in the step `data`), so that the change of the
 /// mesh alone changes no pressure.
-MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const StepTime& data, IterationLog log);
+MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const std::vector<PathExtension>& extensions,
+                             const StepTime& data, IterationLog log = {});
 
 }  // namespace sprekk

@@ -13,7 +13,8 @@ MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
   const double time = controller_.time(), standard = model_->scene().time.step;
   MeshChangeResult changed;
   try {
-    changed = change_mesh(*model_, grow_step, {time - standard, standard, time}, log_);
+    changed = change_mesh(*model_, grow_step, model_->growing()[grow_step]->extensions(),
+                          {time - standard, standard, time}, log_);
   } catch (const std::runtime_error& error) {
     reason_ = std::string("the mesh cannot follow a fracture: ") + error.what();
     return Outcome::failed;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "components/capabilities/poroelastic_rock.hpp"
+#include "framework/scene/change_mesh.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {
@@ -98,6 +100,7 @@ TEST(WingCracks, StartAtTheCriticalLoadAndTurnTowardsTheLargestStress) {
 
 TEST(WingCracks, FluidIsConservedAndPressureStaysPhysicalAcrossGrowth) {
   SceneRun run = wings();
+  double highest = 0;  // of the fluid in the fracture; the rock holds its pressure for longer
   while (run.mesh_changes() < 8) {
     if (!run.step()) return;
     const double injected = run.quantity("fluid_injected");
@@ -105,9 +108,10 @@ TEST(WingCracks, FluidIsConservedAndPressureStaysPhysicalAcrossGrowth) {
     // Nothing pumps below the loading's pressure or above that in the fracture. Undrained, the stress ahead of an
     // opening tip may lower the pressure there.
     const Vector& matrix = run.field("pore.pressure");
-    const double fracture = run.field("conduit.pressure").maxCoeff();
-    EXPECT_LT(matrix.maxCoeff(), fracture + 0.01 * (fracture - 6.9 * mega)) << run.time();
-    EXPECT_GT(matrix.minCoeff(), 6.9 * mega - 0.01 * (fracture - 6.9 * mega) - 0.03 * mega) << run.time();
+    highest = std::max(highest, run.field("conduit.pressure").maxCoeff());
+    const double margin = 0.01 * (highest - 6.9 * mega);
+    EXPECT_LT(matrix.maxCoeff(), highest + margin) << run.time();
+    EXPECT_GT(matrix.minCoeff(), 6.86 * mega - margin) << run.time();
   }
 }
 
@@ -119,33 +123,66 @@ TEST(WingCracks, BothTipsGrowAlike) {
   EXPECT_NEAR(run.quantity("tips.main_first.length"), run.quantity("tips.main_last.length"), 0.006);
 }
 
-TEST(WingCracks, TheChangeOfTheMeshAloneChangesNoPressure) {
-  // The state right after a change of the mesh, before any step: old cells keep their pressures to the bit, and the
-  // equilibrium on the new mesh asks for no flow of fluid.
+TEST(WingCracks, TheChangeOfTheMeshAloneChangesNoState) {
   SceneRun run = wings();
-  Vector before;
-  long changes = 0;
-  double checked = 0;
-  while (run.mesh_changes() < 4) {
-    if (!run.step()) return;
-    if (run.mesh_changes() == changes) continue;
-    changes = run.mesh_changes();
-    const Vector& p = run.field("pore.pressure");
-    const double fracture = run.field("conduit.pressure").maxCoeff();
-    EXPECT_LT(p.maxCoeff(), fracture * (1 + 1e-12));
-    // A step that is so short that no fluid flows far, with the new cells open: the pressure far from the tips, beyond
-    // the cavities, does not notice.
-    const Vector far_before = p;
-    ++checked;
-    EXPECT_TRUE(run.step());
-    if (run.mesh_changes() != changes) continue;
-    const Vector& after = run.field("pore.pressure");
-    for (int c = 0; c < run.mesh().cell_count(); ++c) {
-      if ((run.mesh().cell_center[c] - Point(1, 1)).norm() < 0.4) continue;
-      EXPECT_NEAR(after[c], far_before[c], 0.002 * mega);
-    }
+  run.run_until(0.06 * hour);
+  const Model& before = run.model();
+  const FieldStore& old = before.fields();
+  const Fracture& fracture = before.mesh().fractures[0];
+  const Point tip =
+      before.mesh().fracture_points[before.mesh().fracture_cells[fracture.cell_count - 1].points[1]].position;
+  const MeshChangeResult changed =
+      change_mesh(before, 0, {{0, true, {tip + Point(0.018, -0.008)}}}, {-3600, 3600, run.time()});
+  ASSERT_TRUE(changed.settling.converged) << changed.settling.reason;
+  Model& after = *changed.model;
+  ASSERT_EQ(after.mesh().fractures[0].cell_count, fracture.cell_count + 1);
+
+  // The fracture carries and slips as before. The cell at the tip slips as if the fracture were 0.4 cells longer
+  // (docs/numerics/poromechanics.md), so by up to sqrt(0.9/0.5) - 1 = 34 % too much, which depends on the cells around
+  // it.
+  const Vector &traction = after.fields().at("contact.traction").now(), &jump = after.fields().at("contact.jump").now();
+  const Vector &old_traction = old.at("contact.traction").now(), &old_jump = old.at("contact.jump").now();
+  for (int i = 0; i < fracture.cell_count; ++i) {
+    const bool is_at_tip = i + 1 == fracture.cell_count;
+    const double slip = old_jump[2 * i + 1];
+    EXPECT_NEAR(jump[2 * i + 1] / slip, 1, is_at_tip ? 0.34 : 0.05) << i;
+    if (is_at_tip) continue;
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR(traction[2 * i + k], old_traction[2 * i + k], 0.15 * mega) << i;
   }
-  EXPECT_GT(checked, 0);
+  // The cell that has grown is closed, and holds the shear stress of rock that it was before.
+  const int grown = fracture.cell_count;
+  EXPECT_NEAR(jump.segment<2>(2 * grown).norm(), 0, 1e-15);
+  EXPECT_LT(traction[2 * grown], 5 * mega);
+
+  // Fluid: totals to the last digit, pressures within what they were, and the volume that the fluid balance counts is
+  // that of the rock, but for an even share of what the two meshes differ by: less than 1 % of the pressure that
+  // drives.
+  EXPECT_NEAR(after.fields().at("biot.fluid_stored").now().sum(), old.at("biot.fluid_stored").now().sum(),
+              1e-13 * old.at("biot.fluid_stored").now().cwiseAbs().sum());
+  EXPECT_NEAR(after.fields().at("biot.counted_volume").now().sum(), old.at("biot.counted_volume").now().sum(),
+              1e-12 * old.at("biot.counted_volume").now().cwiseAbs().sum());
+  const Vector& pressure = after.fields().at("pore.pressure").now();
+  EXPECT_LE(pressure.maxCoeff(), old.at("pore.pressure").now().maxCoeff());
+  EXPECT_GE(pressure.minCoeff(), old.at("pore.pressure").now().minCoeff());
+  const PoroelasticRock* rock = nullptr;
+  for (const auto& component : after.components())
+    if (const auto* found = dynamic_cast<const PoroelasticRock*>(component.get())) rock = found;
+  const Vector difference = rock->volume_change().now() - after.fields().at("biot.counted_volume").now();
+  constexpr double alpha = 0.8, storage = 3.955e-11 + alpha * alpha / 44.4e9;  // S + alpha^2/(lambda + 2 G)
+  double largest = 0;
+  for (int c = 0; c < after.mesh().cell_count(); ++c)
+    largest = std::max(largest, std::abs(difference[c]) / after.mesh().cell_area[c] * alpha / storage);
+  EXPECT_LT(largest, 0.01 * (old.at("conduit.pressure").now().maxCoeff() - 6.9 * mega));
+}
+
+TEST(WingCracks, ARepeatedStepSeesTheGrownMesh) {
+  // The step is repeated on the mesh that has grown until nothing grows. Both ways lead to the same wings, to well
+  // below the 10 mm at which the coarse level is told of them.
+  SceneRun after = wings(), repeated = wings("schedule.1.update", "repeat_step");
+  after.run_until(1.5 * hour);
+  repeated.run_until(1.5 * hour);
+  EXPECT_GT(repeated.mesh_changes(), 0);
+  EXPECT_NEAR(repeated.quantity("tips.main_last.length"), after.quantity("tips.main_last.length"), 5e-3);
 }
 
 }  // namespace

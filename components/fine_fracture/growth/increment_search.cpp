@@ -123,7 +123,10 @@ double IncrementSearch::root_of_phi() {
 }
 
 void IncrementSearch::learn(const Sifs& end) {
-  if (phase_ == Phase::as_it_is) return;
+  if (phase_ == Phase::as_it_is) {
+    is_settled_ = true;
+    return;
+  }
   ++tries_;
   const double phi = phase_of(end), k_eq = equivalent_sif(end);
   if (std::abs(phi) < std::abs(best_.phi)) best_ = {angle_, phi};
@@ -134,7 +137,11 @@ void IncrementSearch::learn(const Sifs& end) {
     directions_.clear();
     return;
   }
-  if (tries_ >= options_.tries && phase_ == Phase::direction_fixed) return accept_as_it_is();
+  if (tries_ >= options_.tries && phase_ == Phase::direction_fixed) {
+    // An increment that ends far below the toughness is more than the tip has grown.
+    if (options_.seeks_arrest() && k_eq < 0.9 * toughness_) return fall_back();
+    return accept_as_it_is();
+  }
 
   const double present = angle_;
   double root = angle_;
@@ -201,6 +208,13 @@ void IncrementSearch::accept_as_it_is() {
   phase_ = Phase::as_it_is;
   is_settled_ = true;
   note_ += std::string(note_.empty() ? "" : "; ") + "the length of arrest was not found within the tries";
+}
+
+void IncrementSearch::fall_back() {
+  note_ += std::string(note_.empty() ? "" : "; ") + "the length of arrest was not found: the tip waits where it can";
+  if (shorter_.length < options_.smallest_length()) return stay();
+  phase_ = Phase::as_it_is;
+  length_ = shorter_.length;
 }
 
 void IncrementSearch::keep_direction() {

@@ -59,6 +59,8 @@ class IncrementSearch {
   double next_length(const std::optional<Length>& third) const;
   void shorten(double k_eq, double root);
   void accept_as_it_is();
+  /// The longest length known to end at the toughness or above, or none.
+  void fall_back();
   void keep_direction();
   void fix_direction(const std::string& why);
   void stay();

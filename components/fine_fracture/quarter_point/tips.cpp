@@ -230,11 +230,17 @@ Growing::Load Tips::examine(const StepTime&) {
     const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
     loads.now = std::max(loads.now, load(tip.now.sifs) / (1 + rest));
     loads.accepted = std::max(loads.accepted, load(tip.accepted.sifs) / (1 + rest));
-    if (tip.now.grown > 0 || !tip.now.path.added.empty()) continue;
+    if (tip.now.has_started) continue;
     loads.onset = std::max(loads.onset, load(tip.now.sifs));
     loads.onset_accepted = std::max(loads.onset_accepted, load(tip.accepted.sifs));
   }
   return loads;
+}
+
+bool Tips::is_near(const Tip& tip, const Tip& other) const {
+  // What an increment changes falls off with the square of its length over the distance.
+  return tip.end.fracture == other.end.fracture ||
+         (position(tip, tip.now.path) - position(other, other.now.path)).norm() < 10 * options_.growth.increment;
 }
 
 double Tips::free_way(const Tip& tip, const TipPath& path, const Point& to) const {
@@ -266,11 +272,13 @@ Growing::Growth Tips::grow(const StepTime&) {
       },
       [this](int tip, const TipPath& path, const Point& to) {
         return tips_[tip].now.is_stopped ? 0 : free_way(tips_[tip], path, to);
-      });
+      },
+      [this](int tip, int other) { return is_near(tips_[tip], tips_[other]); });
   Growth result;
   std::vector<PathExtension>& extensions = result.extensions;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
+    tip.now.has_started = tip.now.has_started || load(tip.now.sifs) >= 1;
     const TipOutcome& outcome = outcomes[i];
     increments_ += outcome.increments;
     // What neither arrests nor uses up its length has something in its way.
@@ -342,9 +350,9 @@ void Tips::carry_over(const Part& before, const MeshChange&) {
 void Tips::save(std::map<std::string, Vector>& state) const {
   for (const Tip& tip : tips_) {
     const State& kept = tip.accepted;
-    Vector values(5 + 2 * kept.path.added.size());
-    values.head<5>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped;
-    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(5 + 2 * i) = kept.path.added[i];
+    Vector values(6 + 2 * kept.path.added.size());
+    values.head<6>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started;
+    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(6 + 2 * i) = kept.path.added[i];
     state[name() + "." + tip.name] = std::move(values);
   }
 }
@@ -352,13 +360,14 @@ void Tips::save(std::map<std::string, Vector>& state) const {
 void Tips::restore(const std::map<std::string, Vector>& state) {
   for (Tip& tip : tips_) {
     const auto found = state.find(name() + "." + tip.name);
-    if (found == state.end() || found->second.size() < 5) continue;
+    if (found == state.end() || found->second.size() < 6) continue;
     const Vector& values = found->second;
     State kept;
     kept.sifs = {values[0], values[1], values[2]};
     kept.grown = values[3];
     kept.is_stopped = values[4] != 0;
-    for (int i = 5; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
+    kept.has_started = values[5] != 0;
+    for (int i = 6; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
   }
 }

@@ -55,8 +55,9 @@ class Tips : public Component, public FractureTips, public Growing {
   struct State {
     TipPath path;  ///< not yet known to the coarse level
     Sifs sifs;
-    double grown = 0;         ///< m, handed over to the coarse level
-    bool is_stopped = false;  ///< before another fracture or the boundary: it grows no more
+    double grown = 0;          ///< m, handed over to the coarse level
+    bool has_started = false;  ///< was asked to grow: its onset is over
+    bool is_stopped = false;   ///< before another fracture or the boundary: it grows no more
   };
   struct Tip {
     TipEnd end;
@@ -79,6 +80,8 @@ class Tips : public Component, public FractureTips, public Growing {
   double load(const Sifs& sifs) const;
   /// How far a tip may be from what the coarse level knows of, m.
   double longest_path(const Tip& tip) const;
+  /// Whether an increment of the other tip is seen at once; farther ones are seen from the next step on.
+  bool is_near(const Tip& tip, const Tip& other) const;
   double free_way(const Tip& tip, const TipPath& path, const Point& to) const;
   std::vector<Point> coarse_path(const Tip& tip) const;
 
