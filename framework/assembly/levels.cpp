@@ -1,14 +1,20 @@
 #include "framework/assembly/levels.hpp"
 
+#include <algorithm>
+
 namespace sprekk {
 
 void Levels::floats(const Field& field, const Origin& where, const std::string& why, const std::string& suggestion) {
-  floating_[&field] = {where, why, suggestion};
+  if (!floats(&field)) floating_.push_back({&field, where, why, suggestion});
+}
+
+bool Levels::floats(const Field* field) const {
+  return std::any_of(floating_.begin(), floating_.end(), [&](const Floating& one) { return one.field == field; });
 }
 
 void Levels::require_held() const {
   std::set<const Field*> held = held_;
-  const auto is_held = [&](const Field* field) { return held.count(field) > 0 || floating_.count(field) == 0; };
+  const auto is_held = [&](const Field* field) { return held.count(field) > 0 || !floats(field); };
   for (bool changed = true; changed;) {
     changed = false;
     for (const auto& [one, other] : ties_) {
@@ -17,9 +23,9 @@ void Levels::require_held() const {
       changed = true;
     }
   }
-  for (const auto& [field, floating] : floating_)
-    if (!is_held(field))
-      throw InputError(floating.where, "the level of " + field->name() + " is not determined", floating.why,
+  for (const Floating& floating : floating_)
+    if (!is_held(floating.field))
+      throw InputError(floating.where, "the level of " + floating.field->name() + " is not determined", floating.why,
                        floating.suggestion);
 }
 

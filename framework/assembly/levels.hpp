@@ -26,10 +26,13 @@ class Levels {
 
  private:
   struct Floating {
+    const Field* field;
     Origin where;
     std::string why, suggestion;
   };
-  std::map<const Field*, Floating> floating_;
+  bool floats(const Field* field) const;
+
+  std::vector<Floating> floating_;  ///< in the order of the scene, which messages follow
   std::set<const Field*> held_;
   std::vector<std::pair<const Field*, const Field*>> ties_;
 };

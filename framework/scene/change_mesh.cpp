@@ -73,7 +73,8 @@ MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const s
     const int origin = grown.change.fracture_cell[i];
     grown.mesh.fracture_cells[i].grown = origin == none || before.mesh().fracture_cells[origin].grown;
   }
-  MeshChangeResult result{std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), {}};
+  MeshChangeResult result{
+      std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), grown.smallest_angle, {}};
   Model& model = *result.model;
   transfer_fields(before.fields(), grown.change, before.mesh(), model.fields());
   for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);

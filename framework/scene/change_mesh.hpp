@@ -16,6 +16,7 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
 
 struct MeshChangeResult {
   std::unique_ptr<Model> model;  ///< its state is accepted
+  double smallest_angle = 0;     ///< rad, of the new cells
   StepStatus settling;           ///< of the solve that put it into equilibrium
 };
 

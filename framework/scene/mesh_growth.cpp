@@ -1,5 +1,7 @@
 #include "framework/scene/mesh_growth.hpp"
 
+#include <algorithm>
+
 #include "framework/scene/change_mesh.hpp"
 
 namespace sprekk {
@@ -19,12 +21,15 @@ MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
     reason_ = std::string("the mesh cannot follow a fracture: ") + error.what();
     return Outcome::failed;
   }
+  smallest_angle_ = std::min(smallest_angle_, changed.smallest_angle);
+  if (!changed.settling.converged) {
+    reason_ = "the state could not be settled on the mesh that has grown: " + changed.settling.reason;
+    return Outcome::failed;
+  }
   if (retire_) retire_(*model_);
   model_ = std::move(changed.model);
   ++changes_;
-  if (changed.settling.converged) return Outcome::changed;
-  reason_ = "the state could not be settled on the mesh that has grown: " + changed.settling.reason;
-  return Outcome::failed;
+  return Outcome::changed;
 }
 
 MeshGrowth::Outcome MeshGrowth::before_acceptance() {

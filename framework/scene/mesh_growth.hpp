@@ -26,6 +26,7 @@ class MeshGrowth {
 
   const std::string& reason() const { return reason_; }  ///< of a failure
   long changes() const { return changes_; }
+  double smallest_angle() const { return smallest_angle_; }  ///< rad, of all cells that came with growth
 
  private:
   Outcome take_over(std::size_t grow_step);
@@ -36,6 +37,7 @@ class MeshGrowth {
   std::function<void(const Model&)> retire_;
   std::string reason_;
   long changes_ = 0;
+  double smallest_angle_ = 1.1;
   int passes_ = 0;
 };
 

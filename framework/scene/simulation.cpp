@@ -290,7 +290,10 @@ void Run::finish(ExitCode code) {
   record_.counters["iterations"] = newton_iterations_;
   retire_counts(*model_);
   const LinearCounts& counts = linear_counts_;
-  if (growth_.changes() > 0) record_.counters["changes of the mesh"] = growth_.changes();
+  if (growth_.changes() > 0) {
+    record_.counters["changes of the mesh"] = growth_.changes();
+    record_.results["grown_cells_smallest_angle[rad]"] = growth_.smallest_angle();
+  }
   record_.counters["linear: orderings"] = counts.orderings;
   record_.counters["linear: factorizations"] = counts.factorizations;
   record_.counters["linear: factorizations reused"] = counts.reused;

@@ -52,6 +52,8 @@ SolveOptions settle_options(const GrowOptions& options) {
   solve.components = options.settle;
   solve.newton = options.newton;
   solve.linear = options.linear;
+  // The rock alone, with cells held closed, cost UMFPACK the digits that MUMPS keeps.
+  if (solve.linear.type == "auto") solve.linear.type = "mumps";
   return solve;
 }
 
