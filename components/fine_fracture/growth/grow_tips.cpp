@@ -229,6 +229,7 @@ class Growth {
       } else {
         state.is_outdated = others_advance(i);
       }
+      outcomes_[i].blocked = search.is_limited();
       if (search.is_limited())
         stop(i, "it has no free length ahead", false);
       else if (search.length() == 0)
