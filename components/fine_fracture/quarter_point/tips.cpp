@@ -281,12 +281,9 @@ Growing::Growth Tips::grow(const StepTime&) {
     tip.now.has_started = tip.now.has_started || load(tip.now.sifs) >= 1;
     const TipOutcome& outcome = outcomes[i];
     increments_ += outcome.increments;
-    // What neither arrests nor uses up its length has something in its way.
-    const bool is_blocked =
-        !outcome.arrested && outcome.length < *growth.longest * (1 - 1e-9) && outcome.increments < growth.at_most;
-    tip.now.is_stopped = tip.now.is_stopped || is_blocked;
+    tip.now.is_stopped = tip.now.is_stopped || outcome.blocked;
     if (outcome.increments == 0) continue;
-    result.arrested = result.arrested && (outcome.arrested || is_blocked);
+    result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
     tip.now.path = outcome.path;
     tip.now.sifs = outcome.end;
     const double length = length_of(position(tip, {}), tip.now.path);
