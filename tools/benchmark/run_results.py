@@ -1,0 +1,57 @@
+"""What the benchmarks read from the folder of a run."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+from results import read_pvd, read_vtu  # noqa: E402
+
+
+class RunResults:
+    """Fields at the last time that was written, and the record of the run."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.record = json.loads((self.folder / "run.json").read_text())
+        self.counters = self.record["counters"]
+        self.time, matrix = read_pvd(self.folder / "matrix.pvd")[-1]
+        self.steps = self.counters["steps accepted"]
+        self.matrix = read_vtu(matrix)
+        corners = self.matrix.points[self.matrix.cells][:, :, :2]
+        self.centres = corners.mean(axis=1)
+        a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        self.areas = 0.5 * abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        if (self.folder / "fractures.pvd").exists():
+            self.fractures = read_vtu(read_pvd(self.folder / "fractures.pvd")[-1][1])
+            ends = self.fractures.points[self.fractures.cells][:, :, :2]
+            self.fracture_centres = ends.mean(axis=1)
+            self.fracture_lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+
+    def matrix_field(self, name):
+        """Cell values by the name without its unit; vectors have two columns."""
+        values = named(self.matrix.cell_data, name)
+        return values[:, :2] if values.ndim > 1 else values
+
+    def fracture_field(self, name):
+        return named(self.fractures.cell_data, name)
+
+    def mean(self, values):
+        return float(self.areas @ values / self.areas.sum())
+
+
+def named(data, name):
+    for key, values in data.items():
+        if key.partition("[")[0] == name:
+            return values
+    raise KeyError(f"no field {name} (there are: {', '.join(data)})")
+
+
+def relative_error(weights, values, exact):
+    """Weighted L2 norm of the difference over that of the exact values."""
+    difference = np.square(values - exact).reshape(len(weights), -1).sum(axis=1)
+    size = np.square(exact).reshape(len(weights), -1).sum(axis=1)
+    return float(np.sqrt(weights @ difference / (weights @ size)))
