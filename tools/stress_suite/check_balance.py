@@ -1,0 +1,123 @@
+"""Mass and momentum from the written fields.
+
+Momentum: for a body at rest the integral of a stress component over its volume follows from the forces on its sides
+(the mean stress theorem). Rollers at x = 0 and y = 0 drop out, forces on the two walls of a fracture cancel.
+Mass: what a fracture stores in a step is what was injected less what left through its walls. The same for the matrix
+where it does not feel the rock and its sides are closed. The program's own books must close, too.
+"""
+
+import numpy as np
+
+from . import physics
+
+PRECISION = 1e-8
+
+
+def cell_areas(grid):
+    corners = grid.points[grid.cells]
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return 0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+
+
+def momentum(p, instants):
+    if p["sides"] != "stress":
+        return []
+    found = []
+    for instant in instants:
+        area = cell_areas(instant.matrix)
+        stress = instant.cell("rock.stress_xx_yy_xy[Pa]")
+        mean = area @ stress[:, :2] / (p["width"] * p["height"])
+        wanted = physics.stresses(p, instant.time)
+        pressure = instant.cell("pore.pressure[Pa]")
+        size = max(np.abs(wanted).max(), np.abs(stress).max(), p["alpha"] * np.abs(pressure - p["initial"]).max(),
+                   np.abs(instant.on_fractures("rock.wall_traction", "Pa")).max())
+        for axis in (0, 1):
+            error = abs(mean[axis] - wanted[axis])
+            if error > PRECISION * size:
+                found.append(f"momentum: the mean stress along {'xy'[axis]} is {mean[axis]:.9g} instead of "
+                             f"{wanted[axis]:.9g} Pa at t = {instant.time:.6g} s")
+    return found
+
+
+def injected(p, start, stop):
+    """m^2 in all fractures named main between two times, by the closed form of the scene's two wells."""
+    half, rate = 0.5 * physics.end(p), physics.rate(p)
+    def until(t):
+        first = rate * min(t, half)
+        return first - (rate * max(0.0, t - half) if p["well"] == "inject_extract" else 0.0)
+    return until(stop) - until(start)
+
+
+def fracture_mass(p, instants, main):
+    """`main`: the number of the fracture that has the wells."""
+    found = []
+    before = None
+    for instant in instants:
+        ends = instant.fractures.points[instant.fractures.cells]
+        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        aperture, pressure = instant.on_fractures("conduit.aperture", "m"), instant.on_fractures("conduit.pressure", "Pa")
+        if before is None:
+            before = (0.0, np.full(len(length), p["aperture"]), np.full(len(length), p["initial"]))
+        if instant.follows:
+            step = instant.time - before[0]
+            walls = instant.fractures.cell_data
+            out = step * length * (walls["pore.wall_flux.plus[m/s]"] + walls["pore.wall_flux.minus[m/s]"])
+            opened = length * (aperture - before[1])
+            pressed = length * aperture * p["compressibility"] * (pressure - before[2])
+            fracture = walls["fracture"]
+            for number in np.unique(fracture):
+                own = fracture == number
+                source = injected(p, before[0], instant.time) if number == main else 0.0
+                error = opened[own].sum() + pressed[own].sum() + out[own].sum() - source
+                digits = 1e-15 * (length * aperture * (1 + p["compressibility"] * np.abs(pressure)))[own].sum()
+                size = max(np.abs(opened).max(), np.abs(pressed).max(), np.abs(out).max(), abs(source))
+                if abs(error) > PRECISION * size + 100 * digits:
+                    found.append(f"mass: fracture {number} is wrong by {error:.3g} of {size:.3g} m^2 "
+                                 f"at t = {instant.time:.6g} s")
+        before = (instant.time, aperture, pressure)
+    return found
+
+
+def matrix_mass(p, instants):
+    if p["alpha"] > 0 or p["boundary"] != "none":
+        return []
+    found = []
+    before = (0.0, p["initial"])
+    for instant in instants:
+        area, pressure = cell_areas(instant.matrix), instant.cell("pore.pressure[Pa]")
+        if instant.follows:
+            ends = instant.fractures.points[instant.fractures.cells]
+            length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+            walls = instant.fractures.cell_data
+            received = (instant.time - before[0]) * length * (walls["pore.wall_flux.plus[m/s]"] +
+                                                              walls["pore.wall_flux.minus[m/s]"])
+            stored = p["storage"] * area * (pressure - before[1])
+            error = stored.sum() - received.sum()
+            size = max(np.abs(stored).max(), np.abs(received).max())
+            digits = 1e-15 * (p["storage"] * area * np.abs(pressure)).sum()
+            if abs(error) > PRECISION * size + 100 * digits:
+                found.append(f"mass: the matrix is wrong by {error:.3g} of {size:.3g} m^2 at t = {instant.time:.6g} s")
+        before = (instant.time, pressure)
+    return found
+
+
+def books(p, instants, history):
+    """The error of the program's books against what moved in one cell, in the largest step."""
+    error = np.abs(history["fluid_balance_error[m^2]"]).max()
+    size = np.abs(history["fluid_stored[m^2]"]).max() + np.abs(history["fluid_injected[m^2]"]).max() + \
+        np.abs(history["fluid_outflow[m^2]"]).max()
+    before = p["initial"]
+    bulk = physics.bulk_modulus(p)
+    for instant in instants:
+        area, pressure = cell_areas(instant.matrix), instant.cell("pore.pressure[Pa]")
+        stress = instant.cell("rock.stress_xx_yy_xy[Pa]")
+        volume = (np.abs(stress[:, :2]).sum(1) + p["alpha"] * np.abs(pressure - p["initial"])) / (2 * bulk)
+        size = max(size, (area * (p["storage"] * np.abs(pressure - before) + p["alpha"] * volume)).max())
+        before = pressure
+    if error > PRECISION * size * len(history["time[s]"]):
+        return [f"mass: the books are wrong by {error:.3g} of {size:.3g} m^2"]
+    return []
+
+
+def failures(p, instants, history, main):
+    return momentum(p, instants) + fracture_mass(p, instants, main) + matrix_mass(p, instants) + books(p, instants, history)

@@ -1,0 +1,103 @@
+"""Pressures stay within what physics allows, and do not alternate from cell to cell.
+
+Bounds: a pressure lies between those that were given, widened by what loads and injection can make of it.
+- Loads: undrained, by Skempton's law, at most the change of the mean stress, which near tips is the written one.
+- Injection of a volume V: at most V over the compressibility of the fluid in the fracture, or what opens the fracture
+  by V, whichever is less (a crack of length L under the net pressure q opens by pi L^2 q/(2 E')); twice that for the
+  sides of the box.
+- Opening by slip, and extraction, lower the pressure without a bound of their own where the rock gives no fluid.
+Alternating: a cell is a peak when its pressure is above (or below) that of all its neighbours by more than 2 % of all
+differences there are. Smooth pressures have few of them, a checkerboard has half.
+"""
+
+import math
+
+import numpy as np
+
+from . import physics
+
+PEAK = 0.02
+SHARE = 0.1
+
+
+def neighbours(instant):
+    """Pairs of cells that share an edge which is not on a fracture."""
+    def key(point):
+        return tuple(np.round(point, 12))
+    grid = instant.matrix
+    edges = {}
+    for cell, corners in enumerate(grid.cells):
+        for i in range(3):
+            a, b = key(grid.points[corners[i]]), key(grid.points[corners[(i + 1) % 3]])
+            edges.setdefault((min(a, b), max(a, b)), []).append(cell)
+    lines = instant.fractures
+    for a, b in lines.cells:
+        a, b = key(lines.points[a]), key(lines.points[b])
+        edges.pop((min(a, b), max(a, b)), None)
+    return np.array([cells for cells in edges.values() if len(cells) == 2])
+
+
+def peaks(pressure, pairs):
+    """Share of the cells with three neighbours that are peaks."""
+    below, above = np.zeros(len(pressure)), np.zeros(len(pressure))
+    margin = PEAK * (pressure.max() - pressure.min())
+    difference = pressure[pairs[:, 0]] - pressure[pairs[:, 1]]
+    for column, sign in ((0, 1), (1, -1)):
+        np.add.at(above, pairs[:, column], sign * difference > margin)
+        np.add.at(below, pairs[:, column], sign * difference < -margin)
+    degree = np.bincount(pairs.ravel(), minlength=len(pressure))
+    inner = degree == 3
+    return ((above == 3) | (below == 3))[inner].mean() if inner.any() else 0.0
+
+
+def alternating_along(pressure, margin):
+    """The most changes of direction one after the other along a fracture."""
+    steps = np.diff(pressure)
+    longest = run = 0
+    for a, b in zip(steps, steps[1:]):
+        run = run + 1 if a * b < 0 and min(abs(a), abs(b)) > margin else 0
+        longest = max(longest, run)
+    return longest
+
+
+def bounds(p, instant):
+    given = [p["initial"]] + ([p["boundary_pressure"]] if p["boundary"] == "across" else [])
+    stress = instant.cell("rock.stress_xx_yy_xy[Pa]")
+    mean = np.abs(stress[:, :2]).max() * (1 + p["poisson"]) * 2 / 3 if p["alpha"] > 0 else 0.0
+    volume, length = abs(p["volume"] * physics.length(p) * p["aperture"]), physics.length(p)
+    lowest, highest = min(given) - mean, max(given) + mean
+    if p["well"] in ("inject", "inject_extract"):
+        compress = volume / (length * p["aperture"] * p["compressibility"]) if p["compressibility"] else math.inf
+        opening = 2 * physics.plane_strain_modulus(p) * volume / (math.pi * length**2)
+        loads = 2 * max(map(abs, physics.stresses(p, instant.time))) + np.abs(stress).max()
+        highest += 2 * min(compress, opening + loads)
+    return lowest, highest
+
+
+def failures(p, instants):
+    found = []
+    pairs = None
+    for instant in instants:
+        pressure = instant.cell("pore.pressure[Pa]")
+        fracture = instant.on_fractures("conduit.pressure", "Pa")
+        low, high = bounds(p, instant)
+        size = max(abs(low), abs(high), p["initial"])
+        # MPFA is no M-matrix: it may miss a bound by a part of the differences that there are.
+        slack = 1e-8 * size + 0.05 * (pressure.max() - pressure.min())
+        if max(pressure.max(), fracture.max()) > high + slack:
+            found.append(f"pressure: {max(pressure.max(), fracture.max()):.6g} Pa above {high:.6g} at t = {instant.time:.6g} s")
+        may_fall = p["well"] in ("extract", "inject_extract") or instant.on_fractures("contact.jump", "m")[:, 0].max() > 0
+        if not may_fall and min(pressure.min(), fracture.min()) < low - slack:
+            found.append(f"pressure: {min(pressure.min(), fracture.min()):.6g} Pa below {low:.6g} at t = {instant.time:.6g} s")
+        pairs = neighbours(instant) if pairs is None else pairs
+        if pressure.max() - pressure.min() > 1e-8 * size:
+            share = peaks(pressure, pairs)
+            if share > SHARE:
+                found.append(f"alternating: {100 * share:.0f} % of the cells are peaks at t = {instant.time:.6g} s")
+        numbers = instant.fractures.cell_data["fracture"]
+        for number in np.unique(numbers):
+            own = fracture[numbers == number]
+            margin = max(PEAK * (own.max() - own.min()), 1e-8 * size)
+            if alternating_along(own, margin) > 3:
+                found.append(f"alternating: along fracture {number} at t = {instant.time:.6g} s")
+    return found

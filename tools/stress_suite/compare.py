@@ -1,0 +1,45 @@
+"""The same scene on one process and on several: the figures of history.csv agree."""
+
+import shutil
+
+import numpy as np
+
+from . import check_end, examine as one_process, ranges, run, scene, written
+
+# The answer is as good as Newton's last update, 1e-8 of the fields; columns that depend on a difference lose two digits.
+TOLERANCE = 1e-6
+LEFT_OUT = ("iterations[1]", "fluid_balance_error[m^2]")
+
+
+def differences(alone, together):
+    if len(alone["time[s]"]) != len(together["time[s]"]):
+        return [f"processes: {len(together['time[s]'])} steps instead of {len(alone['time[s]'])}"]
+    found = []
+    turnover = max([np.abs(alone[c]).max() for c in alone if c.endswith("[m^2]")] + [0])
+    for name, values in alone.items():
+        if name in LEFT_OUT or isinstance(values, list):
+            continue
+        size = max(np.abs(values).max(), 1e-6 * turnover if name.endswith("[m^2]") else 0)
+        worst = np.abs(values - together[name]).max()
+        if worst > TOLERANCE * size:
+            found.append(f"processes: {name} differs by {worst / size:.2g}")
+    return found
+
+
+def examine(program, chosen, number, folder):
+    report = one_process.examine(program, chosen.seed, number, folder, chosen.limit, keep=True)
+    p = ranges.draw(chosen.seed, number)
+    ended = run.run(program, scene.write(p, folder), folder / "together", 3 * chosen.limit, chosen.processes)
+    bad = check_end.failures(ended)
+    report["seconds"] += round(ended.seconds, 2)
+    if report["outcome"] == "refused":
+        if ended.code == 0:
+            bad.append("processes: refused on one process only")
+    elif not bad and ended.code != 2:
+        bad += differences(written.history(folder / "results"), written.history(folder / "together"))
+    report["failures"] += [f"on {chosen.processes} processes: {text}" for text in bad]
+    if report["failures"]:
+        report["outcome"] = "failed"
+    if not chosen.keep:
+        shutil.rmtree(folder, ignore_errors=True)
+    return report

@@ -1,0 +1,45 @@
+"""Draws, runs and checks one scene."""
+
+import shutil
+
+from . import check_balance, check_contact, check_end, check_finite, check_pressure, physics, ranges, run, scene, written
+
+
+def describe(p):
+    return (f"dt = {p['relative_step']:.0e} of diffusion, k = {p['permeability']:.0e}, alpha = {p['alpha']:.2f}, "
+            f"S = {p['storage']:.0e}, nu = {p['poisson']:.4f}, friction = {p['friction']:.2f}, "
+            f"dilation = {p['dilation']:.0f} deg, a = {p['aperture']:.0e} m, {p['history']}, {p['well']}, {p['mesh']}, "
+            f"{p['fractures']}, {p['place']}")
+
+
+def check_fields(p, folder):
+    instants, history = written.instants(folder), written.history(folder)
+    found = check_finite.failures(instants, history)
+    if found or not instants:
+        return found
+    return (check_contact.failures(p, instants) + check_balance.failures(p, instants, history, main=0) +
+            check_pressure.failures(p, instants))
+
+
+def examine(program, seed, number, folder, limit, processes=1, keep=False):
+    """{number, outcome, failures, iterations, accepted, rejected, seconds}; the folder is removed unless it is kept."""
+    p = ranges.draw(seed, number)
+    shutil.rmtree(folder, ignore_errors=True)
+    ended = run.run(program, scene.write(p, folder), folder / "results", limit, processes)
+    report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0,
+              "seconds": round(ended.seconds, 2), "scene": describe(p), "reason": ""}
+    if check_end.is_refused(ended):
+        report["outcome"], report["reason"] = "refused", " ".join(ended.stderr.split())[:300]
+    elif ended.timed_out or ended.code < 0 or ended.code > 2:
+        report["outcome"] = "failed"
+    else:
+        report["outcome"] = "gave up" if check_end.gave_up(ended) else "answer"
+        report["reason"] = written.exit_record(ended.folder)["exit"]["reason"]
+        report["iterations"], report["accepted"], report["rejected"] = written.iterations_of_steps(ended.folder)
+        if report["accepted"] > 0:
+            report["failures"] += check_fields(p, ended.folder)
+    if report["failures"]:
+        report["outcome"] = "failed"
+    if not keep:
+        shutil.rmtree(folder, ignore_errors=True)
+    return report

@@ -1,0 +1,88 @@
+"""Draws the parameters of a scene. A seed and a number give the same parameters on every machine."""
+
+import math
+import random
+
+
+def log_uniform(rng, low, high):
+    return 10 ** rng.uniform(math.log10(low), math.log10(high))
+
+
+def sometimes(rng, special, share, usual):
+    """The special value in a share of the scenes, for limits that a continuous range would never meet."""
+    draw = usual()
+    return special if rng.random() < share else draw
+
+
+def choose(rng, **weights):
+    return rng.choices(list(weights), list(weights.values()))[0]
+
+
+def material(rng):
+    alpha = sometimes(rng, 0.0, 0.12, lambda: sometimes(rng, 1.0, 0.12, lambda: rng.uniform(0, 1)))
+    return {
+        "young": log_uniform(rng, 1e9, 1e11),
+        "poisson": sometimes(rng, 0.0, 0.08, lambda: choose_poisson(rng)),
+        "alpha": alpha,
+        "permeability": log_uniform(rng, 1e-24, 1e-10),
+        "viscosity": log_uniform(rng, 1e-4, 1e-2),
+        "storage": sometimes(rng, 0.0, 0.15, lambda: log_uniform(rng, 1e-13, 1e-6)),
+        "compressibility": sometimes(rng, 0.0, 0.05, lambda: log_uniform(rng, 1e-11, 3e-9)),
+        "friction": sometimes(rng, 0.0, 0.08, lambda: rng.uniform(0, 2)),
+        "dilation": sometimes(rng, 0.0, 0.2, lambda: rng.uniform(0, 20)),
+        "aperture": log_uniform(rng, 1e-6, 1e-2),
+    }
+
+
+def choose_poisson(rng):
+    return rng.uniform(0, 0.4) if rng.random() < 0.6 else 0.5 - log_uniform(rng, 1e-4, 1e-1)
+
+
+def geometry(rng):
+    width = log_uniform(rng, 0.5, 300)
+    return {
+        "width": width,
+        "height": width * rng.uniform(0.6, 1.6),
+        "mesh": choose(rng, gmsh=0.6, twisted=0.4),
+        "fractures": choose(rng, one=0.6, parallel=0.2, in_line=0.2),
+        "place": choose(rng, inside=0.65, near_side=0.28, on_side=0.07),
+        "length": rng.uniform(0.08, 0.7),             # of the shorter side of the box
+        "angle": rng.uniform(0, 180),                 # degrees
+        "gap": log_uniform(rng, 3e-3, 0.2),           # between two tips or walls, or tip and side; of the length
+        "cells": rng.randint(4, 20),                  # on a fracture
+        "coarse": rng.uniform(4, 10),                 # cells along the box
+        "growth": rng.uniform(0.2, 2.0),
+        "sliver": rng.uniform(5, 40),                 # smallest angle of a twisted mesh, degrees
+        "shuffle": rng.randint(0, 2**31),
+    }
+
+
+def loading(rng):
+    load = log_uniform(rng, 1e6, 1e8)
+    return {
+        "sides": choose(rng, stress=0.85, shear_box=0.15),
+        "stress": load,
+        "ratio": log_uniform(rng, 0.1, 10),
+        "history": choose(rng, constant=0.4, ramp=0.15, reversal=0.25, cycle=0.2),
+        "shear": rng.uniform(-3, 3),
+    }
+
+
+def fluid(rng):
+    return {
+        "discretization": choose(rng, mpfa=0.85, tpfa=0.15),
+        "initial": sometimes(rng, 0.0, 0.6, lambda: log_uniform(rng, 1e5, 3e7)),
+        "boundary": choose(rng, none=0.35, right=0.3, across=0.35),
+        "boundary_pressure": sometimes(rng, 0.0, 0.4, lambda: log_uniform(rng, 1e5, 3e7)),
+        "well": choose(rng, none=0.25, inject=0.4, extract=0.2, inject_extract=0.15),
+        "volume": log_uniform(rng, 1e-4, 1.0),        # of the volume of the fracture, in the whole run
+    }
+
+
+def time(rng):
+    return {"relative_step": log_uniform(rng, 1e-6, 1e6), "steps": rng.randint(3, 7)}
+
+
+def draw(seed, number):
+    rng = random.Random(f"{seed}:{number}")
+    return {"seed": seed, "number": number, **material(rng), **geometry(rng), **loading(rng), **fluid(rng), **time(rng)}

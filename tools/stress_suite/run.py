@@ -1,0 +1,36 @@
+"""Runs the program on one scene, for a limited time, and in its own process group so that nothing is left behind."""
+
+import os
+import signal
+import subprocess
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass
+class Ended:
+    folder: Path      # of the results
+    code: int         # negative: the signal that ended it
+    stderr: str
+    timed_out: bool
+    seconds: float
+
+
+def run(program, scene, folder, limit, processes=1):
+    command = [str(program), "run", "-q", str(scene), "-o", str(folder)]
+    if processes > 1:
+        command = ["mpirun", "-n", str(processes), *command]
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
+                   "ASAN_OPTIONS": "detect_leaks=0", "UBSAN_OPTIONS": "print_stacktrace=1"}
+    began = time.monotonic()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace",
+                               env=environment, start_new_session=True)
+    timed_out = False
+    try:
+        _, stderr = process.communicate(timeout=limit)
+    except subprocess.TimeoutExpired:
+        timed_out = True
+        os.killpg(process.pid, signal.SIGKILL)
+        _, stderr = process.communicate()
+    return Ended(Path(folder), process.returncode, stderr, timed_out, time.monotonic() - began)

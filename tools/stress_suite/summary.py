@@ -1,0 +1,63 @@
+"""What came out: one line for each failure, the distribution of iterations and cuts, JSON and a picture."""
+
+import json
+import subprocess
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def repeats(chosen, number):
+    extra = " --sanitize" if chosen.sanitize else f" --processes {chosen.processes}" if chosen.processes > 1 else ""
+    return f"tools/stress --seed {chosen.seed} --only {number}{extra}"
+
+
+def lines_of(report, chosen):
+    """One line for a scene that failed or gave up; with --only always one."""
+    if report["failures"]:
+        more = f" (and {len(report['failures']) - 1} more)" if len(report["failures"]) > 1 else ""
+        return [f"FAILED {repeats(chosen, report['number'])}   {report['failures'][0]}{more}   [{report['scene']}]"]
+    if report["outcome"] == "gave up":
+        return [f"gave up {repeats(chosen, report['number'])}   {report['reason']}   [{report['scene']}]"]
+    if chosen.only is not None:
+        return [f"{report['outcome']}: {report['rejected']} cuts, iterations {report['iterations']} {report['reason']} "
+                f"[{report['scene']}]"]
+    return []
+
+
+def figures(reports):
+    iterations = Counter(i for report in reports for i in report["iterations"])
+    accepted, rejected = (sum(report[key] for report in reports) for key in ("accepted", "rejected"))
+    ordered = sorted(iterations.elements())
+    share = lambda part: ordered[min(len(ordered) - 1, int(part * len(ordered)))] if ordered else 0
+    return {"scenes": len(reports), "outcomes": dict(Counter(report["outcome"] for report in reports)),
+            "scenes with cuts": sum(1 for report in reports if report["rejected"]),
+            "steps accepted": accepted, "steps cut": rejected,
+            "steps cut, percent": round(100 * rejected / max(1, accepted + rejected), 3),
+            "iterations": {str(k): iterations[k] for k in sorted(iterations)},
+            "iterations, median": share(0.5), "iterations, 99 percent": share(0.99), "iterations, most": share(1.0),
+            "seconds": round(sum(report["seconds"] for report in reports), 1)}
+
+
+def text(reports):
+    f = figures(reports)
+    outcomes = ", ".join(f"{count} {name}" for name, count in sorted(f["outcomes"].items()))
+    return (f"{f['scenes']} scenes: {outcomes}\n{f['steps accepted']} steps, {f['steps cut']} cut "
+            f"({f['steps cut, percent']} %) in {f['scenes with cuts']} scenes; Newton iterations a step: median "
+            f"{f['iterations, median']}, 99 % at most {f['iterations, 99 percent']}, most {f['iterations, most']}")
+
+
+def commit():
+    return subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout.strip()
+
+
+def write(reports, chosen, program):
+    record = {"seed": chosen.seed, "commit": commit(), **figures(reports),
+              "not answered": [{k: r[k] for k in ("number", "outcome", "failures", "reason", "scene")}
+                               for r in reports if r["outcome"] != "answer"],
+              "cuts": [{k: r[k] for k in ("number", "rejected", "accepted", "scene")} for r in reports if r["rejected"]]}
+    chosen.report.parent.mkdir(parents=True, exist_ok=True)
+    chosen.report.with_suffix(".json").write_text(json.dumps(record, indent=1) + "\n")
+    from . import picture
+    picture.draw(record, chosen.report.with_suffix(".png"))

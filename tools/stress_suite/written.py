@@ -1,0 +1,60 @@
+"""What a run has written: the fields of every step, and the tables."""
+
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import results  # noqa: E402
+
+
+@dataclass
+class Instant:
+    """Fields at the end of a step. Fracture tensors have the columns normal, tangential."""
+
+    time: float
+    matrix: results.Grid
+    fractures: results.Grid
+    follows: bool  # whether the step before it is the Instant before it
+
+    def cell(self, name):
+        return self.matrix.cell_data[name]
+
+    def on_fractures(self, name, unit):
+        data = self.fractures.cell_data
+        if f"{name}[{unit}]" in data:
+            return data[f"{name}[{unit}]"]
+        return np.column_stack([data[f"{name}.normal[{unit}]"], data[f"{name}.tangential[{unit}]"]])
+
+
+def exit_record(folder):
+    return json.loads((folder / "run.json").read_text())
+
+
+def history(folder):
+    return results.read_table(folder / "history.csv")
+
+
+def iterations_of_steps(folder):
+    """(Newton's iterations of accepted steps, accepted steps, rejected steps)."""
+    record, table = exit_record(folder), history(folder)
+    counters = record["counters"]
+    return [int(i) for i in table.get("iterations[1]", [])], counters["steps accepted"], counters["steps rejected"]
+
+
+def instants(folder):
+    matrix = results.read_pvd(folder / "matrix.pvd")
+    fractures = results.read_pvd(folder / "fractures.pvd")
+    table = history(folder)
+    ends = np.asarray(table["time[s]"])
+    begins = ends - np.asarray(table["step[s]"])
+    found, last = [], 0.0
+    for (t, file), (_, other) in zip(matrix, fractures):
+        row = int(np.argmin(abs(ends - t)))
+        follows = abs(begins[row] - last) <= 1e-9 * ends[-1]
+        found.append(Instant(t, results.read_vtu(file), results.read_vtu(other), follows))
+        last = t
+    return found
