@@ -1,0 +1,45 @@
+// The KGD fracture in the toughness regime against its closed form, over time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/verification/scene_run.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+constexpr double plane_modulus = 32e9, toughness = 1e6, rate = 1e-4;
+
+/// l = (E' Q t/(2 sqrt(pi) K_IC))^(2/3): K_I = p sqrt(pi l) and the volume 2 pi l^2 p/E' = Q t.
+double half_length(double time) {
+  return std::pow(plane_modulus * rate * time / (2 * std::sqrt(M_PI) * toughness), 2. / 3);
+}
+
+TEST(Kgd, LengthPressureAndOpeningFollowTheClosedForm) {
+  EXPECT_NEAR(half_length(100), 20.123, 0.001);
+  // The fracture grows by steps of 0.25 m, each of which lowers K_I by 0.25 m/l times 3/2. So it begins with 15 m,
+  // where that is 2.5 %.
+  constexpr double start = 15;
+  SceneRun run("verification/kgd.yaml", {{"geometry.fractures.main.points", "[[0 m, 0 m], [15 m, 0 m]]"}});
+  double first = 0;
+  run.run_until(74, [&] {
+    const double grown = run.quantity("tips.main_last.length");
+    const double expected = std::max(start, half_length(run.time()));
+    const double pressure =
+        grown > 0 ? toughness / std::sqrt(M_PI * expected)
+                  : plane_modulus * rate * run.time() / (2 * M_PI * start * start);  // not yet at the toughness
+    EXPECT_NEAR((start + grown) / expected, 1, 0.03) << run.time();
+    EXPECT_NEAR(run.quantity("pressure") / pressure, 1, 0.03) << run.time();
+    EXPECT_NEAR(run.quantity("opening.n") / (4 * pressure * expected / plane_modulus), 1, 0.03) << run.time();
+    EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-9 * run.quantity("fluid_injected"));
+    if (grown > 0 && first == 0) first = run.time();
+  });
+  EXPECT_GT(run.mesh_changes(), 4);
+  EXPECT_NEAR(first / 64.34, 1, 0.03);
+  // Straight ahead, though nothing tells it to.
+  for (const FractureCell& cell : run.mesh().fracture_cells)
+    EXPECT_NEAR(cell.center[1], 0, cell.grown ? 0.01 * (cell.center[0] - start) : 1e-12);
+}
+
+}  // namespace
+}  // namespace sprekk::testing
