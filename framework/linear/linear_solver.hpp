@@ -60,6 +60,10 @@ struct LinearCounts {
   int reused = 0;          ///< calls of `factor` with bitwise the last system: nothing done
   int solves = 0;          ///< right-hand sides
   int iterations = 0;      ///< of an iterative method, all solves together
+  int condensed = 0;       ///< factorizations of a condensed system (CondensedSolver), instead of the whole one
+  int columns = 0;         ///< right-hand sides that were solved together, to condense
+  int patterns = 0;        ///< sparsity patterns built by those who assemble the systems
+  int residuals = 0, jacobians = 0;  ///< assemblies without and with derivatives
   double seconds_ordering = 0, seconds_factor = 0, seconds_solve = 0;
   LinearCounts& operator+=(const LinearCounts& other) {
     orderings += other.orderings;
@@ -67,6 +71,11 @@ struct LinearCounts {
     reused += other.reused;
     solves += other.solves;
     iterations += other.iterations;
+    condensed += other.condensed;
+    columns += other.columns;
+    patterns += other.patterns;
+    residuals += other.residuals;
+    jacobians += other.jacobians;
     seconds_ordering += other.seconds_ordering;
     seconds_factor += other.seconds_factor;
     seconds_solve += other.seconds_solve;
@@ -86,6 +95,9 @@ class LinearSolver {
   /// The true residual is checked after every solve, and improved by iterative refinement where a direct solver needs
   /// it.
   virtual LinearReport solve(const Vector& b_rows, Vector& x) = 0;
+  /// A X = B in place for the columns of B, in one process, without a look at residuals. False for a solver that
+  /// cannot.
+  virtual bool solve_columns(Eigen::Ref<Eigen::MatrixXd> /*columns*/) { return false; }
   virtual std::string name() const = 0;
   virtual const LinearCounts& counts() const { return counts_; }
 
@@ -97,12 +109,15 @@ struct LinearOptions {
   std::string type = "auto";  ///< auto, umfpack, mumps, belos
   double tolerance = 1e-10;   ///< relative residual of iterative methods
   int max_iterations = 500;
+  bool condense = true;  ///< direct solvers in one process: factorize the bulk once, and then only what is local
 };
 
 /// `auto`: UMFPACK for small systems in one process, MUMPS for larger ones and in several processes, Belos with the
 /// block preconditioner above a size.
 /// Throws std::invalid_argument for an unknown type, and for umfpack on several processes.
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
+/// The same, for systems that change on fractures only: condensed if the options ask for it and the solver can.
+std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options);
 
 /// The name of the BLAS in use and whether it is the slow reference one.
 struct BlasInfo {

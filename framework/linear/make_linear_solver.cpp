@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "framework/linear/condensed_solver.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/linear/mumps_solver.hpp"
 #include "framework/linear/trilinos/belos_solver.hpp"
@@ -33,6 +34,9 @@ class AutomaticSolver final : public LinearSolver {
     if (!chosen_) return LinearReport::failure("solve was called before factor");
     return chosen_->solve(b_rows, x);
   }
+  bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override {
+    return chosen_ && chosen_->solve_columns(columns);
+  }
   std::string name() const override { return chosen_ ? chosen_->name() : "auto"; }
   const LinearCounts& counts() const override { return chosen_ ? chosen_->counts() : counts_; }
 
@@ -54,6 +58,11 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options) {
     return std::make_unique<UmfpackSolver>();
   }
   throw std::invalid_argument("unknown linear solver '" + options.type + "' (there are: auto, umfpack, mumps, belos)");
+}
+
+std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options) {
+  if (!options.condense || options.type == "belos" || parallel::size() > 1) return make_linear_solver(options);
+  return std::make_unique<CondensedSolver>(options);
 }
 
 }  // namespace sprekk

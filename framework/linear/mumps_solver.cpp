@@ -3,6 +3,7 @@
 #include <dmumps_c.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -145,6 +146,25 @@ LinearReport MumpsSolver::solve(const Vector& b_rows, Vector& x) {
   ++counts_.solves;
   return refined_solve(
       system_, scaled_, b_rows, [this](Vector& v) { apply_inverse(v, false); }, x);
+}
+
+bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
+  if (parallel::size() > 1) return false;
+  const Stopwatch watch(counts_.seconds_solve);
+  counts_.columns += static_cast<int>(columns.cols());
+  constexpr int together = 32;  // more than one is what makes it fast; all of them would double the memory
+  Eigen::MatrixXd block(columns.rows(), std::min<Eigen::Index>(together, columns.cols()));
+  mumps_->icntl(9) = 1;
+  for (Eigen::Index first = 0; first < columns.cols(); first += block.cols()) {
+    const Eigen::Index count = std::min(block.cols(), columns.cols() - first);
+    block.leftCols(count) = scaled_.row_scale.asDiagonal() * columns.middleCols(first, count);
+    mumps_->data.rhs = block.data();
+    mumps_->data.nrhs = static_cast<int>(count);
+    mumps_->data.lrhs = mumps_->data.n;
+    mumps_->run(back_substitute);
+    columns.middleCols(first, count) = scaled_.column_scale.asDiagonal() * block.leftCols(count);
+  }
+  return true;
 }
 
 void MumpsSolver::apply_inverse(Vector& v, bool transposed) {

@@ -19,6 +19,7 @@ class MumpsSolver final : public LinearSolver {
 
   LinearReport factor(const LinearSystem& system) override;
   LinearReport solve(const Vector& b_rows, Vector& x) override;
+  bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
   std::string name() const override { return "mumps"; }
 
  private:

@@ -7,6 +7,7 @@
 #include "framework/linear/near_singular.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
+#include "framework/linear/umfpack_factors.hpp"
 #include "framework/linear/unknown_names.hpp"
 
 namespace sprekk {
@@ -120,6 +121,15 @@ void UmfpackSolver::solve_unchecked(Eigen::Ref<Vector> b) const {
   Vector y = scaled_.row_scale.cwiseProduct(b);
   apply_inverse(y, false);
   b = scaled_.column_scale.cwiseProduct(y);
+}
+
+bool UmfpackSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
+  const Stopwatch watch(counts_.seconds_solve);
+  counts_.columns += static_cast<int>(columns.cols());
+  columns = scaled_.row_scale.asDiagonal() * columns;
+  UmfpackFactors(numeric_, static_cast<int>(scaled_.matrix.rows())).solve(columns);
+  columns = scaled_.column_scale.asDiagonal() * columns;
+  return true;
 }
 
 void UmfpackSolver::apply_inverse(Vector& v, bool transposed) const {

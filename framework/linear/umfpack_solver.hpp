@@ -22,8 +22,9 @@ class UmfpackSolver final : public LinearSolver {
 
   LinearReport factor(const LinearSystem& system) override;
   LinearReport solve(const Vector& b_rows, Vector& x) override;
-  /// A X = B column by column without residual checks, in place: for building Schur complements.
+  /// The same for one column.
   void solve_unchecked(Eigen::Ref<Vector> b) const;
+  bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
   std::string name() const override { return "umfpack"; }
 
  private:

@@ -21,7 +21,7 @@ Newton::Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*
       name_(std::move(name)),
       log_(std::move(log)),
       system_(mesh, {unknowns_.begin(), unknowns_.end()}),
-      linear_(make_linear_solver(linear)) {}
+      linear_(make_condensing_solver(linear)) {}
 
 Newton::~Newton() = default;
 
@@ -30,6 +30,7 @@ void Newton::set_preconditioner_stabilization(const Stabilization& stabilization
 }
 
 std::unique_ptr<Assembly> Newton::assemble(Assembly::Want want, const StepTime& step) const {
+  ++(want == Assembly::Want::residual ? residuals_ : jacobians_);
   auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()}, want);
   for (const Part* part : parts_) part->assemble(*assembly, step);
   if (stabilization_)
@@ -40,6 +41,14 @@ std::unique_ptr<Assembly> Newton::assemble(Assembly::Want want, const StepTime& 
     }
   for (const Part* part : parts_) part->constrain(*assembly);
   return assembly;
+}
+
+LinearCounts Newton::counts() const {
+  LinearCounts counts = linear_->counts();
+  counts.patterns = system_.patterns_built();
+  counts.residuals = residuals_;
+  counts.jacobians = jacobians_;
+  return counts;
 }
 
 std::uint64_t Newton::discrete_state() const {
@@ -57,6 +66,18 @@ std::vector<Vector> Newton::values() const {
 void Newton::move(const std::vector<Vector>& from, const Vector& update, double length) {
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
     unknowns_[u]->set(from[u] + length * update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size()));
+}
+
+Vector Newton::right_hand_side(const Assembly& assembly, const ResidualCheck& check) const {
+  Vector right = -system_.residual(assembly);
+  const std::vector<int>& rows = system_.rows();
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    if (!check.is_round_off[u]) continue;
+    const int first = system_.first(static_cast<int>(u)), end = first + unknowns_[u]->size();
+    const auto begin = std::lower_bound(rows.begin(), rows.end(), first);
+    right.segment(begin - rows.begin(), std::lower_bound(begin, rows.end(), end) - begin).setZero();
+  }
+  return right;
 }
 
 double Newton::relative_size(const Vector& update, const ResidualCheck& check) const {
@@ -131,7 +152,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
       // The simplified update: what one more iteration would change, for the price of a back-solve.
       const auto assembly = assemble(Assembly::Want::residual, step);
       Vector update;
-      const LinearReport report = linear_->solve(-system_.residual(*assembly), update);
+      const LinearReport report = linear_->solve(right_hand_side(*assembly, check), update);
       const double size = report.solved ? relative_size(update, check) : std::numeric_limits<double>::infinity();
       if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0});
       if (size <= options_.update) return {true, "", iteration};
@@ -147,7 +168,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
     if (!factoring.solved) return {false, "singular system: " + factoring.reason, iteration};
     factored = true;
     Vector update;
-    const LinearReport report = linear_->solve(-system_.residual(*assembly), update);
+    const LinearReport report = linear_->solve(right_hand_side(*assembly, check), update);
     if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
 
     // A state that stays is no cycle; one that has been left and comes back is, if it does so again and again.

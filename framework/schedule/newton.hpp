@@ -34,7 +34,8 @@ class Newton {
   /// `stabilization`: diagonals times the change since the start of this call, added to the residuals.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization = {});
 
-  const LinearSolver& linear_solver() const { return *linear_; }
+  /// What assembly and linear solver did since the start.
+  LinearCounts counts() const;
   void set_preconditioner_stabilization(const Stabilization& stabilization);
 
  private:
@@ -42,6 +43,9 @@ class Newton {
   std::uint64_t discrete_state() const;
   std::vector<Vector> values() const;
   void move(const std::vector<Vector>& from, const Vector& update, double length);
+  /// Minus the residual of the owned rows; zero for equations that hold to round-off. So the bulk, whose
+  /// equations are linear, is solved for once a step by a solver that condenses it.
+  Vector right_hand_side(const Assembly& assembly, const ResidualCheck& check) const;
   /// The largest change of a field over its largest value. Fields whose equation holds to round-off already are left
   /// out: where nothing flows, a flux is nothing but round-off.
   double relative_size(const Vector& update, const ResidualCheck& check) const;
@@ -54,6 +58,7 @@ class Newton {
   IterationLog log_;
   BlockSystem system_;
   std::unique_ptr<LinearSolver> linear_;
+  mutable int residuals_ = 0, jacobians_ = 0;  ///< assembled
   std::vector<double> recent_merits_;
   const Stabilization* stabilization_ = nullptr;
   std::map<const Field*, Vector> start_;

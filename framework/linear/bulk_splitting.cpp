@@ -1,0 +1,155 @@
+#include "framework/linear/bulk_splitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+namespace sprekk {
+namespace {
+
+LinearSystem system_of(SparseMatrix matrix, std::vector<UnknownBlock> blocks) {
+  LinearSystem system;
+  system.rows.resize(matrix.rows());
+  std::iota(system.rows.begin(), system.rows.end(), 0);
+  system.local = std::move(matrix);
+  system.blocks = std::move(blocks);
+  return system;
+}
+
+/// Adds A x, and |A| |x| to the sizes of the terms.
+void multiply(const SparseMatrix& a, const Vector& x, Vector& product, Vector& size) {
+  for (int row = 0; row < a.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
+      const double term = entry.value() * x[entry.col()];
+      product[row] += term;
+      size[row] += std::abs(term);
+    }
+}
+
+double largest_by_block(const std::vector<UnknownBlock>& blocks, const Vector& residual, const Vector& size) {
+  double largest = 0;
+  for (const UnknownBlock& block : blocks) {
+    const int count = block.entities * block.components;
+    if (count == 0) continue;
+    const double error = residual.segment(block.first, count).lpNorm<Eigen::Infinity>();
+    if (error > 0) largest = std::max(largest, error / size.segment(block.first, count).maxCoeff());
+  }
+  return largest;
+}
+
+}  // namespace
+
+bool SubMatrix::update(const double* values) {
+  bool has_changed = false;
+  double* mine = matrix.valuePtr();
+  for (std::size_t k = 0; k < source.size(); ++k) {
+    const double value = values[source[k]];
+    has_changed |= std::memcmp(&value, &mine[k], sizeof value) != 0;
+    mine[k] = value;
+  }
+  return has_changed;
+}
+
+BulkSplitting::BulkSplitting(const LinearSystem& system)
+    : outer_(system.local.outerIndexPtr(), system.local.outerIndexPtr() + system.local.rows() + 1),
+      inner_(system.local.innerIndexPtr(), system.local.innerIndexPtr() + system.local.nonZeros()),
+      is_local_(system.local.cols(), 1),
+      place_(system.local.cols(), 0) {
+  for (UnknownBlock block : system.blocks) {
+    block.stabilization.resize(0);
+    blocks_.push_back(block);
+    if (block.kind != UnknownBlock::Kind::local)
+      std::fill_n(is_local_.begin() + block.first, block.entities * block.components, 0);
+  }
+  int bulk = 0, local = 0;
+  for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = is_local_[i] ? local++ : bulk++;
+  for (UnknownBlock block : blocks_) {
+    if (block.entities == 0) continue;
+    block.first = place_[block.first];
+    (block.kind == UnknownBlock::Kind::local ? local_blocks_ : bulk_blocks_).push_back(block);
+  }
+  bb = extract(system.local, false, false);
+  bf = extract(system.local, false, true);
+  fb = extract(system.local, true, false);
+  ff = extract(system.local, true, true);
+
+  std::vector<char> is_felt(local, 0);
+  for (int k = 0; k < bf.matrix.nonZeros(); ++k) is_felt[bf.matrix.innerIndexPtr()[k]] = 1;
+  for (int i = 0; i < local; ++i)
+    if (is_felt[i]) felt.push_back(i);
+}
+
+SubMatrix BulkSplitting::extract(const SparseMatrix& matrix, bool local_rows, bool local_columns) const {
+  SubMatrix sub;
+  std::vector<int> starts{0}, columns;
+  for (int row = 0; row < matrix.rows(); ++row) {
+    if (static_cast<bool>(is_local_[row]) != local_rows) continue;
+    for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k) {
+      const int column = matrix.innerIndexPtr()[k];
+      if (static_cast<bool>(is_local_[column]) != local_columns) continue;
+      columns.push_back(place_[column]);
+      sub.source.push_back(k);
+    }
+    starts.push_back(static_cast<int>(columns.size()));
+  }
+  const auto width = std::count(is_local_.begin(), is_local_.end(), static_cast<char>(local_columns));
+  sub.matrix.resize(static_cast<int>(starts.size()) - 1, static_cast<int>(width));
+  sub.matrix.resizeNonZeros(columns.size());
+  std::copy(starts.begin(), starts.end(), sub.matrix.outerIndexPtr());
+  std::copy(columns.begin(), columns.end(), sub.matrix.innerIndexPtr());
+  std::fill_n(sub.matrix.valuePtr(), columns.size(), std::nan(""));  // so that the first values are a change
+  return sub;
+}
+
+bool BulkSplitting::fits(const SparseMatrix& matrix) const {
+  return static_cast<int>(inner_.size()) == matrix.nonZeros() && static_cast<int>(outer_.size()) == matrix.rows() + 1 &&
+         std::equal(outer_.begin(), outer_.end(), matrix.outerIndexPtr()) &&
+         std::equal(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
+}
+
+Vector BulkSplitting::part(const Vector& whole, bool local, int size) const {
+  Vector mine(size);
+  for (std::size_t i = 0; i < is_local_.size(); ++i)
+    if (static_cast<bool>(is_local_[i]) == local) mine[place_[i]] = whole[i];
+  return mine;
+}
+
+Vector BulkSplitting::joined(const Vector& bulk, const Vector& local) const {
+  Vector whole(is_local_.size());
+  for (std::size_t i = 0; i < is_local_.size(); ++i) whole[i] = is_local_[i] ? local[place_[i]] : bulk[place_[i]];
+  return whole;
+}
+
+LinearSystem BulkSplitting::bulk_system() const { return system_of(bb.matrix, bulk_blocks_); }
+
+LinearSystem BulkSplitting::local_system(SparseMatrix matrix) const {
+  return system_of(std::move(matrix), local_blocks_);
+}
+
+LinearSystem BulkSplitting::whole_system() const {
+  const int size = static_cast<int>(is_local_.size());
+  SparseMatrix matrix(size, size);
+  matrix.resizeNonZeros(inner_.size());
+  std::copy(outer_.begin(), outer_.end(), matrix.outerIndexPtr());
+  std::copy(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
+  for (const SubMatrix* sub : {&bb, &bf, &fb, &ff})
+    for (std::size_t k = 0; k < sub->source.size(); ++k) matrix.valuePtr()[sub->source[k]] = sub->matrix.valuePtr()[k];
+  return system_of(std::move(matrix), blocks_);
+}
+
+double BulkSplitting::backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk,
+                                     const Vector& b_local) const {
+  if (!std::isfinite(bulk.sum() + local.sum())) return HUGE_VAL;
+  Vector product = Vector::Zero(bulk_size()), size = b_bulk.cwiseAbs();
+  multiply(bb.matrix, bulk, product, size);
+  multiply(bf.matrix, local, product, size);
+  const double of_bulk = largest_by_block(bulk_blocks_, b_bulk - product, size);
+  product = Vector::Zero(local_size());
+  size = b_local.cwiseAbs();
+  multiply(fb.matrix, bulk, product, size);
+  multiply(ff.matrix, local, product, size);
+  return std::max(of_bulk, largest_by_block(local_blocks_, b_local - product, size));
+}
+
+}  // namespace sprekk

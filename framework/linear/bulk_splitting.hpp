@@ -1,0 +1,52 @@
+// Which entries of a system belong to the bulk and which to the local unknowns on fractures.
+#pragma once
+
+#include <vector>
+
+#include "framework/linear/linear_solver.hpp"
+
+namespace sprekk {
+
+/// The part of a matrix with rows of one kind and columns of one kind.
+struct SubMatrix {
+  SparseMatrix matrix;
+  std::vector<int> source;  ///< of every value: its place among the values of the whole matrix
+
+  /// Takes the values over. True if the bits of one have changed.
+  bool update(const double* values);
+  bool has_row(int row) const { return matrix.outerIndexPtr()[row + 1] > matrix.outerIndexPtr()[row]; }
+};
+
+/// Splits the unknowns of a system in one process into B (bulk) and F (UnknownBlock::Kind::local), each in their order,
+/// and the matrix into four. It stays while the pattern does.
+class BulkSplitting {
+ public:
+  explicit BulkSplitting(const LinearSystem& system);
+  bool fits(const SparseMatrix& matrix) const;
+
+  int bulk_size() const { return bb.matrix.rows(); }
+  int local_size() const { return ff.matrix.rows(); }
+  Vector bulk_part(const Vector& whole) const { return part(whole, false, bulk_size()); }
+  Vector local_part(const Vector& whole) const { return part(whole, true, local_size()); }
+  Vector joined(const Vector& bulk, const Vector& local) const;
+  /// The matrices as systems of their own.
+  LinearSystem bulk_system() const;
+  LinearSystem local_system(SparseMatrix matrix) const;
+  LinearSystem whole_system() const;
+  /// The largest over the blocks of max |b − A x| / max (|A| |x| + |b|), the maxima taken over a block's rows.
+  double backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk, const Vector& b_local) const;
+
+  SubMatrix bb, bf, fb, ff;
+  std::vector<int> felt;  ///< the local unknowns that have a column in A_BF
+
+ private:
+  Vector part(const Vector& whole, bool local, int size) const;
+  SubMatrix extract(const SparseMatrix& matrix, bool local_rows, bool local_columns) const;
+
+  std::vector<int> outer_, inner_;
+  std::vector<char> is_local_;  ///< of every unknown
+  std::vector<int> place_;      ///< of every unknown: its number among those of its kind
+  std::vector<UnknownBlock> blocks_, bulk_blocks_, local_blocks_;
+};
+
+}  // namespace sprekk

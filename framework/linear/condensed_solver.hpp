@@ -1,0 +1,54 @@
+// Condenses the bulk out of a system: one factorization of the bulk serves all systems that differ on fractures only.
+#pragma once
+
+#include <list>
+#include <memory>
+
+#include "framework/linear/linear_solver.hpp"
+#include "framework/linear/umfpack_solver.hpp"
+
+namespace sprekk {
+
+class BulkSplitting;
+
+/// With B the unknowns of the bulk and F the local ones (UnknownBlock::Kind), in one process:
+///
+///   [A_BB A_BF] [x_B]   [b_B]      X = A_BB^-1 A_BF,  S = A_FF − A_FB X
+///   [A_FB A_FF] [x_F] = [b_F]      S x_F = b_F − A_FB A_BB^-1 b_B,  x_B = A_BB^-1 b_B − X x_F
+///
+/// The equations of the bulk are linear, so A_BB and A_BF stay as long as the mesh and the time step do. A new system
+/// then costs the factorization of S, and a right-hand side one back-solve with A_BB, or none where b_B = 0. X has a
+/// column for each unknown of F that the bulk feels. The bulks of the last two time steps are kept.
+///
+/// Goes to the solver of the whole system where there is nothing to condense, where the bulk alone is singular (a block
+/// of rock that only fractures hold), where X would be too large, and where a solution turns out to be inaccurate.
+class CondensedSolver final : public LinearSolver {
+ public:
+  explicit CondensedSolver(const LinearOptions& options);
+  ~CondensedSolver() override;
+
+  LinearReport factor(const LinearSystem& system) override;
+  LinearReport solve(const Vector& b_rows, Vector& x) override;
+  std::string name() const override;
+  const LinearCounts& counts() const override;
+
+ private:
+  struct Bulk;  ///< a factorization of A_BB, with X
+  LinearReport condense(const LinearSystem& system);
+  LinearReport respond(Bulk& bulk) const;
+  SparseMatrix reduced_matrix() const;
+  LinearReport solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk, Vector& local);
+  LinearReport factor_whole(const LinearSystem& system);
+
+  LinearOptions options_;
+  std::unique_ptr<BulkSplitting> splitting_;
+  std::list<Bulk> bulks_;  ///< the one in use first
+  SparseMatrix reduced_pattern_;
+  UmfpackSolver reduced_;
+  std::unique_ptr<LinearSolver> whole_;
+  bool is_condensed_ = false;
+  LinearCounts retired_;
+  mutable LinearCounts total_;
+};
+
+}  // namespace sprekk

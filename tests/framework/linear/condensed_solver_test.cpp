@@ -1,0 +1,117 @@
+// Condensation answers like the solver of the whole system, and does less.
+#include "framework/linear/condensed_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/framework/linear/test_systems.hpp"
+
+namespace sprekk {
+namespace {
+
+class Condensed : public testing::TestWithParam<const char*> {
+ protected:
+  CondensedSolver solver{[] {
+    LinearOptions options;
+    options.type = GetParam();
+    return options;
+  }()};
+
+  Vector solve(const LinearSystem& system, const Vector& b) {
+    const LinearReport factored = solver.factor(system);
+    EXPECT_TRUE(factored.solved) << factored.reason;
+    Vector x;
+    const LinearReport solved = solver.solve(b, x);
+    EXPECT_TRUE(solved.solved) << solved.reason;
+    return x;
+  }
+};
+
+const test::FracturedBiot biot{16};
+
+// Unknowns chosen at random, each block in its own unit.
+Vector some_state() {
+  Vector x = test::random_vector(biot.unknowns(), 4);
+  x.head(2 * biot.nodes()) *= 1e-4;                             // m
+  x.segment(2 * biot.nodes(), biot.nodes()) *= 1e6;             // Pa
+  x.segment(biot.traction(0, 0), 2 * biot.columns()) *= 1e6;    // Pa
+  x.segment(biot.jump(0, 0), 2 * biot.columns()) *= 1e-4;       // m
+  x.segment(biot.wall_flux(0, 0), 2 * biot.columns()) *= 1e-6;  // m/s
+  x.segment(biot.fracture_pressure(0), biot.columns()) *= 1e6;  // Pa
+  return x;
+}
+
+// The system after an iteration in which other cells slide: rows on the fracture are multiplied, the bulk is the same.
+LinearSystem with_other_rows_on_fractures(LinearSystem system) {
+  for (int row = biot.wall_flux(0, 0); row < biot.unknowns(); ++row) system.local.row(row) *= 1.0 + row % 3;
+  system.local.coeffRef(biot.wall_flux(2, 0), biot.wall_flux(2, 0)) *= 5;
+  return system;
+}
+
+TEST_P(Condensed, SolvesFracturedBiot) {
+  const LinearSystem system = biot.build();
+  const Vector exact = some_state();
+  EXPECT_LT(test::block_difference(system, solve(system, system.local * exact), exact), 1e-8);
+  EXPECT_EQ(solver.name(), std::string("condensed ") + GetParam());
+}
+
+TEST_P(Condensed, FactorizesTheBulkOnceForSystemsThatDifferOnFractures) {
+  const LinearSystem first = biot.build(), second = with_other_rows_on_fractures(first);
+  const Vector exact = some_state();
+  solve(first, first.local * exact);
+  EXPECT_LT(test::block_difference(second, solve(second, second.local * exact), exact), 1e-8);
+  EXPECT_EQ(solver.counts().factorizations, 1);
+  EXPECT_EQ(solver.counts().condensed, 2);
+  EXPECT_EQ(solver.counts().solves, 2);
+  EXPECT_EQ(solver.counts().columns, 4 * biot.columns() + biot.columns());  // T, lambda, and p_f, which presses
+}
+
+TEST_P(Condensed, MakesNoBackSolveWhereOnlyFracturesAreLoaded) {
+  const LinearSystem system = biot.build();
+  Vector b = system.local * some_state();
+  b.head(biot.first_local()).setZero();
+  const Vector x = solve(system, b);
+  EXPECT_EQ(solver.counts().solves, 0);
+  EXPECT_LT(test::block_difference(system, solve(system, system.local * x), x), 1e-8);
+}
+
+TEST_P(Condensed, KeepsTheBulksOfTwoTimeStepsAndRepeatsItsBits) {
+  test::FracturedBiot shorter = biot;
+  shorter.time_step /= 100;
+  const LinearSystem first = biot.build(), second = shorter.build();
+  const Vector b = first.local * some_state();
+  const Vector x = solve(first, b);
+  solve(second, b);
+  EXPECT_EQ(solve(first, b), x);
+  EXPECT_EQ(solver.counts().factorizations, 2);
+}
+
+// The Laplacian of a block that nothing holds but one spring to a local unknown.
+TEST_P(Condensed, TakesTheWholeSystemWhereTheBulkAloneFloats) {
+  constexpr int n = 9;
+  LinearSystem floating = test::poisson(n, true);
+  std::vector<Triplet> entries;
+  for (int row = 0; row < n * n; ++row)
+    for (SparseMatrix::InnerIterator entry(floating.local, row); entry; ++entry)
+      entries.emplace_back(row, entry.col(), entry.value());
+  const int spring = n * n;
+  entries.insert(entries.end(), {{3, spring, 1.0}, {spring, spring, 1.0}, {spring, 3, -2.0}});
+  std::vector<UnknownBlock> blocks = floating.blocks;
+  blocks.push_back({"spring.force", spring, 1, 1, UnknownBlock::Kind::local, {}, {}});
+  const LinearSystem held = test::make_system(n * n + 1, entries, blocks);
+  const Vector exact = test::random_vector(n * n + 1, 5);
+  EXPECT_LT((solve(held, held.local * exact) - exact).norm(), 1e-9);
+  EXPECT_EQ(solver.name(), GetParam());
+}
+
+TEST_P(Condensed, PassesSystemsWithoutFracturesOn) {
+  const LinearSystem system = test::poisson(20);
+  const Vector exact = test::random_vector(400, 6);
+  EXPECT_LT((solve(system, system.local * exact) - exact).norm(), 1e-9);
+  EXPECT_EQ(solver.name(), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, Condensed, testing::Values("umfpack", "mumps"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace sprekk
