@@ -80,10 +80,42 @@ Coulomb::Trial Coulomb::trial(int i) const {
   return t;
 }
 
+void Coulomb::follow_back_slip() const {
+  back_slip_.resize(mesh_.fracture_cell_count());
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    BackSlip& cell = back_slip_[i];
+    const Trial t = trial(i);
+    const double direction = t.is_open() || t.sticks() ? 0 : t.tangential > 0 ? 1 : -1;
+    const bool slides_back = dilation_[i] > 0 && t.slides_back();
+    if (cell.taken == BackSlip::Piece::before_kink && direction != cell.direction) {
+      const double slip = jump_.now()[2 * i + 1] - jump_.accepted()[2 * i + 1];
+      cell.is_beyond = cell.is_beyond || slip * cell.direction < 0;
+    } else if (cell.taken == BackSlip::Piece::beyond_kink && slides_back) {
+      cell.is_beyond = false;  // not reached, or not there: the other piece has its turn
+    }
+    cell.taken = !slides_back     ? BackSlip::Piece::none
+                 : cell.is_beyond ? BackSlip::Piece::beyond_kink
+                                  : BackSlip::Piece::before_kink;
+    cell.direction = direction;
+  }
+}
+
+Coulomb::Trial Coulomb::trial_of_update(int i) const {
+  Trial t = trial(i);
+  if (back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
+  t.slip_sign = -t.slip_sign;
+  t.gap = jump_.now()[2 * i] - t.slip_sign * jump_.now()[2 * i + 1] * dilation_[i];
+  // Walls that touch, whatever the sign here: this is the linear function that goes through the values beyond the kink.
+  const double normal = traction_.now()[2 * i] + stiffness_[2 * i] * t.gap;
+  t.bound = -friction_[i] * normal;
+  t.normal = std::min(normal, 0.0);
+  return t;
+}
+
 State Coulomb::state(int i) const {
   const Trial t = trial(i);
-  if (t.normal > 0) return State::open;
-  return std::abs(t.tangential) <= t.bound ? State::stick : State::slip;
+  if (t.is_open()) return State::open;
+  return t.sticks() ? State::stick : State::slip;
 }
 
 std::uint64_t Coulomb::discrete_state() const {
@@ -97,11 +129,12 @@ std::uint64_t Coulomb::discrete_state() const {
 void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
   if (!assembly.has_row(traction_)) return;
   const int count = mesh_.fracture_cell_count();
+  if (assembly.wants_derivatives()) follow_back_slip();
   Vector residual(2 * count);
   // The blocks have the same pattern in every state, so that the sparsity of the system never changes.
   std::vector<Triplet> by_traction, by_jump;
   for (int i = 0; i < count; ++i) {
-    const Trial t = trial(i);
+    const Trial t = assembly.wants_derivatives() ? trial_of_update(i) : trial(i);
     const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
     const double c_n = stiffness_[2 * i], c_t = stiffness_[2 * i + 1];
     const double gap_by_t = -t.slip_sign * dilation_[i];  // d gap / d [u]_t; d gap / d [u]_n is 1
@@ -111,7 +144,7 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
       residual[2 * i] = -jump_.now()[2 * i];
       residual[2 * i + 1] = -jump_.now()[2 * i + 1];
       n_un = t_ut = -1;
-    } else if (t.normal > 0) {
+    } else if (t.is_open()) {
       residual[2 * i] = f_n / c_n;
       residual[2 * i + 1] = f_t / c_t;
       n_fn = 1 / c_n;
@@ -120,7 +153,7 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
       residual[2 * i] = -t.gap;
       n_un = -1;
       n_ut = -gap_by_t;
-      if (std::abs(t.tangential) <= t.bound) {
+      if (t.sticks()) {
         residual[2 * i + 1] = (f_t - t.tangential) / c_t;
         t_ut = -1;
       } else {

@@ -1,6 +1,7 @@
 // Frictional contact with dilation (Eqs. 2 and 3), cell by cell.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
@@ -25,11 +26,18 @@ enum class State { stick, slip, open };
 /// and divided by c (so that every residual is a length), are solved by a semismooth Newton method. f acts on the plus
 /// wall, [u] = u(minus) − u(plus), so friction makes f_t point along the slip: power −f·[u]' ≤ 0 is drawn from the
 /// walls. (Eq. 3 of the paper has the opposite sign.)
+///
+/// A wall that slides back comes down from what it has climbed by dilation. The fracture closes, the fluid in it is
+/// pressed together where it cannot leave, the walls are pushed apart and hold less shear: there may be no state
+/// between its slip and none in which friction balances the load, and Newton's method, which finds the one where slip
+/// goes the wrong way, and sticking return to each other forever. The state that balances it lies beyond the kink of
+/// |[u]_t|. So a cell for which sliding back has led to slip in the wrong direction takes the derivatives, and the
+/// residual of the update, from the piece of |[u]_t| beyond the kink. What a solution is does not change.
 class Coulomb : public Component, public FractureContact {
  public:
   Coulomb(const ComponentContext& context, const Options& options);
 
-  void begin_step(const StepTime&) override {}
+  void begin_step(const StepTime&) override { back_slip_.clear(); }
   /// Cells that have grown hold together, [u] = 0, until the state without them has been found on the new mesh.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
@@ -49,15 +57,30 @@ class Coulomb : public Component, public FractureContact {
   struct Trial {
     double gap, normal, tangential, bound;
     double slip_sign;  ///< of d gap / d [u]_t
+    bool is_open() const { return normal > 0; }
+    bool sticks() const { return std::abs(tangential) <= bound; }
+    /// Slides towards the place where it has not slipped.
+    bool slides_back() const { return !is_open() && !sticks() && tangential * slip_sign < 0; }
   };
   Trial trial(int cell) const;
+
+  /// Slip of a cell against the slip that it has, as Newton's method has tried it in this step.
+  struct BackSlip {
+    enum class Piece { none, before_kink, beyond_kink } taken = Piece::none;  ///< of |[u]_t|, by the last update
+    double direction = 0;                                                     ///< of the slip at that update
+    bool is_beyond = false;                                                   ///< the solution is not before the kink
+  };
+  /// Of the update, for which the piece may be another than that of the present values.
+  Trial trial_of_update(int cell) const;
+  void follow_back_slip() const;
 
   const Mesh& mesh_;
   Field& traction_;
   Field& jump_;
-  Vector friction_, dilation_;  ///< mu_s, tan psi
-  std::vector<char> bonded_;    ///< empty for none
-  Vector stiffness_;            ///< c, Pa/m, (normal, tangential) of each cell
+  Vector friction_, dilation_;               ///< mu_s, tan psi
+  std::vector<char> bonded_;                 ///< empty for none
+  mutable std::vector<BackSlip> back_slip_;  ///< empty before the first update of a step
+  Vector stiffness_;                         ///< c, Pa/m, (normal, tangential) of each cell
 };
 
 }  // namespace sprekk::contact
