@@ -17,6 +17,20 @@ Vector evaluate_on_cells(const Mesh& mesh, const Data& data, double time) {
   return values;
 }
 
+/// Of rock without permeability: what is prescribed on a side is all that flows.
+FluxOperators no_flow(const Mesh& mesh, const std::vector<FlowCondition>& conditions) {
+  FluxOperators operators;
+  operators.flux_cell.resize(mesh.face_count(), mesh.cell_count());
+  operators.trace_cell.resize(mesh.face_count(), mesh.cell_count());
+  operators.trace_boundary.resize(mesh.face_count(), mesh.face_count());
+  operators.flux_boundary.resize(mesh.face_count(), mesh.face_count());
+  std::vector<Triplet> prescribed;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (conditions[f] == FlowCondition::flux) prescribed.emplace_back(f, f, 1.0);
+  operators.flux_boundary.setFromTriplets(prescribed.begin(), prescribed.end());
+  return operators;
+}
+
 }  // namespace
 
 MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize)
@@ -61,6 +75,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
     const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
     mobility_[c] = options_.permeability.at(place) / options_.viscosity.at(place);
   }
+  check_mobility();
 
   const auto potential = [&](const Point& x) {
     return options_.gravity.is_zero() ? 0.0 : options_.fluid_density * options_.gravity.at({x, 0, 0}).dot(x);
@@ -81,14 +96,29 @@ void MatrixFlow::check_sides() const {
                        "move it inside");
 }
 
+void MatrixFlow::check_mobility() {
+  long sealed = 0;
+  for (const Tensor& mobility : mobility_) {
+    sealed += mobility.isZero(0);
+    if (!mobility.isZero(0) && mobility(0, 0) * mobility(1, 1) <= mobility(0, 1) * mobility(1, 0))
+      throw InputError(origin_, "the permeability is not positive definite", "fluid could not flow in one direction",
+                       "raise it in that direction");
+  }
+  is_sealed_ = sealed == mesh_.cell_count();
+  if (sealed > 0 && !is_sealed_)
+    throw InputError(origin_, "the permeability is zero in a part of the rock",
+                     "there is no pressure at the face of a cell that lets no fluid through",
+                     "give that part a very small permeability");
+}
+
 void MatrixFlow::place_wells() {
   for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at);
 }
 
 void MatrixFlow::discretize() {
-  if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
+  if (discretized_version_ == mesh_.version && is_discretized_) return;
+  is_discretized_ = true;
   discretized_version_ = mesh_.version;
-  ++discretizations_;
   place_wells();
   conditions_.assign(mesh_.face_count(), FlowCondition::none);
   for (int f = 0; f < mesh_.face_count(); ++f) {
@@ -98,7 +128,13 @@ void MatrixFlow::discretize() {
     const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
     if (condition != options_.boundary.end() && condition->second.pressure) conditions_[f] = FlowCondition::pressure;
   }
-  operators_ = discretize_(mesh_, mobility_, conditions_, nodes_to_discretize(mesh_));
+  if (is_sealed_) {
+    operators_ = no_flow(mesh_, conditions_);
+  } else {
+    ++discretizations_;
+    discretized_cells_ += mesh_.cell_count();
+    operators_ = discretize_(mesh_, mobility_, conditions_, nodes_to_discretize(mesh_));
+  }
   const int rank = parallel::rank();
   outflow_of_pressure_ = cell_sums(mesh_, operators_.flux_cell, 1, rank);
   if (!wall_flux_) return;
@@ -121,6 +157,10 @@ void MatrixFlow::discretize() {
 }
 
 void MatrixFlow::evaluate_data(const StepTime& step) {
+  if (is_sealed_ && wall_flux_ && !wall_flux_->determined_by().empty())
+    throw InputError(origin_, "fluid is to flow through the walls of rock that has no permeability",
+                     "what enters a cell could not leave it",
+                     "remove the coupler of its walls, or give it a permeability");
   evaluate_sources(step);
   boundary_values_ = Vector::Zero(mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
@@ -226,7 +266,7 @@ std::vector<double> MatrixFlow::switch_times() const {
 void MatrixFlow::relate_levels(Levels& levels) const {
   const bool has_pressure = std::any_of(options_.boundary.begin(), options_.boundary.end(),
                                         [](const auto& side) { return side.second.pressure.has_value(); });
-  if (has_pressure || storage_.maxCoeff() > 0) return;
+  if (is_sealed_ ? storage_.minCoeff() > 0 : has_pressure || storage_.maxCoeff() > 0) return;
   levels.floats(pressure_, origin_, "nothing stores fluid and no side has a pressure: any constant may be added to it",
                 "give a storage, or the pressure of a side");
 }
@@ -234,7 +274,7 @@ void MatrixFlow::relate_levels(Levels& levels) const {
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one.
-  if (discretizations_ == 0) return;
+  if (!is_discretized_) return;
   const Vector fluxes = face_fluxes();
   Vector velocity = Vector::Zero(2 * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c)

@@ -60,7 +60,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   std::vector<double> switch_times() const override;
   void relate_levels(Levels& levels) const override;
   void output(std::vector<OutputField>& fields) const override;
-  std::map<std::string, long> counts() const override { return {{"flux discretizations", discretizations_}}; }
+  std::map<std::string, long> counts() const override {
+    return {{"flux discretizations", discretizations_}, {"flux discretizations: cells", discretized_cells_}};
+  }
 
   Field& pressure() override { return pressure_; }
   const Vector& initial_pressure() const override { return initial_pressure_; }
@@ -73,6 +75,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
 
  private:
   void check_sides() const;
+  void check_mobility();
   /// Spreads each well over the cells around it such that its total and its position are kept.
   void place_wells();
   void discretize();
@@ -88,9 +91,11 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Field& books_;                ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_pressure_, porosity_, storage_, gravity_potential_cell_, gravity_potential_face_;
   std::vector<Tensor> mobility_;  ///< m^2/(Pa s), one a cell
+  bool is_sealed_ = false;        ///< the mobility is zero: no flux exists, and none is discretized
 
   std::uint64_t discretized_version_ = 0;
-  long discretizations_ = 0;
+  bool is_discretized_ = false;
+  long discretizations_ = 0, discretized_cells_ = 0;
   FluxOperators operators_;
   std::vector<FlowCondition> conditions_;
   std::map<std::string, std::vector<std::pair<int, double>>> well_cells_;  ///< cells and weights by well

@@ -7,8 +7,8 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   spec.ignore("type");
   spec.tensor("permeability", permeability,
               {.unit = "m^2",
-               .range = positive(),
-               .doc = "Permeability of the rock.",
+               .range = non_negative(),
+               .doc = "Permeability of the rock; positive definite, or zero everywhere: then no fluid flows in it.",
                .source = "Eq. 6",
                .required = true,
                .material = true});

@@ -131,6 +131,7 @@ void Rock::discretize() {
   if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
   discretized_version_ = mesh_.version;
   ++discretizations_;
+  discretized_cells_ += mesh_.cell_count();
   boundary_applied_ = false;
   std::vector<std::array<MechanicalCondition, 2>> conditions(mesh_.face_count(),
                                                              {MechanicalCondition::none, MechanicalCondition::none});

@@ -25,7 +25,9 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
   std::vector<double> switch_times() const override;
-  std::map<std::string, long> counts() const override { return {{"stress discretizations", discretizations_}}; }
+  std::map<std::string, long> counts() const override {
+    return {{"stress discretizations", discretizations_}, {"stress discretizations: cells", discretized_cells_}};
+  }
 
   void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) override;
   const LinearExpression& volume_change() const override { return volume_change_; }
@@ -70,7 +72,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   std::vector<Stiffness> stiffness_;  ///< one a cell
   StepTime evaluated_for_;
   bool data_evaluated_ = false, boundary_applied_ = false;
-  long discretizations_ = 0;
+  long discretizations_ = 0, discretized_cells_ = 0;
   StressOperators operators_;
   SparseMatrix wall_forces_;            ///< 2 faces × 2 fracture cells: boundary values that wall tractions make
   SparseMatrix wall_jump_;              ///< 2 fracture cells × 2 faces: the jump of face displacements, in (n, t)

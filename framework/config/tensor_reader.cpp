@@ -9,9 +9,13 @@
 namespace sprekk {
 namespace {
 
-bool must_be_positive_definite(const About& about) { return about.range.low >= 0 && !about.range.low_allowed; }
+bool must_be_definite(const About& about) { return about.range.low >= 0; }
 
-bool is_positive_definite(double xx, double yy, double xy) { return xx > 0 && yy > 0 && xx * yy > xy * xy; }
+/// Positive definite, or zero where the range has it.
+bool is_definite(double xx, double yy, double xy, const About& about) {
+  if (about.range.low_allowed && xx == 0 && yy == 0 && xy == 0) return true;
+  return xx > 0 && yy > 0 && xx * yy > xy * xy;
+}
 
 /// The combination of several data, evaluated at the same place; a constant when they all are.
 template <class Combine>
@@ -38,17 +42,18 @@ Data combined(const std::vector<Data>& parts, const Combine& combine) {
 /// Only together do the components make a definite tensor: constants are checked now, others with every evaluation of
 /// the off-diagonal one.
 TensorData definite(TensorData tensor, const Origin& where, const DataRequest& request) {
-  if (!must_be_positive_definite(request.about)) return tensor;
+  if (!must_be_definite(request.about)) return tensor;
   const bool is_constant = tensor.xx.is_constant() && tensor.yy.is_constant() && tensor.xy.is_constant();
   if (is_constant) {
     const double xx = tensor.xx.at({}), yy = tensor.yy.at({}), xy = tensor.xy.at({});
-    if (is_positive_definite(xx, yy, xy)) return tensor;
+    if (is_definite(xx, yy, xy, request.about)) return tensor;
     throw InputError(where, quoted(request.name) + " is not positive definite",
                      fmt::format("xx yy = {} must be larger than xy^2 = {}", xx * yy, xy * xy));
   }
   if (tensor.xy.is_zero()) return tensor;
-  const auto checked = [where, name = request.name](const std::vector<double>& values, const Place& place) {
-    if (is_positive_definite(values[0], values[1], values[2])) return values[2];
+  const auto checked = [where, name = request.name, about = request.about](const std::vector<double>& values,
+                                                                           const Place& place) {
+    if (is_definite(values[0], values[1], values[2], about)) return values[2];
     throw DataError(fmt::format("{}: {} is not positive definite at {} (xx = {}, yy = {}, xy = {})", where.text(),
                                 quoted(name), place_text(place), values[0], values[1], values[2]));
   };

@@ -29,7 +29,7 @@ struct RunRecord {
   std::string exit_reason = "running";    ///< "done", or why the run ended early
   int exit_code = -1;                     ///< of the command line; -1 while running
   double seconds = 0;                     ///< wall time
-  std::map<std::string, double> timings;  ///< further wall times (s): "mesh", "output"
+  std::map<std::string, double> timings;  ///< further times (s): "processor: set-up"
   std::map<std::string, long> counters;   ///< "steps accepted", "steps cut", "newton iterations"
   std::map<std::string, double> results;  ///< "quantity[unit]": the result figures
   std::vector<std::string> warnings;

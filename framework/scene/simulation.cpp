@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <ctime>
 #include <iostream>
 
 #include "framework/config/units.hpp"
@@ -16,12 +17,14 @@
 #include "framework/scene/interrupt.hpp"
 #include "framework/scene/mesh_growth.hpp"
 #include "framework/scene/run_output.hpp"
+#include "framework/schedule/relative_change.hpp"
 
 namespace sprekk {
 
 namespace {
 
 double now() { return Progress::steady_seconds(); }
+double processor_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<double> output_times(const Scene& scene) {
   std::vector<double> times = scene.output.times;
@@ -68,11 +71,13 @@ class Run {
   bool fails_with_growth();
   void resolve_stop();
   bool reaches_stop(const std::vector<Quantity>& quantities) const;
+  bool stays_as_it_is(const StepTime& step) const;  ///< of the state that is about to be accepted
   ExitCode loop();
   bool advance();  ///< one accepted step; false with reason_ when none is possible
   void finish(ExitCode code);
 
   const RunOptions& options_;
+  const double processor_at_start_ = processor_now();
   RunOutput output_;
   std::optional<Checkpoint> checkpoint_;  ///< that the run goes on from, until it has been taken over
   std::unique_ptr<Model> model_;
@@ -82,7 +87,7 @@ class Run {
   Profile profile_;
   RunRecord record_;
   std::string fingerprint_, reason_;
-  double began_;
+  double began_, processor_at_first_step_;
   long newton_iterations_ = 0, rejected_ = 0;
   int restored_steps_ = 0;
   bool is_stopped_ = false;
@@ -128,7 +133,8 @@ Run::Run(const Scene& scene, const RunOptions& options)
       controller_(scene.time, targets(output_times_, model_->switch_times())),
       growth_(model_, controller_, log(), [this](const Model& model) { retire_counts(model); }),
       fingerprint_(scene_fingerprint(scene)),
-      began_(now()) {
+      began_(now()),
+      processor_at_first_step_(processor_now()) {
   if (scene.time.has_stop) resolve_stop();
   if (checkpoint_) restore();
 }
@@ -189,6 +195,15 @@ bool Run::reaches_stop(const std::vector<Quantity>& quantities) const {
          });
 }
 
+bool Run::stays_as_it_is(const StepTime& step) const {
+  const TimeOptions& time = model_->scene().time;
+  if (!time.stop_when_steady) return false;
+  for (const double jump : model_->switch_times())
+    if (jump > step.start && jump < time.end) return false;
+  const double rest = std::max(1.0, (time.end - step.end) / step.dt);
+  return rest * relative_change(model_->schedule().unknowns()) <= *time.stop_when_steady;
+}
+
 void Run::retire_counts(const Model& model) {
   model.schedule().add_counts(linear_counts_);
   for (const Part* part : model.parts())
@@ -228,7 +243,9 @@ bool Run::advance() {
     if (status.converged) {
       // Both before the step is accepted: which cells slip shows in what changed since the last accepted step.
       const std::vector<Quantity> quantities = model_->quantities();
-      is_stopped_ = reaches_stop(quantities);
+      const bool is_steady = stays_as_it_is(step);
+      is_stopped_ = is_steady || reaches_stop(quantities);
+      if (is_steady) record_.results["steady_since[s]"] = step.start;
       const bool writes_fields = is_stopped_ || contains(output_times_, step.end, 1e-9 * model_->scene().time.step);
       const std::vector<OutputField> fields = writes_fields ? model_->output() : std::vector<OutputField>();
       model_->accept();
@@ -285,6 +302,8 @@ void Run::finish(ExitCode code) {
   record_.exit_code = static_cast<int>(code);
   record_.exit_reason = code == ExitCode::done ? "done" : reason_;
   record_.seconds = now() - began_;
+  record_.timings["processor: set-up"] = processor_at_first_step_ - processor_at_start_;
+  record_.timings["processor: steps and output"] = processor_now() - processor_at_first_step_;
   record_.counters["steps accepted"] = controller_.steps() - restored_steps_;
   record_.counters["steps rejected"] = rejected_;
   record_.counters["iterations"] = newton_iterations_;
@@ -299,6 +318,9 @@ void Run::finish(ExitCode code) {
   record_.counters["linear: factorizations reused"] = counts.reused;
   record_.counters["linear: solves"] = counts.solves;
   record_.counters["linear: iterations"] = counts.iterations;
+  record_.counters["linear: condensed factorizations"] = counts.condensed;
+  record_.counters["linear: columns condensed"] = counts.columns;
+  record_.counters["assembly: patterns"] = counts.patterns;
   // What the linear solvers used is part of the steps; the rest of the steps is assembly and everything else.
   Profile::Entry& steps = profile_.at("steps");
   const auto move_time = [&](const char* name, double seconds, long calls, long reuses) {

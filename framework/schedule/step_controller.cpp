@@ -30,6 +30,10 @@ Spec TimeOptions::spec() {
   stopping.text("reaches", stop.reaches, {.doc = "The value, with its unit, that ends the run.", .required = true});
   spec.section("stop", stopping, {.doc = "Ends the run after the step in which a quantity reaches a value."},
                &has_stop);
+  spec.quantity("stop_when_steady", stop_when_steady,
+                {.range = strictly_between(0, 1),
+                 .doc = "Ends the run after the last jump of the data, once changes like those of the last step, up to "
+                        "the end, would add up to less than this share of the largest value of every unknown."});
   spec.check([this](const Node& node) {
     if (const Node* given = node.find("stop")) stop.origin = given->origin;
     if (end <= start)

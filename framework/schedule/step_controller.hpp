@@ -25,6 +25,7 @@ struct TimeOptions {
   };
   Stop stop;
   bool has_stop = false;
+  std::optional<double> stop_when_steady;  ///< see spec
   int iterations = 8;  ///< adaptive steps grow while no solve needs more than half of these, and shrink beyond them
   Spec spec();
 };

@@ -50,7 +50,7 @@ TEST(List, NamesEverythingAndExplainKnowsIt) {
 TEST(Explain, TellsUnitRangeAndSource) {
   const Folder folder;
   const Outcome explained = sprekk_command({"explain", "matrix_flow/mpfa"}, folder.path());
-  for (const std::string text : {"permeability", "m^2", "> 0", "Eq. 6", "required"})
+  for (const std::string text : {"permeability", "m^2", ">= 0", "Eq. 6", "required"})
     EXPECT_THAT(explained.out, HasSubstr(text));
 }
 
