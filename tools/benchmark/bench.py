@@ -10,13 +10,14 @@ import sys
 from pathlib import Path
 
 import cases
-import page
+import smoke
 from problems import PROBLEMS
 from run_results import ROOT
 
 # What prints a table of its own, from programs in the build folder.
 TABLES = {
     "discretization": "seconds of TPFA, MPFA, MPSA on unstructured triangles, beside PorePy's",
+    "skip": "what scenes from flow alone to the full model have, and seconds beside dedicated minimal programs",
     "step": "where the seconds of a step of section 5.1 go, on uniform meshes",
 }
 
@@ -31,6 +32,8 @@ def parse():
     parser.add_argument("--limit", type=float, default=600, metavar="SECONDS", help="of one run; finer meshes are left then")
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "bench", metavar="DIR", help="default: %(default)s")
     parser.add_argument("--pictures", type=Path, metavar="DIR", help="also write PNG pictures, for the documentation")
+    parser.add_argument("--smoke", action="store_true", help="compare the counts of small scenes with tools/benchmark/smoke.json")
+    parser.add_argument("--update", action="store_true", help="with --smoke: take over an intended change")
     parser.add_argument("--build", type=Path, required=True, help=argparse.SUPPRESS)
     return parser.parse_args()
 
@@ -72,25 +75,30 @@ def main():
     options.solvers = options.solvers.split(",") if options.solvers else None
     names = options.names or [*PROBLEMS, *TABLES]
     program = str(options.build / "sprekk")
+    if options.smoke:
+        sys.exit(smoke.smoke(program, options.update))
     if options.list:
-        return list_cases(names, options, program)
+        list_cases(names, options, program)
+        return
+
+    import page  # draws with matplotlib, which takes a while to load
+    import skip
 
     problems = [name for name in names if name in PROBLEMS]
     cases.run_cases(cases.all_cases(problems, options.solvers, program), program, options.out, options.limit, options.again)
     if "discretization" in names:
         subprocess.run([options.build / "bench_discretization"], check=True)
+    if "skip" in names:
+        skip.measure(program, options.build / "bench_minimal", options.out, options.again)
     if "step" in names:
         step_times(program, options.out, options.again)
     results = cases.all_results(options.out)
-    if not results:
-        return None
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "bench.json").write_text(json.dumps({"machine": machine(), "results": results}, indent=1) + "\n")
-    page.write_page(results, options.out / "bench.html", machine())
+    page.write_page(results, options.out / "bench.html", machine(), skip.sections(options.out))
     if options.pictures:
         page.write_pictures(results, options.pictures)
     print(f"results: {options.out / 'bench.html'}")
-    return None
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import numpy as np  # noqa: E402
 from problems import PROBLEMS  # noqa: E402
 
 MARKERS = {"umfpack": "o", "mumps": "s", "belos": "^", "auto": "D"}
-COLOURS = ["#1b6ca8", "#c8553d", "#3a7d44", "#7b4b94", "#b8860b", "#555555", "#1aa6a6", "#a0522d"]
+COLOURS = {"umfpack": "#3a7d44", "mumps": "#c8553d", "belos": "#1b6ca8", "auto": "#555555", "tpfa": "#7b4b94"}
 
 
 def curves(results, problem):
@@ -53,11 +53,12 @@ def slopes(curve):
 def figure(results, name):
     """Three panels: error over seconds, error over unknowns, seconds over unknowns."""
     problem, found = PROBLEMS[name], curves(results, name)
-    picture, (work, precision, cost) = plt.subplots(1, 3, figsize=(13, 4.1), layout="constrained")
+    picture, (work, precision, cost) = plt.subplots(1, 3, figsize=(13, 4.4), layout="constrained")
     drawn_errors = set()
-    for i, ((variant, solver), curve) in enumerate(found.items()):
-        style = {"marker": MARKERS[solver.partition("+")[0]], "color": COLOURS[i % len(COLOURS)], "markersize": 4.5,
-                 "linewidth": 1.1, "linestyle": "--" if variant == "tpfa" else "-"}
+    for (variant, solver), curve in found.items():
+        kind, _, condensed = solver.partition("+")
+        style = {"marker": MARKERS[kind], "color": COLOURS["tpfa" if variant == "tpfa" else kind], "markersize": 4.5,
+                 "linewidth": 1.1, "linestyle": "--" if variant == "tpfa" else ":" if condensed == "whole" else "-"}
         unknowns = [r["unknowns"] for r in curve]
         seconds = [r["seconds"] for r in curve]
         errors = [first_error(r) for r in curve]
@@ -84,8 +85,9 @@ def figure(results, name):
         axes.grid(True, which="major", linewidth=0.4, alpha=0.6)
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
-        if axes.get_legend_handles_labels()[0]:
-            axes.legend(fontsize=7, frameon=False)
+    entries = [axes.get_legend_handles_labels() for axes in (work, precision)]
+    unique = {label: handle for handles, labels in reversed(entries) for handle, label in zip(handles, labels)}
+    picture.legend(unique.values(), unique.keys(), loc="outside lower center", ncols=5, fontsize=8, frameon=False)
     picture.suptitle(problem.title, fontsize=11)
     return picture
 
