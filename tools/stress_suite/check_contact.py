@@ -1,6 +1,7 @@
 """Eqs. 2 and 3 in the written fields, cell by cell. Nothing of the program's own formulas is used.
 
-Newton's method ends when its next update would be below 1e-8 of the fields: that is what the conditions may miss.
+Newton's method ends when its next update would be below 1e-8 of the fields of one unit: that is what the conditions may
+miss. Lengths are held to more, 1e-8 of the jumps.
 """
 
 import numpy as np
@@ -10,12 +11,16 @@ from . import physics
 PRECISION = 1e-8
 
 
-def scales(p, traction, jump, sizes):
-    """What lengths and tractions are small against: the largest there are, and what each makes of the other."""
+def scales(p, instant, traction, jump):
+    """What lengths and tractions are small against: the largest there are, and what tractions make of lengths."""
+    ends = instant.fractures.points[instant.fractures.cells]
+    sizes = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     length = max(sizes)
     stiffness = physics.shear_modulus(p) / length
     largest_traction = np.abs(traction).max()
-    return max(np.abs(jump).max(), largest_traction / stiffness), max(largest_traction, 1e-12 * p["stress"])
+    pressures = max(np.abs(instant.cell("pore.pressure[Pa]")).max(),
+                    np.abs(instant.on_fractures("conduit.pressure", "Pa")).max())
+    return max(np.abs(jump).max(), largest_traction / stiffness), max(largest_traction, pressures, 1e-12 * p["stress"])
 
 
 def failures(p, instants):
@@ -24,8 +29,7 @@ def failures(p, instants):
     old = None
     for instant in instants:
         traction, jump = instant.on_fractures("contact.traction", "Pa"), instant.on_fractures("contact.jump", "m")
-        ends = instant.fractures.points[instant.fractures.cells]
-        in_m, in_pa = scales(p, traction, jump, np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+        in_m, in_pa = scales(p, instant, traction, jump)
         in_m, in_pa = PRECISION * in_m, PRECISION * in_pa
         normal, shear = traction.T
         gap = jump[:, 0] - np.abs(jump[:, 1]) * dilation

@@ -27,7 +27,7 @@ def examine(program, seed, number, folder, limit, processes=1, keep=False):
     shutil.rmtree(folder, ignore_errors=True)
     ended = run.run(program, scene.write(p, folder), folder / "results", limit, processes)
     report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0,
-              "seconds": round(ended.seconds, 2), "scene": describe(p), "reason": ""}
+              "balance": 0.0, "seconds": round(ended.seconds, 2), "scene": describe(p), "reason": ""}
     if check_end.is_refused(ended):
         report["outcome"], report["reason"] = "refused", " ".join(ended.stderr.split())[:300]
     elif ended.timed_out or ended.code < 0 or ended.code > 2:
@@ -37,6 +37,7 @@ def examine(program, seed, number, folder, limit, processes=1, keep=False):
         report["reason"] = written.exit_record(ended.folder)["exit"]["reason"]
         report["iterations"], report["accepted"], report["rejected"] = written.iterations_of_steps(ended.folder)
         if report["accepted"] > 0:
+            report["balance"] = check_balance.relative_error_of_books(written.history(ended.folder))
             report["failures"] += check_fields(p, ended.folder)
     if report["failures"]:
         report["outcome"] = "failed"

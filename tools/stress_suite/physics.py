@@ -11,6 +11,11 @@ def bulk_modulus(p):
     return p["young"] / (3 * (1 - 2 * p["poisson"]))
 
 
+def in_plane_modulus(p):
+    """lambda + G: the mean stress in the plane that a unit change of area makes in plane strain."""
+    return bulk_modulus(p) + shear_modulus(p) / 3
+
+
 def plane_strain_modulus(p):
     return p["young"] / (1 - p["poisson"] ** 2)
 

@@ -35,7 +35,8 @@ def exit_record(folder):
 
 
 def history(folder):
-    return results.read_table(folder / "history.csv")
+    path = folder / "history.csv"  # there is none before the first step
+    return results.read_table(path) if path.exists() else {}
 
 
 def iterations_of_steps(folder):
