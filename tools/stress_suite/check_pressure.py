@@ -100,7 +100,7 @@ def failures(p, instants):
         fracture = instant.on_fractures("conduit.pressure", "Pa")
         has_opened = has_opened or instant.on_fractures("contact.jump", "m")[:, 0].max() > 0
         low, high = bounds(p, instant, largest, has_opened)
-        size = max(abs(low), abs(high), p["initial"])
+        size = max(abs(low), abs(high), p["initial"], largest[1])  # Newton judges all pressures and stresses together
         # MPFA is no M-matrix: it may miss a bound by a part of the differences that there are.
         slack = 1e-8 * size + 0.05 * (pressure.max() - pressure.min())
         if max(pressure.max(), fracture.max()) > high + slack:

@@ -60,6 +60,14 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
   stiffness_ = Vector::Ones(2 * count);
 }
 
+void Coulomb::set_wall_stiffness(const Vector& stiffness) {
+  stiffness_ = stiffness;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const double wedge = friction_[i] * dilation_[i];
+    stiffness_[2 * i] = std::min(stiffness_[2 * i], 0.5 * stiffness_[2 * i + 1] / std::max(wedge, 1e-300));
+  }
+}
+
 void Coulomb::carry_over(const Part&, const MeshChange& change) {
   bonded_.resize(change.fracture_cell.size());
   for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = change.fracture_cell[i] == none;

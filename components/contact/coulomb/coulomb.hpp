@@ -48,7 +48,10 @@ class Coulomb : public Component, public FractureContact {
 
   Field& traction() override { return traction_; }
   Field& jump() override { return jump_; }
-  void set_wall_stiffness(const Vector& stiffness) override { stiffness_ = stiffness; }
+  /// The stiffness along the normal is limited to half of that along the tangent over mu_s tan psi. Walls that slide
+  /// freely while open, by d, overlap by |d| tan psi; with more than that limit they would be taken to stick, come back
+  /// to where they were, open, and so on. With less they are taken to slip.
+  void set_wall_stiffness(const Vector& stiffness) override;
 
   State state(int cell) const;
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
