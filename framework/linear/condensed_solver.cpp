@@ -96,6 +96,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
       else
         bulks_.splice(bulks_.begin(), bulks_, std::prev(bulks_.end()));  // keeps its ordering
       bulks_.front().report = respond(bulks_.front());
+      is_proven_ = false;
     }
   }
   if (!bulks_.front().report.solved) return bulks_.front().report;
@@ -169,7 +170,7 @@ LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
     const Vector b_bulk = split.bulk_part(b_rows), b_local = split.local_part(b_rows);
     Vector bulk, local;
     LinearReport report = solve_condensed(b_bulk, b_local, bulk, local);
-    double error = report.solved ? split.backward_error(bulk, local, b_bulk, b_local) : HUGE_VAL;
+    double error = !report.solved ? HUGE_VAL : is_proven_ ? 0 : split.backward_error(bulk, local, b_bulk, b_local);
     if (error > accurate && std::isfinite(error)) {
       Vector more_bulk, more_local;
       const Vector r_bulk = b_bulk - split.bb.matrix * bulk - split.bf.matrix * local;
@@ -186,6 +187,7 @@ LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
       }
     }
     if (error <= acceptable) {
+      is_proven_ = true;
       x = split.joined(bulk, local);
       return report;
     }

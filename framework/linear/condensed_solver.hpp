@@ -21,7 +21,8 @@ class BulkSplitting;
 /// column for each unknown of F that the bulk feels. The bulks of the last two time steps are kept.
 ///
 /// Goes to the solver of the whole system where there is nothing to condense, where the bulk alone is singular (a block
-/// of rock that only fractures hold), where X would be too large, and where a solution turns out to be inaccurate.
+/// of rock that only fractures hold), where X would be too large, and where the first
+/// solution with a bulk turns out to be inaccurate.
 class CondensedSolver final : public LinearSolver {
  public:
   explicit CondensedSolver(const LinearOptions& options);
@@ -47,6 +48,7 @@ class CondensedSolver final : public LinearSolver {
   UmfpackSolver reduced_;
   std::unique_ptr<LinearSolver> whole_;
   bool is_condensed_ = false;
+  bool is_proven_ = false;  ///< a solution with this bulk was accurate; callers see the residuals of the others
   LinearCounts retired_;
   mutable LinearCounts total_;
 };

@@ -63,7 +63,7 @@ struct LinearCounts {
   int condensed = 0;       ///< factorizations of a condensed system (CondensedSolver), instead of the whole one
   int columns = 0;         ///< right-hand sides that were solved together, to condense
   int patterns = 0;        ///< sparsity patterns built by those who assemble the systems
-  int residuals = 0, jacobians = 0;  ///< assemblies without and with derivatives
+  int assemblies = 0;      ///< states that were assembled
   double seconds_ordering = 0, seconds_factor = 0, seconds_solve = 0;
   LinearCounts& operator+=(const LinearCounts& other) {
     orderings += other.orderings;
@@ -74,8 +74,7 @@ struct LinearCounts {
     condensed += other.condensed;
     columns += other.columns;
     patterns += other.patterns;
-    residuals += other.residuals;
-    jacobians += other.jacobians;
+    assemblies += other.assemblies;
     seconds_ordering += other.seconds_ordering;
     seconds_factor += other.seconds_factor;
     seconds_solve += other.seconds_solve;

@@ -29,9 +29,10 @@ void Newton::set_preconditioner_stabilization(const Stabilization& stabilization
   for (const auto& [field, diagonal] : stabilization) system_.set_stabilization(*field, diagonal);
 }
 
-std::unique_ptr<Assembly> Newton::assemble(Assembly::Want want, const StepTime& step) const {
-  ++(want == Assembly::Want::residual ? residuals_ : jacobians_);
-  auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()}, want);
+std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
+  ++assemblies_;
+  auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()},
+                                             Assembly::Want::residual_and_derivatives);
   for (const Part* part : parts_) part->assemble(*assembly, step);
   if (stabilization_)
     for (const auto& [field, diagonal] : *stabilization_) {
@@ -46,8 +47,7 @@ std::unique_ptr<Assembly> Newton::assemble(Assembly::Want want, const StepTime& 
 LinearCounts Newton::counts() const {
   LinearCounts counts = linear_->counts();
   counts.patterns = system_.patterns_built();
-  counts.residuals = residuals_;
-  counts.jacobians = jacobians_;
+  counts.assemblies = assemblies_;
   return counts;
 }
 
@@ -68,8 +68,8 @@ void Newton::move(const std::vector<Vector>& from, const Vector& update, double 
     unknowns_[u]->set(from[u] + length * update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size()));
 }
 
-Vector Newton::right_hand_side(const Assembly& assembly, const ResidualCheck& check) const {
-  Vector right = -system_.residual(assembly);
+Vector Newton::right_hand_side(const ResidualCheck& check) const {
+  Vector right = -system_.residual(*assembly_);
   const std::vector<int>& rows = system_.rows();
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     if (!check.is_round_off[u]) continue;
@@ -116,7 +116,7 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, int 
   length = 1;
   for (int halvings = 0; halvings < (ask_for_descent ? 6 : 12); ++halvings, length /= 2) {
     move(from, update, length);
-    const ResidualCheck check = check_residual(*assemble(Assembly::Want::residual, step), system_, options_.residual);
+    const ResidualCheck check = look(step);
     if (check.finite && (best_length == 0 || check.merit < best.merit)) {
       best = check;
       best_length = length;
@@ -128,9 +128,17 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, int 
     best.finite = false;
     return best;
   }
-  if (length != best_length) move(from, update, best_length);
+  if (length != best_length) {
+    move(from, update, best_length);
+    best = look(step);
+  }
   length = best_length;
   return best;
+}
+
+ResidualCheck Newton::look(const StepTime& step) {
+  assembly_ = assemble(step);
+  return check_residual(*assembly_, system_, options_.residual);
 }
 
 StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilization) {
@@ -142,17 +150,17 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   std::uint64_t last_state = 0;
   bool factored = false, cycling = false;
   double length = 1;
-  auto check = check_residual(*assemble(Assembly::Want::residual, step), system_, options_.residual);
+  ResidualCheck check = look(step);
   recent_merits_ = {check.merit};
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1});
   for (int iteration = 0;; ++iteration) {
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
     if (check.converged) {
-      if (!factored) return {true, "", iteration};
+      const bool is_exact = std::all_of(check.is_round_off.begin(), check.is_round_off.end(), [](char c) { return c; });
+      if (!factored || is_exact) return {true, "", iteration};
       // The simplified update: what one more iteration would change, for the price of a back-solve.
-      const auto assembly = assemble(Assembly::Want::residual, step);
       Vector update;
-      const LinearReport report = linear_->solve(right_hand_side(*assembly, check), update);
+      const LinearReport report = linear_->solve(right_hand_side(check), update);
       const double size = report.solved ? relative_size(update, check) : std::numeric_limits<double>::infinity();
       if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0});
       if (size <= options_.update) return {true, "", iteration};
@@ -163,12 +171,11 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
                           check.equation, check.largest),
               iteration};
 
-    const auto assembly = assemble(Assembly::Want::residual_and_derivatives, step);
-    const LinearReport factoring = linear_->factor(system_.matrix(*assembly));
+    const LinearReport factoring = linear_->factor(system_.matrix(*assembly_));
     if (!factoring.solved) return {false, "singular system: " + factoring.reason, iteration};
     factored = true;
     Vector update;
-    const LinearReport report = linear_->solve(right_hand_side(*assembly, check), update);
+    const LinearReport report = linear_->solve(right_hand_side(check), update);
     if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
 
     // A state that stays is no cycle; one that has been left and comes back is, if it does so again and again.

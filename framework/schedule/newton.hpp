@@ -39,13 +39,16 @@ class Newton {
   void set_preconditioner_stabilization(const Stabilization& stabilization);
 
  private:
-  std::unique_ptr<Assembly> assemble(Assembly::Want want, const StepTime& step) const;
+  std::unique_ptr<Assembly> assemble(const StepTime& step);
+  /// Assembles the state that the fields have now, derivatives too: most states that are looked at are gone on from,
+  /// and derivatives of linear terms cost nothing.
+  ResidualCheck look(const StepTime& step);
   std::uint64_t discrete_state() const;
   std::vector<Vector> values() const;
   void move(const std::vector<Vector>& from, const Vector& update, double length);
   /// Minus the residual of the owned rows; zero for equations that hold to round-off. So the bulk, whose
   /// equations are linear, is solved for once a step by a solver that condenses it.
-  Vector right_hand_side(const Assembly& assembly, const ResidualCheck& check) const;
+  Vector right_hand_side(const ResidualCheck& check) const;
   /// The largest change of a field over its largest value. Fields whose equation holds to round-off already are left
   /// out: where nothing flows, a flux is nothing but round-off.
   double relative_size(const Vector& update, const ResidualCheck& check) const;
@@ -58,7 +61,8 @@ class Newton {
   IterationLog log_;
   BlockSystem system_;
   std::unique_ptr<LinearSolver> linear_;
-  mutable int residuals_ = 0, jacobians_ = 0;  ///< assembled
+  std::unique_ptr<Assembly> assembly_;  ///< of the state that was looked at last
+  int assemblies_ = 0;
   std::vector<double> recent_merits_;
   const Stabilization* stabilization_ = nullptr;
   std::map<const Field*, Vector> start_;
