@@ -1,4 +1,7 @@
 // wall_traction: forces on the walls of fractures, and the jump that they leave (Eqs. 1 and 4).
+#include <algorithm>
+#include <cmath>
+
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
@@ -58,7 +61,7 @@ class WallTraction : public Coupler {
       if (term.field == &traction)
         for (int i = 0; i < traction.size(); ++i) compliance[i] = -term.matrix.coeff(i, i);
     replicate(mesh_, Location::fracture_cell, 2, compliance);
-    compliance_ = compliance;
+    compliance_ = positive(std::move(compliance));
     if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
   }
 
@@ -81,6 +84,19 @@ class WallTraction : public Coupler {
   }
 
  private:
+  /// On rough meshes (two fractures one cell apart) a wall may move against its own traction while the cells around
+  /// keep their place. As a scale, and as what contact takes for the stiffness of walls, it must be positive: at least
+  /// a tenth of the mean, in proportion to the length of the cell.
+  Vector positive(Vector compliance) const {
+    double mean[2] = {0, 0};
+    const int cells = mesh_.fracture_cell_count();
+    for (int i = 0; i < 2 * cells; ++i)
+      mean[i % 2] += std::abs(compliance[i]) / mesh_.fracture_cells[i / 2].length / cells;
+    for (int i = 0; i < 2 * cells; ++i)
+      compliance[i] = std::max(compliance[i], 0.1 * mean[i % 2] * mesh_.fracture_cells[i / 2].length);
+    return compliance;
+  }
+
   const Mesh& mesh_;
   RockWalls& rock_;
   FractureContact* contact_;
