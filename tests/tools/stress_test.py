@@ -1,0 +1,141 @@
+#!/usr/bin/python3
+"""The checks of tools/stress find what is planted, and are silent where nothing is; scenes repeat by their number."""
+
+import copy
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools"))
+import results  # noqa: E402
+from stress_suite import (check_balance, check_contact, check_finite, check_pressure, fractures, physics, ranges,  # noqa: E402
+                          scene, twisted_mesh, written)
+
+P = {"young": 2.5e9, "poisson": 0.25, "alpha": 0.0, "permeability": 1e-15, "viscosity": 1e-3, "storage": 1e-10,
+     "compressibility": 1e-9, "friction": 0.5, "dilation": 10.0, "aperture": 1e-3, "width": 4.0, "height": 4.0,
+     "length": 0.5, "sides": "stress", "stress": 1e7, "ratio": 2.0, "history": "constant", "initial": 1e6,
+     "boundary": "none", "boundary_pressure": 0.0, "well": "none", "volume": 0.1, "relative_step": 1.0, "steps": 1}
+N = 8  # squares along a side
+
+
+def grids():
+    """A square of 4 m in triangles, and a fracture of 4 cells on its middle line."""
+    points = np.array([[4 * i / N, 4 * j / N, 0] for j in range(N + 1) for i in range(N + 1)])
+    triangles = []
+    for j in range(N):
+        for i in range(N):
+            a, b = j * (N + 1) + i, (j + 1) * (N + 1) + i
+            triangles += [[a, a + 1, b + 1], [a, b + 1, b]]
+    row = N // 2 * (N + 1)
+    lines = [[row + i, row + i + 1] for i in range(2, 6)]
+    return results.Grid(points, np.array(triangles)), results.Grid(points, np.array(lines))
+
+
+def at_rest():
+    """A state that fulfils everything: uniform stress, slip of a hair with its friction and dilation in two cells."""
+    matrix, lines = grids()
+    cells = len(matrix.cells)
+    x, y = physics.stresses(P, 1.0)
+    matrix.cell_data = {"pore.pressure[Pa]": np.full(cells, P["initial"]),
+                        "rock.stress_xx_yy_xy[Pa]": np.tile([x, y, 0.0], (cells, 1)),
+                        "rock.displacement[m]": np.zeros((cells, 3))}
+    slip = np.array([0.0, 1e-5, 1e-5, 0.0])
+    opening = slip * np.tan(np.radians(P["dilation"]))
+    normal, shear = np.full(4, -4e6), np.array([1e6, 2e6, 2e6, -1e6])
+    pressure = np.full(4, P["initial"])
+    length = 0.5
+    flux = -length * opening / physics.time_step(P) / length / 2  # what opens comes out of the rock
+    lines.cell_data = {"contact.traction.normal[Pa]": normal, "contact.traction.tangential[Pa]": shear,
+                       "contact.jump.normal[m]": opening, "contact.jump.tangential[m]": slip,
+                       "rock.wall_traction.normal[Pa]": normal - pressure, "rock.wall_traction.tangential[Pa]": shear,
+                       "conduit.pressure[Pa]": pressure, "conduit.aperture[m]": P["aperture"] + opening,
+                       "pore.wall_flux.plus[m/s]": flux, "pore.wall_flux.minus[m/s]": flux, "fracture": np.zeros(4, int)}
+    drained = 2 * (physics.time_step(P) * length * flux).sum() / (P["storage"] * 16.0)
+    matrix.cell_data["pore.pressure[Pa]"] += drained
+    return written.Instant(physics.end(P), matrix, lines, follows=True)
+
+
+def change(where, name, cell, value):
+    instant = copy.deepcopy(at_rest())
+    getattr(instant, where).cell_data[name][cell] += value
+    return [instant]
+
+
+class Checks(unittest.TestCase):
+    def test_nothing_is_found_in_a_state_at_rest(self):
+        self.assertEqual(check_contact.failures(P, [at_rest()]), [])
+        self.assertEqual(check_balance.momentum(P, [at_rest()]), [])
+        self.assertEqual(check_balance.fracture_mass(P, [at_rest()], 0), [])
+        self.assertEqual(check_balance.matrix_mass(P, [at_rest()]), [])
+        self.assertEqual(check_pressure.failures(P, [at_rest()]), [])
+
+    def found(self, failures, text):
+        self.assertTrue(any(text in failure for failure in failures), failures)
+
+    def test_contact(self):
+        for name, cell, value, text in (
+                ("contact.traction.normal[Pa]", 0, 5e6, "walls pull"),
+                ("contact.jump.normal[m]", 0, -1e-9, "overlap"),
+                ("contact.jump.normal[m]", 0, 1e-6, "open wall carries load"),
+                ("contact.traction.tangential[Pa]", 0, 1.1e6, "more than friction"),
+                ("contact.traction.tangential[Pa]", 1, -1e3, "slip without its friction"),
+                ("contact.traction.tangential[Pa]", 1, -4e6, "slip without its friction"),
+                ("rock.wall_traction.normal[Pa]", 2, 1e3, "Eq. 4, normal")):
+            self.found(check_contact.failures(P, change("fractures", name, cell, value)), text)
+
+    def test_balances(self):
+        self.found(check_balance.momentum(P, change("matrix", "rock.stress_xx_yy_xy[Pa]", 5, 1e5)), "momentum")
+        self.found(check_balance.fracture_mass(P, change("fractures", "conduit.aperture[m]", 0, 1e-9), 0), "fracture 0")
+        self.found(check_balance.matrix_mass(P, change("matrix", "pore.pressure[Pa]", 7, 1e3)), "the matrix")
+
+    def test_pressures(self):
+        self.found(check_pressure.failures(P, change("matrix", "pore.pressure[Pa]", 3, 1e8)), "above")
+        board = change("matrix", "pore.pressure[Pa]", slice(None, None, 2), 1e5)
+        self.found(check_pressure.failures(P, board), "peaks")
+
+    def test_not_finite(self):
+        bad = change("matrix", "pore.pressure[Pa]", 3, np.nan)
+        self.found(check_finite.failures(bad, {}), "not finite")
+        self.found(check_finite.failures([], {"a": np.array([1.0, np.inf])}), "not finite")
+
+
+class Scenes(unittest.TestCase):
+    def test_a_number_gives_the_same_scene(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            for number in range(8):
+                texts = [scene.write(ranges.draw(3, number), Path(temporary) / str(i)).read_text() for i in (0, 1)]
+                self.assertEqual(*texts)
+
+    def test_ranges_are_those_of_the_task(self):
+        drawn = [ranges.draw(1, number) for number in range(500)]
+        for name, low, high in (("permeability", 1e-24, 1e-10), ("alpha", 0, 1), ("poisson", 0, 0.4999),
+                                ("friction", 0, 2), ("dilation", 0, 20), ("aperture", 1e-6, 1e-2),
+                                ("relative_step", 1e-6, 1e6)):
+            values = [p[name] for p in drawn]
+            self.assertGreaterEqual(min(values), low * (1 - 1e-12))
+            self.assertLessEqual(max(values), high * (1 + 1e-12))
+            self.assertLess(min(values), low + 0.05 * (high - low))
+
+    def test_twisted_meshes_have_slivers_and_no_flat_cells(self):
+        found = []
+        for p in (ranges.draw(1, number) for number in range(60)):
+            grid = twisted_mesh.Grid(p)
+            self.assertGreater(twisted_mesh.areas(grid.points, grid.triangles).min(), 0)
+            self.assertAlmostEqual(twisted_mesh.areas(grid.points, grid.triangles).sum() / (p["width"] * p["height"]), 1, 9)
+            found.append(twisted_mesh.smallest_angle(grid.points, grid.triangles))
+        self.assertLess(min(found), 6)
+
+    def test_fractures_lie_in_the_box(self):
+        for p in (ranges.draw(2, number) for number in range(200)):
+            for a, b in fractures.segments(p).values():
+                for x, y in (a, b):
+                    self.assertTrue(-1e-9 <= x <= p["width"] * (1 + 1e-9) and 0 <= y <= p["height"], p["number"])
+
+
+if __name__ == "__main__":
+    unittest.main()
