@@ -12,6 +12,13 @@ def describe(p):
             f"{p['fractures']}, {p['place']}")
 
 
+def reasons_of_cuts(stderr):
+    """How many steps were cut because the linear solver found the system singular, and for other reasons."""
+    lines = [line for line in stderr.splitlines() if line.startswith("step cut:")]
+    singular = sum("singular" in line for line in lines)
+    return {"singular": singular, "not converged": len(lines) - singular}
+
+
 def check_fields(p, folder):
     instants, history = written.instants(folder), written.history(folder)
     found = check_finite.failures(instants, history)
@@ -27,7 +34,8 @@ def examine(program, seed, number, folder, limit, processes=1, keep=False):
     shutil.rmtree(folder, ignore_errors=True)
     ended = run.run(program, scene.write(p, folder), folder / "results", limit, processes)
     report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0,
-              "balance": 0.0, "seconds": round(ended.seconds, 2), "scene": describe(p), "reason": ""}
+              "balance": 0.0, "seconds": round(ended.seconds, 2), "scene": describe(p), "reason": "",
+              "cuts": reasons_of_cuts(ended.stderr)}
     if check_end.is_refused(ended):
         report["outcome"], report["reason"] = "refused", " ".join(ended.stderr.split())[:300]
     elif ended.timed_out or ended.code < 0 or ended.code > 2:

@@ -18,7 +18,7 @@ class Ended:
 
 
 def run(program, scene, folder, limit, processes=1):
-    command = [str(program), "run", "-q", str(scene), "-o", str(folder)]
+    command = [str(program), "run", str(scene), "-o", str(folder)]
     if processes > 1:
         command = ["mpirun", "-n", str(processes), *command]
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",

@@ -35,6 +35,8 @@ def figures(reports):
             "scenes with cuts": sum(1 for report in reports if report["rejected"]),
             "steps accepted": accepted, "steps cut": rejected,
             "steps cut, percent": round(100 * rejected / max(1, accepted + rejected), 3),
+            "reasons of cuts": {name: sum(r["cuts"][name] for r in reports if r["outcome"] == "answer")
+                                for name in ("singular", "not converged")},
             "iterations": {str(k): iterations[k] for k in sorted(iterations)},
             "iterations, median": share(0.5), "iterations, 99 percent": share(0.99), "iterations, most": share(1.0),
             "scenes by error of the books": {f"below {limit:g}": sum(1 for r in reports if r["accepted"] and r["balance"] < limit)
@@ -47,7 +49,9 @@ def text(reports):
     outcomes = ", ".join(f"{count} {name}" for name, count in sorted(f["outcomes"].items()))
     return (f"{f['scenes']} scenes: {outcomes}\n{f['steps accepted']} steps, {f['steps cut']} cut "
             f"({f['steps cut, percent']} %) in {f['scenes with cuts']} scenes; Newton iterations a step: median "
-            f"{f['iterations, median']}, 99 % at most {f['iterations, 99 percent']}, most {f['iterations, most']}")
+            f"{f['iterations, median']}, 99 % at most {f['iterations, 99 percent']}, most {f['iterations, most']}\n"
+            f"places in answered scenes where steps were cut: {f['reasons of cuts']['singular']} singular systems, "
+            f"{f['reasons of cuts']['not converged']} without convergence")
 
 
 def commit():
@@ -58,7 +62,7 @@ def write(reports, chosen, program):
     record = {"seed": chosen.seed, "commit": commit(), **figures(reports),
               "not answered": [{k: r[k] for k in ("number", "outcome", "failures", "reason", "scene")}
                                for r in reports if r["outcome"] != "answer"],
-              "cuts": [{k: r[k] for k in ("number", "rejected", "accepted", "scene")} for r in reports if r["rejected"]]}
+              "cuts": [{k: r[k] for k in ("number", "rejected", "accepted", "cuts", "scene")} for r in reports if r["rejected"]]}
     chosen.report.parent.mkdir(parents=True, exist_ok=True)
     chosen.report.with_suffix(".json").write_text(json.dumps(record, indent=1) + "\n")
     from . import picture
