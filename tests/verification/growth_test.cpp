@@ -175,6 +175,54 @@ TEST(WingCracks, TheChangeOfTheMeshAloneChangesNoState) {
   EXPECT_LT(largest, 0.01 * (old.at("conduit.pressure").now().maxCoeff() - 6.9 * mega));
 }
 
+TEST(WingCracks, APathIsKeptUntilTheMeshHasTakenItOver) {
+  // What a checkpoint has between the step that hands a path over and the change of the mesh, which may fail.
+  SceneRun run = wings();
+  Model& model = run.model();
+  StepController controller(model.scene().time, {});
+  while (model.growing()[0]->extensions().empty()) {
+    const StepTime step = controller.next();
+    const StepStatus status = model.attempt(step);
+    if (status.converged) {
+      model.accept();
+      controller.accepted(step, status.iterations);
+    } else {
+      model.rewind();
+      ASSERT_TRUE(controller.rejected(step, status.retry_dt)) << status.reason;
+    }
+  }
+  const auto length = [](const Model& of, const std::string& tip) {
+    for (const Quantity& quantity : of.quantities())
+      if (quantity.name == "tips." + tip + ".length") return quantity.value;
+    return -1.0;
+  };
+  const std::vector<PathExtension> extensions = model.growing()[0]->extensions();
+  const double time = controller.time();
+  const MeshChangeResult changed = change_mesh(model, 0, extensions, {time - 3600, 3600, time});
+  Model restarted(model.scene(), model.mesh());
+  restarted.restore_extra_state(model.extra_state());
+  for (const PathExtension& extension : extensions) {
+    const std::string tip = extension.at_end ? "main_last" : "main_first";
+    const Vector kept = model.extra_state().at("tips." + tip), taken = changed.model->extra_state().at("tips." + tip);
+    ASSERT_GT(kept.size(), 6);
+    EXPECT_EQ(Point(kept.tail<2>()), extension.points.back());
+    EXPECT_GT(length(model, tip), 0.0095);
+    EXPECT_EQ(length(restarted, tip), length(model, tip));
+    // Then it is the mesh's, with the points that were handed over.
+    EXPECT_EQ(taken.size(), 6);
+    const Fracture& fracture = model.mesh().fractures[0];
+    const FractureCell& end =
+        model.mesh().fracture_cells[fracture.first_cell + (extension.at_end ? fracture.cell_count - 1 : 0)];
+    Point last = model.mesh().fracture_points[end.points[extension.at_end ? 1 : 0]].position;
+    double handed_over = 0;
+    for (const Point& x : extension.points) {
+      handed_over += (x - last).norm();
+      last = x;
+    }
+    EXPECT_NEAR(length(*changed.model, tip), handed_over, 1e-12);
+  }
+}
+
 TEST(WingCracks, ARepeatedStepSeesTheGrownMesh) {
   // The step is repeated on the mesh that has grown until nothing grows. Both ways lead to the same wings, to well
   // below the 10 mm at which the coarse level is told of them.

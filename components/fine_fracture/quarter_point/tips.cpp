@@ -69,6 +69,18 @@ double original_size(const Mesh& mesh, const TipEnd& end) {
   return end_cell(mesh, end).length;
 }
 
+/// Of the fracture's new cells at this end, m.
+double new_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change) {
+  const Fracture& cells = mesh.fractures[end.fracture];
+  double length = 0;
+  for (int i = 0; i < cells.cell_count; ++i) {
+    const int cell = cells.first_cell + (end.at_end ? cells.cell_count - 1 - i : i);
+    if (change.fracture_cell[cell] != none) break;
+    length += mesh.fracture_cells[cell].length;
+  }
+  return length;
+}
+
 double length_of(const Point& from, const TipPath& path) {
   double length = 0;
   Point last = from;
@@ -290,14 +302,6 @@ Growing::Growth Tips::grow(const StepTime&) {
     // Whole increments may fall short of the threshold by what their last one was shortened.
     if (length < 0.95 * surroundings_->propagation_threshold() * tip.coarse_size) continue;
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip)});
-    double handed_over = 0;
-    Point last = position(tip, {});
-    for (const Point& x : extensions.back().points) {
-      handed_over += (x - last).norm();
-      last = x;
-    }
-    tip.now.grown += handed_over;
-    tip.now.path.added.clear();
   }
   return result;
 }
@@ -337,11 +341,20 @@ void Tips::rewound() {
   }
 }
 
-void Tips::carry_over(const Part& before, const MeshChange&) {
+void Tips::carry_over(const Part& before, const MeshChange& change) {
   const auto& old = dynamic_cast<const Tips&>(before);
   for (Tip& tip : tips_)
-    for (const Tip& same : old.tips_)
-      if (same.end.fracture == tip.end.fracture && same.end.at_end == tip.end.at_end) tip.now = tip.accepted = same.now;
+    for (const Tip& same : old.tips_) {
+      if (same.end.fracture != tip.end.fracture || same.end.at_end != tip.end.at_end) continue;
+      tip.now = same.now;
+      // Only now: were it when the path is handed over, a mesh that cannot take it would lose it.
+      const double taken = new_length(mesh_, tip.end, change);
+      if (taken > 0) {
+        tip.now.grown += taken;
+        tip.now.path.added.clear();
+      }
+      tip.accepted = tip.now;
+    }
 }
 
 void Tips::save(std::map<std::string, Vector>& state) const {
