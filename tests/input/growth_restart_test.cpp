@@ -1,0 +1,71 @@
+// Runs whose fractures grow, interrupted and continued.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/input/program.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Section 5.2 on a coarse mesh and with a low toughness, so that wings soon grow; the mesh follows every 5 mm.
+std::vector<std::string> growing_run(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"run", config("paper/wing_cracks.yaml")};
+  for (const std::string value :
+       {"mesh={size: 0.5 m, fracture_size: 25 mm}", "components.tips.toughness=0.42 MPa*m^0.5",
+        "components.tips.size=0.3 m", "components.tips.sectors=8", "components.tips.mesh_ratio=1",
+        "components.tips.growth={increment: 5 mm}", "couplers.4.propagation_threshold=0.2",
+        "components.conduit.injection.well.rate=4.0e-8 m^2/s", "time.step=10 min", "time.end=40 s"}) {
+    arguments.push_back("--set");
+    arguments.push_back(value);
+  }
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+long rows(const fs::path& table) {
+  const std::string text = text_of(table);
+  return std::count(text.begin(), text.end(), '\n') - 1;
+}
+
+/// Of the last program that worked in this folder.
+long mesh_changes(const fs::path& folder) {
+  const nlohmann::json counters = nlohmann::json::parse(text_of(folder / "run.json")).at("counters");
+  return counters.value("changes of the mesh", 0L);
+}
+
+TEST(RunWithGrowth, InterruptedAndContinuedHasTheSameBits) {
+  const Folder folder;
+  const Outcome whole = sprekk_command(growing_run({"-q", "-o", "whole"}), folder.path());
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  const long changes = mesh_changes(folder / "whole"), all = rows(folder / "whole/history.csv");
+  ASSERT_GE(changes, 2);
+
+  // Interrupted while the fine level has a path of its own, and again after the mesh has changed.
+  std::vector<std::string> arguments = growing_run({"-q", "-o", "parts"});
+  long changes_in_parts = 0;
+  for (const long until : {all / 3, 2 * all / 3}) {
+    Program program(arguments, folder.path());
+    while (rows(folder / "parts/history.csv") < until && program.is_running())
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    program.interrupt();
+    const Outcome interrupted = program.wait();
+    ASSERT_EQ(interrupted.code, 130) << interrupted.err;
+    changes_in_parts += mesh_changes(folder / "parts");
+    arguments = growing_run({"-q", "--restart", "parts/checkpoint.h5"});
+  }
+  EXPECT_GE(changes_in_parts, 1);
+  EXPECT_LT(changes_in_parts, changes);
+  const Outcome rest = sprekk_command(arguments, folder.path());
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(changes_in_parts + mesh_changes(folder / "parts"), changes);
+  EXPECT_EQ(text_of(folder / "parts/history.csv"), text_of(folder / "whole/history.csv"));
+}
+
+}  // namespace
+}  // namespace sprekk::testing
