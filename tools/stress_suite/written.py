@@ -47,6 +47,8 @@ def iterations_of_steps(folder):
 
 
 def instants(folder):
+    if not (folder / "matrix.pvd").exists():  # no time of output was reached
+        return []
     matrix = results.read_pvd(folder / "matrix.pvd")
     fractures = results.read_pvd(folder / "fractures.pvd")
     table = history(folder)
