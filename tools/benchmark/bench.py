@@ -29,7 +29,7 @@ def parse():
     parser.add_argument("--list", action="store_true", help="say what there is, and what of it has been run")
     parser.add_argument("--solvers", metavar="S,…", help="only these: umfpack, mumps, belos, auto")
     parser.add_argument("--again", action="store_true", help="run again what is there")
-    parser.add_argument("--limit", type=float, default=600, metavar="SECONDS", help="of one run; finer meshes are left then")
+    parser.add_argument("--limit", type=float, default=600, metavar="SECONDS", help="of one run in processor time; finer meshes are left then")
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "bench", metavar="DIR", help="default: %(default)s")
     parser.add_argument("--pictures", type=Path, metavar="DIR", help="also write PNG pictures, for the documentation")
     parser.add_argument("--smoke", action="store_true", help="compare the counts of small scenes with tools/benchmark/smoke.json")

@@ -5,6 +5,7 @@ import json
 import os
 import resource
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -78,14 +79,17 @@ def child_seconds():
 
 
 def run_scene(program, scene, settings, folder, limit):
-    """Wall and processor seconds of the whole process; raises with what it printed when it fails."""
+    """Wall and processor seconds of the whole process, of which the latter are limited; raises with what it printed when it fails."""
     arguments = [program, "run", "-q", str(scene), "-o", str(folder)]
     for path, value in settings.items():
         arguments += ["--set", f"{path}={value}"]
     processor, wall = child_seconds(), time.monotonic()
-    done = subprocess.run(arguments, capture_output=True, text=True, timeout=limit,
+    done = subprocess.run(arguments, capture_output=True, text=True,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit) + 5)),
                           env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"})
     wall, processor = time.monotonic() - wall, child_seconds() - processor
+    if done.returncode == -signal.SIGXCPU:
+        raise RuntimeError(f"took more than {limit:g} s")
     if done.returncode:
         raise RuntimeError((done.stderr or done.stdout).strip().splitlines()[-1] if done.stderr or done.stdout else
                            f"exit code {done.returncode}")
@@ -102,8 +106,6 @@ def measure(case, program, limit):
         run = RunResults(scratch / "run")
         result.update(solved_in(run.record, wall, processor))
         result["errors"] = PROBLEMS[case.problem].errors(run)
-    except subprocess.TimeoutExpired:
-        result["failure"] = f"took more than {limit:g} s"
     except RuntimeError as failure:
         result["failure"] = str(failure)
     finally:

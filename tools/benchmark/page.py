@@ -53,7 +53,7 @@ def slopes(curve):
 def figure(results, name):
     """Three panels: error over seconds, error over unknowns, seconds over unknowns."""
     problem, found = PROBLEMS[name], curves(results, name)
-    picture, (work, precision, cost) = plt.subplots(1, 3, figsize=(13, 4.4), layout="constrained")
+    picture, (work, precision, cost) = plt.subplots(1, 3, figsize=(13, 4.6))
     drawn_errors = set()
     for (variant, solver), curve in found.items():
         kind, _, condensed = solver.partition("+")
@@ -87,8 +87,9 @@ def figure(results, name):
             axes.spines[side].set_visible(False)
     entries = [axes.get_legend_handles_labels() for axes in (work, precision)]
     unique = {label: handle for handles, labels in reversed(entries) for handle, label in zip(handles, labels)}
-    picture.legend(unique.values(), unique.keys(), loc="outside lower center", ncols=5, fontsize=8, frameon=False)
     picture.suptitle(problem.title, fontsize=11)
+    picture.tight_layout(rect=(0, 0.1, 1, 1))
+    picture.legend(unique.values(), unique.keys(), loc="lower center", ncol=4, fontsize=8, frameon=False)
     return picture
 
 

@@ -11,32 +11,39 @@ import page
 from cases import run_scene
 from run_results import ROOT
 
-ONSET = "paper/onset_coarse.yaml"
-MESH = {"mesh.size": "0.1 m", "mesh.fracture_size": "10 mm", "time.end": "12 h", "output.fields": "false", "output.probes": "{}"}
-NO_FRACTURE = {**MESH, "geometry.fractures": "{}", "mesh.fracture_size": "0.1 m"}
-PORE = "{pore: {type: matrix_flow/mpfa, boundary: {left: {pressure: 1 MPa}}}}"
-ROCK = ("rock: {type: poromechanics/mpsa, boundary: {left: {displacement_x: 0 m}, bottom: {displacement_y: 0 m}, "
-        "right: {normal_stress: -20 MPa}, top: {normal_stress: -10 MPa}}}")
-BIOT = "[{type: biot, between: [pore, rock]}]"
-ROCK_AND_PORE = "{pore: {type: matrix_flow/mpfa}, " + ROCK + "}"
+MESH = {"mesh.size": "0.1 m", "mesh.fracture_size": "10 mm", "time.end": "12 h", "output.fields": "false"}
 
-# All of them are section 5.1's, with more and more left out.
+MATERIALS = """materials: {young_modulus: 40 GPa, poisson_ratio: 0.2, biot_coefficient: 0.8, porosity: 0.01, fluid_compressibility: 4.0e-10 1/Pa,
+  permeability: 5.0e-20 m^2, viscosity: 1.0e-4 Pa*s}"""
+PORE = "  pore: {type: matrix_flow/mpfa, boundary: {left: {pressure: 1 MPa}}}"
+ROCK = """  rock:
+    type: poromechanics/mpsa
+    boundary: {left: {displacement_x: 0 m}, bottom: {displacement_y: 0 m}, right: {normal_stress: -20 MPa}, top: {normal_stress: -10 MPa}}"""
+
+
+def unfractured(components, solve, coupler=""):
+    """The block of section 5.1 without its fracture; what the components do not name may not be in `materials` either."""
+    used = MATERIALS if len(components) > 1 else MATERIALS.replace("biot_coefficient: 0.8, ", "")
+    return "\n".join(["name: block", "geometry: {box: {x: [0 m, 2 m], y: [0 m, 2 m]}}", "mesh: {size: 0.05 m}", used, "components:",
+                      *components, coupler, f"schedule: [{{solve: [{solve}]}}]", "time: {end: 12 h, step: 1 h}",
+                      "output: {fields: false}", ""])
+
+
+BIOT = unfractured([PORE, ROCK], "pore, rock", "couplers: [{type: biot, between: [pore, rock]}]")
+
+# (a scene of configs or the text of one, settings): section 5.1's with more and more left out.
 SCENES = {
-    "flow alone": {**NO_FRACTURE, "components": PORE, "couplers": "[]", "schedule": "[{solve: pore}]"},
-    "mechanics alone": {**NO_FRACTURE, "components": "{" + ROCK + "}", "couplers": "[]", "schedule": "[{solve: rock}]"},
-    "Biot": {**NO_FRACTURE, "components": ROCK_AND_PORE, "couplers": BIOT, "schedule": "[{solve: [pore, rock]}]"},
-    "Biot, alpha = 0": {**NO_FRACTURE, "components": ROCK_AND_PORE, "couplers": BIOT, "schedule": "[{solve: [pore, rock]}]",
-                        "materials.biot_coefficient": "0"},
-    "Biot, k = 0": {**NO_FRACTURE, "components": ROCK_AND_PORE, "couplers": BIOT, "schedule": "[{solve: [pore, rock]}]",
-                    "materials.permeability": "0 m^2"},
-    "Biot, until it is steady": {**NO_FRACTURE, "components": ROCK_AND_PORE, "couplers": BIOT, "schedule": "[{solve: [pore, rock]}]",
-                                 "time.stop_when_steady": "1e-6"},
-    "5.1, friction that holds, no injection": {**MESH, "materials.friction": "2", "components.conduit.injection": "{}"},
-    "5.1, friction that holds": {**MESH, "materials.friction": "2"},
-    "5.1 before injection": {**MESH, "time.end": "6 h"},
-    "5.1": MESH,
-    "5.1, both levels, tips safe": {**MESH, "scene": "paper/onset.yaml", "components.tips.toughness": "100 MPa*m^0.5"},
-    "5.1, both levels": {**MESH, "scene": "paper/onset.yaml"},
+    "flow alone": (unfractured([PORE], "pore"), {}),
+    "mechanics alone": (unfractured([ROCK], "rock"), {}),
+    "Biot": (BIOT, {}),
+    "Biot, alpha = 0": (BIOT, {"materials.biot_coefficient": "0"}),
+    "Biot, k = 0": (BIOT, {"materials.permeability": "0 m^2"}),
+    "Biot, k = 0, until it is steady": (BIOT, {"materials.permeability": "0 m^2", "time.stop_when_steady": "1e-6"}),
+    "5.1, friction that holds": ("paper/onset_coarse.yaml", {**MESH, "materials.friction": "2"}),
+    "5.1 before injection": ("paper/onset_coarse.yaml", {**MESH, "time.end": "6 h"}),
+    "5.1": ("paper/onset_coarse.yaml", MESH),
+    "5.1, both levels, tips safe": ("paper/onset.yaml", {**MESH, "components.tips.toughness": "100 MPa*m^0.5"}),
+    "5.1, both levels": ("paper/onset.yaml", MESH),
 }
 
 COLUMNS = {"fields": "objects: fields", "unknowns": "unknowns", "steps": "steps accepted", "discretized (flow)": "flux discretizations",
@@ -44,12 +51,14 @@ COLUMNS = {"fields": "objects: fields", "unknowns": "unknowns", "steps": "steps 
            "back-solves": "linear: solves", "fine solves": "tips: solves", "tips ruled out": "tips: ruled out"}
 
 
-def counters(program, settings):
-    settings = dict(settings)
-    scene = ROOT / "configs" / settings.pop("scene", ONSET)
+def counters(program, scene, settings):
     scratch = Path(tempfile.mkdtemp())
     try:
-        run_scene(program, scene, settings, scratch / "run", 300)
+        file = ROOT / "configs" / scene
+        if "\n" in scene:
+            file = scratch / "scene.yaml"
+            file.write_text(scene)
+        run_scene(program, file, settings, scratch / "run", 300)
         return json.loads((scratch / "run" / "run.json").read_text())["counters"]
     finally:
         shutil.rmtree(scratch)
@@ -59,7 +68,7 @@ def measure(program, minimal, folder, again):
     file = folder / "skip.json"
     if again or not file.exists():
         folder.mkdir(parents=True, exist_ok=True)
-        result = {"scenes": {name: counters(program, settings) for name, settings in SCENES.items()},
+        result = {"scenes": {name: counters(program, *scene) for name, scene in SCENES.items()},
                   "pairs": json.loads(subprocess.run([minimal], capture_output=True, text=True, check=True).stdout)}
         file.write_text(json.dumps(result, indent=1) + "\n")
     print(text(json.loads(file.read_text())))
