@@ -115,7 +115,8 @@ struct LinearOptions {
 /// block preconditioner above a size.
 /// Throws std::invalid_argument for an unknown type, and for umfpack on several processes.
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
-/// The same, for systems that change on fractures only: condensed if the options ask for it and the solver can.
+/// The same for Newton's method, in one process: parts that do not feel one another apart (SeparatedSolver), and bulks
+/// condensed if the options say so (CondensedSolver). Belos and several processes get the solver itself.
 std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options);
 
 /// The name of the BLAS in use and whether it is the slow reference one.

@@ -3,6 +3,7 @@
 #include "framework/linear/condensed_solver.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/linear/mumps_solver.hpp"
+#include "framework/linear/separated_solver.hpp"
 #include "framework/linear/trilinos/belos_solver.hpp"
 #include "framework/linear/umfpack_solver.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -61,8 +62,11 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options) {
 }
 
 std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options) {
-  if (!options.condense || options.type == "belos" || parallel::size() > 1) return make_linear_solver(options);
-  return std::make_unique<CondensedSolver>(options);
+  if (options.type == "belos" || parallel::size() > 1) return make_linear_solver(options);
+  return std::make_unique<SeparatedSolver>([options]() -> std::unique_ptr<LinearSolver> {
+    if (options.condense) return std::make_unique<CondensedSolver>(options);
+    return make_linear_solver(options);
+  });
 }
 
 }  // namespace sprekk

@@ -321,6 +321,7 @@ void Run::finish(ExitCode code) {
   record_.counters["linear: condensed factorizations"] = counts.condensed;
   record_.counters["linear: columns condensed"] = counts.columns;
   record_.counters["assembly: patterns"] = counts.patterns;
+  record_.counters["assembly: states"] = counts.assemblies;
   // What the linear solvers used is part of the steps; the rest of the steps is assembly and everything else.
   Profile::Entry& steps = profile_.at("steps");
   const auto move_time = [&](const char* name, double seconds, long calls, long reuses) {

@@ -1,0 +1,143 @@
+#include "framework/linear/separated_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+namespace {
+
+/// Of every block the number of the set that it belongs to, counted from 0.
+std::vector<int> sets_of_blocks(const LinearSystem& system, int& sets) {
+  const SparseMatrix& a = system.local;
+  const int count = static_cast<int>(system.blocks.size());
+  std::vector<int> block_of(a.cols(), 0);
+  for (int b = 0; b < count; ++b) {
+    const UnknownBlock& block = system.blocks[b];
+    std::fill_n(block_of.begin() + block.first, block.entities * block.components, b);
+  }
+  std::vector<int> root(count);
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int b) {
+    while (root[b] != b) b = root[b] = root[root[b]];
+    return b;
+  };
+  for (int row = 0; row < a.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
+      if (block_of[row] != block_of[entry.col()]) root[find(block_of[row])] = find(block_of[entry.col()]);
+  std::vector<int> set(count, -1), number(count, -1);
+  sets = 0;
+  for (int b = 0; b < count; ++b) {
+    if (system.blocks[b].entities == 0) continue;
+    int& mine = number[find(b)];
+    if (mine < 0) mine = sets++;
+    set[b] = mine;
+  }
+  return set;
+}
+
+}  // namespace
+
+bool SeparatedSolver::fits(const LinearSystem& system) const {
+  const SparseMatrix& a = system.local;
+  return !groups_.empty() && static_cast<int>(inner_.size()) == a.nonZeros() &&
+         static_cast<int>(outer_.size()) == a.rows() + 1 &&
+         std::equal(outer_.begin(), outer_.end(), a.outerIndexPtr()) &&
+         std::equal(inner_.begin(), inner_.end(), a.innerIndexPtr());
+}
+
+void SeparatedSolver::separate(const LinearSystem& system) {
+  const SparseMatrix& a = system.local;
+  int sets = 1;
+  std::vector<int> set_of_block(system.blocks.size(), 0);
+  const bool can_separate = parallel::size() == 1 && a.isCompressed() && system.blocks.size() > 1;
+  if (can_separate) set_of_block = sets_of_blocks(system, sets);
+  // One part keeps its solver, and so its ordering, also when the pattern changes.
+  if (groups_.size() != 1 || sets != 1) {
+    for (const Group& group : groups_) retired_ += group.solver->counts();
+    groups_.clear();
+    groups_.resize(std::max(1, sets));
+    for (Group& group : groups_) group.solver = make_();
+  }
+  outer_.clear();
+  inner_.clear();
+  if (groups_.size() == 1) return;
+
+  outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1);
+  inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
+  std::vector<int> place(a.cols(), 0);
+  for (std::size_t b = 0; b < system.blocks.size(); ++b) {
+    if (set_of_block[b] < 0) continue;
+    UnknownBlock block = system.blocks[b];
+    Group& group = groups_[set_of_block[b]];
+    const int first = static_cast<int>(group.unknowns.size());
+    for (int i = 0; i < block.entities * block.components; ++i) {
+      place[block.first + i] = first + i;
+      group.unknowns.push_back(block.first + i);
+    }
+    block.first = first;
+    group.blocks.push_back(std::move(block));
+  }
+  for (Group& group : groups_) {
+    std::vector<int> starts{0}, columns;
+    for (const int row : group.unknowns) {
+      for (int k = outer_[row]; k < outer_[row + 1]; ++k) {
+        columns.push_back(place[inner_[k]]);
+        group.part.source.push_back(k);
+      }
+      starts.push_back(static_cast<int>(columns.size()));
+    }
+    const int size = static_cast<int>(group.unknowns.size());
+    group.part.matrix.resize(size, size);
+    group.part.matrix.resizeNonZeros(columns.size());
+    std::copy(starts.begin(), starts.end(), group.part.matrix.outerIndexPtr());
+    std::copy(columns.begin(), columns.end(), group.part.matrix.innerIndexPtr());
+    std::fill_n(group.part.matrix.valuePtr(), columns.size(), std::nan(""));
+  }
+}
+
+LinearReport SeparatedSolver::factor(const LinearSystem& system) {
+  if (!fits(system)) separate(system);
+  if (groups_.size() == 1) return groups_[0].solver->factor(system);
+  for (Group& group : groups_) {
+    group.part.update(system.local.valuePtr());
+    LinearSystem part;
+    part.rows.resize(group.unknowns.size());
+    std::iota(part.rows.begin(), part.rows.end(), 0);
+    part.local = group.part.matrix;
+    part.blocks = group.blocks;
+    const LinearReport report = group.solver->factor(part);
+    if (!report.solved) return report;
+  }
+  return LinearReport::success();
+}
+
+LinearReport SeparatedSolver::solve(const Vector& b_rows, Vector& x) {
+  if (groups_.empty()) return LinearReport::failure("solve was called before factor");
+  if (groups_.size() == 1) return groups_[0].solver->solve(b_rows, x);
+  x = Vector::Zero(b_rows.size());
+  LinearReport all = LinearReport::success();
+  for (Group& group : groups_) {
+    const Vector b = b_rows(group.unknowns);
+    if (b.isZero(0)) continue;
+    Vector mine;
+    const LinearReport report = group.solver->solve(b, mine);
+    if (!report.solved) return report;
+    all.iterations += report.iterations;
+    all.relative_residual = std::max(all.relative_residual, report.relative_residual);
+    x(group.unknowns) = mine;
+  }
+  return all;
+}
+
+std::string SeparatedSolver::name() const { return groups_.empty() ? "none" : groups_[0].solver->name(); }
+
+const LinearCounts& SeparatedSolver::counts() const {
+  total_ = retired_;
+  for (const Group& group : groups_) total_ += group.solver->counts();
+  return total_;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,86 @@
+// Parts of a system that do not feel one another are factorized and solved by themselves.
+#include "framework/linear/separated_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/framework/linear/test_systems.hpp"
+
+namespace sprekk {
+namespace {
+
+std::unique_ptr<LinearSolver> make() {
+  return std::make_unique<SeparatedSolver>([] {
+    LinearOptions options;
+    options.type = "umfpack";
+    return make_linear_solver(options);
+  });
+}
+
+/// Two Laplacians of different size whose unknowns come in three blocks, the first and the last of one problem.
+LinearSystem two_problems(double factor, double link = 0) {
+  constexpr int n = 12, m = 7;
+  const LinearSystem large = test::poisson(n), small = test::poisson(m);
+  std::vector<Triplet> entries;
+  const int first = n * n / 2;  // unknowns of the large one before those of the small one
+  const auto place = [&](int i) { return i < first ? i : i + m * m; };
+  for (int row = 0; row < n * n; ++row)
+    for (SparseMatrix::InnerIterator entry(large.local, row); entry; ++entry)
+      entries.emplace_back(place(row), place(static_cast<int>(entry.col())), entry.value());
+  for (int row = 0; row < m * m; ++row)
+    for (SparseMatrix::InnerIterator entry(small.local, row); entry; ++entry)
+      entries.emplace_back(first + row, first + static_cast<int>(entry.col()), factor * entry.value());
+  if (link != 0) entries.emplace_back(0, first, link);
+  using Kind = UnknownBlock::Kind;
+  return test::make_system(n * n + m * m, entries,
+                           {{"a", 0, first, 1, Kind::scalar_elliptic, {}, {}},
+                            {"b", first, m * m, 1, Kind::elasticity, {}, {}},
+                            {"c", first + m * m, n * n - first, 1, Kind::scalar_elliptic, {}, {}}});
+}
+
+Vector solve(LinearSolver& solver, const LinearSystem& system, const Vector& b) {
+  EXPECT_TRUE(solver.factor(system).solved);
+  Vector x;
+  EXPECT_TRUE(solver.solve(b, x).solved);
+  return x;
+}
+
+TEST(SeparatedSolver, SolvesBothParts) {
+  const LinearSystem system = two_problems(1e-9);
+  const Vector exact = test::random_vector(static_cast<int>(system.rows.size()), 1);
+  const auto solver = make();
+  EXPECT_LT((solve(*solver, system, system.local * exact) - exact).lpNorm<Eigen::Infinity>(), 1e-11);
+  EXPECT_EQ(solver->counts().factorizations, 2);
+  EXPECT_EQ(solver->counts().solves, 2);
+}
+
+TEST(SeparatedSolver, FactorizesOnlyThePartThatChanged) {
+  const LinearSystem first = two_problems(1), second = two_problems(3);
+  const Vector exact = test::random_vector(static_cast<int>(first.rows.size()), 2);
+  const auto solver = make();
+  solve(*solver, first, first.local * exact);
+  EXPECT_LT((solve(*solver, second, second.local * exact) - exact).lpNorm<Eigen::Infinity>(), 1e-11);
+  EXPECT_EQ(solver->counts().factorizations, 3);
+  EXPECT_EQ(solver->counts().reused, 1);
+}
+
+TEST(SeparatedSolver, DoesNotSolveForAPartWithoutLoad) {
+  const LinearSystem system = two_problems(1);
+  Vector exact = test::random_vector(static_cast<int>(system.rows.size()), 3);
+  exact.segment(72, 49).setZero();
+  const auto solver = make();
+  EXPECT_LT((solve(*solver, system, system.local * exact) - exact).lpNorm<Eigen::Infinity>(), 1e-11);
+  EXPECT_EQ(solver->counts().solves, 1);
+}
+
+TEST(SeparatedSolver, PassesOnePartOn) {
+  const LinearSystem joined = two_problems(1, 0.5);
+  const Vector exact = test::random_vector(static_cast<int>(joined.rows.size()), 4);
+  const auto solver = make();
+  EXPECT_LT((solve(*solver, joined, joined.local * exact) - exact).lpNorm<Eigen::Infinity>(), 1e-11);
+  EXPECT_EQ(solver->counts().factorizations, 1);
+  EXPECT_LT((solve(*solver, two_problems(1), two_problems(1).local * exact) - exact).lpNorm<Eigen::Infinity>(), 1e-11);
+  EXPECT_EQ(solver->counts().factorizations, 3);
+}
+
+}  // namespace
+}  // namespace sprekk
