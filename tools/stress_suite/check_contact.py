@@ -20,7 +20,7 @@ def scales(p, instant, traction, jump):
     largest_traction = np.abs(traction).max()
     pressures = max(np.abs(instant.cell("pore.pressure[Pa]")).max(),
                     np.abs(instant.on_fractures("conduit.pressure", "Pa")).max())
-    return max(np.abs(jump).max(), largest_traction / stiffness), max(largest_traction, pressures, 1e-12 * p["stress"])
+    return max(np.abs(jump).max(), largest_traction / stiffness), max(largest_traction, pressures, 1e-6 * p["stress"])  # round-off of the load
 
 
 def failures(p, instants):
