@@ -137,6 +137,9 @@ void MatrixFlow::discretize() {
   }
   const int rank = parallel::rank();
   outflow_of_pressure_ = cell_sums(mesh_, operators_.flux_cell, 1, rank);
+  largest_conductance_ = 0;
+  for (int row = 0; row < outflow_of_pressure_.rows(); ++row)
+    largest_conductance_ = std::max(largest_conductance_, outflow_of_pressure_.row(row).cwiseAbs().sum());
   if (!wall_flux_) return;
 
   // The flux out of the rock through a wall is −lambda times its length.
@@ -208,11 +211,16 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.add(pressure_, capacity.cwiseProduct(pressure_.now() - pressure_.accepted()));
   assembly.compare_round_off(pressure_, capacity.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
   assembly.diagonal(pressure_, pressure_, capacity);
-  assembly.linear(pressure_, outflow_of_pressure_, pressure_, step.dt);
+  // What flows depends on differences of pressure only, so its terms are added together, and compared with what flows
+  // through faces: terms of the pressure itself would hide it where the level is high.
+  assembly.add(pressure_, step.dt * (outflow_of_pressure_ * pressure_.now() + outflow_constant_));
+  assembly.derivative(pressure_, pressure_, outflow_of_pressure_, step.dt);
+  assembly.compare_round_off(pressure_, step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
+  assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
-  assembly.add(pressure_, step.dt * outflow_constant_);
-  // Where the pressure vanishes all terms do: the residual is then small against the flow before the step.
-  assembly.compare_with(pressure_, step.dt * (outflow_of_pressure_ * pressure_.accepted()).lpNorm<Eigen::Infinity>());
+  // Where all terms vanish the residual is small against the flow before the step.
+  assembly.compare_with(
+      pressure_, step.dt * (outflow_of_pressure_ * pressure_.accepted() + outflow_constant_).lpNorm<Eigen::Infinity>());
   assembly.add(pressure_, -step.dt * source_);
 }
 

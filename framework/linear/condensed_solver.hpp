@@ -20,7 +20,8 @@ class BulkSplitting;
 /// then costs the factorization of S, and a right-hand side one back-solve with A_BB, or none where b_B = 0. X has a
 /// column for each unknown of F that the bulk feels. The bulks of the last two time steps are kept.
 ///
-/// Goes to the solver of the whole system where there is nothing to condense, where the bulk alone is singular (a block
+/// Goes to the solver of the whole system where there is nothing to condense, while X would cost more than it has saved
+/// so far, where the bulk alone is singular (a block
 /// of rock that only fractures hold), where X would be too large, and where the first
 /// solution with a bulk turns out to be inaccurate.
 class CondensedSolver final : public LinearSolver {
@@ -36,6 +37,7 @@ class CondensedSolver final : public LinearSolver {
  private:
   struct Bulk;  ///< a factorization of A_BB, with X
   LinearReport condense(const LinearSystem& system);
+  void choose_bulk();
   LinearReport respond(Bulk& bulk) const;
   SparseMatrix reduced_matrix() const;
   LinearReport solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk, Vector& local);

@@ -37,7 +37,7 @@ double componentwise_backward_error(const SparseMatrix& a, const Vector& y, cons
 LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scaled, const Vector& b_rows,
                            const std::function<void(Vector&)>& apply_inverse, Vector& x) {
   constexpr int refinements = 3;
-  constexpr double accurate = 1e-13, acceptable = 1e-10, useless = 1e-3;
+  constexpr double accurate = 1e-13, acceptable = 1e-10, useless = 0.3;
   const SparseMatrix& a = scaled.matrix;
   const int unknowns = static_cast<int>(a.cols());
   const Vector b = scaled.row_scale.cwiseProduct(b_rows);

@@ -101,8 +101,11 @@ double Newton::relative_size(const Vector& update, const ResidualCheck& check) c
 
 namespace {
 
-double merit_bound(const std::vector<double>& recent) {
-  return *std::max_element(recent.end() - std::min<std::ptrdiff_t>(3, recent.size()), recent.end());
+/// The largest merit of the last three states, in the scales of the last one.
+double merit_bound(const std::vector<ResidualCheck>& recent) {
+  double bound = 0;
+  for (const ResidualCheck& check : recent) bound = std::max(bound, check.merit(recent.back()));
+  return bound;
 }
 
 }  // namespace
@@ -112,17 +115,20 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, int 
   const std::vector<Vector> from = values();
   const bool ask_for_descent = cycling || iteration > options_.undamped;
   ResidualCheck best;
-  double best_length = 0;
+  double best_length = 0, best_merit = 0;
+  const double bound = merit_bound(recent_);
   length = 1;
   for (int halvings = 0; halvings < (ask_for_descent ? 6 : 12); ++halvings, length /= 2) {
     move(from, update, length);
     const ResidualCheck check = look(step);
-    if (check.finite && (best_length == 0 || check.merit < best.merit)) {
+    const double merit = check.merit(recent_.back());
+    if (check.finite && (best_length == 0 || merit < best_merit)) {
+      best_merit = merit;
       best = check;
       best_length = length;
     }
     if (!check.finite) continue;
-    if (!ask_for_descent || check.converged || check.merit < (1 - 1e-4 * length) * merit_bound(recent_merits_)) break;
+    if (!ask_for_descent || check.converged || merit < (1 - 1e-4 * length) * bound) break;
   }
   if (best_length == 0) {
     best.finite = false;
@@ -151,7 +157,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   bool factored = false, cycling = false;
   double length = 1;
   ResidualCheck check = look(step);
-  recent_merits_ = {check.merit};
+  recent_ = {check};
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1});
   for (int iteration = 0;; ++iteration) {
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
@@ -186,7 +192,8 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
       last_state = state;
     }
     check = take_step(step, update, iteration, cycling, length);
-    recent_merits_.push_back(check.merit);
+    recent_.push_back(check);
+    if (recent_.size() > 3) recent_.erase(recent_.begin());
     if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length});
   }
 }

@@ -8,11 +8,10 @@
 #include "framework/assembly/block_system.hpp"
 #include "framework/assembly/part.hpp"
 #include "framework/linear/linear_solver.hpp"
+#include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_step.hpp"
 
 namespace sprekk {
-
-struct ResidualCheck;
 
 struct NewtonOptions {
   double residual = 1e-10;  ///< largest residual of an equation over the largest of its terms
@@ -63,7 +62,7 @@ class Newton {
   std::unique_ptr<LinearSolver> linear_;
   std::unique_ptr<Assembly> assembly_;  ///< of the state that was looked at last
   int assemblies_ = 0;
-  std::vector<double> recent_merits_;
+  std::vector<ResidualCheck> recent_;  ///< the last states
   const Stabilization* stabilization_ = nullptr;
   std::map<const Field*, Vector> start_;
 };

@@ -42,24 +42,35 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
     if (!std::isfinite(largest) || !std::isfinite(magnitude)) {
       check.finite = check.converged = false;
       check.equation = assembly.unknowns()[u]->name();
-      check.largest = check.merit = std::numeric_limits<double>::infinity();
+      check.largest = std::numeric_limits<double>::infinity();
       return check;
     }
     if (largest > tolerance * magnitude + noise || fixed_error > tolerance) check.converged = false;
     const bool is_round_off = largest <= noise || magnitude == 0;
     check.is_round_off.push_back(is_round_off && fixed_error <= tolerance);
     double relative = fixed_error;
-    check.merit += fixed_error * fixed_error;
-    if (!is_round_off) {
-      relative = std::max(relative, largest / magnitude);
-      check.merit += squares / count / (magnitude * magnitude);
-    }
+    check.fixed_errors.push_back(fixed_error);
+    check.magnitudes.push_back(magnitude);
+    check.mean_squares.push_back(is_round_off ? 0 : squares / count);
+    if (!is_round_off) relative = std::max(relative, largest / magnitude);
     if (relative > check.largest) {
       check.largest = relative;
       check.equation = assembly.unknowns()[u]->name();
     }
   }
   return check;
+}
+
+double ResidualCheck::merit(const ResidualCheck& scales) const {
+  if (!finite) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  for (std::size_t u = 0; u < mean_squares.size(); ++u) {
+    sum += fixed_errors[u] * fixed_errors[u];
+    if (mean_squares[u] == 0) continue;
+    const double scale = scales.magnitudes[u] > 0 ? scales.magnitudes[u] : magnitudes[u];
+    sum += mean_squares[u] / (scale * scale);
+  }
+  return sum;
 }
 
 }  // namespace sprekk

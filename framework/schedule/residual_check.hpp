@@ -15,7 +15,11 @@ struct ResidualCheck {
   double largest = 0;              ///< over the equations: largest residual over the magnitude of the equation's terms
   std::string equation;            ///< that has it
   std::vector<char> is_round_off;  ///< of each equation: its residual is round-off of its terms
-  double merit = 0;                ///< sum of squares of the equations' relative residuals
+  std::vector<double> mean_squares, magnitudes, fixed_errors;  ///< of each equation: of its residuals, its terms
+
+  /// The sum over the equations of mean squared residuals, each relative to the magnitude of its terms in `scales`.
+  /// With the scales of one state two others can be compared: terms that grow with the unknowns would hide progress.
+  double merit(const ResidualCheck& scales) const;
 };
 
 /// An equation is fulfilled when its largest residual is at most `tolerance` times the largest of its terms, or is
