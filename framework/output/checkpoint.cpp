@@ -14,7 +14,7 @@ namespace sprekk {
 namespace {
 
 const std::string format_name = "sprekk checkpoint";
-constexpr int format_version = 2;  // raised whenever the layout of the file changes
+constexpr int format_version = 3;  // raised whenever the layout of the file changes
 
 std::span<const double> span_of(const Vector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
@@ -50,6 +50,8 @@ void write_content(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.integers("clock/step", std::array{checkpoint.clock.step});
   file.doubles("clock/next_step", std::array{checkpoint.clock.next_step});
   file.doubles("clock/held_step", std::array{checkpoint.clock.held_step});
+  file.doubles("clock/failed_step", std::array{checkpoint.clock.failed_step});
+  file.integers("clock/failed_wait", std::array{checkpoint.clock.failed_wait, checkpoint.clock.failed_patience});
   write_mesh(file, checkpoint.mesh);
   file.text("fields/names", nlohmann::json(names_of(checkpoint.fields)).dump());
   std::size_t i = 0;
@@ -67,8 +69,10 @@ Checkpoint read_content(const Hdf5Reader& file) {
   checkpoint.program_version = file.text("program_version");
   checkpoint.scene_name = file.text("scene_name");
   checkpoint.scene_fingerprint = file.text("scene_fingerprint");
-  checkpoint.clock = {file.doubles("clock/time").at(0), file.integers("clock/step").at(0),
-                      file.doubles("clock/next_step").at(0), file.doubles("clock/held_step").at(0)};
+  checkpoint.clock = {file.doubles("clock/time").at(0),        file.integers("clock/step").at(0),
+                      file.doubles("clock/next_step").at(0),   file.doubles("clock/held_step").at(0),
+                      file.doubles("clock/failed_step").at(0), file.integers("clock/failed_wait").at(0),
+                      file.integers("clock/failed_wait").at(1)};
   checkpoint.mesh = read_mesh(file);
   const auto fields = read_names(file, "fields/names");
   for (std::size_t i = 0; i < fields.size(); ++i)

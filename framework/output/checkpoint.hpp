@@ -11,10 +11,12 @@ namespace sprekk {
 
 struct Checkpoint {
   struct Clock {
-    double time = 0;       ///< s, of the accepted step
-    int step = 0;          ///< accepted steps so far
-    double next_step = 0;  ///< s, the size that the controller wants to try next
-    double held_step = 0;  ///< s, the size that it holds after a growth event, or 0
+    double time = 0;         ///< s, of the accepted step
+    int step = 0;            ///< accepted steps so far
+    double next_step = 0;    ///< s, the size that the controller wants to try next
+    double held_step = 0;    ///< s, the size that it holds after a growth event, or 0
+    double failed_step = 0;  ///< s, a size that failed and waits to be tried again, or 0
+    int failed_wait = 0, failed_patience = 3;
   };
   struct Values {
     Vector now, accepted;

@@ -143,7 +143,8 @@ void Run::restore() {
   restore_fields(*checkpoint_, *options_.checkpoint, model_->fields());
   model_->restore_extra_state(checkpoint_->extra);
   const Checkpoint::Clock& clock = checkpoint_->clock;
-  controller_.restore(clock.time, clock.step, clock.next_step, clock.held_step);
+  controller_.restore(clock.time, clock.step, clock.next_step, clock.held_step,
+                      {clock.failed_step, clock.failed_wait, clock.failed_patience});
   restored_steps_ = clock.step;
   checkpoint_.reset();
 }
@@ -274,8 +275,11 @@ ExitCode Run::loop() {
   const double checkpoint_every = model_->scene().output.checkpoint_every.value_or(600);
   double last_checkpoint = now();
   const auto checkpoint = [&] {
-    output_.write_checkpoint(
-        *model_, {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held()}, fingerprint_);
+    const FailedStep& failed = controller_.failed();
+    output_.write_checkpoint(*model_,
+                             {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held(),
+                              failed.size, failed.wait, failed.patience},
+                             fingerprint_);
     last_checkpoint = now();
   };
   while (!controller_.is_finished() && !is_stopped_) {

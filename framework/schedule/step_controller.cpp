@@ -81,26 +81,47 @@ StepTime StepController::next() const {
   return step;
 }
 
+double StepController::grown() const {
+  const double size = wanted_ * options_.grow;
+  return failed_.wait > 0 && size >= failed_.size ? wanted_ : size;
+}
+
+void StepController::remember_success(const StepTime& step) {
+  if (failed_.size == 0) return;
+  if (step.dt >= 0.999 * failed_.size)
+    failed_ = {};
+  else
+    failed_.wait = std::max(0, failed_.wait - 1);
+}
+
 void StepController::accepted(const StepTime& step, int iterations) {
   time_ = step.end;
   ++steps_;
+  remember_success(step);
   if (held_ > 0) {
-    wanted_ = std::min(held_, wanted_ * options_.grow);
+    wanted_ = std::min(held_, grown());
     return;
   }
   if (!options_.adaptive) {
-    wanted_ = std::min(options_.step, wanted_ * options_.grow);
+    wanted_ = std::min(options_.step, grown());
     return;
   }
   if (iterations > options_.iterations)
     wanted_ = std::max(options_.smallest.value_or(options_.step * 1e-6), wanted_ * options_.shrink);
   else if (2 * iterations <= options_.iterations)
-    wanted_ = std::min(options_.largest, wanted_ * options_.grow);
+    wanted_ = std::min(options_.largest, grown());
 }
 
 bool StepController::rejected(const StepTime& step, double retry) {
   const double smallest = options_.smallest.value_or(options_.step * 1e-6);
   if (step.dt <= smallest) return false;
+  if (retry <= 0) {  // a step that asks for another size has not failed
+    constexpr int longest_patience = 48;
+    if (failed_.size > 0 && step.dt >= 0.999 * failed_.size)
+      failed_.patience = std::min(longest_patience, 2 * failed_.patience);
+    failed_.size = step.dt;
+    failed_.wait = failed_.patience;
+  }
   wanted_ = std::max(smallest, retry > 0 ? std::min(retry, step.dt) : step.dt * options_.shrink);
   return true;
 }
@@ -113,7 +134,8 @@ void StepController::release() {
   wanted_ = options_.step;
 }
 
-void StepController::restore(double time, int steps, double wanted, double held) {
+void StepController::restore(double time, int steps, double wanted, double held, const FailedStep& failed) {
+  failed_ = failed;
   time_ = time;
   steps_ = steps;
   wanted_ = wanted;

@@ -30,8 +30,16 @@ struct TimeOptions {
   Spec spec();
 };
 
+/// What is remembered of a step that failed: a size that is not tried again before `wait` steps have been accepted.
+struct FailedStep {
+  double size = 0;   ///< s, 0 for none
+  int wait = 0;      ///< accepted steps until it may be tried again
+  int patience = 3;  ///< what `wait` starts from; doubles each time the size fails again
+};
+
 /// Constant or adaptive steps that end exactly at the targets (output times, switches of sources, the end). A rejected
-/// step is repeated with a smaller one; afterwards steps grow back by `grow` a step.
+/// step is repeated with a smaller one; afterwards steps grow back by `grow` a step, but not at once to what has
+/// failed.
 class StepController {
  public:
   /// `targets`: times (s) that a step must end at, in any order; those outside of the run are ignored.
@@ -51,11 +59,17 @@ class StepController {
   void release();
   double held() const { return held_; }  ///< s, 0 when nothing is held
 
+  const FailedStep& failed() const { return failed_; }
+
   /// Continues from a checkpoint.
-  void restore(double time, int steps, double wanted, double held = 0);
+  void restore(double time, int steps, double wanted, double held = 0, const FailedStep& failed = {});
 
  private:
+  double grown() const;
+  void remember_success(const StepTime& step);
+
   TimeOptions options_;
+  FailedStep failed_;
   std::vector<double> targets_;
   double time_, wanted_, held_ = 0;
   int steps_ = 0;

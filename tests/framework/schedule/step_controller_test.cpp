@@ -44,6 +44,33 @@ TEST(StepController, CutsAStepUntilItIsTooSmall) {
   EXPECT_FALSE(controller.rejected(controller.next()));
 }
 
+// A step of an hour fails whenever it is tried: it is tried after 3 shorter ones, then after 6, 12, …
+TEST(StepController, WaitsLongerEachTimeBeforeItTriesWhatFailed) {
+  StepController controller(hours(100), {});
+  std::vector<int> accepted_between;
+  for (int tries = 0, accepted = 0; tries < 4;) {
+    const StepTime step = controller.next();
+    if (step.dt < 1) {
+      controller.accepted(step, 1);
+      ++accepted;
+      continue;
+    }
+    accepted_between.push_back(accepted);
+    accepted = 0;
+    ++tries;
+    EXPECT_TRUE(controller.rejected(step));
+  }
+  EXPECT_EQ(accepted_between, (std::vector<int>{0, 3, 6, 12}));
+}
+
+TEST(StepController, ForgetsAFailureWhenTheSizeSucceeds) {
+  StepController controller(hours(100), {});
+  EXPECT_TRUE(controller.rejected(controller.next()));
+  for (int i = 0; i < 4; ++i) controller.accepted(controller.next(), 1);
+  EXPECT_EQ(controller.next().dt, 1);
+  EXPECT_EQ(controller.failed().size, 0);
+}
+
 TEST(StepController, ContinuesWhereItWas) {
   StepController whole(hours(3), {1.5}), part(hours(3), {1.5});
   whole.accepted(whole.next(), 1);
