@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "framework/picture/display_unit.hpp"
 
@@ -9,6 +10,7 @@ namespace sprekk {
 namespace {
 
 constexpr std::size_t marked_up_to = 40;  // points
+constexpr double same = 0.01;             // of the range of all values: a difference that hides one curve below another
 
 void include(const std::vector<double>& values, double& largest) {
   for (const double value : values)
@@ -18,6 +20,29 @@ void include(const std::vector<double>& values, double& largest) {
 std::vector<double> divided(std::vector<double> values, double scale) {
   for (double& value : values) value /= scale;
   return values;
+}
+
+/// The same values for more than half of the time steps.
+bool hides(const Curve& upper, const Curve& lower, double range) {
+  if (upper.x != lower.x) return false;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < upper.y.size(); ++i)
+    if (std::abs(upper.y[i] - lower.y[i]) <= same * range) ++count;
+  return 2 * count > upper.y.size();
+}
+
+/// Curves on top of others get gaps, through which those are seen.
+void show_hidden(std::vector<Curve>& curves) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Curve& curve : curves)
+    for (const double value : curve.y)
+      if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  for (std::size_t i = 1; i < curves.size(); ++i) {
+    const auto below =
+        std::count_if(curves.begin(), curves.begin() + static_cast<std::ptrdiff_t>(i),
+                      [&](const Curve& lower) { return hides(curves[i], lower, std::max(high - low, 0.0)); });
+    if (below > 0 && curves[i].style.dash.empty()) curves[i].style.dash = below == 1 ? "7 7" : "3 11";
+  }
 }
 
 }  // namespace
@@ -36,6 +61,7 @@ Panel history_panel(const std::string& title, const std::string& unit, const std
   for (const HistoryCurve& curve : curves)
     panel.curves.push_back({curve.name, divided(curve.times, time_unit.scale), divided(curve.values, value_unit.scale),
                             curve.style, curve.times.size() <= marked_up_to});
+  show_hidden(panel.curves);
   return panel;
 }
 

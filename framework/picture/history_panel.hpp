@@ -14,7 +14,8 @@ struct HistoryCurve {
   LineStyle style;
 };
 
-/// A panel of curves that share the SI unit `unit`; few points are marked.
+/// A panel of curves that share the SI unit `unit`; few points are marked. A curve that covers another
+/// one is dashed, so that both are seen.
 Panel history_panel(const std::string& title, const std::string& unit, const std::vector<HistoryCurve>& curves);
 
 }  // namespace sprekk
