@@ -1,0 +1,82 @@
+#!/usr/bin/python3
+"""docs/pictures/wing_studies.py FOLDER: draws wing_studies.png and prints the tables of docs/numerics/studies.md. FOLDER
+has the results of the studies in configs/paper/studies: sprekk sweep configs/paper/studies/NAME.yaml -o FOLDER/NAME.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+sys.dont_write_bytecode = True
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tools"))
+import results
+
+STUDIES = {  # the finest run of each
+    "fig12_coarse_size": "reference",
+    "fig14_fine_level": "size=4m,mesh_ratio=0.25",
+    "fig15_step_and_threshold": "step=30min",
+}
+TIP = "tips.main_last.length[m]"
+
+
+class Run:
+    def __init__(self, folder):
+        history = results.read_table(folder / "history.csv")
+        self.hours, self.length = history["time[s]"] / 3600, history[TIP]
+        self.record = json.loads((folder / "run.json").read_text())
+        line = results.read_vtu(results.read_pvd(folder / "fractures.pvd")[-1][1]).points[:, :2]
+        self.path = line[np.argsort(line[:, 0])]  # x grows along the fracture and both wings
+
+    def time_to(self, length):
+        after = np.flatnonzero(self.length >= length)
+        return np.interp(length, self.length[after[0] - 1:after[0] + 1],
+                         self.hours[after[0] - 1:after[0] + 1]) if len(after) else np.nan
+
+
+def refined(path, size=1e-3):
+    pieces = [np.linspace(a, b, max(int(np.hypot(*(b - a)) / size), 1), endpoint=False) for a, b in zip(path, path[1:])]
+    return np.vstack([*pieces, path[-1:]])
+
+
+def distances(points, path):
+    """From each point to the polyline."""
+    start, along = path[:-1], np.diff(path, axis=0)
+    offset = points[:, None, :] - start
+    share = np.clip((offset * along).sum(2) / (along**2).sum(1), 0, 1)
+    return np.hypot(*np.moveaxis(offset - share[..., None] * along, 2, 0)).min(1)
+
+
+def apart(one, other):
+    """The largest distance between two paths (m), over the x that both have."""
+    low, high = max(one[0, 0], other[0, 0]), min(one[-1, 0], other[-1, 0])
+    common = [points[(points[:, 0] > low + 1e-3) & (points[:, 0] < high - 1e-3)] for points in map(refined, (one, other))]
+    return max(distances(common[0], other).max(), distances(common[1], one).max())
+
+
+figure, axes = plt.subplots(2, len(STUDIES), figsize=(14, 7), layout="constrained", height_ratios=[1.3, 1])
+for (study, finest), (upper, lower) in zip(STUDIES.items(), axes.T):
+    folder = Path(sys.argv[1]) / study
+    runs = {entry.name: Run(entry) for entry in sorted(folder.iterdir()) if (entry / "fractures.pvd").is_file()}
+    print(f"{study}\n| run | to 0.1 m | | to 0.25 m | | path | steps | seconds |\n|---|---|---|---|---|---|---|---|")
+    for name, run in runs.items():
+        reference = runs[finest]
+        times = "".join(f" {run.time_to(metres):.2f} h | {100 * (run.time_to(metres) / reference.time_to(metres) - 1):+.1f} % |"
+                        for metres in (0.1, 0.25))
+        print(f"| {name} |{times} {1e3 * apart(run.path, reference.path):.1f} mm | {len(run.hours)} "
+              f"| {run.record['seconds']:.0f} |")
+        style = {"color": "k", "linewidth": 2.2, "zorder": 1} if name == finest else {"linewidth": 1.1}
+        upper.plot(run.hours, run.length * 100, label=name.replace(",", ", "), **style)
+        lower.plot(*run.path.T, **style)
+    upper.set(title=study[:3].capitalize() + ". " + study[3:5], xlabel="t [h]", ylabel="length of the right wing [cm]")
+    upper.grid(alpha=0.3)
+    upper.legend(fontsize=7)
+    lower.set(xlabel="x [m]", ylabel="y [m]", title="final paths (y is stretched)")
+    lower.grid(alpha=0.3)
+figure.savefig(HERE / "wing_studies.png", dpi=90)
