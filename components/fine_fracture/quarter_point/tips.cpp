@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/fine_fracture/quarter_point/adapt.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -24,6 +25,12 @@ Spec TipsOptions::spec() {
                  .doc = "Edge length at the tip over that of the coarse level.",
                  .source = "epsilon_m of sec. 4.1"});
   spec.integer("sectors", sectors, {.range = between(8, 64), .doc = "Quarter-point elements around a tip."});
+  spec.quantity(
+      "tolerance", tolerance,
+      {.range = strictly_between(0, 1),
+       .doc = "Meshes of the fine level are refined until the estimated error of the stress is below this part "
+              "of it (energy norm, Zienkiewicz and Zhu 1992); without it sizes are what is given.",
+       .source = "sec. 4.1"});
   spec.quantity("toughness", toughness,
                 {.unit = "Pa*m^0.5",
                  .range = positive(),
@@ -155,15 +162,25 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls);
   if (!tip.model || !is_same(domain.geometry, tip.domain.geometry)) {
     const LameParameters lame = surroundings_->stiffness(center);
-    tip.model.emplace(domain.geometry, mesh, Elasticity{lame.lambda, lame.shear});
+    const Elasticity rock{lame.lambda, lame.shear};
+    tip.domain = std::move(domain);
+    if (options_.tolerance) {
+      Adapted adapted = adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance});
+      tip.model.emplace(std::move(adapted.model));
+      meshes_ += adapted.meshes;
+      solves_ += adapted.meshes;
+      return factors_of(tip, adapted.solution);
+    }
+    tip.model.emplace(tip.domain.geometry, mesh, rock);
     ++meshes_;
+  } else {
+    tip.domain = std::move(domain);
   }
-  tip.domain = std::move(domain);
-  return solve(tip);
+  ++solves_;
+  return factors_of(tip, tip.model->solve(loads_of(tip)));
 }
 
-Sifs Tips::solve(Tip& tip) {
-  ++solves_;
+FineLoads Tips::loads_of(const Tip& tip) const {
   std::vector<double> lengths;
   for (const Fracture& fracture : mesh_.fractures) {
     double length = 0;
@@ -171,16 +188,16 @@ Sifs Tips::solve(Tip& tip) {
     lengths.push_back(length);
   }
   const FineDomain& domain = tip.domain;
-  const auto arc = [&](int crack, int segment, double s) {
+  const auto arc = [&domain](int crack, int segment, double s) {
     const std::vector<double>& along = domain.sources[crack].arc;
     return along[segment] + s * (along[segment + 1] - along[segment]);
   };
   FineLoads loads;
-  loads.boundary_displacement = [&](const Point& x, const Point& inside) {
+  loads.boundary_displacement = [this](const Point& x, const Point& inside) {
     return surroundings_->displacement(x, inside);
   };
-  loads.stress_offset = [&](const Point& x) { return surroundings_->stress_offset(x, x); };
-  loads.wall_traction = [&](int crack, int segment, double s) -> Point {
+  loads.stress_offset = [this](const Point& x) { return surroundings_->stress_offset(x, x); };
+  loads.wall_traction = [this, &domain, arc, lengths](int crack, int segment, double s) -> Point {
     const int fracture = domain.sources[crack].fracture;
     const double at = arc(crack, segment, s);
     // What has grown on the fine level is open and feels the fluid (design: the walls that grow carry its pressure).
@@ -192,12 +209,16 @@ Sifs Tips::solve(Tip& tip) {
     if (middle > lengths[fracture]) return -surroundings_->fluid_pressure(fracture, true) * normal;
     return surroundings_->wall_traction(fracture, at);
   };
-  loads.wall_jump = [&](int crack, int segment, double s) {
+  loads.wall_jump = [this, &domain, arc](int crack, int segment, double s) {
     return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s));
   };
-  const FineSolution solution = tip.model->solve(loads);
+  return loads;
+}
+
+Sifs Tips::factors_of(Tip& tip, const FineSolution& solution) const {
   for (const TipIntensities& found : solution.tips) {
-    if (found.crack != domain.crack || found.is_last != domain.is_last) continue;
+    if (found.crack != tip.domain.crack || found.is_last != tip.domain.is_last) continue;
+    tip.now.sif_error = found.error.norm();
     const Point k = options_.factors == "interaction_integral" ? found.K : found.K_correlation;
     return {k[0], k[1], found.T};
   }
@@ -360,9 +381,10 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
 void Tips::save(std::map<std::string, Vector>& state) const {
   for (const Tip& tip : tips_) {
     const State& kept = tip.accepted;
-    Vector values(6 + 2 * kept.path.added.size());
-    values.head<6>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started;
-    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(6 + 2 * i) = kept.path.added[i];
+    Vector values(7 + 2 * kept.path.added.size());
+    values.head<7>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started,
+        kept.sif_error;
+    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(7 + 2 * i) = kept.path.added[i];
     state[name() + "." + tip.name] = std::move(values);
   }
 }
@@ -370,14 +392,15 @@ void Tips::save(std::map<std::string, Vector>& state) const {
 void Tips::restore(const std::map<std::string, Vector>& state) {
   for (Tip& tip : tips_) {
     const auto found = state.find(name() + "." + tip.name);
-    if (found == state.end() || found->second.size() < 6) continue;
+    if (found == state.end() || found->second.size() < 7) continue;
     const Vector& values = found->second;
     State kept;
     kept.sifs = {values[0], values[1], values[2]};
     kept.grown = values[3];
     kept.is_stopped = values[4] != 0;
     kept.has_started = values[5] != 0;
-    for (int i = 6; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
+    kept.sif_error = values[6];
+    for (int i = 7; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
   }
 }
@@ -388,6 +411,7 @@ void Tips::report(std::vector<Quantity>& quantities) const {
     quantities.push_back({prefix + "K_I", "Pa*m^0.5", tip.now.sifs.k1});
     quantities.push_back({prefix + "K_II", "Pa*m^0.5", tip.now.sifs.k2});
     quantities.push_back({prefix + "K_eq", "Pa*m^0.5", equivalent_sif(tip.now.sifs)});
+    quantities.push_back({prefix + "K_error", "Pa*m^0.5", tip.now.sif_error});
     quantities.push_back({prefix + "stopped", "1", tip.now.is_stopped ? 1.0 : 0.0});
     quantities.push_back({prefix + "length", "m", tip.now.grown + length_of(position(tip, {}), tip.now.path)});
   }

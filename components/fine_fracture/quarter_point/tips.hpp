@@ -19,6 +19,7 @@ struct TipsOptions {
   double size = 0;          ///< m, l of sec. 4.3
   double mesh_ratio = 0.5;  ///< epsilon_m
   int sectors = 16;
+  std::optional<double> tolerance;  ///< of the error estimate; none: sizes are those that are given
   std::optional<double> toughness;  ///< Pa m^0.5
   std::string factors = "interaction_integral";
   double cavity = 4;  ///< radius in coarse mesh sizes
@@ -55,6 +56,7 @@ class Tips : public Component, public FractureTips, public Growing {
   struct State {
     TipPath path;  ///< not yet known to the coarse level
     Sifs sifs;
+    double sif_error = 0;      ///< Pa m^0.5, estimated
     double grown = 0;          ///< m, handed over to the coarse level
     bool has_started = false;  ///< was asked to grow: its onset is over
     bool is_stopped = false;   ///< before another fracture or the boundary: it grows no more
@@ -75,7 +77,9 @@ class Tips : public Component, public FractureTips, public Growing {
   std::vector<FracturePath> paths_with(const std::vector<TipPath>& added) const;
   std::vector<TipPath> paths_now() const;
   Sifs evaluate(std::size_t tip, const std::vector<TipPath>& paths);
-  Sifs solve(Tip& tip);
+  FineLoads loads_of(const Tip& tip) const;
+  /// The factors in a solution for this tip. Notes their estimated error.
+  Sifs factors_of(Tip& tip, const FineSolution& solution) const;
   bool is_safe(const Tip& tip) const;
   double load(const Sifs& sifs) const;
   /// How far a tip may be from what the coarse level knows of, m.
