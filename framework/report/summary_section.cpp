@@ -30,19 +30,30 @@ std::string exit_text(const json& exit) {
                      code > 0 ? " exit code " + std::to_string(code) : "");
 }
 
+std::string mesh_at_the_end(const RunResults& results, long changes) {
+  const std::string text = fmt::format("changed {} times", changes);
+  if (results.written.empty()) return text;
+  const RunResults::Written& last = results.written.back();
+  return fmt::format("{} cells, {} fracture cells, ", last.matrix.cell_count(), last.fractures.cell_count()) + text;
+}
+
 std::string facts(const RunResults& results, const json& record) {
   const json scene = part(record, "scene"), program = part(record, "program"), host = part(record, "host"),
              counters = part(record, "counters");
-  std::vector<std::vector<std::string>> rows = {
-      {"scene", joined(part(scene, "files"))},
-      {"folder", results.folder.string()},
-      {"wall time", duration_text(record.value("seconds", 0.0))},
-      {"mesh", fmt::format("{} cells, {} fracture cells", counters.value("mesh: cells", 0L),
-                           counters.value("mesh: fracture cells", 0L))},
-      {"unknowns", std::to_string(counters.value("unknowns", 0L))},
-      {"steps", fmt::format("{} accepted, {} rejected, {} iterations", counters.value("steps accepted", 0L),
-                            counters.value("steps rejected", 0L), counters.value("iterations", 0L))}};
   const std::vector<double> times = results.history.numbers("time[s]");
+  const bool has_ended = part(record, "exit").value("code", -1) != -1;  // before that the record has no sums
+  std::vector<std::vector<std::string>> rows = {{"scene", joined(part(scene, "files"))},
+                                                {"folder", results.folder.string()}};
+  if (has_ended) rows.push_back({"wall time", duration_text(record.value("seconds", 0.0))});
+  rows.push_back({"mesh at the start", fmt::format("{} cells, {} fracture cells", counters.value("mesh: cells", 0L),
+                                                   counters.value("mesh: fracture cells", 0L))});
+  const long changes = counters.value("changes of the mesh", 0L);
+  if (changes > 0) rows.push_back({"mesh at the end", mesh_at_the_end(results, changes)});
+  rows.push_back({"unknowns at the start", std::to_string(counters.value("unknowns", 0L))});
+  rows.push_back(
+      {"steps", has_ended ? fmt::format("{} accepted, {} rejected, {} iterations", counters.value("steps accepted", 0L),
+                                        counters.value("steps rejected", 0L), counters.value("iterations", 0L))
+                          : fmt::format("{} accepted", times.size())});
   if (!times.empty()) rows.push_back({"simulated until", duration_text(times.back())});
   std::string libraries;
   const json versions = part(program, "libraries");
