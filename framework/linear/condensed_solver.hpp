@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "framework/linear/linear_solver.hpp"
+#include "framework/linear/summed_balances.hpp"
 #include "framework/linear/umfpack_solver.hpp"
 
 namespace sprekk {
@@ -47,7 +48,7 @@ class CondensedSolver final : public LinearSolver {
   std::unique_ptr<BulkSplitting> splitting_;
   std::list<Bulk> bulks_;  ///< the one in use first
   SparseMatrix reduced_pattern_;
-  UmfpackSolver reduced_;
+  SummedBalances reduced_{std::make_unique<UmfpackSolver>()};
   std::unique_ptr<LinearSolver> whole_;
   bool is_condensed_ = false;
   bool is_proven_ = false;  ///< a solution with this bulk was accurate; callers see the residuals of the others

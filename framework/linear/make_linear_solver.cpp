@@ -4,6 +4,7 @@
 #include "framework/linear/linear_solver.hpp"
 #include "framework/linear/mumps_solver.hpp"
 #include "framework/linear/separated_solver.hpp"
+#include "framework/linear/summed_balances.hpp"
 #include "framework/linear/trilinos/belos_solver.hpp"
 #include "framework/linear/umfpack_solver.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -50,13 +51,13 @@ class AutomaticSolver final : public LinearSolver {
 
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options) {
   if (options.type == "auto") return std::make_unique<AutomaticSolver>(options);
-  if (options.type == "mumps") return std::make_unique<MumpsSolver>();
+  if (options.type == "mumps") return std::make_unique<SummedBalances>(std::make_unique<MumpsSolver>());
   if (options.type == "belos") return std::make_unique<BelosSolver>(options.tolerance, options.max_iterations);
   if (options.type == "umfpack") {
     if (parallel::size() > 1)
       throw std::invalid_argument("linear solver 'umfpack' cannot run on " + std::to_string(parallel::size()) +
                                   " processes (it knows one only) use 'mumps', 'belos' or 'auto'");
-    return std::make_unique<UmfpackSolver>();
+    return std::make_unique<SummedBalances>(std::make_unique<UmfpackSolver>());
   }
   throw std::invalid_argument("unknown linear solver '" + options.type + "' (there are: auto, umfpack, mumps, belos)");
 }

@@ -44,6 +44,51 @@ inline LinearSystem poisson(int n, bool floating = false) {
   return make_system(n * n, entries, {block});
 }
 
+/// A chain of contents p that exchange fluxes Q: S p_i + t (Q_i - Q_(i-1)) = b_i and Q_i / C = p_i - p_(i+1). The first
+/// receives 1, the middle one loses what the total leaves.
+struct Exchange {
+  int n;
+  double storage, conductance;
+  double time_step = 3e7, total = 0.25;
+
+  LinearSystem build() const {
+    std::vector<Triplet> entries;
+    for (int i = 0; i < n; ++i) entries.emplace_back(i, i, storage);
+    for (int i = 0; i + 1 < n; ++i) {
+      entries.emplace_back(i, n + i, time_step);
+      entries.emplace_back(i + 1, n + i, -time_step);
+      entries.emplace_back(n + i, n + i, 1 / conductance);
+      entries.emplace_back(n + i, i, -1);
+      entries.emplace_back(n + i, i + 1, 1);
+    }
+    using Kind = UnknownBlock::Kind;
+    return make_system(
+        2 * n - 1, entries,
+        {{"conduit.pressure", 0, n, 1, Kind::local, {}, {}}, {"conduit.flux", n, n - 1, 1, Kind::local, {}, {}}});
+  }
+  Vector right_hand_side() const {
+    Vector b = Vector::Zero(2 * n - 1);
+    b[0] = 1;
+    b[n / 2] = total - 1;
+    return b;
+  }
+  /// To the first order in S / (t C): the level, and differences by what flows from the first to the middle.
+  Vector solution() const {
+    const Vector b = right_hand_side();
+    Vector x(2 * n - 1), drop = Vector::Zero(n);
+    double given = 0;
+    for (int i = 0; i + 1 < n; ++i) {
+      given += b[i] - total / n;
+      x[n + i] = given / time_step;
+      drop[i + 1] = drop[i] - x[n + i] / conductance;
+    }
+    // Neglected in the fluxes: S drop of each cell, which vanishes in the sum.
+    const double level = storage > 0 ? total / (n * storage) - drop.mean() : 0;
+    x.head(n) = Vector::Constant(n, level) + drop;
+    return x;
+  }
+};
+
 /// Rows of random sparsity, diagonally dominant, not symmetric.
 inline LinearSystem random_dominant(int n, unsigned seed) {
   std::mt19937_64 engine(seed);

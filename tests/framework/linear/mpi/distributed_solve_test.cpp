@@ -87,6 +87,23 @@ TEST_P(DistributedSolve, ReusesOnlyWhenNoProcessHasANewRow) {
 INSTANTIATE_TEST_SUITE_P(Types, DistributedSolve, testing::Values("mumps", "belos", "auto"),
                          [](const auto& info) { return std::string(info.param); });
 
+// A level that storage alone holds, 1e-21 of what is exchanged, while the rows that exchange are on different
+// processes.
+TEST(SummedBalances, HoldsTheLevelAcrossProcesses) {
+  const test::Exchange problem{30, 1e-14, 1.0};
+  const LinearSystem whole = problem.build(), system = test::strip(whole, parallel::rank(), parallel::size());
+  LinearOptions options;
+  options.type = "mumps";
+  const auto solver = make_linear_solver(options);
+  const LinearReport factored = solver->factor(system);
+  ASSERT_TRUE(factored.solved) << factored.reason;
+  Vector x;
+  const LinearReport solved = solver->solve(test::rows_of(system, problem.right_hand_side()), x);
+  ASSERT_TRUE(solved.solved) << solved.reason;
+  EXPECT_LT((x - problem.solution()).head(30).lpNorm<Eigen::Infinity>(),
+            1e-9 * problem.solution().head(30).lpNorm<Eigen::Infinity>());
+}
+
 TEST(MakeLinearSolver, RefusesUmfpackOnSeveralProcesses) {
   LinearOptions options;
   options.type = "umfpack";

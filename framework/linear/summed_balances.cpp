@@ -1,0 +1,164 @@
+#include "framework/linear/summed_balances.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+namespace {
+
+/// The rows of local blocks, of all processes, at their places in the whole system.
+SparseMatrix local_rows(const LinearSystem& system) {
+  std::vector<char> is_local(system.local.cols(), 0);
+  for (const UnknownBlock& block : system.blocks)
+    if (block.kind == UnknownBlock::Kind::local)
+      std::fill_n(is_local.begin() + block.first, block.entities * block.components, 1);
+  std::vector<int> rows, columns;
+  std::vector<double> values;
+  for (int i = 0; i < system.local.rows(); ++i) {
+    if (!is_local[system.rows[i]]) continue;
+    for (SparseMatrix::InnerIterator entry(system.local, i); entry; ++entry) {
+      rows.push_back(system.rows[i]);
+      columns.push_back(static_cast<int>(entry.col()));
+      values.push_back(entry.value());
+    }
+  }
+  rows = parallel::gather(rows);
+  columns = parallel::gather(columns);
+  values = parallel::gather(values);
+  std::vector<Triplet> entries;
+  entries.reserve(values.size());
+  for (std::size_t k = 0; k < values.size(); ++k) entries.emplace_back(rows[k], columns[k], values[k]);
+  SparseMatrix whole(system.local.cols(), system.local.cols());
+  whole.setFromTriplets(entries.begin(), entries.end());
+  return whole;
+}
+
+/// A column as the rows of one block see it.
+struct Column {
+  int entries = 0, first = -1, second = -1;
+  double value = 0, sum = 0;
+};
+
+std::map<int, Column> columns_outside(const SparseMatrix& a, int first, int end) {
+  std::map<int, Column> columns;
+  for (int row = first; row < end; ++row)
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
+      const int at = static_cast<int>(entry.col());
+      if (entry.value() == 0 || (at >= first && at < end)) continue;
+      Column& column = columns[at];
+      ++column.entries;
+      (column.entries == 1 ? column.first : column.second) = row;
+      if (column.entries == 1) column.value = entry.value();
+      column.sum += entry.value();
+    }
+  return columns;
+}
+
+int root_of(std::vector<int>& parent, int row) {
+  while (parent[row] != row) row = parent[row] = parent[parent[row]];
+  return row;
+}
+
+/// What is left of the sum of rows: entries that cancel are no entries.
+std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows) {
+  std::map<int, double> sum;
+  for (const int row : rows)
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) sum[static_cast<int>(entry.col())] += entry.value();
+  for (auto entry = sum.begin(); entry != sum.end();) entry = entry->second == 0 ? sum.erase(entry) : std::next(entry);
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const std::vector<UnknownBlock>& blocks) {
+  constexpr double weak = 1e-6;
+  std::vector<std::vector<int>> groups;
+  for (const UnknownBlock& block : blocks) {
+    if (block.kind != UnknownBlock::Kind::local) continue;
+    const int first = block.first, size = block.entities * block.components;
+    std::vector<int> parent(size);
+    std::iota(parent.begin(), parent.end(), 0);
+    std::vector<char> is_strong(size, 0);
+    for (const auto& [at, column] : columns_outside(rows, first, first + size)) {
+      if (column.entries != 2 || column.sum != 0) continue;
+      const double exchange = rows.coeff(at, at);
+      for (const int row : {column.first, column.second})
+        if (!(std::abs(rows.coeff(row, row) * exchange) <= weak * std::abs(column.value * rows.coeff(at, row))))
+          is_strong[row - first] = 1;
+      parent[root_of(parent, column.second - first)] = root_of(parent, column.first - first);
+    }
+    std::map<int, std::vector<int>> members;
+    for (int row = 0; row < size; ++row) members[root_of(parent, row)].push_back(first + row);
+    for (auto& [root, group] : members)
+      if (group.size() > 1 && std::none_of(group.begin(), group.end(), [&](int row) { return is_strong[row - first]; }))
+        groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+SummedBalances::SummedBalances(std::unique_ptr<LinearSolver> solver) : solver_(std::move(solver)) {}
+
+LinearReport SummedBalances::factor(const LinearSystem& system) {
+  sums_.clear();
+  const bool is_alone = parallel::size() == 1 && system.local.rows() == system.local.cols();
+  const SparseMatrix gathered = is_alone ? SparseMatrix() : local_rows(system);
+  const SparseMatrix& rows = is_alone ? system.local : gathered;
+  std::map<int, std::map<int, double>> replaced;
+  for (std::vector<int>& group : exchanging_rows(rows, system.blocks)) {
+    Sum sum;
+    for (const int row : group) {
+      const auto found = std::lower_bound(system.rows.begin(), system.rows.end(), row);
+      if (found == system.rows.end() || *found != row) continue;
+      sum.owned.push_back(static_cast<int>(found - system.rows.begin()));
+      if (row == group.front()) sum.replaced = sum.owned.back();
+    }
+    if (sum.replaced >= 0) replaced[sum.replaced] = sum_of(rows, group);
+    sum.rows = std::move(group);
+    sums_.push_back(std::move(sum));
+  }
+  if (sums_.empty()) return solver_->factor(system);
+
+  LinearSystem summed;
+  summed.rows = system.rows;
+  summed.blocks = system.blocks;
+  std::vector<Triplet> entries;
+  entries.reserve(system.local.nonZeros());
+  for (int row = 0; row < system.local.rows(); ++row) {
+    const auto sum = replaced.find(row);
+    if (sum == replaced.end())
+      for (SparseMatrix::InnerIterator entry(system.local, row); entry; ++entry)
+        entries.emplace_back(row, static_cast<int>(entry.col()), entry.value());
+    else
+      for (const auto& [column, value] : sum->second) entries.emplace_back(row, column, value);
+  }
+  summed.local = SparseMatrix(system.local.rows(), system.local.cols());
+  summed.local.setFromTriplets(entries.begin(), entries.end());
+  return solver_->factor(summed);
+}
+
+LinearReport SummedBalances::solve(const Vector& b_rows, Vector& x) {
+  if (sums_.empty()) return solver_->solve(b_rows, x);
+  Vector totals = Vector::Zero(sums_.size());
+  for (std::size_t s = 0; s < sums_.size(); ++s)
+    for (const int place : sums_[s].owned) totals[s] += b_rows[place];
+  parallel::sum(totals);
+  Vector b = b_rows;
+  for (std::size_t s = 0; s < sums_.size(); ++s)
+    if (sums_[s].replaced >= 0) b[sums_[s].replaced] = totals[s];
+  return solver_->solve(b, x);
+}
+
+bool SummedBalances::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
+  for (const Sum& sum : sums_) {
+    Eigen::RowVectorXd total = Eigen::RowVectorXd::Zero(columns.cols());
+    for (const int row : sum.rows) total += columns.row(row);
+    columns.row(sum.rows.front()) = total;
+  }
+  return solver_->solve_columns(columns);
+}
+
+}  // namespace sprekk
