@@ -75,27 +75,42 @@ std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows
 }  // namespace
 
 std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const std::vector<UnknownBlock>& blocks) {
-  constexpr double weak = 1e-6;
+  constexpr double weak = 1e-6, closed = 1e-3;
   std::vector<std::vector<int>> groups;
   for (const UnknownBlock& block : blocks) {
     if (block.kind != UnknownBlock::Kind::local) continue;
     const int first = block.first, size = block.entities * block.components;
     std::vector<int> parent(size);
     std::iota(parent.begin(), parent.end(), 0);
-    std::vector<char> is_strong(size, 0);
+    std::vector<double> weakest(size, HUGE_VAL), strongest(size, 0), outwards(size, 0);
     for (const auto& [at, column] : columns_outside(rows, first, first + size)) {
-      if (column.entries != 2 || column.sum != 0) continue;
-      const double exchange = rows.coeff(at, at);
-      for (const int row : {column.first, column.second})
-        if (!(std::abs(rows.coeff(row, row) * exchange) <= weak * std::abs(column.value * rows.coeff(at, row))))
-          is_strong[row - first] = 1;
-      parent[root_of(parent, column.second - first)] = root_of(parent, column.first - first);
+      const bool joins = column.entries == 2 && column.sum == 0;
+      if (!joins && column.entries > 1) continue;
+      for (const int row : {column.first, column.second}) {
+        if (row < 0) continue;
+        const double conductance = std::abs(column.value * rows.coeff(at, row) / rows.coeff(at, at));
+        if (std::isnan(conductance)) continue;
+        if (joins) {
+          weakest[row - first] = std::min(weakest[row - first], conductance);
+          strongest[row - first] = std::max(strongest[row - first], conductance);
+        } else {
+          outwards[row - first] = std::max(outwards[row - first], conductance);
+        }
+      }
+      if (joins) parent[root_of(parent, column.second - first)] = root_of(parent, column.first - first);
     }
     std::map<int, std::vector<int>> members;
     for (int row = 0; row < size; ++row) members[root_of(parent, row)].push_back(first + row);
-    for (auto& [root, group] : members)
-      if (group.size() > 1 && std::none_of(group.begin(), group.end(), [&](int row) { return is_strong[row - first]; }))
-        groups.push_back(std::move(group));
+    for (auto& [root, group] : members) {
+      double inside = 0, outside = 0;
+      bool stores_little = group.size() > 1;
+      for (const int row : group) {
+        inside = std::max(inside, strongest[row - first]);
+        outside = std::max(outside, outwards[row - first]);
+        stores_little = stores_little && std::abs(rows.coeff(row, row)) <= weak * weakest[row - first];
+      }
+      if (stores_little && outside <= closed * inside) groups.push_back(std::move(group));
+    }
   }
   return groups;
 }
