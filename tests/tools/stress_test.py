@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tools"))
 import results  # noqa: E402
 from stress_suite import (check_balance, check_contact, check_finite, check_pressure, fractures, physics, ranges,  # noqa: E402
-                          scene, twisted_mesh, written)
+                          scene, summary, twisted_mesh, written)
 
 P = {"young": 2.5e9, "poisson": 0.25, "alpha": 0.0, "permeability": 1e-15, "viscosity": 1e-3, "storage": 1e-10,
      "compressibility": 1e-9, "friction": 0.5, "dilation": 10.0, "aperture": 1e-3, "width": 4.0, "height": 4.0,
@@ -93,6 +93,16 @@ class Checks(unittest.TestCase):
         self.found(check_balance.fracture_mass(P, change("fractures", "conduit.aperture[m]", 0, 1e-9), 0), "fracture 0")
         self.found(check_balance.matrix_mass(P, change("matrix", "pore.pressure[Pa]", 7, 1e3)), "the matrix")
 
+    def test_what_passes_through_a_fracture_may_round(self):
+        """Millions times what stays: a relative 1e-14 of it is no loss, 1e-11 is."""
+        through = 1e6 * physics.length(P) * P["aperture"] / physics.time_step(P)
+        for lost, count in ((1e-14, 0), (1e-11, 1)):
+            instant = at_rest()
+            data = instant.fractures.cell_data
+            data["pore.wall_flux.plus[m/s]"] = data["pore.wall_flux.plus[m/s]"] + through
+            data["pore.wall_flux.minus[m/s]"] = data["pore.wall_flux.minus[m/s]"] - through * (1 - lost)
+            self.assertEqual(len(check_balance.fracture_mass(P, [instant], 0)), count)
+
     def test_pressures(self):
         self.found(check_pressure.failures(P, change("matrix", "pore.pressure[Pa]", 3, 1e8)), "above")
         board = change("matrix", "pore.pressure[Pa]", slice(None, None, 2), 1e5)
@@ -102,6 +112,16 @@ class Checks(unittest.TestCase):
         bad = change("matrix", "pore.pressure[Pa]", 3, np.nan)
         self.found(check_finite.failures(bad, {}), "not finite")
         self.found(check_finite.failures([], {"a": np.array([1.0, np.inf])}), "not finite")
+
+
+class Summary(unittest.TestCase):
+    def test_cuts_count_from_forty_scenes_on(self):
+        def reports(scenes, cuts):
+            return [{"iterations": [1], "accepted": 1, "rejected": int(i < cuts), "outcome": "answer", "balance": 0.0,
+                     "cuts": {"singular": 0, "not converged": 1}, "seconds": 1.0} for i in range(scenes)]
+        self.assertFalse(summary.cuts_too_often(reports(100, 2)))
+        self.assertTrue(summary.cuts_too_often(reports(100, 3)))
+        self.assertFalse(summary.cuts_too_often(reports(10, 10)))
 
 
 class Scenes(unittest.TestCase):

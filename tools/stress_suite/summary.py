@@ -44,6 +44,14 @@ def figures(reports):
             "seconds": round(sum(report["seconds"] for report in reports), 1)}
 
 
+MOST_CUTS = 2.0  # percent of the steps
+
+
+def cuts_too_often(reports):
+    """Few scenes say nothing about a share: only those of --smoke, and more."""
+    return len(reports) >= 40 and figures(reports)["steps cut, percent"] > MOST_CUTS
+
+
 def text(reports):
     f = figures(reports)
     outcomes = ", ".join(f"{count} {name}" for name, count in sorted(f["outcomes"].items()))
