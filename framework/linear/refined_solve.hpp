@@ -11,8 +11,9 @@ namespace sprekk {
 /// Solves R A C y = R b by `apply_inverse` (whole vectors, in place, on every process); x = C y. Collective.
 /// Up to three steps of iterative refinement follow while the componentwise backward error of the true residual is
 /// above 1e-13 and falls: it sees blocks whose values are small beside others', which a norm does not. `solved` is
-/// false when the normwise backward error ||r|| / (||A|| ||y|| + ||R b||) stays above 1e-12, or
-/// the relative residual ||r|| / ||R b|| above 1e-3: then the matrix is so close to singular that x means nothing.
+/// false when the normwise backward error ||r|| / (||A|| ||y|| + ||R b||) stays above 1e-10, or
+/// the relative residual ||r|| / ||R b|| above 0.3: then the matrix is so close to singular that x means nothing. What
+/// is less accurate than round-off is left to the judgement of Newton's method, whose next iteration improves it.
 LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scaled, const Vector& b_rows,
                            const std::function<void(Vector&)>& apply_inverse, Vector& x);
 
