@@ -41,7 +41,7 @@ void show_hidden(std::vector<Curve>& curves) {
     const auto below =
         std::count_if(curves.begin(), curves.begin() + static_cast<std::ptrdiff_t>(i),
                       [&](const Curve& lower) { return hides(curves[i], lower, std::max(high - low, 0.0)); });
-    if (below > 0 && curves[i].style.dash.empty()) curves[i].style.dash = below == 1 ? "7 7" : "3 11";
+    if (below > 0 && curves[i].style.dash.empty()) curves[i].style.dash = below == 1 ? "7 7" : "3 6";
   }
 }
 
