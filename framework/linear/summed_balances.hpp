@@ -12,8 +12,8 @@ namespace sprekk {
 /// exchanges: a column of D has two entries that cancel to the bit, what leaves one row enters the other. Where C is
 /// above S/eps, the level of the contents is well determined, by the sum of the rows, but elimination adds S to C and
 /// loses it. Here the sum of such rows, in which D is absent, takes the place of the first of them: the same equations,
-/// and S keeps its digits. Rows are summed where S is below 1e-6 of C, and what leads out of them below 1e-3. A sum that
-/// is zero is a level that nothing holds.
+/// and S keeps its digits. Rows are summed where S is below 1e-6 of C, and what leads out of them below 1e-3. A sum
+/// that is zero is a level that nothing holds.
 class SummedBalances final : public LinearSolver {
  public:
   explicit SummedBalances(std::unique_ptr<LinearSolver> solver);

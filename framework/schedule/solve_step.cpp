@@ -45,9 +45,10 @@ Spec solver_spec(LinearOptions& options) {
                 {.range = strictly_between(0, 1), .doc = "Relative residual of an iterative solver."});
   spec.integer("max_iterations", options.max_iterations,
                {.range = between(1, 100000), .doc = "Iterations of an iterative solver."});
-  spec.flag("condense", options.condense,
-            {.doc = "Factorizes the equations of the bulk once for a mesh and a time step, and solves in each iteration "
-                    "for what is on fractures only. Direct solvers in one process."});
+  spec.flag(
+      "condense", options.condense,
+      {.doc = "Factorizes the equations of the bulk once for a mesh and a time step, and solves in each iteration "
+              "for what is on fractures only. Direct solvers in one process."});
   return spec;
 }
 
