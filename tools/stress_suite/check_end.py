@@ -20,6 +20,8 @@ def failures(ended):
         return [f"crash: exit code {ended.code}"]
     if ended.code == 2 and not ended.stderr.strip():
         return ["refusal: exit code 2 without a reason"]
+    if ended.code == 1 and not (ended.folder / "run.json").exists():
+        return [f"crash: exit code 1 and no results: {' '.join(ended.stderr.split())[:200]}"]
     if ended.code == 1:
         reason = written.exit_record(ended.folder)["exit"]["reason"]
         if not any(text in reason for text in REASONS):
