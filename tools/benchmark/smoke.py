@@ -32,6 +32,16 @@ SCENES = {
     "growth": ("paper/wing_cracks.yaml", {**FRACTURE, "time.end": "1.5 h"}),
 }
 
+# When a crack grows is decided by thresholds, and the library of dense kernels rounds differently from one processor to the next: the counts
+# of this scene may differ by this share, and by one.
+ROUNDED = {"growth": 0.2}
+
+
+def is_same(name, old, new):
+    if old is None or new is None or name not in ROUNDED:
+        return old == new
+    return abs(new - old) <= max(1, ROUNDED[name] * old)
+
 
 def counts(program):
     """{scene: {counter: value}} of all scenes, and what did not run."""
@@ -60,7 +70,7 @@ def differences(found, baseline):
             continue
         for counter in sorted(counters.keys() | before.keys()):
             old, new = before.get(counter), counters.get(counter)
-            if old != new:
+            if not is_same(name, old, new):
                 lines.append(f"{name}: {counter}: {'none' if old is None else old} -> {'none' if new is None else new}")
     return lines
 
