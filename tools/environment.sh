@@ -11,7 +11,8 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
 
 build_folder=${SPREKK_BUILD:-$root/build/release}
-jobs=${SPREKK_JOBS:-$(nproc)}
+# nproc counts threads of OpenMP; a script that was called from another one would see one processor only.
+jobs=${SPREKK_JOBS:-$(env -u OMP_NUM_THREADS nproc)}
 
 # seconds_since START: whole seconds on a clock that started at START (a value of $SECONDS).
 seconds_since() { echo $((SECONDS - $1)); }
