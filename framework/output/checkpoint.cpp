@@ -14,7 +14,7 @@ namespace sprekk {
 namespace {
 
 const std::string format_name = "sprekk checkpoint";
-constexpr int format_version = 3;  // raised whenever the layout of the file changes
+constexpr int format_version = 4;  // raised whenever the layout of the file changes
 
 std::span<const double> span_of(const Vector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
@@ -52,6 +52,9 @@ void write_content(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.doubles("clock/held_step", std::array{checkpoint.clock.held_step});
   file.doubles("clock/failed_step", std::array{checkpoint.clock.failed_step});
   file.integers("clock/failed_wait", std::array{checkpoint.clock.failed_wait, checkpoint.clock.failed_patience});
+  const auto& released = checkpoint.clock.released;
+  file.integers("clock/was_released", std::array{released ? 1 : 0});
+  file.doubles("clock/released", std::array{released.value_or(0), checkpoint.clock.due});
   write_mesh(file, checkpoint.mesh);
   file.text("fields/names", nlohmann::json(names_of(checkpoint.fields)).dump());
   std::size_t i = 0;
@@ -73,6 +76,9 @@ Checkpoint read_content(const Hdf5Reader& file) {
                       file.doubles("clock/next_step").at(0),   file.doubles("clock/held_step").at(0),
                       file.doubles("clock/failed_step").at(0), file.integers("clock/failed_wait").at(0),
                       file.integers("clock/failed_wait").at(1)};
+  const std::vector<double> released = file.doubles("clock/released");
+  if (file.integers("clock/was_released").at(0) != 0) checkpoint.clock.released = released.at(0);
+  checkpoint.clock.due = released.at(1);
   checkpoint.mesh = read_mesh(file);
   const auto fields = read_names(file, "fields/names");
   for (std::size_t i = 0; i < fields.size(); ++i)

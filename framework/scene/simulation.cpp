@@ -144,7 +144,7 @@ void Run::restore() {
   model_->restore_extra_state(checkpoint_->extra);
   const Checkpoint::Clock& clock = checkpoint_->clock;
   controller_.restore(clock.time, clock.step, clock.next_step, clock.held_step,
-                      {clock.failed_step, clock.failed_wait, clock.failed_patience});
+                      {clock.failed_step, clock.failed_wait, clock.failed_patience}, {clock.released, clock.due});
   restored_steps_ = clock.step;
   checkpoint_.reset();
 }
@@ -276,9 +276,10 @@ ExitCode Run::loop() {
   double last_checkpoint = now();
   const auto checkpoint = [&] {
     const FailedStep& failed = controller_.failed();
+    const Recurrence& recurrence = controller_.recurrence();
     output_.write_checkpoint(*model_,
                              {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held(),
-                              failed.size, failed.wait, failed.patience},
+                              failed.size, failed.wait, failed.patience, recurrence.released, recurrence.due},
                              fingerprint_);
     last_checkpoint = now();
   };

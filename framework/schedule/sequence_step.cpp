@@ -9,7 +9,8 @@ StepStatus SequenceStep::run(const StepTime& step) {
   for (auto& inner : steps_) {
     const StepStatus inner_status = inner->run(step);
     status.iterations = std::max(status.iterations, inner_status.iterations);
-    if (!inner_status.converged) return {false, inner->describe() + ": " + inner_status.reason, status.iterations};
+    if (!inner_status.converged)
+      return {false, inner->describe() + ": " + inner_status.reason, status.iterations, inner_status.retry_dt};
   }
   return status;
 }

@@ -126,16 +126,22 @@ bool StepController::rejected(const StepTime& step, double retry) {
   return true;
 }
 
-void StepController::hold(double step) { held_ = wanted_ = step; }
+void StepController::hold(double step) {
+  if (held_ == 0 && recurrence_.released) recurrence_.due = time_ - *recurrence_.released;
+  held_ = wanted_ = step;
+}
 
 void StepController::release() {
   if (held_ == 0) return;
   held_ = 0;
-  wanted_ = options_.step;
+  recurrence_.released = time_;
+  wanted_ = recurrence_.due > 0 ? std::clamp(recurrence_.due, 0.1 * options_.step, options_.step) : options_.step;
 }
 
-void StepController::restore(double time, int steps, double wanted, double held, const FailedStep& failed) {
+void StepController::restore(double time, int steps, double wanted, double held, const FailedStep& failed,
+                             const Recurrence& recurrence) {
   failed_ = failed;
+  recurrence_ = recurrence;
   time_ = time;
   steps_ = steps;
   wanted_ = wanted;

@@ -1,6 +1,7 @@
 // Who decides the next time step.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,12 @@ struct FailedStep {
   int patience = 3;  ///< what `wait` starts from; doubles each time the size fails again
 };
 
+/// What holds steps small comes again and again: when it was over last, and how long after that it came back.
+struct Recurrence {
+  std::optional<double> released = std::nullopt;  ///< s, the time of the last release
+  double due = 0;                                 ///< s, from a release to the next hold; 0 as long as unknown
+};
+
 /// Constant or adaptive steps that end exactly at the targets (output times, switches of sources, the end). A rejected
 /// step is repeated with a smaller one; afterwards steps grow back by `grow` a step, but not at once to what has
 /// failed.
@@ -54,15 +61,18 @@ class StepController {
   void accepted(const StepTime& step, int iterations);
   /// Cuts the step, to `retry` (s) if that is given; false when it is as small as allowed.
   bool rejected(const StepTime& step, double retry = 0);
-  /// Holds all steps at this size (s) until `release`; the standard size then returns at once.
+  /// Holds all steps at this size (s) until `release`. The standard size then returns at once, or, when a hold came
+  /// sooner after the last release, a step that is as long as that took, but at least a tenth of the standard one.
   void hold(double step);
   void release();
   double held() const { return held_; }  ///< s, 0 when nothing is held
+  const Recurrence& recurrence() const { return recurrence_; }
 
   const FailedStep& failed() const { return failed_; }
 
   /// Continues from a checkpoint.
-  void restore(double time, int steps, double wanted, double held = 0, const FailedStep& failed = {});
+  void restore(double time, int steps, double wanted, double held = 0, const FailedStep& failed = {},
+               const Recurrence& recurrence = {});
 
  private:
   double grown() const;
@@ -70,6 +80,7 @@ class StepController {
 
   TimeOptions options_;
   FailedStep failed_;
+  Recurrence recurrence_;
   std::vector<double> targets_;
   double time_, wanted_, held_ = 0;
   int steps_ = 0;

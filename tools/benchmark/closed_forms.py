@@ -129,10 +129,20 @@ def viesca_slip(distance, time):
     return scale * np.interp(abs(distance) / front, profile[:, 0], profile[:, 2], right=0)
 
 
-def onset_slip(distance, fluid_pressure, mean_pressure, flux):
-    """Slip (m) of the fracture of section 5.1 while it injects `flux` (m^2/s) into the rock: the back stress is that of a line
-    source of uniform pressure and of the free boundary, eta (p_f - p_mean - A/2) with A = Q mu/(2 pi k)."""
-    back_stress = 0.30 * (fluid_pressure - mean_pressure - 0.5 * flux * 1e-4 / (2 * np.pi * 5e-20))
+def onset_drop(fluid_pressure, mean_pressure, flux):
+    """Drop of the shear stress (Pa) on the fracture of section 5.1 while it injects `flux` (m^2/s) into the rock: the back stress
+    is that of a line source of uniform pressure and of the free boundary, eta (p_f - p_mean - A/2) with A = Q mu/(2 pi k). It needs
+    sqrt(c t) much longer than the fracture. Nothing injected: there is none."""
+    back_stress = 0.30 * (fluid_pressure - mean_pressure - 0.5 * flux * 1e-4 / (2 * np.pi * 5e-20)) if flux else 0
     friction, dilation = 0.5, np.radians(1)
-    drop = (5e6 - friction * (15e6 + back_stress - fluid_pressure)) / (1 + friction * np.tan(dilation))
-    return elliptic(distance, 0.05, 4 / (40e9 / (1 - 0.2**2)) * drop * 0.05)
+    return (5e6 - friction * (15e6 + back_stress - fluid_pressure)) / (1 + friction * np.tan(dilation))
+
+
+def onset_slip(distance, fluid_pressure, mean_pressure, flux):
+    """Slip (m) of the fracture of section 5.1."""
+    return elliptic(distance, 0.05, 4 / (40e9 / (1 - 0.2**2)) * onset_drop(fluid_pressure, mean_pressure, flux) * 0.05)
+
+
+def onset_k_ii(fluid_pressure, mean_pressure, flux):
+    """K_II (Pa m^0.5) at its tips."""
+    return np.sqrt(np.pi * 0.05) * onset_drop(fluid_pressure, mean_pressure, flux)

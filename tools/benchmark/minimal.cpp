@@ -248,7 +248,8 @@ void compare(const Pair& pair, int repeats, bool last) {
 
 }  // namespace
 
-/// bench_minimal [SIZE [REPEATS]]: of triangles (m), and of measurements.
+/// bench_minimal [SIZE [REPEATS [NAME [general|minimal]]]]: of triangles (m), and of measurements; of pairs, those
+/// whose names begin so. With the last argument, one half of them runs and nothing is measured: for a profiler.
 int main(int count, char** arguments) {
   const double size = count > 1 ? std::atof(arguments[1]) : 0.015;
   const int repeats = count > 2 ? std::atoi(arguments[2]) : 7;
@@ -264,7 +265,7 @@ int main(int count, char** arguments) {
   };
   std::string sealed = pore;
   sealed.replace(sealed.find("1 m^2"), 5, "0 m^2");
-  const std::vector<Pair> pairs = {
+  std::vector<Pair> pairs = {
       {"flow, 20 steps", [&] { return framework(mesh, flow, 20, "pore.pressure"); },
        [&] { return minimal_flow(mesh, 20); }},
       {"mechanics, 1 step", [&] { return framework(mesh, mechanics, 1, "rock.displacement"); },
@@ -281,6 +282,14 @@ int main(int count, char** arguments) {
        [&] { return framework(mesh, scene(sealed + ", " + rock, biot("0.5")), 20, "pore.pressure"); },
        [&] { return minimal_biot(mesh, 20, false); }},
   };
+  const std::string name = count > 3 ? arguments[3] : "", half = count > 4 ? arguments[4] : "";
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.name.rfind(name, 0) != 0; }),
+              pairs.end());
+  if (!half.empty()) {
+    for (int i = 0; i < repeats; ++i)
+      for (const Pair& pair : pairs) (half == "general" ? pair.general : pair.minimal)();
+    return 0;
+  }
   std::printf("{\"cells\": %d, \"repeats\": %d, \"pairs\": [\n", mesh.cell_count(), repeats);
   for (std::size_t i = 0; i < pairs.size(); ++i) compare(pairs[i], repeats, i + 1 == pairs.size());
   std::printf("]}\n");

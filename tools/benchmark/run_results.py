@@ -8,17 +8,17 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
-from results import read_pvd, read_vtu  # noqa: E402
+from results import read_pvd, read_table, read_vtu  # noqa: E402
 
 
 class RunResults:
-    """Fields at the last time that was written, and the record of the run."""
+    """Fields at a time that was written, the last one by default, the history, and the record of the run."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, entry=-1):
         self.folder = Path(folder)
         self.record = json.loads((self.folder / "run.json").read_text())
         self.counters = self.record["counters"]
-        self.time, matrix = read_pvd(self.folder / "matrix.pvd")[-1]
+        self.time, matrix = read_pvd(self.folder / "matrix.pvd")[entry]
         self.steps = self.counters["steps accepted"]
         self.matrix = read_vtu(matrix)
         corners = self.matrix.points[self.matrix.cells][:, :, :2]
@@ -26,10 +26,15 @@ class RunResults:
         a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         self.areas = 0.5 * abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
         if (self.folder / "fractures.pvd").exists():
-            self.fractures = read_vtu(read_pvd(self.folder / "fractures.pvd")[-1][1])
+            self.fractures = read_vtu(read_pvd(self.folder / "fractures.pvd")[entry][1])
             ends = self.fractures.points[self.fractures.cells][:, :, :2]
             self.fracture_centres = ends.mean(axis=1)
             self.fracture_lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+
+    @property
+    def history(self):
+        """{column without its unit: values}"""
+        return {name.partition("[")[0]: values for name, values in read_table(self.folder / "history.csv").items()}
 
     def matrix_field(self, name):
         """Cell values by the name without its unit; vectors have two columns."""

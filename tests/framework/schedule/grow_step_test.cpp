@@ -110,6 +110,15 @@ TEST(GrowStep, RefusesAStepThatPassesTheOnset) {
   EXPECT_NEAR(status.retry_dt, standard * (1.01 - 0.8) / (1.4 - 0.8), 1e-12 * standard);
 }
 
+TEST(GrowStep, TheSizeToRepeatAStepWithReachesTheRunFromASequence) {
+  const std::string one = "{grow: tips, settle: [rock], cut: 0.01, overshoot: 0.02}";
+  Schedule run("[" + one + ", " + one + "]");
+  run.tips.load = {.now = 1.5, .accepted = 0.6, .onset = 1.4, .onset_accepted = 0.8};
+  const StepStatus status = run.schedule->run({0, standard, standard});
+  EXPECT_FALSE(status.converged);
+  EXPECT_NEAR(status.retry_dt, standard * (1.01 - 0.8) / (1.4 - 0.8), 1e-12 * standard);
+}
+
 TEST(GrowStep, TheRepeatedStepReachesTheLoadAndIsTaken) {
   Schedule run(usual);
   const double before = 0.4, rate = 0.02;  // of the load, 1/s

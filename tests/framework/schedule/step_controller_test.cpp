@@ -132,6 +132,45 @@ TEST(StepController, HoldsASizeUntilItIsReleased) {
   }
 }
 
+// Held at 0, 3, 3.6, …: after a release it takes as long as it did the last time, but not less than a tenth of a step.
+TEST(StepController, AReleasedStepIsAsLongAsTheLastPause) {
+  StepController controller(hours(10), {});
+  controller.hold(0.01);
+  controller.release();
+  EXPECT_EQ(controller.next().dt, 1);  // nothing is known yet
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.4));
+  controller.accepted(controller.next(), 1);
+  controller.hold(0.01);
+  controller.accepted(controller.next(), 1);
+  controller.hold(0.01);  // goes on: no new pause
+  controller.accepted(controller.next(), 1);
+  controller.release();
+  EXPECT_NEAR(controller.next().dt, 0.4, 1e-15);
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.02));
+  controller.accepted(controller.next(), 1);
+  controller.hold(0.01);
+  controller.release();
+  EXPECT_NEAR(controller.next().dt, 0.1, 1e-15);
+  // A pause that is longer than a step is no limit; until the hold comes, steps grow as after any cut.
+  for (int i = 0; i < 9; ++i) controller.accepted(controller.next(), 1);
+  EXPECT_EQ(controller.next().dt, 1);
+  controller.hold(0.01);
+  controller.release();
+  EXPECT_EQ(controller.next().dt, 1);
+}
+
+TEST(StepController, ContinuesWithTheLastPause) {
+  StepController whole(hours(10), {}), part(hours(10), {});
+  whole.hold(0.01);
+  whole.release();
+  EXPECT_TRUE(whole.rejected(whole.next(), 0.4));
+  whole.accepted(whole.next(), 1);
+  whole.hold(0.01);
+  part.restore(whole.time(), whole.steps(), whole.wanted(), whole.held(), whole.failed(), whole.recurrence());
+  part.release();
+  EXPECT_NEAR(part.next().dt, 0.4, 1e-15);
+}
+
 TEST(StepController, ReleasingWhatIsNotHeldChangesNothing) {
   StepController controller(hours(10), {});
   EXPECT_TRUE(controller.rejected(controller.next(), 0.5));
