@@ -17,6 +17,7 @@ sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tools"))
 import results
+from paths import apart
 
 STUDIES = {  # the finest run of each
     "fig12_coarse_size": "reference",
@@ -38,26 +39,6 @@ class Run:
         after = np.flatnonzero(self.length >= length)
         return np.interp(length, self.length[after[0] - 1:after[0] + 1],
                          self.hours[after[0] - 1:after[0] + 1]) if len(after) else np.nan
-
-
-def refined(path, size=1e-3):
-    pieces = [np.linspace(a, b, max(int(np.hypot(*(b - a)) / size), 1), endpoint=False) for a, b in zip(path, path[1:])]
-    return np.vstack([*pieces, path[-1:]])
-
-
-def distances(points, path):
-    """From each point to the polyline."""
-    start, along = path[:-1], np.diff(path, axis=0)
-    offset = points[:, None, :] - start
-    share = np.clip((offset * along).sum(2) / (along**2).sum(1), 0, 1)
-    return np.hypot(*np.moveaxis(offset - share[..., None] * along, 2, 0)).min(1)
-
-
-def apart(one, other):
-    """The largest distance between two paths (m), over the x that both have."""
-    low, high = max(one[0, 0], other[0, 0]), min(one[-1, 0], other[-1, 0])
-    common = [points[(points[:, 0] > low + 1e-3) & (points[:, 0] < high - 1e-3)] for points in map(refined, (one, other))]
-    return max(distances(common[0], other).max(), distances(common[1], one).max())
 
 
 figure, axes = plt.subplots(2, len(STUDIES), figsize=(14, 7), layout="constrained", height_ratios=[1.3, 1])

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import cases
 import smoke
+import two_level
 from problems import PROBLEMS
 from run_results import ROOT
 
@@ -49,6 +50,11 @@ def list_cases(names, options, program):
         if name in TABLES:
             print(f"{name:<18} {TABLES[name]}")
             continue
+        if name in two_level.PROBLEMS:
+            found, failed = two_level.all_results(name, options.out)
+            done = sum(len(case.runs) for case in found.values()) + len(failed)
+            print(f"{name:<18} {two_level.PROBLEMS[name].title}, two levels: {done} of {len(two_level.PROBLEMS[name].runs())} runs done")
+            continue
         all_of_it = list(cases.all_cases([name], options.solvers, program))
         done = sum(cases.kept(case, options.out) is not None for case in all_of_it)
         print(f"{name:<18} {PROBLEMS[name].title}: {done} of {len(all_of_it)} runs done")
@@ -69,11 +75,12 @@ def step_times(program, folder, again):
 
 def main():
     options = parse()
-    unknown = [name for name in options.names if name not in PROBLEMS and name not in TABLES]
+    everything = [*PROBLEMS, *two_level.PROBLEMS, *TABLES]
+    unknown = [name for name in options.names if name not in everything]
     if unknown:
-        sys.exit(f"unknown benchmark '{unknown[0]}' (there are: {', '.join([*PROBLEMS, *TABLES])})")
+        sys.exit(f"unknown benchmark '{unknown[0]}' (there are: {', '.join(everything)})")
     options.solvers = options.solvers.split(",") if options.solvers else None
-    names = options.names or [*PROBLEMS, *TABLES]
+    names = options.names or everything
     program = str(options.build / "sprekk")
     if options.smoke:
         sys.exit(smoke.smoke(program, options.update))
@@ -83,9 +90,11 @@ def main():
 
     import page  # draws with matplotlib, which takes a while to load
     import skip
+    import two_level_page
 
     problems = [name for name in names if name in PROBLEMS]
     cases.run_cases(cases.all_cases(problems, options.solvers, program), program, options.out, options.limit, options.again)
+    two_level.run_cases([name for name in names if name in two_level.PROBLEMS], program, options.out, options.limit, options.again)
     if "discretization" in names:
         subprocess.run([options.build / "bench_discretization"], check=True)
     if "skip" in names:
@@ -93,11 +102,13 @@ def main():
     if "step" in names:
         step_times(program, options.out, options.again)
     results = cases.all_results(options.out)
+    levels = {name: two_level.all_results(name, options.out) for name in two_level.PROBLEMS}
     options.out.mkdir(parents=True, exist_ok=True)
-    (options.out / "bench.json").write_text(json.dumps({"machine": machine(), "results": results}, indent=1) + "\n")
-    page.write_page(results, options.out / "bench.html", machine(), skip.sections(options.out))
+    (options.out / "bench.json").write_text(json.dumps({"machine": machine(), "results": results, "two_level": two_level.records(levels)}, indent=1) + "\n")
+    page.write_page(results, options.out / "bench.html", machine(), [*two_level_page.sections(levels), *skip.sections(options.out)])
     if options.pictures:
         page.write_pictures(results, options.pictures)
+        two_level_page.write_pictures(levels, options.pictures)
     print(f"results: {options.out / 'bench.html'}")
 
 

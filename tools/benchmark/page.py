@@ -93,16 +93,6 @@ def figure(results, name):
     return picture
 
 
-def pareto_front(results, problem):
-    """The cases that no other beats in both seconds and error, by rising seconds."""
-    cases = sorted((r for c in curves(results, problem).values() for r in c), key=lambda r: (r["seconds"], first_error(r)))
-    front = []
-    for result in cases:
-        if not front or first_error(result) < first_error(front[-1]) * (1 - 1e-6):
-            front.append(result)
-    return front
-
-
 def embedded(picture):
     text = io.BytesIO()
     picture.savefig(text, format="svg")

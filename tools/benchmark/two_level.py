@@ -1,0 +1,267 @@
+"""Errors of the two-level scenes against run time: one numerical parameter after the other is changed from the scene's value. Errors
+scatter from mesh to mesh, so that each case is run on several that only chance tells apart. Every run is remembered in a file of its
+own, with what was measured in it; errors are made of that when it is drawn."""
+
+import hashlib
+import itertools
+import json
+import shutil
+import statistics
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Callable
+
+import numpy as np
+
+import closed_forms as exact
+from cases import run_scene
+from paths import apart
+from run_results import ROOT, RunResults
+
+REFERENCE, SECOND = "reference", "second reference"
+HOUR = 3600
+
+
+@dataclass
+class Parameter:
+    symbol: str
+    path: str  # in the scene
+    default: str  # the scene's
+    others: tuple
+
+
+MESHES = [{}, *({"mesh.size": f"{size} m"} for size in ("0.098", "0.102", "0.099", "0.101"))]
+
+
+@dataclass
+class Problem:
+    title: str
+    scene: str  # in configs
+    parameters: dict  # by the name in file names
+    measure: Callable  # folder of a run -> what errors are made of
+    errors: Callable  # measured of the run, and of the runs of the reference -> {quantity: signed error}
+    units: dict  # by quantity: what errors are of, for axes
+    common: dict = field(default_factory=dict)
+    grid: tuple = ()  # parameters whose values are combined, too
+    references: dict = field(default_factory=dict)  # {REFERENCE: settings, SECOND: settings}; none with a closed form
+    answer_errors: dict = field(default_factory=dict)  # of a closed form that is an approximation, by quantity
+    meshes: int = len(MESHES)
+
+    def choices(self):
+        """{name of the case: settings}, what says most first."""
+        cases = {"default": {}, **self.references}
+        for name, parameter in self.parameters.items():
+            for value in parameter.others:
+                cases[f"{name}={value}"] = {parameter.path: value}
+        values = [[(name, value) for value in (self.parameters[name].default, *self.parameters[name].others)]
+                  for name in self.grid]
+        for combination in itertools.product(*values):
+            changed = [(name, value) for name, value in combination if value != self.parameters[name].default]
+            if len(changed) > 1:
+                cases[",".join(f"{name}={value}" for name, value in changed)] = {
+                    self.parameters[name].path: value for name, value in changed}
+        return {name: {**self.common, **settings} for name, settings in cases.items()}
+
+    def runs(self):
+        """[(case, number of the mesh, settings)]: all cases on a mesh, before those on the next."""
+        return [(case, mesh, {**settings, **MESHES[mesh]})
+                for mesh in range(self.meshes) for case, settings in self.choices().items()]
+
+
+def k_ii_measured(folder):
+    """K_II of both tips and its closed form, for the fluid's pressure in the run, at each time with fields."""
+    measured = []
+    history = RunResults(folder).history
+    entries = (folder / "matrix.pvd").read_text().count("<DataSet")
+    for run in (RunResults(folder, entry) for entry in range(entries)):
+        row = int(np.argmin(abs(history["time"] - run.time)))
+        fluxes = run.fracture_field("pore.wall_flux.plus") + run.fracture_field("pore.wall_flux.minus")
+        injects = run.time > 6 * HOUR + 1
+        if run.time < 6 * HOUR - 1:
+            continue
+        answer = exact.onset_k_ii(run.fracture_field("conduit.pressure").mean(), run.mean(run.matrix_field("pore.pressure")),
+                                  run.fracture_lengths @ fluxes if injects else 0)
+        for tip in ("first", "last"):
+            measured.append({"time": run.time, "tip": tip, "injects": bool(injects), "exact": float(answer),
+                             "K_II": float(abs(history[f"tips.main_{tip}.K_II"][row]))})
+    return measured
+
+
+def k_ii_errors(measured, _):
+    """The largest over tips and times, with its sign."""
+    def largest(injects):
+        return max((value["K_II"] / value["exact"] - 1 for value in measured if value["injects"] == injects), key=abs)
+    return {"K_II while injecting": largest(True), "K_II before": largest(False)}
+
+
+LENGTHS = (0.1, 0.25)
+
+
+def wings_measured(folder):
+    """Hours at which the first tip is as long, and the path."""
+    run = RunResults(folder)
+    length = np.maximum(run.history["tips.main_first.length"], run.history["tips.main_last.length"])
+    measured = {}
+    for wanted in LENGTHS:
+        after = int(np.argmax(length >= wanted))
+        if not length[after] >= wanted:
+            raise RuntimeError(f"no wing became {wanted} m long")
+        pair = slice(after - 1, after + 1)
+        measured[f"hours to {wanted} m"] = float(np.interp(wanted, length[pair], run.history["time"][pair]) / HOUR)
+    points = run.fractures.points[:, :2]
+    measured["path"] = points[np.argsort(points[:, 0])].tolist()  # x grows along the fracture and both wings
+    return measured
+
+
+def wings_errors(measured, references):
+    """Times against the mean of the references, the path against that on the scene's own mesh."""
+    errors = {}
+    for wanted in LENGTHS:
+        key = f"hours to {wanted} m"
+        errors[f"time to {wanted} m"] = measured[key] / statistics.mean(run[key] for run in references) - 1
+    errors["path"] = 1e3 * apart(*(np.array(run["path"]) for run in (measured, references[0])))
+    return errors
+
+
+FINE_LEVEL = {
+    "l": Parameter("l", "components.tips.size", "0.5 m", ("0.25 m", "1 m")),
+    "mesh_ratio": Parameter("ε_m", "components.tips.mesh_ratio", "0.5", ("1", "0.25")),
+}
+
+PROBLEMS = {
+    "k_ii": Problem(
+        "K_II of section 5.1", "paper/onset.yaml",
+        {"dH": Parameter("ΔH", "mesh.fracture_size", "20 mm", ("10 mm", "5 mm")), **FINE_LEVEL,
+         "step": Parameter("Δt", "time.step", "1 h", ("3 h", "0.5 h"))},
+        k_ii_measured, k_ii_errors, {"K_II while injecting": "relative error", "K_II before": "relative error"},
+        {"time.end": "21 h", "output.every": "3 h"}, grid=("dH", "l", "step"),
+        # Its back stress is right to 0.05 MPa, which is 0.01 MPa m^0.5 of K_II.
+        answer_errors={"K_II while injecting": 0.01e6 / 1.33e6}),
+    "wings": Problem(
+        "Wings of section 5.2", "paper/wing_cracks.yaml",
+        {"dH": Parameter("ΔH", "mesh.fracture_size", "20 mm", ("40 mm", "10 mm", "5 mm")),
+         "threshold": Parameter("ε_p", "couplers.4.propagation_threshold", "0.5", ("2", "1", "0.25")),
+         "step": Parameter("Δt", "time.step", "1 h", ("2 h", "0.5 h")),
+         "increment": Parameter("increment", "components.tips.growth.increment", "10 mm", ("20 mm", "5 mm")),
+         "l": Parameter("l", "components.tips.size", "0.5 m", ("0.3 m", "1 m")),
+         "mesh_ratio": FINE_LEVEL["mesh_ratio"]},
+        wings_measured, wings_errors,
+        {"time to 0.1 m": "relative error", "time to 0.25 m": "relative error", "path": "distance (mm)"},
+        {"output.every": "1000 h"}, meshes=3,
+        references={REFERENCE: {"mesh.fracture_size": "5 mm", "components.tips.size": "1 m", "time.step": "0.5 h",
+                                "components.tips.growth.increment": "5 mm"},
+                    SECOND: {"mesh.fracture_size": "10 mm", "components.tips.size": "1 m", "time.step": "0.5 h",
+                             "components.tips.growth.increment": "5 mm"}}),
+}
+
+
+def identity(problem, settings):
+    text = (ROOT / "configs" / problem.scene).read_text() + json.dumps(settings, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def file_of(folder, name, case, mesh):
+    return folder / "two_level" / name / f"{case.replace(' ', '')}.mesh{mesh + 1}.json"
+
+
+def kept(folder, name, case, mesh, settings):
+    file = file_of(folder, name, case, mesh)
+    if not file.exists():
+        return None
+    result = json.loads(file.read_text())
+    return result if result["identity"] == identity(PROBLEMS[name], settings) else None
+
+
+def measure(name, case, settings, program, limit):
+    problem, scratch = PROBLEMS[name], Path(tempfile.mkdtemp())
+    result = {"problem": name, "case": case, "settings": settings, "identity": identity(problem, settings)}
+    try:
+        run_scene(program, ROOT / "configs" / problem.scene, settings, scratch / "run", limit)
+        record = json.loads((scratch / "run" / "run.json").read_text())
+        seconds = sum(value for timer, value in record["timings"].items() if timer.startswith("processor: "))
+        result.update(seconds=seconds, wall_seconds=record["seconds"], counters=record["counters"],
+                      commit=record["program"]["git_commit"], measured=problem.measure(scratch / "run"))
+    except RuntimeError as failure:
+        result["failure"] = str(failure)
+    finally:
+        shutil.rmtree(scratch)
+    return result
+
+
+def run_cases(names, program, folder, limit, again):
+    for name in names:
+        for case, mesh, settings in PROBLEMS[name].runs():
+            if not again and kept(folder, name, case, mesh, settings):
+                continue
+            result = measure(name, case, settings, program, limit)
+            file = file_of(folder, name, case, mesh)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(json.dumps(result, indent=1) + "\n")
+            print(f"{name}/{case}, mesh {mesh + 1}".ljust(55) +
+                  (f"FAILED: {result['failure']}" if "failure" in result else f"{result['seconds']:9.2f} s"), flush=True)
+
+
+@dataclass
+class Case:
+    """What is known of one choice of parameters, from its runs on all meshes so far."""
+
+    runs: list
+    errors: dict = field(default_factory=dict)  # {quantity: signed errors of the runs}; empty where there is nothing to compare with
+
+    @property
+    def seconds(self):
+        return statistics.median(run["seconds"] for run in self.runs)
+
+    def error(self, quantity):
+        return statistics.mean(map(abs, self.errors[quantity]))
+
+
+def all_results(name, folder):
+    """{case: Case} and failed runs; nothing of what has changed since it was run."""
+    problem, found, failed = PROBLEMS[name], {}, []
+    for case, mesh, settings in problem.runs():
+        result = kept(folder, name, case, mesh, settings)
+        if result and "failure" in result:
+            failed.append(result)
+        elif result:
+            found.setdefault(case, Case([])).runs.append(result)
+    references = [run["measured"] for run in found[REFERENCE].runs] if REFERENCE in found else []
+    for case in found.values() if references or not problem.references else ():
+        each = [problem.errors(run["measured"], references) for run in case.runs]
+        case.errors = {quantity: [errors[quantity] for errors in each] for quantity in problem.units}
+    return found, failed
+
+
+def records(levels):
+    """For bench.json: all runs, with their errors."""
+    return [{**run, "errors": {quantity: errors[i] for quantity, errors in case.errors.items()}}
+            for cases, _ in levels.values() for case in cases.values() for i, run in enumerate(case.runs)] + [
+            run for _, failed in levels.values() for run in failed]
+
+
+def compared(cases):
+    """Those with errors; the reference itself is none."""
+    return {name: case for name, case in cases.items() if case.errors and name != REFERENCE}
+
+
+def front(cases, quantity):
+    """The cases that no other beats in both seconds and error, by rising seconds; 1 % less of an error does not count."""
+    best = []
+    for name, case in sorted(compared(cases).items(), key=lambda entry: entry[1].seconds):
+        if not best or case.error(quantity) < 0.99 * cases[best[-1]].error(quantity):
+            best.append(name)
+    return best
+
+
+def better(cases, parameter, quantity):
+    """The other values of one parameter that are faster than the default by 10 %, which processor times on a shared machine differ by
+    anyway, and more accurate: mesh by mesh, by more than two standard errors of the difference."""
+    default, found = cases["default"], []
+    for name, case in compared(cases).items():
+        if name.partition("=")[0] != parameter or "," in name or case.seconds > 0.9 * default.seconds:
+            continue
+        gains = [abs(before) - abs(now) for before, now in zip(default.errors[quantity], case.errors[quantity])]
+        if len(gains) > 1 and statistics.mean(gains) > 2 * statistics.stdev(gains) / len(gains)**0.5:
+            found.append(name)
+    return found
