@@ -23,8 +23,9 @@ class Aperture : public Coupler {
     const int cells = context.mesh.fracture_cell_count();
     std::vector<Triplet> entries;
     for (int i = 0; i < cells; ++i) entries.emplace_back(i, 2 * i, 1.0);
-    normal_.resize(cells, 2 * cells);
-    normal_.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix normal(cells, 2 * cells);
+    normal.setFromTriplets(entries.begin(), entries.end());
+    normal_ = Operator(std::move(normal));
   }
 
   void begin_step(const StepTime&) override {}
@@ -44,7 +45,7 @@ class Aperture : public Coupler {
  private:
   FractureContact& contact_;
   FractureFluid& fluid_;
-  SparseMatrix normal_;  ///< fracture cells × 2 fracture cells: picks the opening
+  Operator normal_;  ///< fracture cells × 2 fracture cells: picks the opening
 };
 
 const RegisterCoupler<Aperture, ApertureOptions> registration("aperture");

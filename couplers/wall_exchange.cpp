@@ -46,8 +46,9 @@ class WallExchange : public Coupler {
     }
     to_walls_.resize(mesh_.wall_count(), mesh_.fracture_cell_count());
     to_walls_.setFromTriplets(entries.begin(), entries.end());
-    inflow_.resize(mesh_.fracture_cell_count(), mesh_.wall_count());
-    inflow_.setFromTriplets(sums.begin(), sums.end());
+    SparseMatrix inflow(mesh_.fracture_cell_count(), mesh_.wall_count());
+    inflow.setFromTriplets(sums.begin(), sums.end());
+    inflow_ = Operator(std::move(inflow));
     of_both_walls_.resize(mesh_.fracture_cell_count(), mesh_.wall_count());
     of_both_walls_.setFromTriplets(counts.begin(), counts.end());
   }
@@ -58,7 +59,7 @@ class WallExchange : public Coupler {
     for (const LinearExpression::Term& term : walls_.wall_pressure().terms)
       if (term.field == &flux)
         for (int w = 0; w < mesh_.wall_count(); ++w) {
-          const double resistance = term.matrix.coeff(w, w);
+          const double resistance = term.matrix.entries().coeff(w, w);
           if (resistance > 0) matrix_conductance_[w] = 1 / resistance;
         }
   }
@@ -90,11 +91,12 @@ class WallExchange : public Coupler {
     assembly.add(flux, of_pressure.cwiseProduct(to_walls_ * pressure.now()));
     // The trace is itself a difference of larger numbers, where the matrix drains into a fracture of little pressure.
     for (const LinearExpression::Term& term : trace.terms)
-      assembly.compare_round_off(
-          flux, of_trace.cwiseProduct(term.matrix.cwiseAbs() * term.field->now().cwiseAbs()).lpNorm<Eigen::Infinity>());
+      assembly.compare_round_off(flux,
+                                 of_trace.cwiseProduct(term.matrix.entries().cwiseAbs() * term.field->now().cwiseAbs())
+                                     .lpNorm<Eigen::Infinity>());
     if (!assembly.wants_derivatives()) return;
     for (const LinearExpression::Term& term : trace.terms)
-      assembly.derivative(flux, *term.field, SparseMatrix(of_trace.asDiagonal() * term.matrix));
+      assembly.derivative(flux, *term.field, SparseMatrix(of_trace.asDiagonal() * term.matrix.entries()));
     assembly.derivative(flux, pressure, SparseMatrix(of_pressure.asDiagonal() * to_walls_));
     Vector by_aperture(walls);
     for (int w = 0; w < walls; ++w)
@@ -144,7 +146,7 @@ class WallExchange : public Coupler {
   Field& exchanged_;            ///< through each wall since the start, m^2
   Field& counted_;              ///< the same, as the fracture has counted it, m^2
   SparseMatrix to_walls_;       ///< walls × fracture cells
-  SparseMatrix inflow_;         ///< fracture cells × walls: lambda times length
+  Operator inflow_;             ///< fracture cells × walls: lambda times length
   SparseMatrix of_both_walls_;  ///< fracture cells × walls: ones
   Vector matrix_conductance_;
 };

@@ -49,8 +49,9 @@ class WallTraction : public Coupler {
       const Place place{cell.center, mesh_.cell_region[mesh_.face_cells[cell.faces[0]][0]], 0};
       entries.emplace_back(2 * i, i, options.fracture_biot_coefficient.at(place));
     }
-    normal_load_.resize(2 * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());
-    normal_load_.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix load(2 * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());
+    load.setFromTriplets(entries.begin(), entries.end());
+    normal_load_ = Operator(std::move(load));
   }
 
   void begin_step(const StepTime&) override {
@@ -59,7 +60,7 @@ class WallTraction : public Coupler {
     Vector compliance = Vector::Zero(traction.size());
     for (const LinearExpression::Term& term : rock_.displacement_jump().terms)
       if (term.field == &traction)
-        for (int i = 0; i < traction.size(); ++i) compliance[i] = -term.matrix.coeff(i, i);
+        for (int i = 0; i < traction.size(); ++i) compliance[i] = -term.matrix.entries().coeff(i, i);
     replicate(mesh_, Location::fracture_cell, 2, compliance);
     compliance_ = positive(std::move(compliance));
     if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
@@ -101,8 +102,8 @@ class WallTraction : public Coupler {
   RockWalls& rock_;
   FractureContact* contact_;
   FractureFluid* fluid_;
-  Vector compliance_;         ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
-  SparseMatrix normal_load_;  ///< 2 fracture cells × fracture cells: pressure pushes the plus wall along −n
+  Vector compliance_;     ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
+  Operator normal_load_;  ///< 2 fracture cells × fracture cells: pressure pushes the plus wall along −n
 };
 
 const RegisterCoupler<WallTraction, WallTractionOptions> registration("wall_traction");

@@ -136,10 +136,11 @@ void MatrixFlow::discretize() {
     operators_ = discretize_(mesh_, mobility_, conditions_, nodes_to_discretize(mesh_));
   }
   const int rank = parallel::rank();
-  outflow_of_pressure_ = cell_sums(mesh_, operators_.flux_cell, 1, rank);
+  outflow_of_pressure_ = Operator(cell_sums(mesh_, operators_.flux_cell, 1, rank));
   largest_conductance_ = 0;
-  for (int row = 0; row < outflow_of_pressure_.rows(); ++row)
-    largest_conductance_ = std::max(largest_conductance_, outflow_of_pressure_.row(row).cwiseAbs().sum());
+  const SparseMatrix& outflow = outflow_of_pressure_.entries();
+  for (int row = 0; row < outflow.rows(); ++row)
+    largest_conductance_ = std::max(largest_conductance_, outflow.row(row).cwiseAbs().sum());
   if (!wall_flux_) return;
 
   // The flux out of the rock through a wall is −lambda times its length.
@@ -148,15 +149,16 @@ void MatrixFlow::discretize() {
     entries.emplace_back(mesh_.wall_face(w), w, -mesh_.face_length[mesh_.wall_face(w)]);
   SparseMatrix boundary_of_wall_flux(mesh_.face_count(), mesh_.wall_count());
   boundary_of_wall_flux.setFromTriplets(entries.begin(), entries.end());
-  outflow_of_wall_flux_ = cell_sums(mesh_, SparseMatrix(operators_.flux_boundary * boundary_of_wall_flux), 1, rank);
+  outflow_of_wall_flux_ =
+      Operator(cell_sums(mesh_, SparseMatrix(operators_.flux_boundary * boundary_of_wall_flux), 1, rank));
 
   entries.clear();
   for (int w = 0; w < mesh_.wall_count(); ++w)
     if (is_owned(mesh_, Location::wall, w)) entries.emplace_back(w, mesh_.wall_face(w), 1.0);
   SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
   pick_walls.setFromTriplets(entries.begin(), entries.end());
-  wall_pressure_.terms = {{&pressure_, SparseMatrix(pick_walls * operators_.trace_cell)},
-                          {wall_flux_, SparseMatrix(pick_walls * operators_.trace_boundary * boundary_of_wall_flux)}};
+  wall_pressure_.terms = {{&pressure_, Operator(pick_walls * operators_.trace_cell)},
+                          {wall_flux_, Operator(pick_walls * operators_.trace_boundary * boundary_of_wall_flux)}};
 }
 
 void MatrixFlow::evaluate_data(const StepTime& step) {
@@ -179,7 +181,7 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
 
 void MatrixFlow::apply_boundary() {
   outflow_constant_ = cell_sums(mesh_, Vector(operators_.flux_boundary * boundary_values_), 1) -
-                      outflow_of_pressure_ * gravity_potential_cell_;
+                      outflow_of_pressure_.entries() * gravity_potential_cell_;
   if (!wall_flux_) return;
   const Vector trace = operators_.trace_boundary * boundary_values_ - operators_.trace_cell * gravity_potential_cell_ +
                        gravity_potential_face_;
@@ -213,14 +215,16 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.diagonal(pressure_, pressure_, capacity);
   // What flows depends on differences of pressure only, so its terms are added together, and compared with what flows
   // through faces: terms of the pressure itself would hide it where the level is high.
-  assembly.add(pressure_, step.dt * (outflow_of_pressure_ * pressure_.now() + outflow_constant_));
+  assembly.add(pressure_, step.dt * (assembly.product(outflow_of_pressure_, pressure_) + outflow_constant_));
   assembly.derivative(pressure_, pressure_, outflow_of_pressure_, step.dt);
   assembly.compare_round_off(pressure_, step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
   // Where all terms vanish the residual is small against the flow before the step.
   assembly.compare_with(
-      pressure_, step.dt * (outflow_of_pressure_ * pressure_.accepted() + outflow_constant_).lpNorm<Eigen::Infinity>());
+      pressure_,
+      step.dt *
+          (assembly.accepted_product(outflow_of_pressure_, pressure_) + outflow_constant_).lpNorm<Eigen::Infinity>());
   assembly.add(pressure_, -step.dt * source_);
 }
 

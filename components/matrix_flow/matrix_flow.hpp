@@ -99,11 +99,11 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   FluxOperators operators_;
   std::vector<FlowCondition> conditions_;
   std::map<std::string, std::vector<std::pair<int, double>>> well_cells_;  ///< cells and weights by well
-  SparseMatrix outflow_of_pressure_;   ///< cells × cells: sum of fluxes out of each cell
-  double largest_conductance_ = 0;     ///< largest sum of absolute entries of a row of it, m^2/(Pa s)
-  SparseMatrix outflow_of_wall_flux_;  ///< cells × walls
-  Vector boundary_values_;             ///< one a face, see FluxOperators
-  Vector outflow_constant_;            ///< m^2/s, one a cell
+  Operator outflow_of_pressure_;    ///< cells × cells: sum of fluxes out of each cell
+  double largest_conductance_ = 0;  ///< largest sum of absolute entries of a row of it, m^2/(Pa s)
+  Operator outflow_of_wall_flux_;   ///< cells × walls
+  Vector boundary_values_;          ///< one a face, see FluxOperators
+  Vector outflow_constant_;         ///< m^2/s, one a cell
   LinearExpression wall_pressure_;
   Vector source_;  ///< m^2/s, one a cell
 };

@@ -153,22 +153,22 @@ void Rock::discretize() {
       *rows = keep_rows(*rows, own);
   }
   const SparseMatrix outflow = cell_sums(mesh_, operators_.force_displacement, 2, rank);
-  force_of_displacement_ = -outflow;
-  volume_change_.terms = {{&displacement_, operators_.volume_displacement}};
+  force_of_displacement_ = Operator(-outflow);
+  volume_change_.terms = {{&displacement_, Operator(operators_.volume_displacement)}};
   if (wall_traction_) {
     map_walls();
-    force_of_wall_traction_ = -cell_sums(mesh_, SparseMatrix(operators_.force_boundary * wall_forces_), 2, rank);
-    volume_change_.terms.push_back({wall_traction_, SparseMatrix(operators_.volume_boundary * wall_forces_)});
-    jump_.terms = {{&displacement_, SparseMatrix(wall_jump_ * operators_.trace_displacement)},
-                   {wall_traction_, SparseMatrix(wall_jump_ * operators_.trace_boundary * wall_forces_)}};
+    force_of_wall_traction_ =
+        Operator(-cell_sums(mesh_, SparseMatrix(operators_.force_boundary * wall_forces_), 2, rank));
+    volume_change_.terms.push_back({wall_traction_, Operator(operators_.volume_boundary * wall_forces_)});
+    jump_.terms = {{&displacement_, Operator(wall_jump_ * operators_.trace_displacement)},
+                   {wall_traction_, Operator(wall_jump_ * operators_.trace_boundary * wall_forces_)}};
   }
   for (Load& load : loads_) {
     const SparseMatrix force = cell_sums(mesh_, operators_.force_stress, 2, rank);
-    load.force_on_cell = -force * load.alpha.asDiagonal();
-    volume_change_.terms.push_back({load.pressure, SparseMatrix(operators_.volume_stress * load.alpha.asDiagonal())});
+    load.force_on_cell = Operator(-force * load.alpha.asDiagonal());
+    volume_change_.terms.push_back({load.pressure, Operator(operators_.volume_stress * load.alpha.asDiagonal())});
     if (wall_traction_)
-      jump_.terms.push_back(
-          {load.pressure, SparseMatrix(wall_jump_ * operators_.trace_stress * load.alpha.asDiagonal())});
+      jump_.terms.push_back({load.pressure, Operator(wall_jump_ * operators_.trace_stress * load.alpha.asDiagonal())});
   }
 }
 
@@ -234,7 +234,7 @@ void Rock::apply_boundary() {
   if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * boundary_values_);
   for (const Load& load : loads_) {
     const Vector reference = load.alpha.cwiseProduct(load.reference);
-    force_constant_ -= load.force_on_cell * load.reference;
+    force_constant_ -= load.force_on_cell.entries() * load.reference;
     volume_change_.constant -= operators_.volume_stress * reference;
     if (wall_traction_) jump_.constant -= wall_jump_ * (operators_.trace_stress * reference);
   }

@@ -48,7 +48,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   struct Load {
     const Field* pressure;
     Vector alpha, reference;
-    SparseMatrix force_on_cell;  ///< momentum rows of p
+    Operator force_on_cell;  ///< momentum rows of p
   };
 
   void check_sides() const;
@@ -74,10 +74,10 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   bool data_evaluated_ = false, boundary_applied_ = false;
   long discretizations_ = 0, discretized_cells_ = 0;
   StressOperators operators_;
-  SparseMatrix wall_forces_;            ///< 2 faces × 2 fracture cells: boundary values that wall tractions make
-  SparseMatrix wall_jump_;              ///< 2 fracture cells × 2 faces: the jump of face displacements, in (n, t)
-  SparseMatrix force_of_displacement_;  ///< momentum rows
-  SparseMatrix force_of_wall_traction_;
+  SparseMatrix wall_forces_;        ///< 2 faces × 2 fracture cells: boundary values that wall tractions make
+  SparseMatrix wall_jump_;          ///< 2 fracture cells × 2 faces: the jump of face displacements, in (n, t)
+  Operator force_of_displacement_;  ///< momentum rows
+  Operator force_of_wall_traction_;
   Vector boundary_values_;  ///< see StressOperators
   Vector initial_forces_;   ///< of the initial stress on every face, N/m
   Vector body_forces_;      ///< on every cell, N/m

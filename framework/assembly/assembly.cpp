@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace sprekk {
 
-Assembly::Assembly(std::vector<const Field*> unknowns, Want want) : unknowns_(std::move(unknowns)), want_(want) {
+Assembly::Assembly(std::vector<const Field*> unknowns, Want want, Products* products)
+    : unknowns_(std::move(unknowns)), want_(want), products_(products != nullptr ? products : &own_products_) {
   for (const Field* field : unknowns_) {
     index_[field] = static_cast<int>(residuals_.size());
     residuals_.push_back(Vector::Zero(field->size()));
@@ -47,51 +49,57 @@ void Assembly::fix(const Field& row, int i, double target, double scale) {
   fixed_.push_back({found->second, i, scale, size > 0 ? std::abs(value - target) / size : 0});
 }
 
-void Assembly::derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor,
-                          const Vector* weights) {
+void Assembly::keep_block(const Field& row, const Field& column, const SparseMatrix& block, double factor,
+                          const Vector* weights, std::uint64_t number) {
   if (!wants_derivatives()) return;
   const auto i = index_.find(&row), j = index_.find(&column);
   if (i == index_.end() || j == index_.end()) return;
   if (block.rows() != row.size() || block.cols() != column.size())
     throw std::logic_error("derivative of " + row.name() + " by " + column.name() + ": wrong shape");
-  blocks_.push_back({i->second, j->second, &block, factor, weights});
+  blocks_.push_back({i->second, j->second, &block, factor, weights, number});
+}
+
+void Assembly::derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor,
+                          const Vector* weights) {
+  keep_block(row, column, block, factor, weights, 0);
+}
+
+void Assembly::derivative(const Field& row, const Field& column, const Operator& block, double factor,
+                          const Vector* weights) {
+  keep_block(row, column, block.entries(), factor, weights, block.number());
 }
 
 void Assembly::derivative(const Field& row, const Field& column, SparseMatrix&& block) {
   if (!wants_derivatives()) return;
   owned_.push_back(std::move(block));
-  derivative(row, column, owned_.back());
+  keep_block(row, column, owned_.back(), 1, nullptr, 0);
 }
 
 void Assembly::diagonal(const Field& row, const Field& column, const Vector& entries) {
   if (!wants_derivatives() || !has_row(row) || !has_row(column)) return;
   SparseMatrix block(row.size(), column.size());
-  block.reserve(Eigen::VectorXi::Constant(row.size(), 1));
-  for (int i = 0; i < row.size(); ++i) block.insert(i, i) = entries[i];
-  block.makeCompressed();
+  block.resizeNonZeros(row.size());
+  std::iota(block.outerIndexPtr(), block.outerIndexPtr() + row.size() + 1, 0);
+  std::iota(block.innerIndexPtr(), block.innerIndexPtr() + row.size(), 0);
+  std::copy_n(entries.data(), row.size(), block.valuePtr());
   derivative(row, column, std::move(block));
 }
 
-void Assembly::linear(const Field& row, const SparseMatrix& matrix, const Field& column, double factor,
+void Assembly::linear(const Field& row, const Operator& matrix, const Field& column, double factor,
                       const Vector* weights) {
   const auto found = index_.find(&row);
   if (found == index_.end()) return;
-  if (matrix.rows() != row.size() || matrix.cols() != column.size())
+  if (matrix.entries().rows() != row.size() || matrix.entries().cols() != column.size())
     throw std::logic_error("term of " + row.name() + " in " + column.name() + ": wrong shape");
   const int i = found->second;
-  const Vector& x = column.now();
+  const FieldProduct& product = products_->now(matrix, column);
   double largest = 0, largest_absolute = 0;
-  for (int r = 0; r < matrix.outerSize(); ++r) {
-    double value = 0, absolute = 0;
-    for (SparseMatrix::InnerIterator entry(matrix, r); entry; ++entry) {
-      const double product = entry.value() * x[entry.col()];
-      value += product;
-      absolute += std::abs(product);
-    }
+  for (int r = 0; r < row.size(); ++r) {
     const double scale = weights ? factor * (*weights)[r] : factor;
-    residuals_[i][r] += scale * value;
-    largest = std::max(largest, std::abs(scale * value));
-    largest_absolute = std::max(largest_absolute, std::abs(scale) * absolute);
+    const double value = scale * product.value[r];
+    residuals_[i][r] += value;
+    largest = std::max(largest, std::abs(value));
+    largest_absolute = std::max(largest_absolute, std::abs(scale) * product.size[r]);
   }
   magnitudes_[i] = std::max(magnitudes_[i], largest);
   round_off_bases_[i] = std::max(round_off_bases_[i], largest_absolute);

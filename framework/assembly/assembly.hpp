@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/assembly/linear_expression.hpp"
+#include "framework/assembly/products.hpp"
 #include "framework/field/field.hpp"
 #include "framework/types.hpp"
 
@@ -17,7 +18,8 @@ class Assembly {
   enum class Want { residual, residual_and_derivatives };
 
   /// The equation that determines a field is named after it: its row i is that of value i of the field.
-  Assembly(std::vector<const Field*> unknowns, Want want);
+  /// `products`: those that are kept from one assembly to the next; without, they live as long as this one.
+  Assembly(std::vector<const Field*> unknowns, Want want, Products* products = nullptr);
 
   bool has_row(const Field& row) const { return index_.count(&row) > 0; }
   bool wants_derivatives() const { return want_ == Want::residual_and_derivatives; }
@@ -33,14 +35,25 @@ class Assembly {
   void derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor = 1,
                   const Vector* weights = nullptr);
   void derivative(const Field& row, const Field& column, SparseMatrix&& block);
+  /// With a block that stays, the system of the next assembly need not be put together again.
+  void derivative(const Field& row, const Field& column, const Operator& block, double factor = 1,
+                  const Vector* weights = nullptr);
+  void derivative(const Field&, const Field&, Operator&&, double = 1, const Vector* = nullptr) = delete;
   /// The same with a diagonal block.
   void diagonal(const Field& row, const Field& column, const Vector& entries);
 
   /// residual(row) += factor · diag(weights) · (matrix · column), with its derivative.
-  void linear(const Field& row, const SparseMatrix& matrix, const Field& column, double factor = 1,
+  void linear(const Field& row, const Operator& matrix, const Field& column, double factor = 1,
               const Vector* weights = nullptr);
+  void linear(const Field&, Operator&&, const Field&, double = 1, const Vector* = nullptr) = delete;
   /// residual(row) += factor · diag(weights) · expression, with its derivatives.
   void linear(const Field& row, const LinearExpression& expression, double factor = 1, const Vector* weights = nullptr);
+
+  /// For terms that a part puts together itself.
+  const Vector& product(const Operator& matrix, const Field& column) { return products_->now(matrix, column).value; }
+  const Vector& accepted_product(const Operator& matrix, const Field& column) {
+    return products_->accepted(matrix, column).value;
+  }
 
   /// Replaces row i of the equation by scale · (value − target) = 0, whatever other terms it has. `scale` brings it to
   /// the units of the equation. To be called after all terms: by Part::constrain.
@@ -58,6 +71,7 @@ class Assembly {
     const SparseMatrix* matrix;
     double factor;
     const Vector* weights;
+    std::uint64_t number;  ///< of the operator, or 0 for entries that may be others in the next assembly
   };
   const std::vector<const Field*>& unknowns() const { return unknowns_; }
   const Vector& residual(int unknown) const { return residuals_[unknown]; }
@@ -68,8 +82,13 @@ class Assembly {
   const std::vector<Block>& blocks() const { return blocks_; }
 
  private:
+  void keep_block(const Field& row, const Field& column, const SparseMatrix& block, double factor,
+                  const Vector* weights, std::uint64_t number);
+
   std::vector<const Field*> unknowns_;
   Want want_;
+  Products own_products_;
+  Products* products_;
   std::map<const Field*, int> index_;
   std::vector<Vector> residuals_;
   std::vector<double> magnitudes_, round_off_bases_;

@@ -1,6 +1,7 @@
 #include "framework/assembly/block_system.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "framework/field/ownership.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -36,9 +37,9 @@ UnknownBlock describe(const Mesh& mesh, const Field& field, int first) {
   return block;
 }
 
-std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
-  hash ^= value + 0x9e3779b97f4a7c15ULL + (hash << 6) + (hash >> 2);
-  return hash * 0xff51afd7ed558ccdULL;
+template <class T>
+bool same_bits(const T* a, const T* b, std::size_t count) {
+  return count == 0 || std::memcmp(a, b, count * sizeof(T)) == 0;
 }
 
 }  // namespace
@@ -61,21 +62,37 @@ BlockSystem::BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns) :
   }
 }
 
-std::uint64_t BlockSystem::fingerprint(const Assembly& assembly) const {
-  std::uint64_t hash = 1;
-  for (const Assembly::Block& block : assembly.blocks()) {
-    hash = mix(hash, (static_cast<std::uint64_t>(block.row) << 32) | static_cast<std::uint32_t>(block.column));
-    const SparseMatrix& matrix = *block.matrix;
-    hash = mix(hash, matrix.nonZeros());
-    const int* outer = matrix.outerIndexPtr();
-    for (int r = 0; r <= matrix.outerSize(); ++r) hash = mix(hash, outer[r]);
-    const int* inner = matrix.innerIndexPtr();
-    for (int k = 0; k + 1 < outer[matrix.outerSize()]; k += 2)
-      hash = mix(hash, (static_cast<std::uint64_t>(inner[k]) << 32) | static_cast<std::uint32_t>(inner[k + 1]));
-    const int entries = outer[matrix.outerSize()];
-    if (entries % 2 == 1) hash = mix(hash, static_cast<std::uint32_t>(inner[entries - 1]));
-  }
-  return hash;
+bool BlockSystem::Known::has_pattern_of(const Assembly::Block& block) const {
+  if (block.row != row || block.column != column || block.number != number) return false;
+  if (number != 0) return true;
+  const SparseMatrix& other = *block.matrix;
+  return entries.nonZeros() == other.nonZeros() &&
+         same_bits(entries.outerIndexPtr(), other.outerIndexPtr(), other.outerSize() + 1) &&
+         same_bits(entries.innerIndexPtr(), other.innerIndexPtr(), other.nonZeros());
+}
+
+bool BlockSystem::Known::has_values_of(const Assembly::Block& block) const {
+  const Eigen::Index count = block.weights ? block.weights->size() : 0;
+  if (block.factor != factor || count != weights.size()) return false;
+  if (count > 0 && !same_bits(weights.data(), block.weights->data(), count)) return false;
+  return number != 0 || same_bits(entries.valuePtr(), block.matrix->valuePtr(), entries.nonZeros());
+}
+
+void BlockSystem::remember(const Assembly& assembly) {
+  known_.clear();
+  for (const Assembly::Block& block : assembly.blocks())
+    known_.push_back({block.row, block.column, block.factor, block.weights ? *block.weights : Vector(), block.number,
+                      block.number == 0 ? *block.matrix : SparseMatrix()});
+  fixed_.clear();
+  for (const Assembly::Fixed& fixed : assembly.fixed())
+    fixed_.emplace_back(first_[fixed.unknown] + fixed.row, fixed.scale);
+}
+
+bool BlockSystem::has_same_fixed(const Assembly& assembly) const {
+  return std::equal(fixed_.begin(), fixed_.end(), assembly.fixed().begin(), assembly.fixed().end(),
+                    [this](const auto& known, const Assembly::Fixed& fixed) {
+                      return known.first == first_[fixed.unknown] + fixed.row && known.second == fixed.scale;
+                    });
 }
 
 void BlockSystem::build_pattern(const Assembly& assembly) {
@@ -132,11 +149,21 @@ void BlockSystem::build_pattern(const Assembly& assembly) {
 }
 
 const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
-  const std::uint64_t print = fingerprint(assembly);
-  if (patterns_built_ == 0 || print != fingerprint_) {
+  const std::vector<Assembly::Block>& blocks = assembly.blocks();
+  const bool same_pattern =
+      patterns_built_ > 0 &&
+      std::equal(known_.begin(), known_.end(), blocks.begin(), blocks.end(),
+                 [](const Known& known, const Assembly::Block& block) { return known.has_pattern_of(block); });
+  if (same_pattern && system_.number != 0 && has_same_fixed(assembly) &&
+      std::equal(known_.begin(), known_.end(), blocks.begin(), blocks.end(),
+                 [](const Known& known, const Assembly::Block& block) { return known.has_values_of(block); }))
+    return system_;
+  if (!same_pattern) {
     build_pattern(assembly);
-    fingerprint_ = print;
+    system_.pattern_number = new_system_number();
   }
+  remember(assembly);
+  system_.number = new_system_number();
   double* values = system_.local.valuePtr();
   std::fill(values, values + system_.local.nonZeros(), 0.0);
   std::size_t k = 0;
@@ -172,9 +199,14 @@ Vector BlockSystem::residual(const Assembly& assembly) const {
   return residual;
 }
 
-void BlockSystem::set_stabilization(const Field& field, Vector diagonal) {
-  for (UnknownBlock& block : system_.blocks)
-    if (block.name == field.name()) block.stabilization = std::move(diagonal);
+void BlockSystem::set_stabilization(const Field& field, const Vector& diagonal) {
+  for (UnknownBlock& block : system_.blocks) {
+    if (block.name != field.name() ||
+        (block.stabilization.size() == diagonal.size() && block.stabilization == diagonal))
+      continue;
+    block.stabilization = diagonal;
+    system_.number = 0;
+  }
 }
 
 }  // namespace sprekk

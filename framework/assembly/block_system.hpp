@@ -1,6 +1,7 @@
 // From an assembly to the sparse system of the rows that this process owns.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "framework/assembly/assembly.hpp"
@@ -9,8 +10,8 @@
 
 namespace sprekk {
 
-/// Numbers the unknowns of a solve one field after the other, and keeps the sparsity pattern from one assembly to the
-/// next, so that only values are copied when nothing but values has changed.
+/// Numbers the unknowns of a solve one field after the other. Keeps the sparsity pattern from one assembly to the next,
+/// so that only values are copied when nothing but values has changed, and the values where nothing has.
 class BlockSystem {
  public:
   BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns);
@@ -24,12 +25,23 @@ class BlockSystem {
   /// The residual of the owned rows.
   Vector residual(const Assembly& assembly) const;
   /// The preconditioner's diagonal of a block (see UnknownBlock::stabilization).
-  void set_stabilization(const Field& field, Vector diagonal);
+  void set_stabilization(const Field& field, const Vector& diagonal);
 
   int patterns_built() const { return patterns_built_; }
 
  private:
-  std::uint64_t fingerprint(const Assembly& assembly) const;
+  /// A block of the last matrix: the number of its operator, or a copy of its entries.
+  struct Known {
+    int row, column;
+    double factor;
+    Vector weights;  ///< empty for none
+    std::uint64_t number;
+    SparseMatrix entries;
+    bool has_pattern_of(const Assembly::Block& block) const;
+    bool has_values_of(const Assembly::Block& block) const;
+  };
+  void remember(const Assembly& assembly);
+  bool has_same_fixed(const Assembly& assembly) const;
   void build_pattern(const Assembly& assembly);
   void apply_fixed(const Assembly& assembly);
 
@@ -39,7 +51,8 @@ class BlockSystem {
   std::vector<std::vector<char>> owned_;  ///< [unknown][row of the field]
   LinearSystem system_;
   std::vector<int> destinations_;  ///< of every kept entry of every block, in order
-  std::uint64_t fingerprint_ = 0;
+  std::vector<Known> known_;
+  std::vector<std::pair<int, double>> fixed_;  ///< unknowns and scales
   int patterns_built_ = 0;
 };
 

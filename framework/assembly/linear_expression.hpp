@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "framework/assembly/operator.hpp"
 #include "framework/field/field.hpp"
 #include "framework/types.hpp"
 
@@ -13,14 +14,14 @@ namespace sprekk {
 struct LinearExpression {
   struct Term {
     const Field* field;
-    SparseMatrix matrix;
+    Operator matrix;
   };
   Vector constant;
   std::vector<Term> terms;
 
   Vector now() const {
     Vector value = constant;
-    for (const Term& term : terms) value += term.matrix * term.field->now();
+    for (const Term& term : terms) value += term.matrix.entries() * term.field->now();
     return value;
   }
 };

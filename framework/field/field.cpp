@@ -34,6 +34,18 @@ void Field::set(Vector values) {
 void Field::set_accepted(Vector values) {
   if (values.size() != size()) throw std::logic_error("field " + name() + ": wrong number of values");
   accepted_ = std::move(values);
+  accepted_version_ = ~++given_;  // counted from the other end
+}
+
+void Field::accept() {
+  if (accepted_version_ == version_) return;
+  accepted_ = now_;
+  accepted_version_ = version_;
+}
+
+void Field::rewind() {
+  set(accepted_);
+  accepted_version_ = version_;
 }
 
 void Field::set_both(Vector values) {

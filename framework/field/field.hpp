@@ -52,12 +52,14 @@ class Field {
   const Vector& now() const { return now_; }            ///< the current iterate
   const Vector& accepted() const { return accepted_; }  ///< at the end of the last accepted step
   std::uint64_t version() const { return version_; }    ///< changes whenever `now` does
+  /// The version that had the accepted values, or a number that no version has.
+  std::uint64_t accepted_version() const { return accepted_version_; }
 
   void set(Vector values);  ///< throws std::logic_error if the size differs
   void set_both(Vector values);
-  void accept() { accepted_ = now_; }
+  void accept();
   void set_accepted(Vector values);
-  void rewind() { set(accepted_); }
+  void rewind();
 
   /// For inputs: the coupler that determines it, "" when it keeps its given value.
   const std::string& determined_by() const { return determined_by_; }
@@ -71,7 +73,7 @@ class Field {
   FieldSpec spec_;
   int entities_;
   Vector now_, accepted_;
-  std::uint64_t version_ = 0;
+  std::uint64_t version_ = 0, accepted_version_ = 0, given_ = 0;
   std::string determined_by_;
 };
 

@@ -40,7 +40,7 @@ double largest_by_block(const std::vector<UnknownBlock>& blocks, const Vector& r
 
 }  // namespace
 
-bool SubMatrix::update(const double* values) {
+bool take_values(SparseMatrix& matrix, const double* values, const std::vector<int>& source) {
   bool has_changed = false;
   double* mine = matrix.valuePtr();
   for (std::size_t k = 0; k < source.size(); ++k) {

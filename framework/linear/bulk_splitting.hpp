@@ -7,13 +7,16 @@
 
 namespace sprekk {
 
+/// Fills a matrix with values of another one, each from its place in `source`. True if the bits of one have changed.
+bool take_values(SparseMatrix& matrix, const double* values, const std::vector<int>& source);
+
 /// The part of a matrix with rows of one kind and columns of one kind.
 struct SubMatrix {
   SparseMatrix matrix;
   std::vector<int> source;  ///< of every value: its place among the values of the whole matrix
 
   /// Takes the values over. True if the bits of one have changed.
-  bool update(const double* values);
+  bool update(const double* values) { return take_values(matrix, values, source); }
   bool has_row(int row) const { return matrix.outerIndexPtr()[row + 1] > matrix.outerIndexPtr()[row]; }
 };
 

@@ -85,20 +85,26 @@ LinearReport CondensedSolver::factor_whole(const LinearSystem& system) {
 }
 
 LinearReport CondensedSolver::condense(const LinearSystem& system) {
-  if (!splitting_ || !splitting_->fits(system.local)) {
+  const auto is_same = [](std::uint64_t number, std::uint64_t last) { return number != 0 && number == last; };
+  if (!splitting_ || !(is_same(system.pattern_number, pattern_number_) || splitting_->fits(system.local))) {
     for (const Bulk& bulk : bulks_) retired_ += bulk.solver->counts();
     bulks_.clear();
     splitting_ = std::make_unique<BulkSplitting>(system);
     reduced_pattern_ = pattern_of_reduced(*splitting_);
+    number_ = reduced_number_ = 0;
   }
   BulkSplitting& split = *splitting_;
   if (static_cast<double>(split.bulk_size()) * split.felt.size() > largest_response)
     return LinearReport::failure("too many unknowns on fractures to condense the bulk");
-  const double* values = system.local.valuePtr();
-  const bool has_changed = split.bb.update(values) | split.bf.update(values);
-  split.fb.update(values);
-  split.ff.update(values);
-  if (has_changed) choose_bulk();
+  if (!is_same(system.number, number_)) {
+    const double* values = system.local.valuePtr();
+    const bool has_changed = split.bb.update(values) | split.bf.update(values);
+    split.fb.update(values);
+    split.ff.update(values);
+    if (has_changed) choose_bulk();
+  }
+  pattern_number_ = system.pattern_number;
+  number_ = system.number;
   Bulk& bulk = bulks_.front();
   ++bulk.systems;
   if (!bulk.is_tried) {
@@ -110,7 +116,9 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
     is_proven_ = false;
   }
   if (!bulk.report.solved) return bulk.report;
-  return reduced_.factor(split.local_system(reduced_matrix()));
+  if (is_same(system.number, reduced_number_)) return reduced_report_;
+  reduced_number_ = system.number;
+  return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix()));
 }
 
 void CondensedSolver::choose_bulk() {

@@ -46,6 +46,9 @@ class CondensedSolver final : public LinearSolver {
 
   LinearOptions options_;
   std::unique_ptr<BulkSplitting> splitting_;
+  /// Of the last system that was split, and of the last one that was reduced (LinearSystem::number).
+  std::uint64_t pattern_number_ = 0, number_ = 0, reduced_number_ = 0;
+  LinearReport reduced_report_;
   std::list<Bulk> bulks_;  ///< the one in use first
   SparseMatrix reduced_pattern_;
   SummedBalances reduced_{std::make_unique<UmfpackSolver>()};

@@ -1,6 +1,7 @@
 #include "framework/linear/last_system.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include "framework/parallel/parallel.hpp"
@@ -18,24 +19,37 @@ bool same_stabilizations(const std::vector<Vector>& kept, const std::vector<Unkn
   });
 }
 
+bool same_number(std::uint64_t a, std::uint64_t b) { return a != 0 && a == b; }
+
 }  // namespace
+
+std::uint64_t new_system_number() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 Change LastSystem::compare_and_remember(const LinearSystem& system) {
   const SparseMatrix& a = system.local;
   const int* outer = a.outerIndexPtr();
   const int* inner = a.innerIndexPtr();
   const std::size_t nonzeros = a.nonZeros();
-  const bool same_pattern = remembered_ && rows_ == system.rows &&
-                            std::equal(outer_.begin(), outer_.end(), outer, outer + a.rows() + 1) &&
-                            std::equal(inner_.begin(), inner_.end(), inner, inner + nonzeros);
-  const bool same_values = same_pattern && same_bits(values_.data(), a.valuePtr(), nonzeros) &&
-                           same_stabilizations(stabilizations_, system.blocks);
+  const bool same_pattern =
+      remembered_ && (same_number(pattern_number_, system.pattern_number) ||
+                      (rows_ == system.rows && std::equal(outer_.begin(), outer_.end(), outer, outer + a.rows() + 1) &&
+                       std::equal(inner_.begin(), inner_.end(), inner, inner + nonzeros)));
+  const bool same_values =
+      same_pattern && (same_number(number_, system.number) || (same_bits(values_.data(), a.valuePtr(), nonzeros) &&
+                                                               same_stabilizations(stabilizations_, system.blocks)));
+  pattern_number_ = system.pattern_number;
+  number_ = system.number;
   const double change = parallel::max(same_values ? 0.0 : same_pattern ? 1.0 : 2.0);
   if (change == 0) return Change::nothing;
 
-  rows_ = system.rows;
-  outer_.assign(outer, outer + a.rows() + 1);
-  inner_.assign(inner, inner + nonzeros);
+  if (!same_pattern) {
+    rows_ = system.rows;
+    outer_.assign(outer, outer + a.rows() + 1);
+    inner_.assign(inner, inner + nonzeros);
+  }
   values_.assign(a.valuePtr(), a.valuePtr() + nonzeros);
   stabilizations_.clear();
   for (const UnknownBlock& block : system.blocks) stabilizations_.push_back(block.stabilization);

@@ -1,6 +1,7 @@
 // Linear solvers behind one interface, for one process or several.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -33,7 +34,13 @@ struct LinearSystem {
   std::vector<int> rows;
   SparseMatrix local;
   std::vector<UnknownBlock> blocks;
+  /// What spares solvers a comparison of all entries: with equal numbers that are not 0, the rows, the blocks (without
+  /// stabilizations) and the sparsity of this process are the same, or everything is.
+  std::uint64_t pattern_number = 0, number = 0;
 };
+
+/// A number that no system has had.
+std::uint64_t new_system_number();
 
 struct LinearReport {
   bool solved = false;

@@ -18,15 +18,20 @@ std::vector<int> sets_of_blocks(const LinearSystem& system, int& sets) {
     const UnknownBlock& block = system.blocks[b];
     std::fill_n(block_of.begin() + block.first, block.entities * block.components, b);
   }
+  std::vector<char> is_joined(count * count, 0);
   std::vector<int> root(count);
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int b) {
     while (root[b] != b) b = root[b] = root[root[b]];
     return b;
   };
-  for (int row = 0; row < a.rows(); ++row)
-    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
-      if (block_of[row] != block_of[entry.col()]) root[find(block_of[row])] = find(block_of[entry.col()]);
+  for (int row = 0; row < a.rows(); ++row) {
+    char* joined = is_joined.data() + block_of[row] * count;
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) joined[block_of[entry.col()]] = 1;
+  }
+  for (int b = 0; b < count; ++b)
+    for (int other = 0; other < count; ++other)
+      if (is_joined[b * count + other]) root[find(b)] = find(other);
   std::vector<int> set(count, -1), number(count, -1);
   sets = 0;
   for (int b = 0; b < count; ++b) {
@@ -42,8 +47,9 @@ std::vector<int> sets_of_blocks(const LinearSystem& system, int& sets) {
 
 bool SeparatedSolver::fits(const LinearSystem& system) const {
   const SparseMatrix& a = system.local;
-  return !groups_.empty() && static_cast<int>(inner_.size()) == a.nonZeros() &&
-         static_cast<int>(outer_.size()) == a.rows() + 1 &&
+  if (groups_.empty()) return false;
+  if (system.pattern_number != 0 && system.pattern_number == pattern_number_) return true;
+  return static_cast<int>(inner_.size()) == a.nonZeros() && static_cast<int>(outer_.size()) == a.rows() + 1 &&
          std::equal(outer_.begin(), outer_.end(), a.outerIndexPtr()) &&
          std::equal(inner_.begin(), inner_.end(), a.innerIndexPtr());
 }
@@ -78,37 +84,40 @@ void SeparatedSolver::separate(const LinearSystem& system) {
       group.unknowns.push_back(block.first + i);
     }
     block.first = first;
-    group.blocks.push_back(std::move(block));
+    group.system.blocks.push_back(std::move(block));
   }
   for (Group& group : groups_) {
     std::vector<int> starts{0}, columns;
     for (const int row : group.unknowns) {
       for (int k = outer_[row]; k < outer_[row + 1]; ++k) {
         columns.push_back(place[inner_[k]]);
-        group.part.source.push_back(k);
+        group.source.push_back(k);
       }
       starts.push_back(static_cast<int>(columns.size()));
     }
     const int size = static_cast<int>(group.unknowns.size());
-    group.part.matrix.resize(size, size);
-    group.part.matrix.resizeNonZeros(columns.size());
-    std::copy(starts.begin(), starts.end(), group.part.matrix.outerIndexPtr());
-    std::copy(columns.begin(), columns.end(), group.part.matrix.innerIndexPtr());
-    std::fill_n(group.part.matrix.valuePtr(), columns.size(), std::nan(""));
+    group.system.rows.resize(size);
+    std::iota(group.system.rows.begin(), group.system.rows.end(), 0);
+    SparseMatrix& matrix = group.system.local;
+    matrix.resize(size, size);
+    matrix.resizeNonZeros(columns.size());
+    std::copy(starts.begin(), starts.end(), matrix.outerIndexPtr());
+    std::copy(columns.begin(), columns.end(), matrix.innerIndexPtr());
+    std::fill_n(matrix.valuePtr(), columns.size(), std::nan(""));
+    group.system.pattern_number = new_system_number();
   }
 }
 
 LinearReport SeparatedSolver::factor(const LinearSystem& system) {
   if (!fits(system)) separate(system);
+  const bool is_same = system.number != 0 && system.number == number_;
+  pattern_number_ = system.pattern_number;
+  number_ = system.number;
   if (groups_.size() == 1) return groups_[0].solver->factor(system);
   for (Group& group : groups_) {
-    group.part.update(system.local.valuePtr());
-    LinearSystem part;
-    part.rows.resize(group.unknowns.size());
-    std::iota(part.rows.begin(), part.rows.end(), 0);
-    part.local = group.part.matrix;
-    part.blocks = group.blocks;
-    const LinearReport report = group.solver->factor(part);
+    if (!is_same && take_values(group.system.local, system.local.valuePtr(), group.source))
+      group.system.number = new_system_number();
+    const LinearReport report = group.solver->factor(group.system);
     if (!report.solved) return report;
   }
   return LinearReport::success();

@@ -26,8 +26,8 @@ class SeparatedSolver final : public LinearSolver {
  private:
   struct Group {
     std::vector<int> unknowns;  ///< ascending
-    SubMatrix part;
-    std::vector<UnknownBlock> blocks;
+    std::vector<int> source;    ///< of every value of its matrix: its place among those of the whole one
+    LinearSystem system;
     std::unique_ptr<LinearSolver> solver;
   };
   bool fits(const LinearSystem& system) const;
@@ -35,6 +35,7 @@ class SeparatedSolver final : public LinearSolver {
 
   Maker make_;
   std::vector<int> outer_, inner_;
+  std::uint64_t pattern_number_ = 0, number_ = 0;  ///< of the last system
   std::vector<Group> groups_;
   LinearCounts retired_;
   mutable LinearCounts total_;

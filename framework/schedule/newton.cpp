@@ -32,7 +32,7 @@ void Newton::set_preconditioner_stabilization(const Stabilization& stabilization
 std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
   ++assemblies_;
   auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()},
-                                             Assembly::Want::residual_and_derivatives);
+                                             Assembly::Want::residual_and_derivatives, &products_);
   for (const Part* part : parts_) part->assemble(*assembly, step);
   if (stabilization_)
     for (const auto& [field, diagonal] : *stabilization_) {
@@ -64,8 +64,10 @@ std::vector<Vector> Newton::values() const {
 }
 
 void Newton::move(const std::vector<Vector>& from, const Vector& update, double length) {
-  for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    unknowns_[u]->set(from[u] + length * update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size()));
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    const auto part = update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size());
+    if (!part.isZero(0)) unknowns_[u]->set(from[u] + length * part);  // else it is where it was
+  }
 }
 
 Vector Newton::right_hand_side(const ResidualCheck& check) const {
@@ -149,6 +151,7 @@ ResidualCheck Newton::look(const StepTime& step) {
 
 StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilization) {
   stabilization_ = &stabilization;
+  products_.forget_unused();
   start_.clear();
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
 

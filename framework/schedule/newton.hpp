@@ -60,6 +60,7 @@ class Newton {
   IterationLog log_;
   BlockSystem system_;
   std::unique_ptr<LinearSolver> linear_;
+  Products products_;
   std::unique_ptr<Assembly> assembly_;  ///< of the state that was looked at last
   int assemblies_ = 0;
   std::vector<ResidualCheck> recent_;  ///< the last states

@@ -54,6 +54,18 @@ TEST_P(Condensed, SolvesFracturedBiot) {
   EXPECT_EQ(solver.name(), std::string("condensed ") + GetParam());
 }
 
+TEST_P(Condensed, ReducesANumberedSystemOnce) {
+  LinearSystem first = biot.build(), second = with_other_rows_on_fractures(first);
+  first.pattern_number = second.pattern_number = new_system_number();
+  first.number = new_system_number();
+  second.number = new_system_number();
+  const Vector exact = some_state();
+  for (const LinearSystem* system : {&first, &first, &second, &second, &first})
+    EXPECT_LT(test::block_difference(*system, solve(*system, system->local * exact), exact), 1e-8);
+  EXPECT_EQ(solver.counts().factorizations, 1);
+  EXPECT_EQ(solver.counts().condensed, 3);
+}
+
 TEST_P(Condensed, FactorizesTheBulkOnceForSystemsThatDifferOnFractures) {
   const LinearSystem first = biot.build(), second = with_other_rows_on_fractures(first);
   const Vector exact = some_state();

@@ -82,5 +82,24 @@ TEST(SeparatedSolver, PassesOnePartOn) {
   EXPECT_EQ(solver->counts().factorizations, 3);
 }
 
+/// A number stands for all entries: where it is new, the entries are looked at, and where not, they need not be.
+TEST(SeparatedSolver, BelievesTheNumbersOfSystems) {
+  LinearSystem first = two_problems(1), second = two_problems(3);
+  first.pattern_number = second.pattern_number = new_system_number();
+  first.number = new_system_number();
+  second.number = new_system_number();
+  const Vector exact = test::random_vector(static_cast<int>(first.rows.size()), 2);
+  const auto solver = make();
+  solve(*solver, first, first.local * exact);
+  LinearSystem renumbered = first;
+  renumbered.number = new_system_number();
+  solve(*solver, renumbered, first.local * exact);
+  solve(*solver, first, first.local * exact);
+  EXPECT_EQ(solver->counts().factorizations, 2);
+  EXPECT_EQ(solver->counts().reused, 4);
+  EXPECT_LT((solve(*solver, second, second.local * exact) - exact).lpNorm<Eigen::Infinity>(), 1e-11);
+  EXPECT_EQ(solver->counts().factorizations, 3);
+}
+
 }  // namespace
 }  // namespace sprekk
