@@ -9,7 +9,8 @@ from page import plt
 from two_level import PROBLEMS, REFERENCE, SECOND, better, compared, front
 
 COLOURS = {"dH": "#c8553d", "l": "#1b6ca8", "mesh_ratio": "#7b4b94", "threshold": "#3a7d44", "step": "#d19a1d",
-           "increment": "#17929b"}
+           "increment": "#17929b", "growth": "#8a6d3b",
+           "advance": "#e0559a"}
 
 
 def varied(problem, cases):
@@ -29,11 +30,8 @@ def label(problem, name):
 
 
 def unknown_of_answer(problem, cases, quantity):
-    """The answer's own error. Of a reference: the error of the second one, or that of its single runs, whichever is larger."""
-    if not problem.references:
-        return problem.answer_errors.get(quantity, 0)
-    own = max(map(abs, cases[REFERENCE].errors[quantity]))
-    return max(own, cases[SECOND].error(quantity) if SECOND in cases else 0)
+    """The answer's own error; that of a reference is estimated by what the next coarser one differs by."""
+    return cases[SECOND].error(quantity) if SECOND in cases else problem.answer_errors.get(quantity, 0)
 
 
 def figure(name, cases, quantity):
@@ -57,8 +55,9 @@ def figure(name, cases, quantity):
                 axes.annotate(value, point(result), xytext=(5, 3), textcoords="offset points", fontsize=7.5, color=COLOURS[key])
     if "default" in known:
         axes.plot(*point(known["default"]), "*", color="black", markersize=13, zorder=5, label="the scene")
-    if SECOND in known:
-        axes.plot(*point(known[SECOND]), "D", color="black", markersize=4, linestyle="none", label="second reference")
+    references = [point(known[reference]) for reference in problem.references if reference in known]
+    if references:
+        axes.plot(*zip(*references), "D:", color="black", markersize=4, linewidth=0.8, label="coarser references")
     if unknown_of_answer(problem, cases, quantity) > 0:
         axes.axhline(unknown_of_answer(problem, cases, quantity), color="black", linewidth=0.8, linestyle=":",
                      label="the answer is known no better")
@@ -107,10 +106,13 @@ HEADINGS = ["changed", "meshes", "processor seconds", "steps", "refused", "fine 
 
 
 def verdicts(name, cases):
-    problem = PROBLEMS[name]
-    return [[f"{parameter.symbol} = {parameter.default}",
-             *(", ".join(label(problem, case) for case in better(cases, key, quantity)) or "none" for quantity in problem.units)]
-            for key, parameter in problem.parameters.items()]
+    problem, body = PROBLEMS[name], []
+    for key, parameter in problem.parameters.items():
+        found = [better(cases, key, quantity) for quantity in problem.units]
+        body.append([f"{parameter.symbol} = {parameter.default}", *(", ".join(
+            f"{label(problem, case)} ({f'error {100 * gain:.0f} % smaller' if gain else 'same error'})"
+            for case, gain in values.items()) or "none" for values in found)])
+    return body
 
 
 def sections(levels):
@@ -129,7 +131,7 @@ def sections(levels):
                      "Pareto front. Seconds are of the whole run; those and the counts of steps are of one mesh.</p>")
         parts.append(page.table([*HEADINGS, *problem.units], rows(name, cases)))
         parts += [f"<p>{html.escape(run['case'])} failed: {html.escape(run['failure'])}</p>" for run in failed]
-        parts.append("<p>What is faster than the scene's value, and more accurate beyond the scatter:</p>")
+        parts.append("<p>What is faster than the scene's value, and as accurate or, beyond the scatter, more so:</p>")
         parts.append(page.table(["the scene", *problem.units], verdicts(name, cases)))
         parts.append(f"<p>Commit {', '.join(sorted({run['commit'][:10] for case in cases.values() for run in case.runs}))}.</p>")
         found.append((problem.title, "".join(parts)))
