@@ -120,6 +120,7 @@ void MatrixFlow::discretize() {
   is_discretized_ = true;
   discretized_version_ = mesh_.version;
   place_wells();
+  data_evaluated_ = false;
   conditions_.assign(mesh_.face_count(), FlowCondition::none);
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) continue;
@@ -161,11 +162,25 @@ void MatrixFlow::discretize() {
                           {wall_flux_, Operator(pick_walls * operators_.trace_boundary * boundary_of_wall_flux)}};
 }
 
+bool MatrixFlow::depends_on_time() const {
+  return options_.source.depends_on_time() ||
+         std::any_of(options_.wells.begin(), options_.wells.end(),
+                     [](const auto& well) { return well.second.rate.depends_on_time(); }) ||
+         std::any_of(options_.boundary.begin(), options_.boundary.end(),
+                     [](const auto& side) { return side.second.depends_on_time(); });
+}
+
 void MatrixFlow::evaluate_data(const StepTime& step) {
   if (is_sealed_ && wall_flux_ && !wall_flux_->determined_by().empty())
     throw InputError(origin_, "fluid is to flow through the walls of rock that has no permeability",
                      "what enters a cell could not leave it",
                      "remove the coupler of its walls, or give it a permeability");
+  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
+  if (data_evaluated_ && (same_step || !depends_on_time())) return;
+  data_evaluated_ = true;
+  evaluated_for_ = step;
+  boundary_applied_ = false;
+  fluxes_.is_valid = false;
   evaluate_sources(step);
   boundary_values_ = Vector::Zero(mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
@@ -180,6 +195,8 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
 }
 
 void MatrixFlow::apply_boundary() {
+  if (boundary_applied_) return;
+  boundary_applied_ = true;
   outflow_constant_ = cell_sums(mesh_, Vector(operators_.flux_boundary * boundary_values_), 1) -
                       outflow_of_pressure_.entries() * gravity_potential_cell_;
   if (!wall_flux_) return;
@@ -228,19 +245,24 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.add(pressure_, -step.dt * source_);
 }
 
-Vector MatrixFlow::face_fluxes() const {
+const Vector& MatrixFlow::face_fluxes() const {
+  const std::uint64_t wall_flux = wall_flux_ ? wall_flux_->version() : 0;
+  if (fluxes_.is_valid && fluxes_.pressure == pressure_.version() && fluxes_.wall_flux == wall_flux)
+    return fluxes_.values;
   Vector values = boundary_values_;
   if (wall_flux_)
     for (int w = 0; w < mesh_.wall_count(); ++w) {
       const int face = mesh_.wall_face(w);
       values[face] = -wall_flux_->now()[w] * mesh_.face_length[face];
     }
-  return operators_.flux_cell * (pressure_.now() - gravity_potential_cell_) + operators_.flux_boundary * values;
+  fluxes_ = {true, pressure_.version(), wall_flux,
+             operators_.flux_cell * (pressure_.now() - gravity_potential_cell_) + operators_.flux_boundary * values};
+  return fluxes_.values;
 }
 
 void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
   if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
-  const Vector fluxes = face_fluxes();
+  const Vector& fluxes = face_fluxes();
   Vector books = books_.accepted();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     books[3 * c] += storage_[c] * mesh_.cell_area[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
@@ -287,7 +309,7 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one.
   if (!is_discretized_) return;
-  const Vector fluxes = face_fluxes();
+  const Vector& fluxes = face_fluxes();
   Vector velocity = Vector::Zero(2 * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {

@@ -18,6 +18,9 @@ struct SideCondition {
   Origin origin;
   std::optional<Data> pressure;  ///< Pa
   std::optional<Data> flux;      ///< m/s, out of the rock
+  bool depends_on_time() const {
+    return (pressure && pressure->depends_on_time()) || (flux && flux->depends_on_time());
+  }
 };
 
 struct Well {
@@ -71,7 +74,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
 
   /// The flux through every face, out of face_cells[f][0], integrated over it (m^2/s); for tests and output.
-  Vector face_fluxes() const;
+  const Vector& face_fluxes() const;
 
  private:
   void check_sides() const;
@@ -79,6 +82,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   /// Spreads each well over the cells around it such that its total and its position are kept.
   void place_wells();
   void discretize();
+  bool depends_on_time() const;
   void evaluate_sources(const StepTime& step);
   void apply_boundary();
 
@@ -94,7 +98,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   bool is_sealed_ = false;        ///< the mobility is zero: no flux exists, and none is discretized
 
   std::uint64_t discretized_version_ = 0;
-  bool is_discretized_ = false;
+  bool is_discretized_ = false, data_evaluated_ = false, boundary_applied_ = false;
+  StepTime evaluated_for_;
   long discretizations_ = 0, discretized_cells_ = 0;
   FluxOperators operators_;
   std::vector<FlowCondition> conditions_;
@@ -106,6 +111,14 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Vector outflow_constant_;         ///< m^2/s, one a cell
   LinearExpression wall_pressure_;
   Vector source_;  ///< m^2/s, one a cell
+
+  /// Fluxes are asked for several times in the same state.
+  struct KeptFluxes {
+    bool is_valid = false;
+    std::uint64_t pressure = 0, wall_flux = 0;  ///< versions of the fields
+    Vector values;
+  };
+  mutable KeptFluxes fluxes_;
 };
 
 }  // namespace sprekk::matrix_flow
