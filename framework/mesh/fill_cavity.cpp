@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
+#include "framework/mesh/gmsh_drawing.hpp"
 #include "framework/mesh/gmsh_model.hpp"
 #include "framework/mesh/planar.hpp"
 
@@ -15,27 +17,12 @@ namespace {
 
 using Place = CavityOutline::Edge::Place;
 
-/// gmsh works near the origin on something of size between 1 and 2, see unstructured_mesh.cpp.
-struct Frame {
-  Point origin;
-  double scale;
-
-  explicit Frame(const std::vector<Point>& points) {
-    Point low = points.front(), high = low;
-    for (const Point& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
-    origin = low;
-    scale = std::exp2(std::floor(std::log2((high - low).maxCoeff())));
-  }
-  Point inward(const Point& x) const { return (x - origin) / scale; }
-  Point outward(double x, double y) const { return origin + scale * Point(x, y); }
-};
-
-/// Edge lengths between inner edges and rim, in the frame.
+/// Edge lengths between inner edges and rim.
 class Sizes {
  public:
-  Sizes(const CavityOutline& outline, const Frame& frame, double growth) : growth_(growth) {
+  Sizes(const CavityOutline& outline, double growth) : growth_(growth) {
     for (const auto& [points, place, is_barrier] : outline.edges) {
-      const Segment s{frame.inward(outline.points[points[0]]), frame.inward(outline.points[points[1]])};
+      const Segment s{outline.points[points[0]], outline.points[points[1]]};
       sources_[place == Place::rim].push_back({s, s.length()});
     }
   }
@@ -91,31 +78,37 @@ std::vector<std::vector<int>> rim_loops(const CavityOutline& outline) {
   return loops;
 }
 
-void describe(const CavityOutline& outline, const Frame& frame) {
-  for (std::size_t i = 0; i < outline.points.size(); ++i) {
-    const Point x = frame.inward(outline.points[i]);
-    gmsh::model::geo::addPoint(x.x(), x.y(), 0, 0, static_cast<int>(i) + 1);
-  }
-  std::vector<int> inner;
+/// The outline as the drawing has it: its points, and its edges in the drawing's order, those of the rim in their
+/// direction.
+CavityOutline canonical(const CavityOutline& outline, const CanonicalDrawing& drawing) {
+  CavityOutline result{drawing.points, std::vector<CavityOutline::Edge>(outline.edges.size())};
   for (std::size_t e = 0; e < outline.edges.size(); ++e) {
-    const auto& [points, place, is_barrier] = outline.edges[e];
-    const int tag = static_cast<int>(e) + 1;
-    gmsh::model::geo::addLine(points[0] + 1, points[1] + 1, tag);
-    gmsh::model::geo::mesh::setTransfiniteCurve(tag, 2);
-    if (place == Place::inside) inner.push_back(tag);
+    CavityOutline::Edge edge = outline.edges[e];
+    const int number = drawing.line_number[e];
+    edge.points = drawing.lines[number];
+    if (edge.place == Place::rim && drawing.is_reversed[e]) std::swap(edge.points[0], edge.points[1]);
+    result.edges[number] = edge;
   }
-  std::vector<int> loops;
-  for (const auto& loop : rim_loops(outline)) {
-    std::vector<int> tags;
-    for (const int edge : loop) tags.push_back(edge + 1);
-    loops.push_back(gmsh::model::geo::addCurveLoop(tags));
-  }
-  const int surface = gmsh::model::geo::addPlaneSurface(loops);
-  gmsh::model::geo::synchronize();
-  if (!inner.empty()) gmsh::model::mesh::embed(1, inner, 2, surface);
+  return result;
 }
 
-void fetch(const CavityOutline& outline, const Frame& frame, Triangulation& filling) {
+std::vector<std::array<int, 2>> lines_of(const CavityOutline& outline) {
+  std::vector<std::array<int, 2>> lines;
+  for (const CavityOutline::Edge& edge : outline.edges) lines.push_back(edge.points);
+  return lines;
+}
+
+void describe(const CavityOutline& outline, const CanonicalDrawing& drawing) {
+  enter_drawing(drawing);
+  std::vector<int> inner;
+  for (std::size_t e = 0; e < outline.edges.size(); ++e) {
+    gmsh::model::geo::mesh::setTransfiniteCurve(drawing.line_number[e] + 1, 2);
+    if (outline.edges[e].place == Place::inside) inner.push_back(static_cast<int>(e));
+  }
+  add_surface(drawing, rim_loops(outline), inner);
+}
+
+void fetch(const CavityOutline& outline, Triangulation& filling) {
   std::vector<std::size_t> tags, elements;
   std::vector<double> coordinates, parameters;
   gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
@@ -130,7 +123,7 @@ void fetch(const CavityOutline& outline, const Frame& frame, Triangulation& fill
   for (std::size_t i = 0; i < tags.size(); ++i) {
     if (number[tags[i]] >= 0) continue;
     number[tags[i]] = static_cast<int>(filling.points.size());
-    filling.points.push_back(frame.outward(coordinates[3 * i], coordinates[3 * i + 1]));
+    filling.points.emplace_back(coordinates[3 * i], coordinates[3 * i + 1]);
   }
   tags.clear();
   constexpr int three_node_triangle = 2;
@@ -143,7 +136,7 @@ void fetch(const CavityOutline& outline, const Frame& frame, Triangulation& fill
 }
 
 /// Whether each edge is there, and the triangles cover what is inside of the rim.
-void verify(const CavityOutline& outline, const Triangulation& filling) {
+void verify(const CavityOutline& outline, const CanonicalDrawing& drawing, const Triangulation& filling) {
   std::vector<std::array<int, 2>> edges;
   double area = 0, wanted = 0;
   for (const auto& t : filling.triangles) {
@@ -155,7 +148,7 @@ void verify(const CavityOutline& outline, const Triangulation& filling) {
     const std::array<int, 2> edge{std::min(points[0], points[1]), std::max(points[0], points[1])};
     if (!std::binary_search(edges.begin(), edges.end(), edge)) {
       throw std::runtime_error("the mesh generator lost the edge at " +
-                               to_text(0.5 * (outline.points[points[0]] + outline.points[points[1]])));
+                               to_text(drawing.outward(0.5 * (outline.points[points[0]] + outline.points[points[1]]))));
     }
     if (place == Place::rim) {
       const Point& origin = outline.points.front();
@@ -164,32 +157,48 @@ void verify(const CavityOutline& outline, const Triangulation& filling) {
   }
   if (!(std::abs(area - wanted) < 1e-9 * wanted) || smallest_angle(filling) <= 0) {
     throw std::runtime_error("the mesh generator left a part of the cavity empty near " +
-                             to_text(outline.points.front()));
+                             to_text(drawing.outward(outline.points.front())));
   }
+}
+
+/// From the drawing's numbers and places back to those of the outline.
+void take_back(const CavityOutline& outline, const CanonicalDrawing& drawing, Triangulation& filling) {
+  std::vector<int> number(filling.points.size());
+  std::iota(number.begin(), number.end(), 0);
+  for (std::size_t i = 0; i < outline.points.size(); ++i) number[drawing.point_number[i]] = static_cast<int>(i);
+  for (auto& triangle : filling.triangles)
+    for (int& point : triangle) point = number[point];
+  for (auto& edge : filling.fixed_edges)
+    for (int& point : edge.points) point = number[point];
+  for (std::size_t i = outline.points.size(); i < filling.points.size(); ++i)
+    filling.points[i] = drawing.outward(filling.points[i]);
+  std::copy(outline.points.begin(), outline.points.end(), filling.points.begin());
 }
 
 }  // namespace
 
-Triangulation fill_cavity(const CavityOutline& outline, double growth, MeshMethod method) {
+Triangulation fill_cavity(const CavityOutline& given, double growth, MeshMethod method) {
+  const CanonicalDrawing drawing(given.points, lines_of(given));
+  const CavityOutline outline = canonical(given, drawing);
   Triangulation filling;
   {
     const GmshModel model;
     model.run("fill the cavity", [&] {
       // GmshModel chooses the frontal one.
       if (method == MeshMethod::delaunay) gmsh::option::setNumber("Mesh.Algorithm", 5);
-      const Frame frame(outline.points);
-      const Sizes sizes(outline, frame, growth);
-      describe(outline, frame);
+      const Sizes sizes(outline, growth);
+      describe(given, drawing);
       gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) { return sizes.at({x, y}); });
       gmsh::model::mesh::generate(2);
-      fetch(outline, frame, filling);
+      fetch(outline, filling);
     });
   }
-  verify(outline, filling);
+  verify(outline, drawing, filling);
   filling.is_fixed.assign(filling.points.size(), false);
   std::fill_n(filling.is_fixed.begin(), outline.points.size(), true);
   for (const auto& [points, place, is_barrier] : outline.edges) filling.fixed_edges.push_back({points, is_barrier});
   improve(filling);
+  take_back(given, drawing, filling);
   return filling;
 }
 

@@ -139,11 +139,12 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths,
   const Rectangle rock = bounds(mesh);
   Rectangle box;
   double widest = -1;
-  for (double factor = 1; factor < 1.5 && widest < gap; factor += 0.02) {
+  constexpr double more = 1 + 1e-9;  // by more than rounding, so that domains that are images of one another stay so
+  for (double factor = 1; factor < 1.5 && widest * more < gap; factor += 0.02) {
     const Point half = Point::Constant(0.5 * factor * size);
     const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
     const double found = smallest_gap(larger, rock, paths);
-    if (found <= widest) continue;
+    if (found <= widest * more) continue;
     widest = found;
     box = larger;
   }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "components/fine_fracture/quarter_point/outline.hpp"
+#include "framework/mesh/gmsh_drawing.hpp"
 #include "framework/mesh/gmsh_model.hpp"
 #include "framework/mesh/mesh.hpp"
 
@@ -120,57 +121,37 @@ class Draughtsman {
   Drawing drawing_;
 };
 
-/// gmsh works near the origin at a size between 1 and 2, because of its absolute tolerances. The scale is a power of
-/// two, so that it costs no digits.
-struct Frame {
-  Point origin;
-  double scale;
+std::vector<int> outline_lines(const Drawing& drawing) {
+  std::vector<int> lines;
+  for (std::size_t i = 0; i < drawing.lines.size(); ++i)
+    if (drawing.line_edges[i] != none) lines.push_back(static_cast<int>(i));
+  return lines;
+}
 
-  explicit Frame(const std::vector<Point>& outline)
-      : origin(outline[0]), scale(std::exp2(std::floor(std::log2(outline_extent(outline))))) {}
-  Point inward(const Point& x) const { return (x - origin) / scale; }
-  Point outward(double x, double y) const { return origin + scale * Point(x, y); }
-};
-
-void enter(const Drawing& drawing, const Frame& frame) {
-  for (std::size_t i = 0; i < drawing.points.size(); ++i) {
-    const Point x = frame.inward(drawing.points[i]);
-    gmsh::model::geo::addPoint(x.x(), x.y(), 0, 0, static_cast<int>(i) + 1);
-  }
-  std::vector<int> outline, cracks, loops;
-  for (std::size_t i = 0; i < drawing.lines.size(); ++i) {
-    const int tag = static_cast<int>(i) + 1;
-    gmsh::model::geo::addLine(drawing.lines[i][0] + 1, drawing.lines[i][1] + 1, tag);
-    if (drawing.line_edges[i] != none) outline.push_back(tag);
-  }
-  loops.push_back(gmsh::model::geo::addCurveLoop(outline));
+void enter(const Drawing& drawing, const CanonicalDrawing& canonical) {
+  enter_drawing(canonical);
+  std::vector<std::vector<int>> loops{outline_lines(drawing)};
   for (const auto& lines : drawing.rosette_lines) {
-    std::vector<int> loop;
-    for (const int line : lines) {
-      loop.push_back(line + 1);
-      gmsh::model::geo::mesh::setTransfiniteCurve(line + 1, 2);
-    }
-    loops.push_back(gmsh::model::geo::addCurveLoop(loop));
+    for (const int line : lines) gmsh::model::geo::mesh::setTransfiniteCurve(canonical.line_number[line] + 1, 2);
+    loops.push_back(lines);
   }
-  const int surface = gmsh::model::geo::addPlaneSurface(loops);
-  gmsh::model::geo::synchronize();
-  for (const auto& lines : drawing.crack_lines) {
-    for (const int line : lines) cracks.push_back(line + 1);
-  }
-  if (!cracks.empty()) gmsh::model::mesh::embed(1, cracks, 2, surface);
+  std::vector<int> cracks;
+  for (const auto& lines : drawing.crack_lines) cracks.insert(cracks.end(), lines.begin(), lines.end());
+  add_surface(canonical, loops, cracks);
 }
 
 /// Reads the mesh that gmsh made.
 class Reader {
  public:
-  Reader(const Drawing& drawing, const Frame& frame, RawMesh& raw) : drawing_(drawing) {
+  Reader(const Drawing& drawing, const CanonicalDrawing& canonical, RawMesh& raw)
+      : drawing_(drawing), canonical_(canonical) {
     std::vector<std::size_t> tags, elements;
     std::vector<double> coordinates, parameters;
     gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
     number_.resize(tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()) + 1);
     for (std::size_t i = 0; i < tags.size(); ++i) {
       number_[tags[i]] = static_cast<int>(i);
-      raw.nodes.push_back(frame.outward(coordinates[3 * i], coordinates[3 * i + 1]));
+      raw.nodes.push_back(canonical.outward({coordinates[3 * i], coordinates[3 * i + 1]}));
     }
     tags.clear();
     constexpr int three_node_triangle = 2;
@@ -180,7 +161,7 @@ class Reader {
     }
     for (std::size_t i = 0; i < drawing.points.size(); ++i) {
       tags.clear(), coordinates.clear(), parameters.clear();
-      gmsh::model::mesh::getNodes(tags, coordinates, parameters, 0, static_cast<int>(i) + 1, false, false);
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters, 0, canonical.point_number[i] + 1, false, false);
       points_.push_back(number_[tags.at(0)]);
       raw.nodes[points_.back()] = drawing.points[i];  // without the frame's rounding
     }
@@ -192,7 +173,7 @@ class Reader {
   std::vector<int> along(int line, RawMesh& raw) const {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters, 1, line + 1, false, false);
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters, 1, canonical_.line_number[line] + 1, false, false);
     const auto [a, b] = drawing_.lines[line];
     const Point from = drawing_.points[a], step = drawing_.points[b] - from;
     std::vector<std::pair<double, int>> ordered;
@@ -211,14 +192,15 @@ class Reader {
 
  private:
   const Drawing& drawing_;
+  const CanonicalDrawing& canonical_;
   std::vector<int> number_;  ///< by gmsh's number
   std::vector<int> points_;  ///< nodes at the drawing's points
 };
 
-OutsideMesh read(const Drawing& drawing, const Frame& frame, int outline_edges) {
+OutsideMesh read(const Drawing& drawing, const CanonicalDrawing& canonical, int outline_edges) {
   OutsideMesh mesh;
   RawMesh& raw = mesh.raw;
-  const Reader reader(drawing, frame, raw);
+  const Reader reader(drawing, canonical, raw);
   for (int i = 0; i < outline_edges; ++i) raw.side_names.push_back(std::to_string(i));
   for (std::size_t line = 0; line < drawing.lines.size(); ++line) {
     if (drawing.line_edges[line] == none) continue;
@@ -260,15 +242,17 @@ std::vector<Point> rosette_corners(const TipRoom& room, int sectors) {
 OutsideMesh mesh_outside(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, int sectors,
                          const std::function<double(const Point&)>& size) {
   const Drawing drawing = Draughtsman(geometry, rooms, sectors).take();
-  const Frame frame(geometry.outline);
+  const CanonicalDrawing canonical(drawing.points, drawing.lines);
   OutsideMesh mesh;
   const GmshModel model;
   model.run("mesh the fine level", [&] {
-    enter(drawing, frame);
-    gmsh::model::mesh::setSizeCallback(
-        [&](int, int, double x, double y, double) { return size(frame.outward(x, y)) / frame.scale; });
+    enter(drawing, canonical);
+    // Without the last digits, in which images of one another differ.
+    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) {
+      return static_cast<float>(size(canonical.outward({x, y})) / canonical.scale());
+    });
     gmsh::model::mesh::generate(2);
-    mesh = read(drawing, frame, static_cast<int>(geometry.outline.size()));
+    mesh = read(drawing, canonical, static_cast<int>(geometry.outline.size()));
   });
   if (mesh.raw.triangles.empty()) throw std::runtime_error("gmsh made no triangles on the fine level");
   return mesh;

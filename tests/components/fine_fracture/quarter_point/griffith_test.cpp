@@ -94,22 +94,28 @@ TEST(Griffith, CorrelationHasThePublishedErrorsOfItsRosette) {
   const auto rows = published_table();
   ASSERT_EQ(rows.size(), 20u);
   for (const TableRow& row : rows) {
-    const FineMeshOptions options{.tip_size = row.radius, .far_size = 0.1, .growth = 0.4, .sectors = row.sectors};
-    const FineSolution solution = FineModel(disk(), options, exact.rock).solve(exact_outline(exact));
-    const TipIntensities& tip = solution.tips.at(0);
-    ASSERT_DOUBLE_EQ((solution.mesh->nodes[solution.mesh->tips[0].wall_nodes[0][1]] - tip.position).norm(), row.radius);
-    const Point correlation = tip.K_correlation.cwiseQuotient(exact.K()) - Point(1, 1);
-    const Point extrapolated = tip.K_extrapolated.cwiseQuotient(exact.K()) - Point(1, 1);
+    const std::string where = std::to_string(row.sectors) + " sectors, radius " + std::to_string(row.radius);
+    // The mean over some meshes outside of the rosette, of which each scatters by 1e-3 with 8 sectors.
+    Point correlation = Point::Zero(), extrapolated = Point::Zero();
+    constexpr std::array sizes{0.08, 0.1, 0.12};
+    for (const double size : sizes) {
+      const FineMeshOptions options{.tip_size = row.radius, .far_size = size, .growth = 0.4, .sectors = row.sectors};
+      const FineSolution solution = FineModel(disk(), options, exact.rock).solve(exact_outline(exact));
+      const TipIntensities& tip = solution.tips.at(0);
+      ASSERT_DOUBLE_EQ((solution.mesh->nodes[solution.mesh->tips[0].wall_nodes[0][1]] - tip.position).norm(),
+                       row.radius);
+      correlation += (tip.K_correlation.cwiseQuotient(exact.K()) - Point(1, 1)) / double(sizes.size());
+      extrapolated += (tip.K_extrapolated.cwiseQuotient(exact.K()) - Point(1, 1)) / double(sizes.size());
+      // The interaction integral hardly feels the sectors.
+      EXPECT_LT(relative_error(tip.K, exact.K(), "K"), row.sectors == 8 ? 1.5e-3 : 6e-4) << where;
+    }
     // With few sectors the elements around the rosette are as coarse as they are, and the published figures hold for
     // other such elements: refining or coarsening the mesh outside moves ours by as much.
     const double scatter = row.sectors == 8 ? 8e-3 : row.sectors == 12 ? 2e-3 : row.sectors == 16 ? 8e-4 : 4e-4;
-    const std::string where = std::to_string(row.sectors) + " sectors, radius " + std::to_string(row.radius);
     EXPECT_NEAR(correlation.x(), row.correlation_1, scatter) << where;
     EXPECT_NEAR(correlation.y(), row.correlation_2, scatter) << where;
     EXPECT_NEAR(extrapolated.x(), row.extrapolated_1, scatter) << where;
     EXPECT_NEAR(extrapolated.y(), row.extrapolated_2, scatter) << where;
-    // The interaction integral hardly feels the sectors.
-    EXPECT_LT(relative_error(tip.K, exact.K(), "K"), row.sectors == 8 ? 1.5e-3 : 6e-4) << where;
   }
 }
 
