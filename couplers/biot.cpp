@@ -54,6 +54,8 @@ class Biot : public Coupler {
     decoupled_ = alpha_.isZero(0);
     grain_capacity_ = Vector::Zero(cells);
     if (const Vector* porosity = fluid_.porosity_for_storage()) check_and_set_grains(context, *porosity);
+    has_grains_ = !grain_capacity_.isZero(0);
+    grains_ = Operator(diagonal_matrix(grain_capacity_));
     if (decoupled_) return;
     if (rock_.bulk_modulus().minCoeff() <= 0)
       throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
@@ -66,10 +68,12 @@ class Biot : public Coupler {
   void assemble(Assembly& assembly, const StepTime&) const override {
     const Field& pressure = fluid_.pressure();
     if (!assembly.has_row(pressure)) return;
-    assembly.add(pressure, grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()));
-    assembly.compare_round_off(pressure, grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
-    assembly.diagonal(pressure, pressure, grain_capacity_);
     if (decoupled_) return;
+    if (has_grains_) {
+      assembly.add(pressure, grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()));
+      assembly.compare_round_off(pressure, grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
+      assembly.derivative(pressure, pressure, grains_);
+    }
     assembly.linear(pressure, rock_.volume_change(), 1, &alpha_);
     assembly.add(pressure, -alpha_.cwiseProduct(counted_volume_.accepted()));
   }
@@ -153,7 +157,8 @@ class Biot : public Coupler {
   Field& counted_volume_;
   Field& stored_;
   Vector alpha_, grain_capacity_;  ///< (alpha − phi)/K V
-  bool decoupled_ = false;
+  Operator grains_;                ///< grain_capacity_ as a diagonal
+  bool decoupled_ = false, has_grains_ = false;
 };
 
 const RegisterCoupler<Biot, BiotOptions> registration("biot");

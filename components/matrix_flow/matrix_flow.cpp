@@ -137,6 +137,8 @@ void MatrixFlow::discretize() {
     operators_ = discretize_(mesh_, mobility_, conditions_, nodes_to_discretize(mesh_));
   }
   const int rank = parallel::rank();
+  capacity_ = storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
+  capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
   outflow_of_pressure_ = Operator(cell_sums(mesh_, operators_.flux_cell, 1, rank));
   largest_conductance_ = 0;
   const SparseMatrix& outflow = outflow_of_pressure_.entries();
@@ -150,8 +152,8 @@ void MatrixFlow::discretize() {
     entries.emplace_back(mesh_.wall_face(w), w, -mesh_.face_length[mesh_.wall_face(w)]);
   SparseMatrix boundary_of_wall_flux(mesh_.face_count(), mesh_.wall_count());
   boundary_of_wall_flux.setFromTriplets(entries.begin(), entries.end());
-  outflow_of_wall_flux_ =
-      Operator(cell_sums(mesh_, SparseMatrix(operators_.flux_boundary * boundary_of_wall_flux), 1, rank));
+  flux_of_wall_flux_ = operators_.flux_boundary * boundary_of_wall_flux;
+  outflow_of_wall_flux_ = Operator(cell_sums(mesh_, flux_of_wall_flux_, 1, rank));
 
   entries.clear();
   for (int w = 0; w < mesh_.wall_count(); ++w)
@@ -197,8 +199,8 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
 void MatrixFlow::apply_boundary() {
   if (boundary_applied_) return;
   boundary_applied_ = true;
-  outflow_constant_ = cell_sums(mesh_, Vector(operators_.flux_boundary * boundary_values_), 1) -
-                      outflow_of_pressure_.entries() * gravity_potential_cell_;
+  boundary_fluxes_ = operators_.flux_boundary * boundary_values_;
+  outflow_constant_ = cell_sums(mesh_, boundary_fluxes_, 1) - outflow_of_pressure_.entries() * gravity_potential_cell_;
   if (!wall_flux_) return;
   const Vector trace = operators_.trace_boundary * boundary_values_ - operators_.trace_cell * gravity_potential_cell_ +
                        gravity_potential_face_;
@@ -226,10 +228,9 @@ void MatrixFlow::begin_step(const StepTime& step) {
 
 void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(pressure_)) return;
-  const Vector capacity = storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
-  assembly.add(pressure_, capacity.cwiseProduct(pressure_.now() - pressure_.accepted()));
-  assembly.compare_round_off(pressure_, capacity.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
-  assembly.diagonal(pressure_, pressure_, capacity);
+  assembly.add(pressure_, capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()));
+  assembly.compare_round_off(pressure_, capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
+  assembly.derivative(pressure_, pressure_, capacity_of_pressure_);
   // What flows depends on differences of pressure only, so its terms are added together, and compared with what flows
   // through faces: terms of the pressure itself would hide it where the level is high.
   assembly.add(pressure_, step.dt * (assembly.product(outflow_of_pressure_, pressure_) + outflow_constant_));
@@ -249,14 +250,9 @@ const Vector& MatrixFlow::face_fluxes() const {
   const std::uint64_t wall_flux = wall_flux_ ? wall_flux_->version() : 0;
   if (fluxes_.is_valid && fluxes_.pressure == pressure_.version() && fluxes_.wall_flux == wall_flux)
     return fluxes_.values;
-  Vector values = boundary_values_;
-  if (wall_flux_)
-    for (int w = 0; w < mesh_.wall_count(); ++w) {
-      const int face = mesh_.wall_face(w);
-      values[face] = -wall_flux_->now()[w] * mesh_.face_length[face];
-    }
-  fluxes_ = {true, pressure_.version(), wall_flux,
-             operators_.flux_cell * (pressure_.now() - gravity_potential_cell_) + operators_.flux_boundary * values};
+  fluxes_ = {true, pressure_.version(), wall_flux, boundary_fluxes_};
+  fluxes_.values += operators_.flux_cell * (pressure_.now() - gravity_potential_cell_);
+  if (wall_flux_) fluxes_.values += flux_of_wall_flux_ * wall_flux_->now();
   return fluxes_.values;
 }
 

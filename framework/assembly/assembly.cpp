@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 namespace sprekk {
@@ -77,12 +76,9 @@ void Assembly::derivative(const Field& row, const Field& column, SparseMatrix&& 
 
 void Assembly::diagonal(const Field& row, const Field& column, const Vector& entries) {
   if (!wants_derivatives() || !has_row(row) || !has_row(column)) return;
-  SparseMatrix block(row.size(), column.size());
-  block.resizeNonZeros(row.size());
-  std::iota(block.outerIndexPtr(), block.outerIndexPtr() + row.size() + 1, 0);
-  std::iota(block.innerIndexPtr(), block.innerIndexPtr() + row.size(), 0);
-  std::copy_n(entries.data(), row.size(), block.valuePtr());
-  derivative(row, column, std::move(block));
+  if (column.size() != entries.size())
+    throw std::logic_error("derivative of " + row.name() + " by " + column.name() + ": wrong shape");
+  derivative(row, column, diagonal_matrix(entries));
 }
 
 void Assembly::linear(const Field& row, const Operator& matrix, const Field& column, double factor,

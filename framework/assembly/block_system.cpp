@@ -97,28 +97,51 @@ bool BlockSystem::has_same_fixed(const Assembly& assembly) const {
 
 void BlockSystem::build_pattern(const Assembly& assembly) {
   ++patterns_built_;
-  std::vector<std::vector<const Assembly::Block*>> by_row(unknowns_.size());
-  for (const Assembly::Block& block : assembly.blocks()) by_row[block.row].push_back(&block);
+  /// A block of a row, with the place of its next entry among all destinations.
+  struct Source {
+    const Assembly::Block* block;
+    std::size_t next;
+  };
+  std::vector<std::vector<Source>> by_row(unknowns_.size());
+  std::size_t entries = 0;
+  for (const Assembly::Block& block : assembly.blocks()) {
+    by_row[block.row].push_back({&block, entries});
+    for (int r = 0; r < block.matrix->outerSize(); ++r)
+      if (owned_[block.row][r]) entries += block.matrix->outerIndexPtr()[r + 1] - block.matrix->outerIndexPtr()[r];
+  }
+  destinations_.resize(entries);
 
   const int local_rows = static_cast<int>(system_.rows.size());
-  std::vector<int> outer{0}, inner, columns;
+  std::vector<int> outer{0}, inner, place(size_);
   std::vector<int> seen_in(size_, -1);
   outer.reserve(local_rows + 1);
+  inner.reserve(entries);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    std::vector<Source>& sources = by_row[u];
+    // From left to right: what each column field adds is then sorted by itself, and mostly is already.
+    std::vector<Source*> ordered;
+    for (Source& source : sources) ordered.push_back(&source);
+    std::stable_sort(ordered.begin(), ordered.end(),
+                     [](const Source* a, const Source* b) { return a->block->column < b->block->column; });
     for (int r = 0; r < unknowns_[u]->size(); ++r) {
       if (!owned_[u][r]) continue;
       const int local = static_cast<int>(outer.size()) - 1;
-      columns.clear();
-      for (const Assembly::Block* block : by_row[u])
-        for (SparseMatrix::InnerIterator entry(*block->matrix, r); entry; ++entry) {
-          const int column = first_[block->column] + static_cast<int>(entry.col());
-          if (seen_in[column] == local) continue;
-          seen_in[column] = local;
-          columns.push_back(column);
-        }
-      std::sort(columns.begin(), columns.end());
-      inner.insert(inner.end(), columns.begin(), columns.end());
+      for (std::size_t i = 0; i < ordered.size();) {
+        const int field = ordered[i]->block->column, start = static_cast<int>(inner.size());
+        for (; i < ordered.size() && ordered[i]->block->column == field; ++i)
+          for (SparseMatrix::InnerIterator entry(*ordered[i]->block->matrix, r); entry; ++entry) {
+            const int column = first_[field] + static_cast<int>(entry.col());
+            if (seen_in[column] == local) continue;
+            seen_in[column] = local;
+            inner.push_back(column);
+          }
+        if (!std::is_sorted(inner.begin() + start, inner.end())) std::sort(inner.begin() + start, inner.end());
+      }
+      for (std::size_t k = outer.back(); k < inner.size(); ++k) place[inner[k]] = static_cast<int>(k);
       outer.push_back(static_cast<int>(inner.size()));
+      for (Source& source : sources)
+        for (SparseMatrix::InnerIterator entry(*source.block->matrix, r); entry; ++entry)
+          destinations_[source.next++] = place[first_[source.block->column] + static_cast<int>(entry.col())];
     }
   }
   SparseMatrix& local = system_.local;
@@ -126,26 +149,6 @@ void BlockSystem::build_pattern(const Assembly& assembly) {
   local.resizeNonZeros(inner.size());
   std::copy(outer.begin(), outer.end(), local.outerIndexPtr());
   std::copy(inner.begin(), inner.end(), local.innerIndexPtr());
-
-  // Where every block entry goes.
-  std::vector<std::vector<int>> local_row(unknowns_.size());
-  int next = 0;
-  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    local_row[u].assign(unknowns_[u]->size(), -1);
-    for (int r = 0; r < unknowns_[u]->size(); ++r)
-      if (owned_[u][r]) local_row[u][r] = next++;
-  }
-  destinations_.clear();
-  for (const Assembly::Block& block : assembly.blocks())
-    for (int r = 0; r < block.matrix->outerSize(); ++r) {
-      const int row = local_row[block.row][r];
-      if (row < 0) continue;
-      for (SparseMatrix::InnerIterator entry(*block.matrix, r); entry; ++entry) {
-        const int column = first_[block.column] + static_cast<int>(entry.col());
-        const auto begin = inner.begin() + outer[row], end = inner.begin() + outer[row + 1];
-        destinations_.push_back(static_cast<int>(std::lower_bound(begin, end, column) - inner.begin()));
-      }
-    }
 }
 
 const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
@@ -193,6 +196,10 @@ Vector BlockSystem::residual(const Assembly& assembly) const {
   int next = 0;
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const Vector& values = assembly.residual(static_cast<int>(u));
+    if (residual.size() == size_) {
+      residual.segment(first_[u], values.size()) = values;
+      continue;
+    }
     for (int r = 0; r < values.size(); ++r)
       if (owned_[u][r]) residual[next++] = values[r];
   }

@@ -24,4 +24,7 @@ class Operator {
   std::uint64_t number_;
 };
 
+/// Has exactly one entry in each row, zero or not.
+SparseMatrix diagonal_matrix(const Vector& entries);
+
 }  // namespace sprekk

@@ -6,15 +6,25 @@ namespace sprekk {
 
 FieldProduct multiply(const SparseMatrix& a, const Vector& x) {
   FieldProduct product{Vector(a.rows()), Vector(a.rows())};
+  const int *outer = a.outerIndexPtr(), *inner = a.innerIndexPtr();
+  const double *entries = a.valuePtr(), *values = x.data();
   for (int row = 0; row < a.rows(); ++row) {
-    double value = 0, size = 0;
-    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
-      const double term = entry.value() * x[entry.col()];
-      value += term;
-      size += std::abs(term);
+    // Two sums at a time: one would wait for each of its additions.
+    double value[2] = {0, 0}, size[2] = {0, 0};
+    int k = outer[row];
+    for (; k + 1 < outer[row + 1]; k += 2)
+      for (int i = 0; i < 2; ++i) {
+        const double term = entries[k + i] * values[inner[k + i]];
+        value[i] += term;
+        size[i] += std::abs(term);
+      }
+    if (k < outer[row + 1]) {
+      const double term = entries[k] * values[inner[k]];
+      value[0] += term;
+      size[0] += std::abs(term);
     }
-    product.value[row] = value;
-    product.size[row] = size;
+    product.value[row] = value[0] + value[1];
+    product.size[row] = size[0] + size[1];
   }
   return product;
 }

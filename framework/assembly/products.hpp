@@ -16,7 +16,7 @@ struct FieldProduct {
   Vector size;   ///< |A| |x|
 };
 
-/// Adds the terms of A x row by row, in the order of the entries.
+/// A is compressed.
 FieldProduct multiply(const SparseMatrix& a, const Vector& x);
 
 /// A step starts from the values that the one before ended with, and a split scheme moves some of the fields only: most

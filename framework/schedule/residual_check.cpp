@@ -27,7 +27,7 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
       fixed_error = std::max(fixed_error, row.error);
     }
     for (; next < rows.size() && rows[next] < end; ++next) {
-      if (fixed.count(rows[next])) continue;
+      if (!fixed.empty() && fixed.count(rows[next]) > 0) continue;
       const double value = std::abs(owned[next]);
       finite = finite && std::isfinite(value);
       largest = std::max(largest, value);
