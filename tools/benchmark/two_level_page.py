@@ -34,6 +34,14 @@ def unknown_of_answer(problem, cases, quantity):
     return cases[SECOND].error(quantity) if SECOND in cases else problem.answer_errors.get(quantity, 0)
 
 
+def annotate(axes, points, default):
+    """Values of parameters; next to the default, where nobody could read them, the table has to do."""
+    for text, point, colour in points:
+        here, there = axes.transAxes.inverted().transform(axes.transData.transform([point, default]))
+        if max(abs(here - there)) > 0.05:
+            axes.annotate(text, point, xytext=(5, 3), textcoords="offset points", fontsize=7.5, color=colour)
+
+
 def figure(name, cases, quantity):
     """Mean absolute error over processor seconds; bars from the smallest to the largest on all meshes."""
     problem, known = PROBLEMS[name], compared(cases)
@@ -50,9 +58,6 @@ def figure(name, cases, quantity):
         parameter = problem.parameters[key]
         axes.plot(*zip(*[point(result) for _, result in results]), "o-", color=COLOURS[key], markersize=4.5, linewidth=1.1, zorder=4,
                   label=f"{parameter.symbol} (scene: {parameter.default})")
-        for value, result in results:
-            if value != parameter.default:
-                axes.annotate(value, point(result), xytext=(5, 3), textcoords="offset points", fontsize=7.5, color=COLOURS[key])
     if "default" in known:
         axes.plot(*point(known["default"]), "*", color="black", markersize=13, zorder=5, label="the scene")
     references = [point(known[reference]) for reference in problem.references if reference in known]
@@ -65,6 +70,9 @@ def figure(name, cases, quantity):
         axes.plot([], [], ".", color="#888888", linestyle="none", label="two or more changed")
     axes.set(xscale="log", yscale="log", xlabel="processor seconds of a run", ylabel=f"{quantity}, {problem.units[quantity]}",
              title=f"{problem.title}: {quantity}")
+    if "default" in known:
+        annotate(axes, [(value, point(case), COLOURS[key]) for key, results in varied(problem, known).items() for value, case in results],
+                 point(known["default"]))
     axes.grid(True, which="both", linewidth=0.4, alpha=0.4)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_minor_locator(LogLocator(subs=(2, 5)))
