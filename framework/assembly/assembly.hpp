@@ -50,9 +50,9 @@ class Assembly {
   void linear(const Field& row, const LinearExpression& expression, double factor = 1, const Vector* weights = nullptr);
 
   /// For terms that a part puts together itself.
-  const Vector& product(const Operator& matrix, const Field& column) { return products_->now(matrix, column).value; }
+  const Vector& product(const Operator& matrix, const Field& column) { return products_->value_now(matrix, column); }
   const Vector& accepted_product(const Operator& matrix, const Field& column) {
-    return products_->accepted(matrix, column).value;
+    return products_->value_accepted(matrix, column);
   }
 
   /// Replaces row i of the equation by scale · (value − target) = 0, whatever other terms it has. `scale` brings it to

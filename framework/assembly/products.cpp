@@ -4,8 +4,11 @@
 
 namespace sprekk {
 
-FieldProduct multiply(const SparseMatrix& a, const Vector& x) {
-  FieldProduct product{Vector(a.rows()), Vector(a.rows())};
+namespace {
+
+template <bool with_size>
+FieldProduct multiplied(const SparseMatrix& a, const Vector& x) {
+  FieldProduct product{Vector(a.rows()), Vector(with_size ? a.rows() : 0)};
   const int *outer = a.outerIndexPtr(), *inner = a.innerIndexPtr();
   const double *entries = a.valuePtr(), *values = x.data();
   for (int row = 0; row < a.rows(); ++row) {
@@ -16,29 +19,37 @@ FieldProduct multiply(const SparseMatrix& a, const Vector& x) {
       for (int i = 0; i < 2; ++i) {
         const double term = entries[k + i] * values[inner[k + i]];
         value[i] += term;
-        size[i] += std::abs(term);
+        if (with_size) size[i] += std::abs(term);
       }
     if (k < outer[row + 1]) {
       const double term = entries[k] * values[inner[k]];
       value[0] += term;
-      size[0] += std::abs(term);
+      if (with_size) size[0] += std::abs(term);
     }
     product.value[row] = value[0] + value[1];
-    product.size[row] = size[0] + size[1];
+    if (with_size) product.size[row] = size[0] + size[1];
   }
   return product;
 }
 
-const FieldProduct& Products::of(const Operator& a, const Field& x, const Vector& values, std::uint64_t version) {
+}  // namespace
+
+FieldProduct multiply(const SparseMatrix& a, const Vector& x, bool with_size) {
+  return with_size ? multiplied<true>(a, x) : multiplied<false>(a, x);
+}
+
+const FieldProduct& Products::of(const Operator& a, const Field& x, const Vector& values, std::uint64_t version,
+                                 bool with_size) {
   Recent& recent = recent_[{a.number(), &x}];
   recent.is_used = true;
   for (Kept& kept : recent.kept)
     if (kept.used > 0 && kept.version == version) {
       kept.used = ++uses_;
+      if (with_size && kept.product.size.size() != a.entries().rows()) kept.product = multiply(a.entries(), values);
       return kept.product;
     }
   Kept& oldest = recent.kept[recent.kept[0].used <= recent.kept[1].used ? 0 : 1];
-  oldest = {multiply(a.entries(), values), version, ++uses_};
+  oldest = {multiply(a.entries(), values, with_size), version, ++uses_};
   return oldest.product;
 }
 
