@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sprekk {
 
@@ -65,10 +66,16 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
       settle_(settle_options(options), context),
       smallest_step_(options.cut * context.standard_step) {}
 
-StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) const {
+StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) {
+  const double wanted = (1 + 0.5 * options_.overshoot - before) / (now - before);  // of the rise of this step
+  double part = now > before ? wanted : 0.5;
+  if (refusal_ && refusal_->start == step.start && refusal_->dt > step.dt && refusal_->load > now && now > before) {
+    // Fluid diffuses: loads rise with a power of time between 1/2 and 1, which two refusals tell.
+    const double power = std::log((refusal_->load - before) / (now - before)) / std::log(refusal_->dt / step.dt);
+    part = std::pow(wanted, 1 / std::clamp(power, 0.5, 1.0));
+  }
+  refusal_ = Refusal{step.start, step.dt, now};
   StepStatus status{false, reason, 0};
-  const double rise = now - before;
-  const double part = rise > 0 ? (1 + 0.5 * options_.overshoot - before) / rise : 0.5;
   status.retry_dt = std::max(smallest_step_, step.dt * std::clamp(part, 0.01, 0.9));
   return status;
 }

@@ -1,6 +1,8 @@
 // grow: lets fractures grow after the steps before it, and settles the state on the mesh that has grown with them.
 #pragma once
 
+#include <optional>
+
 #include "framework/schedule/growing.hpp"
 #include "framework/schedule/solve_step.hpp"
 
@@ -44,7 +46,7 @@ class GrowStep : public ScheduleStep {
 
  private:
   /// Refuses a step, for one at whose end the load is just past that of growth.
-  StepStatus refused(const std::string& reason, const StepTime& step, double before, double now) const;
+  StepStatus refused(const std::string& reason, const StepTime& step, double before, double now);
   bool may_shrink(const StepTime& step) const { return step.dt > smallest_step_ * (1 + 1e-9); }
 
   GrowOptions options_;
@@ -52,6 +54,10 @@ class GrowStep : public ScheduleStep {
   SolveStep settle_;
   double smallest_step_;  ///< s; no step is refused below it
   Growing::Load load_;
+  struct Refusal {
+    double start, dt, load;  ///< s, s, of the tip that was too much
+  };
+  std::optional<Refusal> refusal_;  ///< the last one
   std::vector<PathExtension> extensions_;
 };
 

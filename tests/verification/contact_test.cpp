@@ -117,8 +117,8 @@ TEST(Cracks, PressurizedCrackOpensLikeSneddons) {
     ASSERT_TRUE(run.step());
     const CrackErrors errors = crack_errors(run, 0, peak);
     if (previous.all > 0) {
-      EXPECT_LT(errors.all, 0.02);
-      EXPECT_GT(std::log2(previous.all / errors.all), 0.85) << previous.all << " " << errors.all;
+      EXPECT_LT(errors.all, 0.004);
+      EXPECT_GT(std::log2(previous.all / errors.all), 1.7) << previous.all << " " << errors.all;
     }
     previous = errors;
   }
@@ -136,9 +136,10 @@ TEST(Cracks, FrictionalCrackSlipsLikePhans) {
     ASSERT_TRUE(run.step());
     const CrackErrors errors = crack_errors(run, 1, peak);
     if (previous.all > 0) {
-      EXPECT_LT(errors.all, 0.05);
-      EXPECT_LT(errors.inner, 0.035);
-      EXPECT_GT(std::log2(previous.all / errors.all), 0.85) << previous.all << " " << errors.all;
+      EXPECT_LT(errors.all, 0.006);
+      EXPECT_LT(errors.inner, 0.004);
+      EXPECT_GT(std::log2(previous.all / errors.all), 1.5) << previous.all << " " << errors.all;
+      EXPECT_GT(std::log2(previous.inner / errors.inner), 1.7) << previous.inner << " " << errors.inner;
     }
     previous = errors;
   }

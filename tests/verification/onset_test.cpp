@@ -49,10 +49,8 @@ TEST(Onset, LoadingAndInjectionMatchClosedForms) {
 }
 
 TEST(Onset, TractionsAndSlipMatchTheCrackWithBackStress) {
-  // Tractions of every cell within 0.1 MPa away from the tips; slip at the centre from two meshes within 3 %.
-  std::map<double, std::vector<double>> slips;  // by time: coarse, fine
-  std::map<double, double> exact;
-  for (const char* size : {"5 mm", "2.5 mm"}) {
+  // Tractions of every cell within 0.1 MPa away from the tips; slip at the centre within 1.5 % on either mesh.
+  for (const char* size : {"5 mm", "2 mm"}) {
     SceneRun run("paper/onset_coarse.yaml", {{"mesh.fracture_size", size}});
     run.run_until(21 * hour, [&] {
       double flux = 0;
@@ -60,20 +58,14 @@ TEST(Onset, TractionsAndSlipMatchTheCrackWithBackStress) {
         flux += run.field("pore.wall_flux")[w] * run.mesh().face_length[run.mesh().wall_face(w)];
       const Crack crack = closed_form(run.quantity("fracture_pressure"), mean_pressure(run), flux);
       for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
-        // On 20 cells one misses by 0.12 MPa; what they make of the slip is extrapolated below.
+        // On 20 cells one misses by 0.155 MPa, on 40 by 0.108 MPa, each the third from a tip.
         if (std::string(size) == "5 mm") continue;
         if ((run.mesh().fracture_cells[i].center - Point(1, 1)).norm() > 0.9 * half_length) continue;
         EXPECT_NEAR(run.field("contact.traction")[2 * i], crack.normal, 0.1e6) << run.time() << " cell " << i;
         EXPECT_NEAR(std::abs(run.field("contact.traction")[2 * i + 1]), crack.shear, 0.1e6) << run.time();
       }
-      slips[run.time()].push_back(std::abs(run.quantity("slip.t")));
-      exact[run.time()] = crack.peak_slip;
+      EXPECT_NEAR(std::abs(run.quantity("slip.t")) / crack.peak_slip, 1, 0.015) << size << ", " << run.time() / hour;
     });
-  }
-  for (const auto& [time, values] : slips) {
-    ASSERT_EQ(values.size(), 2u);
-    const double extrapolated = 2 * values[1] - values[0];  // first order
-    EXPECT_NEAR(extrapolated / exact[time], 1, 0.03) << time / hour << " h: " << values[0] << " " << values[1];
   }
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "components/poromechanics/mpsa/tip_field.hpp"
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::poromechanics {
@@ -78,6 +79,12 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
   }
   find_gradients(region);
   find_forces(region, stiffness);
+  if (const auto field = TipField::find(mesh, region, cells, stiffness)) correct(*field);
+}
+
+void LocalStresses::correct(const TipField& field) {
+  for (int f = 0; f < subfaces_; ++f)
+    for (int c = 0; c < 2; ++c) field.correct(forces_.data() + (2 * f + c) * columns_, field.force(f, c));
 }
 
 void LocalStresses::weigh_means(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,

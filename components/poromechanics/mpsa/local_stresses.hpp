@@ -11,6 +11,8 @@
 
 namespace sprekk::poromechanics {
 
+class TipField;
+
 using FaceConditions = std::array<MechanicalCondition, 2>;
 
 /// The cells whose displacements and stresses a node's local problem reads, in ascending order: those at the node. A
@@ -26,6 +28,8 @@ Adjacency local_cells(const Mesh& mesh);
 /// of their shear moduli, the smaller over the larger. The published method weighs by area alone; then a soft
 /// neighbour's strain loads a stiff cell with its own large modulus: in sheared layers forces are wrong by a quarter of
 /// the contrast. With this weight they are exact up to 1 / contrast, and in even rock both are the same.
+///
+/// At the tip of a crack the displacement is not linear but like sqrt(r): see TipField.
 ///
 /// A region of a single subcell has no weak symmetry: its mean gradient is its own. A rotation of the subcell about its
 /// centre then costs nothing unless a prescribed displacement stops it, and two rollers leave a mixture of shear and
@@ -55,6 +59,7 @@ class LocalStresses {
   void weigh_means(const InteractionRegion& region, const std::vector<Stiffness>& stiffness, double most_own_share);
   void assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
   void solve_singular(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells);
+  void correct(const TipField& field);
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
 

@@ -134,6 +134,22 @@ TEST(GrowStep, TheRepeatedStepReachesTheLoadAndIsTaken) {
   EXPECT_EQ(run.tips.grown, 1);
 }
 
+// A load that rises with the root of time, as where fluid diffuses: two refusals tell the root.
+TEST(GrowStep, RefusalsInARowTellHowTheLoadRises) {
+  Schedule run(usual);
+  double dt = standard;
+  int attempts = 0;
+  for (bool taken = false; !taken && attempts < 100; ++attempts) {
+    const double load = 1.6 * std::sqrt(dt / standard);
+    run.tips.load = {.now = load, .accepted = 0, .onset = load, .onset_accepted = 0};
+    const StepStatus status = run.schedule->run({0, dt, dt});
+    taken = status.converged;
+    if (!taken) dt = status.retry_dt;
+  }
+  EXPECT_GT(run.tips.load.now, 1);
+  EXPECT_EQ(attempts, 3);
+}
+
 TEST(GrowStep, TipsThatHaveGrownBeforeDoNotRefuseAStepInWhichTheyArrest) {
   Schedule run(usual);
   run.tips.load = {.now = 1.5, .accepted = 1, .onset = 0.7, .onset_accepted = 0.5};
