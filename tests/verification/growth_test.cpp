@@ -62,11 +62,11 @@ TEST_P(OnsetFactors, FollowTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Onset, OnsetFactors,
-                         ::testing::Values(Accuracy{"0.5 m", "20 mm", 0.01, 0.02, 0.02 * mega},
-                                           Accuracy{"1 m", "20 mm", 0.01, 0.02, 0.02 * mega},
-                                           Accuracy{"4 m", "20 mm", 0.01, 0.02, 0.02 * mega},
-                                           Accuracy{"0.5 m", "10 mm", 0.003, 0.01, 0.02 * mega},
-                                           Accuracy{"1 m", "10 mm", 0.003, 0.01, 0.02 * mega}));
+                         ::testing::Values(Accuracy{"0.5 m", "20 mm", 0.015, 0.02, 0.02 * mega},
+                                           Accuracy{"1 m", "20 mm", 0.015, 0.02, 0.02 * mega},
+                                           Accuracy{"4 m", "20 mm", 0.015, 0.02, 0.02 * mega},
+                                           Accuracy{"0.5 m", "10 mm", 0.0075, 0.01, 0.02 * mega},
+                                           Accuracy{"1 m", "10 mm", 0.0075, 0.01, 0.02 * mega}));
 
 TEST(Onset, FactorsHardlyDependOnTheSizeOfTheFineLevel) {
   std::vector<double> before, during;
