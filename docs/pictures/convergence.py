@@ -225,7 +225,7 @@ def draw(rows):
     panels = (("poroelasticity", 2, ("manufactured Biot", "Terzaghi", "Mandel")),
               ("flow", 2, ("single mode", "single mode, T = 1e4, kappa = 1e-4", "steady, MPFA, unstructured",
                            "steady, TPFA, unstructured", "steady, TPFA, squares")),
-              ("cracks", 1, ("pressurized crack", "frictional crack")))
+              ("cracks", 2, ("pressurized crack", "frictional crack")))
     figure, axes = plt.subplots(1, 3, figsize=(13, 4.6), layout="constrained")
     for panel, (title, order, names) in zip(axes, panels):
         for color, name in enumerate(names):
@@ -237,7 +237,7 @@ def draw(rows):
                              linestyle="-" if marker == "o" else "--", label=f"{name}: {quantity}")
         low, high = panel.get_ylim()
         x = np.array(panel.get_xlim())
-        panel.loglog(x, high * 0.5 * (x[0] / x) ** (1 if title == "cracks" else order / 2), color="0.6", linewidth=0.8,
+        panel.loglog(x, high * 0.5 * (x[0] / x) ** (order if title == "cracks" else order / 2), color="0.6", linewidth=0.8,
                      label=f"order {order}")
         panel.set(xlabel="cells on the crack" if title == "cracks" else "cells", title=title, ylim=(low * 0.02 if title == "flow" else low, high))
         panel.grid(alpha=0.3)
