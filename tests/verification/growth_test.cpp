@@ -153,7 +153,7 @@ TEST(WingCracks, TheChangeOfTheMeshAloneChangesNoState) {
   ASSERT_EQ(after.mesh().fractures[0].cell_count, fracture.cell_count + 1);
 
   // The fracture carries and slips as before, but for the end of its slip: at a tip it is sharp, at the closed cell
-  // that has grown it is 0.4 to 0.5 cells further on (docs/numerics/poromechanics.md). Slip goes with sqrt(x (length -
+  // that has grown it is 0.4 to 0.5 cells further on (docs/numerics/contact.md). Slip goes with sqrt(x (length -
   // x)).
   const Vector &traction = after.fields().at("contact.traction").now(), &jump = after.fields().at("contact.jump").now();
   const Vector &old_traction = old.at("contact.traction").now(), &old_jump = old.at("contact.jump").now();
