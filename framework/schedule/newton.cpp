@@ -112,10 +112,8 @@ double merit_bound(const std::vector<ResidualCheck>& recent) {
 
 }  // namespace
 
-ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, int iteration, bool cycling,
-                                double& length) {
+ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool ask_for_descent, double& length) {
   const std::vector<Vector> from = values();
-  const bool ask_for_descent = cycling || iteration > options_.undamped;
   ResidualCheck best;
   double best_length = 0, best_merit = 0;
   const double bound = merit_bound(recent_);
@@ -154,7 +152,16 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   products_.forget_unused();
   start_.clear();
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
+  const std::vector<Vector> start = values();
+  const StepStatus first = attempt(step, options_.undamped);
+  if (first.converged || first.iterations <= 1 || options_.undamped == 0) return first;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) unknowns_[u]->set(start[u]);
+  StepStatus second = attempt(step, 0);
+  second.iterations += first.iterations;
+  return second;
+}
 
+StepStatus Newton::attempt(const StepTime& step, int undamped) {
   std::multiset<std::uint64_t> seen_states;
   std::uint64_t last_state = 0;
   bool factored = false, cycling = false;
@@ -194,7 +201,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
       seen_states.insert(state);
       last_state = state;
     }
-    check = take_step(step, update, iteration, cycling, length);
+    check = take_step(step, update, cycling || iteration > undamped || undamped == 0, length);
     recent_.push_back(check);
     if (recent_.size() > 3) recent_.erase(recent_.begin());
     if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length});

@@ -23,7 +23,9 @@ struct NewtonOptions {
 /// Converged means: every residual is small against its own terms, and the next (simplified) Newton update, which costs
 /// a back-solve and no factorization, is small against the fields. Full steps at first, as active sets settle by
 /// themselves; descent on the sum of squares of the relative residuals when they have not after `undamped` iterations,
-/// or as soon as the discrete state cycles. Repeating a call from the same fields gives the same bits.
+/// or as soon as the discrete state cycles. When that fails, a second attempt from the same start asks for descent from
+/// its first iteration: full steps may have led to where no descent comes back from. Repeating a call from the same
+/// fields gives the same bits.
 class Newton {
  public:
   Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*> parts, const LinearOptions& linear,
@@ -51,7 +53,9 @@ class Newton {
   /// The largest change of a field over its largest value. Fields whose equation holds to round-off already are left
   /// out: where nothing flows, a flux is nothing but round-off.
   double relative_size(const Vector& update, const ResidualCheck& check) const;
-  ResidualCheck take_step(const StepTime& step, const Vector& update, int iteration, bool cycling, double& length);
+  /// Without a line search for the first `undamped` iterations.
+  StepStatus attempt(const StepTime& step, int undamped);
+  ResidualCheck take_step(const StepTime& step, const Vector& update, bool ask_for_descent, double& length);
 
   std::vector<Field*> unknowns_;
   std::vector<Part*> parts_;
