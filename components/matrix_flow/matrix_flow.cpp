@@ -115,12 +115,7 @@ void MatrixFlow::place_wells() {
   for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at);
 }
 
-void MatrixFlow::discretize() {
-  if (discretized_version_ == mesh_.version && is_discretized_) return;
-  is_discretized_ = true;
-  discretized_version_ = mesh_.version;
-  place_wells();
-  data_evaluated_ = false;
+void MatrixFlow::find_conditions() {
   conditions_.assign(mesh_.face_count(), FlowCondition::none);
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) continue;
@@ -129,13 +124,44 @@ void MatrixFlow::discretize() {
     const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
     if (condition != options_.boundary.end() && condition->second.pressure) conditions_[f] = FlowCondition::pressure;
   }
+}
+
+void MatrixFlow::discretize() {
+  if (discretized_version_ == mesh_.version && is_discretized_) return;
+  find_conditions();
   if (is_sealed_) {
     operators_ = no_flow(mesh_, conditions_);
   } else {
+    const std::vector<char> nodes = nodes_to_discretize(mesh_);
     ++discretizations_;
     discretized_cells_ += mesh_.cell_count();
-    operators_ = discretize_(mesh_, mobility_, conditions_, nodes_to_discretize(mesh_));
+    discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
+    operators_ = discretize_(mesh_, mobility_, conditions_, nodes);
   }
+  use_operators();
+}
+
+void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
+  const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
+  // With several processes the change may have given cells to others.
+  if (parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized_ ||
+      before.discretized_version_ != before.mesh_.version)
+    return;
+  find_conditions();
+  Rediscretized result = rediscretize(discretize_, {before.mesh_, before.mobility_, before.conditions_},
+                                      before.operators_, {mesh_, mobility_, conditions_}, change);
+  ++discretizations_;
+  discretized_cells_ += result.cells;
+  discretized_regions_ += result.regions;
+  operators_ = std::move(result.operators);
+  use_operators();
+}
+
+void MatrixFlow::use_operators() {
+  is_discretized_ = true;
+  discretized_version_ = mesh_.version;
+  place_wells();
+  data_evaluated_ = false;
   const int rank = parallel::rank();
   capacity_ = storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
   capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));

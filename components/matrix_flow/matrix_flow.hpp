@@ -8,6 +8,7 @@
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/matrix_flow/flux_operators.hpp"
+#include "components/matrix_flow/rediscretize.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 
@@ -44,10 +45,6 @@ struct Options {
   Spec spec(const std::string& type, const std::string& doc);
 };
 
-/// A discretization of the flux: see discretize_mpfa.
-using Discretize = FluxOperators (*)(const Mesh&, const std::vector<Tensor>&, const std::vector<FlowCondition>&,
-                                     const std::vector<char>&);
-
 /// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):
 ///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
 /// Gravity enters through the potential p − rho g·x, which is exact for a constant density.
@@ -57,6 +54,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
 
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
+  /// Discretizes, with what stays of the discretization before.
+  void carry_over(const Part& before, const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
@@ -64,7 +63,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   void relate_levels(Levels& levels) const override;
   void output(std::vector<OutputField>& fields) const override;
   std::map<std::string, long> counts() const override {
-    return {{"flux discretizations", discretizations_}, {"flux discretizations: cells", discretized_cells_}};
+    return {{"flux discretizations", discretizations_},
+            {"flux discretizations: cells", discretized_cells_},
+            {"flux discretizations: regions", discretized_regions_}};
   }
 
   Field& pressure() override { return pressure_; }
@@ -82,6 +83,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   /// Spreads each well over the cells around it such that its total and its position are kept.
   void place_wells();
   void discretize();
+  void find_conditions();
+  /// What follows from the operators.
+  void use_operators();
   bool depends_on_time() const;
   void evaluate_sources(const StepTime& step);
   void apply_boundary();
@@ -100,7 +104,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   std::uint64_t discretized_version_ = 0;
   bool is_discretized_ = false, data_evaluated_ = false, boundary_applied_ = false;
   StepTime evaluated_for_;
-  long discretizations_ = 0, discretized_cells_ = 0;
+  long discretizations_ = 0, discretized_cells_ = 0, discretized_regions_ = 0;
   FluxOperators operators_;
   std::vector<FlowCondition> conditions_;
   std::map<std::string, std::vector<std::pair<int, double>>> well_cells_;  ///< cells and weights by well

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -127,23 +128,46 @@ void Rock::map_walls() {
   wall_jump_.setFromTriplets(jumps.begin(), jumps.end());
 }
 
-void Rock::discretize() {
-  if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
-  discretized_version_ = mesh_.version;
-  ++discretizations_;
-  discretized_cells_ += mesh_.cell_count();
-  boundary_applied_ = false;
-  std::vector<std::array<MechanicalCondition, 2>> conditions(mesh_.face_count(),
-                                                             {MechanicalCondition::none, MechanicalCondition::none});
+void Rock::find_conditions() {
+  conditions_.assign(mesh_.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) continue;
-    conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
+    conditions_[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
     const SideCondition* condition = condition_of(f);
     if (!condition) continue;
     for (int k = 0; k < 2; ++k)
-      if (condition->displacement_of(k)) conditions[f][k] = MechanicalCondition::displacement;
+      if (condition->displacement_of(k)) conditions_[f][k] = MechanicalCondition::displacement;
   }
-  operators_ = discretize_mpsa(mesh_, stiffness_, conditions, nodes_to_discretize(mesh_));
+}
+
+void Rock::discretize() {
+  if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
+  find_conditions();
+  const std::vector<char> nodes = nodes_to_discretize(mesh_);
+  discretized_cells_ += mesh_.cell_count();
+  discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
+  operators_ = discretize_mpsa(mesh_, stiffness_, conditions_, nodes);
+  use_operators();
+}
+
+void Rock::carry_over(const Part& part, const MeshChange& change) {
+  const Rock& before = dynamic_cast<const Rock&>(part);
+  // With several processes the change may have given cells to others.
+  if (parallel::size() > 1 || before.discretizations_ == 0 || before.discretized_version_ != before.mesh_.version)
+    return;
+  find_conditions();
+  Rediscretized result = rediscretize_mpsa({before.mesh_, before.stiffness_, before.conditions_}, before.operators_,
+                                           {mesh_, stiffness_, conditions_}, change);
+  discretized_cells_ += result.cells;
+  discretized_regions_ += result.regions;
+  operators_ = std::move(result.operators);
+  use_operators();
+}
+
+void Rock::use_operators() {
+  discretized_version_ = mesh_.version;
+  ++discretizations_;
+  boundary_applied_ = false;
   const int rank = parallel::rank();
   if (parallel::size() > 1) {
     // Rows of other ranks' cells are incomplete.

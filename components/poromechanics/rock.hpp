@@ -5,6 +5,7 @@
 
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
+#include "components/poromechanics/mpsa/local_stresses.hpp"
 #include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/options.hpp"
 #include "framework/scene/component.hpp"
@@ -22,11 +23,15 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
 
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
+  /// Discretizes, with what stays of the discretization before.
+  void carry_over(const Part& before, const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
   std::vector<double> switch_times() const override;
   std::map<std::string, long> counts() const override {
-    return {{"stress discretizations", discretizations_}, {"stress discretizations: cells", discretized_cells_}};
+    return {{"stress discretizations", discretizations_},
+            {"stress discretizations: cells", discretized_cells_},
+            {"stress discretizations: regions", discretized_regions_}};
   }
 
   void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) override;
@@ -55,6 +60,9 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void check_held(const Origin& where) const;
   std::vector<Stiffness> stiffness(const Origin& where);
   void discretize();
+  void find_conditions();
+  /// What follows from the operators.
+  void use_operators();
   void map_walls();
   const SideCondition* condition_of(int face) const;  ///< nullptr where nothing is prescribed
   bool depends_on_time() const;
@@ -72,7 +80,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   std::vector<Stiffness> stiffness_;  ///< one a cell
   StepTime evaluated_for_;
   bool data_evaluated_ = false, boundary_applied_ = false;
-  long discretizations_ = 0, discretized_cells_ = 0;
+  long discretizations_ = 0, discretized_cells_ = 0, discretized_regions_ = 0;
+  std::vector<FaceConditions> conditions_;
   StressOperators operators_;
   SparseMatrix wall_forces_;        ///< 2 faces × 2 fracture cells: boundary values that wall tractions make
   SparseMatrix wall_jump_;          ///< 2 fracture cells × 2 faces: the jump of face displacements, in (n, t)

@@ -1,0 +1,36 @@
+#include "components/poromechanics/mpsa/rediscretize.hpp"
+
+#include <cstring>
+
+#include "framework/mesh/kept_regions.hpp"
+
+namespace sprekk::poromechanics {
+
+Rediscretized rediscretize_mpsa(const StressInputs& before, const StressOperators& operators, const StressInputs& after,
+                                const MeshChange& change) {
+  const Adjacency cells_before = local_cells(before.mesh), cells_after = local_cells(after.mesh);
+  const KeptRegions kept(
+      {before.mesh, cells_before}, {after.mesh, cells_after}, change,
+      [&](int cell, int was) {
+        return std::memcmp(after.stiffness[cell].data(), before.stiffness[was].data(), sizeof(Stiffness)) == 0;
+      },
+      [&](int face, int was) { return after.conditions[face] == before.conditions[was]; });
+  StressOperators result = discretize_mpsa(after.mesh, after.stiffness, after.conditions, kept.nodes_to_compute());
+  const auto take_kept = [&](SparseMatrix StressOperators::*matrix, KeptRegions::Entity rows,
+                             KeptRegions::Entity columns) {
+    result.*matrix = kept.merge(operators.*matrix, result.*matrix, rows, columns);
+  };
+  constexpr auto face = KeptRegions::Entity::face, cell = KeptRegions::Entity::cell;
+  take_kept(&StressOperators::force_displacement, face, cell);
+  take_kept(&StressOperators::force_stress, face, cell);
+  take_kept(&StressOperators::force_boundary, face, face);
+  take_kept(&StressOperators::trace_displacement, face, cell);
+  take_kept(&StressOperators::trace_stress, face, cell);
+  take_kept(&StressOperators::trace_boundary, face, face);
+  take_kept(&StressOperators::volume_displacement, cell, cell);
+  take_kept(&StressOperators::volume_stress, cell, cell);
+  take_kept(&StressOperators::volume_boundary, cell, face);
+  return {std::move(result), kept.nodes_computed(), kept.cells_computed()};
+}
+
+}  // namespace sprekk::poromechanics
