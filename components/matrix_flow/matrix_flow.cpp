@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/field/ownership.hpp"
+#include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/mesh/linear_fit.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -237,9 +238,13 @@ void MatrixFlow::apply_boundary() {
 void MatrixFlow::evaluate_sources(const StepTime& step) {
   source_ = Vector::Zero(mesh_.cell_count());
   if (!options_.source.is_zero())
-    for (int c = 0; c < mesh_.cell_count(); ++c)
-      source_[c] =
-          mesh_.cell_area[c] * value_in_step(options_.source, {mesh_.cell_center[c], mesh_.cell_region[c], 0}, step);
+    for (int c = 0; c < mesh_.cell_count(); ++c) {
+      const auto density = [&](const Point& at) {
+        return value_in_step(options_.source, {at, mesh_.cell_region[c], 0}, step);
+      };
+      source_[c] = mesh_.cell_area[c] *
+                   (options_.source.depends_on_space() ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
+    }
   for (const auto& [name, well] : options_.wells) {
     const double rate = value_in_step(well.rate, {well.at, 0, 0}, step);
     for (const auto& [cell, weight] : well_cells_.at(name)) source_[cell] += weight * rate;

@@ -7,6 +7,7 @@
 
 #include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -237,12 +238,16 @@ void Rock::evaluate_data(const StepTime& step) {
     }
   }
   body_forces_ = Vector::Zero(2 * mesh_.cell_count());
+  const bool vary = options_.body_force.depends_on_space() || options_.rock_density.depends_on_space() ||
+                    options_.gravity.depends_on_space();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
-    const Point force =
-        value_in_step(options_.body_force, place, step) +
-        value_in_step(options_.rock_density, place, step) * value_in_step(options_.gravity, place, step);
-    body_forces_.segment<2>(2 * c) = mesh_.cell_area[c] * force;
+    const auto density = [&](const Point& at) -> Point {
+      const Place place{at, mesh_.cell_region[c], 0};
+      return value_in_step(options_.body_force, place, step) +
+             value_in_step(options_.rock_density, place, step) * value_in_step(options_.gravity, place, step);
+    };
+    body_forces_.segment<2>(2 * c) =
+        mesh_.cell_area[c] * (vary ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
   }
 }
 

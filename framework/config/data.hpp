@@ -63,6 +63,7 @@ struct VectorData {
   Point at(const Place& place) const { return {component[0].at(place), component[1].at(place)}; }
   bool is_zero() const { return component[0].is_zero() && component[1].is_zero(); }
   bool depends_on_time() const { return component[0].depends_on_time() || component[1].depends_on_time(); }
+  bool depends_on_space() const { return component[0].depends_on_space() || component[1].depends_on_space(); }
   std::vector<double> switch_times() const { return merged_switch_times({&component[0], &component[1]}); }
 };
 
