@@ -65,7 +65,13 @@ void NodalValues::set(int components, const Vector& cells, const Vector& faces) 
 }
 
 Vector NodalValues::at(int cell, const Point& x) const {
-  const std::array<int, 3>& n = mesh_->cell_nodes[cell];
+  const Ring& corners = mesh_->cell_nodes[cell];
+  std::array<int, 3> n{corners[0], corners[1], corners[2]};
+  if (corners.size() == 4) {
+    // The half on whose side of the diagonal the point lies.
+    const Point along = mesh_->nodes[n[2]] - mesh_->nodes[n[0]], away = x - mesh_->nodes[n[0]];
+    if (along[0] * away[1] > along[1] * away[0]) n = {n[0], n[2], corners[3]};
+  }
   const Point &a = mesh_->nodes[n[0]], &b = mesh_->nodes[n[1]], &c = mesh_->nodes[n[2]];
   const auto cross = [](const Point& u, const Point& v) { return u[0] * v[1] - u[1] * v[0]; };
   const double area = cross(b - a, c - a);

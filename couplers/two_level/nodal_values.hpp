@@ -6,7 +6,8 @@
 
 namespace sprekk::couplers {
 
-/// Linear in each cell between its nodes. Nodes on a fracture exist on both of its sides, and so do their values.
+/// Linear in each triangle between its nodes, and in either half of a quadrilateral. Nodes on a fracture exist on both
+/// of its sides, and so do their values.
 class NodalValues {
  public:
   enum class From {

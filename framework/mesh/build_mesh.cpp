@@ -6,8 +6,9 @@
 #include <string>
 
 #include "framework/config/input_error.hpp"
+#include "framework/mesh/cell_edges.hpp"
+#include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/planar.hpp"
-#include "framework/mesh/triangle_edges.hpp"
 
 namespace sprekk {
 namespace {
@@ -16,23 +17,42 @@ namespace {
 /// to rounding.
 constexpr double smallest_flatness = 1e-10;
 
-std::vector<std::array<int, 3>> counter_clockwise(const RawMesh& raw) {
-  auto triangles = raw.triangles;
-  const int count = static_cast<int>(raw.nodes.size());
-  for (auto& [a, b, c] : triangles) {
-    if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= count) {
-      throw InputError("a triangle names a node that does not exist (there are " + std::to_string(count) + " nodes)");
-    }
-    const Point &p = raw.nodes[a], &q = raw.nodes[b], &r = raw.nodes[c];
-    const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
-    const double twice_area = 2 * signed_area(p, q, r);
-    // Negated, so that NaN is refused too.
-    if (!(std::abs(twice_area) > smallest_flatness * longest)) {
-      throw InputError("the triangle at " + to_text((p + q + r) / 3) + " is degenerate (it has no area)");
-    }
-    if (twice_area < 0) std::swap(b, c);
+void require_area(const std::vector<Point>& nodes, const Ring& cell) {
+  const Point &p = nodes[cell[0]], &q = nodes[cell[1]], &r = nodes[cell[2]];
+  const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
+  // Negated, so that NaN is refused too.
+  if (!(std::abs(2 * signed_area(p, q, r)) > smallest_flatness * longest)) {
+    throw InputError("the triangle at " + to_text((p + q + r) / 3) + " is degenerate (it has no area)");
   }
-  return triangles;
+}
+
+void require_convex(const std::vector<Point>& nodes, const Ring& cell) {
+  double longest = 0;
+  Point mean = Point::Zero();
+  for (int k = 0; k < cell.size(); ++k) {
+    longest = std::max(longest, (nodes[cell.after(k)] - nodes[cell[k]]).squaredNorm());
+    mean += nodes[cell[k]] / 4;
+  }
+  Ring turned = cell;
+  turned.turn();
+  const double smallest = std::max(smallest_corner_area(nodes, cell), smallest_corner_area(nodes, turned));
+  if (!mean.allFinite() || !(2 * smallest > smallest_flatness * longest)) {
+    throw InputError("the quadrilateral at " + to_text(mean) +
+                     " is not convex (a corner of it has no angle below 180 degrees) cut it into triangles");
+  }
+}
+
+std::vector<Ring> counter_clockwise(const RawMesh& raw) {
+  std::vector<Ring> cells = raw.cells;
+  const int count = static_cast<int>(raw.nodes.size());
+  for (Ring& cell : cells) {
+    if (*std::min_element(cell.begin(), cell.end()) < 0 || *std::max_element(cell.begin(), cell.end()) >= count) {
+      throw InputError("a cell names a node that does not exist (there are " + std::to_string(count) + " nodes)");
+    }
+    cell.size() == 3 ? require_area(raw.nodes, cell) : require_convex(raw.nodes, cell);
+    if (signed_area(raw.nodes, cell) < 0) cell.turn();
+  }
+  return cells;
 }
 
 /// Builds one mesh; its members are what the steps hand to each other.
@@ -40,8 +60,8 @@ class MeshBuilder {
  public:
   explicit MeshBuilder(const RawMesh& raw)
       : raw_(raw),
-        triangles_(counter_clockwise(raw)),
-        edges_(raw.nodes, triangles_),
+        cells_(counter_clockwise(raw)),
+        edges_(raw.nodes, cells_),
         edge_side_(edges_.size(), none),
         edge_fracture_cell_(edges_.size(), none),
         outer_edges_at_node_(raw.nodes.size(), 0),
@@ -63,9 +83,9 @@ class MeshBuilder {
 
  private:
   void name_sides_and_regions() {
-    if (raw_.regions.size() != raw_.triangles.size()) {
+    if (raw_.regions.size() != raw_.cells.size()) {
       throw std::logic_error("raw mesh: " + std::to_string(raw_.regions.size()) + " regions for " +
-                             std::to_string(raw_.triangles.size()) + " triangles");
+                             std::to_string(raw_.cells.size()) + " cells");
     }
     for (const int region : raw_.regions) {
       if (region < 0 || region >= static_cast<int>(raw_.region_names.size())) {
@@ -85,8 +105,8 @@ class MeshBuilder {
       const std::string name = "side '" + raw_.side_names[side] + "'";
       const int edge = edges_.find(nodes[0], nodes[1]);
       if (edge == none)
-        throw InputError(name + " has an edge that no triangle has (between nodes " + std::to_string(nodes[0]) +
-                         " and " + std::to_string(nodes[1]) + ")");
+        throw InputError(name + " has an edge that no cell has (between nodes " + std::to_string(nodes[0]) + " and " +
+                         std::to_string(nodes[1]) + ")");
       if (!edges_.is_outer(edge)) throw InputError(name + " has an edge inside the mesh at " + middle(edge));
       if (edge_side_[edge] != none && edge_side_[edge] != side) {
         throw InputError("the edge at " + middle(edge) + " belongs to two sides ('" +
@@ -102,7 +122,7 @@ class MeshBuilder {
     for (std::size_t node = 0; node < raw_.nodes.size(); ++node) {
       if (outer_edges_at_node_[node] > 2) {
         throw InputError("the outer boundary touches itself at " + to_text(raw_.nodes[node]) +
-                         " (triangles meet there in one node only)");
+                         " (cells meet there in one node only)");
       }
     }
   }
@@ -153,15 +173,15 @@ class MeshBuilder {
 
   void number_nodes() {
     std::vector<int> number(raw_.nodes.size(), none);
-    for (const auto& triangle : triangles_) {
-      for (const int node : triangle) number[node] = 0;
+    for (const Ring& cell : cells_) {
+      for (const int node : cell) number[node] = 0;
     }
     for (std::size_t node = 0; node < raw_.nodes.size(); ++node) {
       if (number[node] == none) continue;
       number[node] = mesh_.node_count();
       mesh_.nodes.push_back(raw_.nodes[node]);
     }
-    mesh_.cell_nodes = triangles_;
+    mesh_.cell_nodes = cells_;
     for (auto& cell : mesh_.cell_nodes) {
       for (int& node : cell) node = number[node];
     }
@@ -179,7 +199,7 @@ class MeshBuilder {
     }
     if (cells_at.empty()) return;
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
-      for (const int node : triangles_[cell]) {
+      for (const int node : cells_[cell]) {
         if (place[node] != none) cells_at[place[node]].push_back(cell);
       }
     }
@@ -200,15 +220,15 @@ class MeshBuilder {
       while (!front.empty()) {
         const int cell = cells[front.back()];
         front.pop_back();
-        for (int k = 0; k < 3; ++k) {
-          if (triangles_[cell][k] != node) {
-            if (triangles_[cell][(k + 1) % 3] != node) continue;
+        for (int k = 0; k < cells_[cell].size(); ++k) {
+          if (cells_[cell][k] != node) {
+            if (cells_[cell].after(k) != node) continue;
           } else if (copy != none) {
             mesh_.cell_nodes[cell][k] = copy;
           }
-          const int edge = edges_.of_triangle(cell)[k];
+          const int edge = edges_.of_cell(cell)[k];
           if (edge_fracture_cell_[edge] != none || edges_.is_outer(edge)) continue;
-          const auto [one, other] = edges_.triangles(edge);
+          const auto [one, other] = edges_.cells(edge);
           const auto next = std::lower_bound(cells.begin(), cells.end(), one == cell ? other : one) - cells.begin();
           if (group[next] != none) continue;
           group[next] = static_cast<int>(groups);
@@ -220,18 +240,19 @@ class MeshBuilder {
 
   void number_faces() {
     std::vector<int> face_of_edge(edges_.size(), none);
-    mesh_.cell_faces.resize(mesh_.cell_count());
+    mesh_.cell_faces = mesh_.cell_nodes;  // as long as they are
     const std::size_t expected = edges_.size() + mesh_.fracture_cells.size();
     mesh_.face_nodes.reserve(expected);
     mesh_.face_cells.reserve(expected);
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
-      for (int k = 0; k < 3; ++k) {
-        const int edge = edges_.of_triangle(cell)[k];
+      const Ring& nodes = mesh_.cell_nodes[cell];
+      for (int k = 0; k < nodes.size(); ++k) {
+        const int edge = edges_.of_cell(cell)[k];
         const bool is_wall = edge_fracture_cell_[edge] != none;
         int face = is_wall ? none : face_of_edge[edge];
         if (face == none) {
           face = face_of_edge[edge] = mesh_.face_count();
-          mesh_.face_nodes.push_back({mesh_.cell_nodes[cell][k], mesh_.cell_nodes[cell][(k + 1) % 3]});
+          mesh_.face_nodes.push_back({nodes[k], nodes.after(k)});
           mesh_.face_cells.push_back({cell, none});
           mesh_.face_side.push_back(edge_side_[edge]);
           mesh_.face_fracture_cell.push_back(edge_fracture_cell_[edge]);
@@ -258,12 +279,12 @@ class MeshBuilder {
         cell.tangent = (to - from) / cell.length;
         cell.normal = {cell.tangent.y(), -cell.tangent.x()};
         const int edge = edges_.find(chain[i], chain[i + 1]);
-        for (const int triangle : edges_.triangles(edge)) {
-          for (int k = 0; k < 3; ++k) {
-            if (edges_.of_triangle(triangle)[k] != edge) continue;
-            // The triangle that runs along the edge in the chain's direction lies to its left: the plus side.
-            const Wall wall = triangles_[triangle][k] == chain[i] ? Wall::plus : Wall::minus;
-            cell.faces[static_cast<int>(wall)] = mesh_.cell_faces[triangle][k];
+        for (const int side : edges_.cells(edge)) {
+          for (int k = 0; k < cells_[side].size(); ++k) {
+            if (edges_.of_cell(side)[k] != edge) continue;
+            // The cell that runs along the edge in the chain's direction lies to its left: the plus side.
+            const Wall wall = cells_[side][k] == chain[i] ? Wall::plus : Wall::minus;
+            cell.faces[static_cast<int>(wall)] = mesh_.cell_faces[side][k];
           }
         }
       }
@@ -314,10 +335,9 @@ class MeshBuilder {
   void compute_geometry() {
     mesh_.cell_center.reserve(mesh_.cell_count());
     mesh_.cell_area.reserve(mesh_.cell_count());
-    for (const auto& [a, b, c] : mesh_.cell_nodes) {
-      const Point &p = mesh_.nodes[a], &q = mesh_.nodes[b], &r = mesh_.nodes[c];
-      mesh_.cell_center.push_back((p + q + r) / 3);
-      mesh_.cell_area.push_back(signed_area(p, q, r));
+    for (const Ring& cell : mesh_.cell_nodes) {
+      mesh_.cell_center.push_back(centroid(mesh_.nodes, cell));
+      mesh_.cell_area.push_back(signed_area(mesh_.nodes, cell));
     }
     mesh_.face_center.reserve(mesh_.face_count());
     mesh_.face_length.reserve(mesh_.face_count());
@@ -335,8 +355,8 @@ class MeshBuilder {
   }
 
   const RawMesh& raw_;
-  const std::vector<std::array<int, 3>> triangles_;  ///< counter-clockwise, with raw nodes
-  const TriangleEdges edges_;
+  const std::vector<Ring> cells_;  ///< counter-clockwise, with raw nodes
+  const CellEdges edges_;
   std::vector<int> edge_side_;
   std::vector<int> edge_fracture_cell_;
   std::vector<int> outer_edges_at_node_;
@@ -376,9 +396,9 @@ RawMesh to_raw_mesh(const Mesh& mesh, std::vector<int>* merged) {
       number[node] = number[find(node)];  // the root has the smaller index
     }
   }
-  raw.triangles = mesh.cell_nodes;
-  for (auto& triangle : raw.triangles) {
-    for (int& node : triangle) node = number[node];
+  raw.cells = mesh.cell_nodes;
+  for (Ring& cell : raw.cells) {
+    for (int& node : cell) node = number[node];
   }
   raw.regions = mesh.cell_region;
   raw.region_names = mesh.region_names;

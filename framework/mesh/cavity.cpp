@@ -62,7 +62,7 @@ class Choice {
       front.pop_back();
       if (is_in_[cell]) continue;
       is_in_[cell] = true;
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < mesh_.cell_faces[cell].size(); ++k) {
         const int next = cell_across(mesh_, cell, k);
         if (next != none && !is_in_[next] && is_notch(next)) front.push_back(next);
       }
@@ -71,12 +71,13 @@ class Choice {
   }
 
   bool is_notch(int cell) const {
+    const int sides = mesh_.cell_faces[cell].size();
     int in = 0, out = 0;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < sides; ++k) {
       const int next = cell_across(mesh_, cell, k);
       if (next != none) ++(is_in_[next] ? in : out);
     }
-    return in > 1 || (in == 1 && out == 0);
+    return in >= sides - 1 || (in > 0 && out == 0);
   }
 
   /// Where more than one rim edge leaves a node, all cells around it are taken.
@@ -85,7 +86,7 @@ class Choice {
     bool is_pinched = false;
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
       if (!is_in_[cell]) continue;
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < mesh_.cell_faces[cell].size(); ++k) {
         const int next = cell_across(mesh_, cell, k);
         if (next != none && is_in_[next]) continue;
         if (++leaving[merged_[mesh_.cell_nodes[cell][k]]] > 1) is_pinched = true;
@@ -134,7 +135,7 @@ std::vector<int> connected_parts(const Mesh& mesh, const std::vector<bool>& is_m
     while (!front.empty()) {
       const int cell = front.back();
       front.pop_back();
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < mesh.cell_faces[cell].size(); ++k) {
         const int next = cell_across(mesh, cell, k);
         if (next == none || !is_marked[next] || part[next] != none) continue;
         part[next] = parts;
@@ -147,9 +148,10 @@ std::vector<int> connected_parts(const Mesh& mesh, const std::vector<bool>& is_m
 }
 
 bool meets_cell(const Mesh& mesh, int cell, const Segment& segment) {
+  const Ring& corners = mesh.cell_nodes[cell];
   bool is_inside = true;
-  for (int k = 0; k < 3; ++k) {
-    const Point &a = mesh.nodes[mesh.cell_nodes[cell][k]], &b = mesh.nodes[mesh.cell_nodes[cell][(k + 1) % 3]];
+  for (int k = 0; k < corners.size(); ++k) {
+    const Point &a = mesh.nodes[corners[k]], &b = mesh.nodes[corners.after(k)];
     if (distance(segment, Segment{a, b}) <= 1e-9 * (b - a).norm()) return true;
     is_inside = is_inside && signed_area(a, b, segment.from) > 0;
   }

@@ -13,8 +13,9 @@ int cell_across(const Mesh& mesh, int cell, int k);
 
 /// Marks the cells that make room for paths (the walls of fractures count as closed; `merged` gives the nodes of
 /// the closed mesh, see to_raw_mesh). These are, for each path: cells whose centre is within the radius of a segment;
-/// cells that a segment meets, and all around their nodes. Then what remains between is taken in: cells with two sides
-/// at the cavity, cells with no other neighbours, and those around a node where the cavity would touch itself.
+/// cells that a segment meets, and all around their nodes. Then what remains between is taken in: cells with all
+/// sides but one at the cavity, cells with no other neighbours, and those around a node where the cavity would touch
+/// itself.
 std::vector<bool> choose_cavity(const Mesh& mesh, const std::vector<int>& merged,
                                 const std::vector<std::vector<Segment>>& paths, const std::vector<double>& radii);
 

@@ -14,7 +14,7 @@ auto cell_mean(const Mesh& mesh, int cell, const Function& value) {
   const Point& a = mesh.nodes[corners[0]];
   using Value = decltype(value(a));
   Value sum = 0 * value(mesh.cell_center[cell]);
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+  for (int k = 1; k + 1 < corners.size(); ++k) {
     const Point &b = mesh.nodes[corners[k]], &c = mesh.nodes[corners[k + 1]];
     const double area = ((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]) / 2;
     sum += area / 3 * (value((a + b) / 2) + value((b + c) / 2) + value((c + a) / 2));

@@ -17,10 +17,11 @@ SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int componen
   for (int c = 0; c < mesh.cell_count(); ++c) {
     for (int k = 0; k < components; ++k) {
       if (mesh.cell_rank[c] == rank) {
-        // Merge of three sorted rows.
-        int at[3], end[3];
-        double sign[3];
-        for (int j = 0; j < 3; ++j) {
+        // Merge of three or four sorted rows.
+        const int count = mesh.cell_faces[c].size();
+        int at[4], end[4];
+        double sign[4];
+        for (int j = 0; j < count; ++j) {
           const int face = mesh.cell_faces[c][j];
           at[j] = outer[face * components + k];
           end[j] = outer[face * components + k + 1];
@@ -28,11 +29,11 @@ SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int componen
         }
         for (;;) {
           int column = faces.cols();
-          for (int j = 0; j < 3; ++j)
+          for (int j = 0; j < count; ++j)
             if (at[j] < end[j]) column = std::min(column, inner[at[j]]);
           if (column == faces.cols()) break;
           double sum = 0;
-          for (int j = 0; j < 3; ++j)
+          for (int j = 0; j < count; ++j)
             if (at[j] < end[j] && inner[at[j]] == column) sum += sign[j] * values[at[j]++];
           result_inner.push_back(column);
           result_values.push_back(sum);

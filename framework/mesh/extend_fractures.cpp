@@ -57,7 +57,7 @@ class Growth {
     }
     const int count = old_count - static_cast<int>(change.removed_cells.size()) + made;
     change.cell.assign(count, none);
-    raw.triangles.resize(count);
+    raw.cells.resize(count);
     std::vector<int> moved;
     for (int cell = 0; cell < old_count; ++cell) {
       if (refill.is_removed[cell]) continue;
@@ -76,10 +76,10 @@ class Growth {
     for (const int cell : moved) change.cell[next_free()] = cell;
     for (int cell = 0; cell < count; ++cell) {
       if (change.cell[cell] == none) {
-        raw.triangles[cell] = refill.triangles[change.new_cells.size()];
+        raw.cells[cell] = Ring(refill.triangles[change.new_cells.size()]);
         change.new_cells.push_back(cell);
       } else {
-        raw.triangles[cell] = raw_.triangles[change.cell[cell]];
+        raw.cells[cell] = raw_.cells[change.cell[cell]];
       }
     }
     measure_overlap(refill, change);
@@ -106,22 +106,23 @@ class Growth {
     return raw;
   }
 
-  static Corners corners(const std::vector<Point>& nodes, const std::array<int, 3>& triangle) {
-    return {nodes[triangle[0]], nodes[triangle[1]], nodes[triangle[2]]};
+  static Corners corners(const std::vector<Point>& nodes, const Ring& cell) {
+    if (cell.size() == 3) return {nodes[cell[0]], nodes[cell[1]], nodes[cell[2]]};
+    return {nodes[cell[0]], nodes[cell[1]], nodes[cell[2]], nodes[cell[3]]};
   }
 
   void measure_overlap(const Refill& refill, const MeshChange& change) {
     std::vector<Corners> made, removed;
-    for (const auto& triangle : refill.triangles) made.push_back(corners(refill.nodes, triangle));
-    for (const int cell : change.removed_cells) removed.push_back(corners(raw_.nodes, raw_.triangles[cell]));
+    for (const auto& triangle : refill.triangles) made.push_back(corners(refill.nodes, Ring(triangle)));
+    for (const int cell : change.removed_cells) removed.push_back(corners(raw_.nodes, raw_.cells[cell]));
     holder_.assign(made.size(), none);
     std::vector<double> depth(made.size(), -std::numeric_limits<double>::infinity());
     for_each_overlap(made, removed, [&](int i, int j, double area) {
       overlaps_.emplace_back(change.new_cells[i], change.removed_cells[j], area);
       const Point center = (made[i][0] + made[i][1] + made[i][2]) / 3;
       double inside = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < 3; ++k) {
-        const Point along = removed[j][(k + 1) % 3] - removed[j][k];
+      for (int k = 0; k < removed[j].size(); ++k) {
+        const Point along = removed[j].after(k) - removed[j][k];
         inside = std::min(inside, cross(along, center - removed[j][k]) / along.norm());
       }
       if (inside > depth[i]) depth[i] = inside, holder_[i] = change.removed_cells[j];
@@ -173,16 +174,16 @@ class Growth {
     auto& [mesh, change, angle, extension_cells] = grown;
     std::map<std::array<int, 2>, int> old_face;  // of the removed cells, without walls
     for (const int cell : change.removed_cells) {
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < mesh_.cell_faces[cell].size(); ++k) {
         const int face = mesh_.cell_faces[cell][k];
         if (mesh_.face_fracture_cell[face] != none) continue;
-        old_face[sorted(raw_.triangles[cell][k], raw_.triangles[cell][(k + 1) % 3])] = face;
+        old_face[sorted(raw_.cells[cell][k], raw_.cells[cell].after(k))] = face;
       }
     }
     change.face.assign(mesh.face_count(), none);
     for (int cell = 0; cell < mesh.cell_count(); ++cell) {
       const int old = change.cell[cell];
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < mesh.cell_faces[cell].size(); ++k) {
         const int face = mesh.cell_faces[cell][k], fracture_cell = mesh.face_fracture_cell[face];
         if (old != none) {
           change.face[face] = mesh_.cell_faces[old][k];
@@ -192,7 +193,7 @@ class Growth {
           const int wall = mesh.fracture_cells[fracture_cell].faces[0] == face ? 0 : 1;
           change.face[face] = mesh_.fracture_cells[old_cell].faces[wall];
         } else {
-          const auto found = old_face.find(sorted(raw.triangles[cell][k], raw.triangles[cell][(k + 1) % 3]));
+          const auto found = old_face.find(sorted(raw.cells[cell][k], raw.cells[cell].after(k)));
           if (found != old_face.end()) change.face[face] = found->second;
         }
       }

@@ -10,7 +10,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double most_triangles = 20e6;
+constexpr double most_cells = 20e6;
 
 std::string number(double value) {
   std::ostringstream out;
@@ -194,20 +194,23 @@ void validate_options(const MeshOptions& options) {
   }
 }
 
-void validate_triangle_count(const Geometry& geometry, const MeshOptions& options) {
+void validate_cell_count(const Geometry& geometry, const MeshOptions& options) {
   double estimate = 0;
   if (options.kind == MeshOptions::Kind::structured) {
-    estimate = 2;
+    estimate = options.shape == MeshOptions::Shape::triangles ? 2 : 1;
     for (int i = 0; i < dimension; ++i) {
       estimate *= options.cells[i] > 0 ? options.cells[i] : geometry.box.size()[i] / far_size(geometry, options);
     }
   } else {
     estimate = SizeField(geometry, options).estimated_triangles();
   }
-  if (estimate > most_triangles) {
-    throw InputError(options.origin, "the mesh sizes ask for about " + number(estimate) + " triangles",
-                     "at most " + number(most_triangles) + " are made",
-                     "choose larger sizes; " + box_text(geometry.box));
+  if (estimate > most_cells) {
+    const bool has_rectangles =
+        options.kind == MeshOptions::Kind::structured && options.shape == MeshOptions::Shape::quadrilaterals;
+    throw InputError(
+        options.origin,
+        "the mesh sizes ask for about " + number(estimate) + (has_rectangles ? " rectangles" : " triangles"),
+        "at most " + number(most_cells) + " are made", "choose larger sizes; " + box_text(geometry.box));
   }
 }
 
@@ -229,6 +232,10 @@ void validate_geometry(const Geometry& geometry, const MeshOptions& options) {
     if (options.kind == MeshOptions::Kind::structured) {
       throw InputError(options.origin, "a mesh file cannot become a structured mesh");
     }
+    if (options.shape == MeshOptions::Shape::quadrilaterals) {
+      throw InputError(options.origin, "the cells of a mesh file keep their shape",
+                       "a file may hold triangles and quadrilaterals", "leave shape away");
+    }
     return;
   }
   validate_box(geometry.box);
@@ -241,7 +248,7 @@ void validate_geometry(const Geometry& geometry, const MeshOptions& options) {
     for (std::size_t j = 0; j < i; ++j) validate_pair(geometry.fractures[j], fracture, point_tolerance(geometry.box));
   }
   for (const RegionGeometry& region : geometry.regions) validate_region(geometry.box, region);
-  validate_triangle_count(geometry, options);
+  validate_cell_count(geometry, options);
 }
 
 }  // namespace sprekk

@@ -49,12 +49,14 @@ struct Geometry {
 struct MeshOptions {
   enum class Kind { unstructured, structured };
   Kind kind = Kind::unstructured;
+  enum class Shape { triangles, quadrilaterals };
+  Shape shape = Shape::triangles;  ///< unstructured quadrilaterals leave some triangles between them
   /// Edge length away from fractures, m; default a fiftieth of the longer side.
   std::optional<double> size = std::nullopt;
   std::optional<double> fracture_size = std::nullopt;  ///< edge length at fractures, m; default `size`
   std::optional<double> tip_size = std::nullopt;  ///< edge length at fracture ends, m; default that of the fracture
   double growth = 0.3;                            ///< by how many m the edge length grows per m of distance
-  std::array<int, 2> cells = {0, 0};              ///< structured: squares along x and y; 0 means as `size` asks
+  std::array<int, 2> cells = {0, 0};              ///< structured: rectangles along x and y; 0 means as `size` asks
   double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge there, 0 to 0.4
   int seed = 1;           ///< of the distortion
   Origin origin = {};
@@ -68,7 +70,7 @@ double point_tolerance(const Box& box);
 
 /// Throws InputError, with origin, for everything that cannot be meshed: an empty box, fractures or polygons outside
 /// of it or degenerate, fractures that meet each other, themselves or the boundary (other than with an end), sizes
-/// that are not positive numbers, and meshes of more than 20 million triangles.
+/// that are not positive numbers, and meshes of more than 20 million cells.
 void validate_geometry(const Geometry& geometry, const MeshOptions& options);
 
 }  // namespace sprekk

@@ -125,15 +125,21 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
 
 Spec mesh_spec(MeshOptions& options) {
   struct Input {
-    std::string kind = "unstructured";
+    std::string kind = "unstructured", shape = "triangles";
     std::vector<double> cells;
   };
   const auto input = std::make_shared<Input>();
-  Spec spec("mesh", "How the geometry is cut into triangles.");
+  Spec spec("mesh", "How the geometry is cut into cells.");
   spec.choice("kind", input->kind,
-              {{"unstructured", "triangles of varying size, made by gmsh"},
+              {{"unstructured", "cells of varying size, made by gmsh"},
                {"structured", "equal rectangles with alternating diagonals; fractures must lie on their lines"}},
               {.doc = "What kind of mesh."});
+  spec.choice("shape", input->shape,
+              {{"triangles", "triangles only"},
+               {"quadrilaterals",
+                "structured: whole rectangles, without diagonals; unstructured: triangles are joined in pairs "
+                "where that gives good convex cells; the others stay"}},
+              {.doc = "What the cells look like; a mesh file brings its own."});
   spec.quantity("size", options.size,
                 {.unit = "m",
                  .range = positive(),
@@ -159,6 +165,7 @@ Spec mesh_spec(MeshOptions& options) {
   spec.check([input, &options](const Node& whole) {
     options.origin = whole.origin;
     options.kind = input->kind == "structured" ? MeshOptions::Kind::structured : MeshOptions::Kind::unstructured;
+    options.shape = input->shape == "triangles" ? MeshOptions::Shape::triangles : MeshOptions::Shape::quadrilaterals;
     const auto& cells = input->cells;
     if (cells.empty()) return;
     const Origin origin = origin_of(whole, "cells");

@@ -1,5 +1,5 @@
-// The conforming mixed-dimensional mesh: the triangles of the matrix, the line cells of the fractures that lie on its
-// faces, and the two walls of every fracture cell.
+// The conforming mixed-dimensional mesh: the triangles and quadrilaterals of the matrix, the line cells of the
+// fractures that lie on its faces, and the two walls of every fracture cell.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/mesh/adjacency.hpp"
+#include "framework/mesh/ring.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {
@@ -48,11 +49,11 @@ struct Fracture {
 struct Mesh {
   // Matrix. Nodes, faces and cells are numbered from 0; nodes on fractures exist once per side (tips exist once).
   std::vector<Point> nodes;
-  std::vector<std::array<int, 3>> cell_nodes;  ///< counter-clockwise
-  std::vector<std::array<int, 3>> cell_faces;  ///< face k of a cell joins its nodes k and k+1 (mod 3)
+  std::vector<Ring> cell_nodes;                ///< counter-clockwise; three corners, or four of a convex quadrilateral
+  std::vector<Ring> cell_faces;                ///< face k of a cell joins its node k and the one after it
   std::vector<std::array<int, 2>> face_nodes;  ///< counter-clockwise as seen from face_cells[f][0]
   std::vector<std::array<int, 2>> face_cells;  ///< [1] is none on the outer boundary and on walls
-  std::vector<Point> cell_center;
+  std::vector<Point> cell_center;              ///< the centre of gravity
   std::vector<double> cell_area;
   std::vector<Point> face_center;
   std::vector<double> face_length;

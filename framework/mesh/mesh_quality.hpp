@@ -11,7 +11,7 @@ struct MeshQuality {
   double fracture_length = 0;                                             ///< m
   double smallest_angle = 0, mean_smallest_angle = 0, largest_angle = 0;  ///< rad; the mean is over cells
   double shortest_face = 0, mean_face = 0, longest_face = 0;              ///< m
-  int cells_with_one_neighbour = 0;  ///< cells with two faces on the outer boundary or on walls
+  int cells_with_one_neighbour = 0;  ///< all other faces lie on the outer boundary or on walls
 };
 
 MeshQuality mesh_quality(const Mesh& mesh);

@@ -30,8 +30,8 @@ class NodeStencil {
 };
 
 /// The nodes of every entity that contribute to its rows: those for which keep(entity, node) holds.
-template <std::size_t count, class Keep>
-Adjacency contributing_nodes(const std::vector<std::array<int, count>>& entity_nodes, Keep keep) {
+template <class Nodes, class Keep>
+Adjacency contributing_nodes(const std::vector<Nodes>& entity_nodes, Keep keep) {
   Adjacency nodes;
   nodes.offsets.reserve(entity_nodes.size() + 1);
   for (std::size_t entity = 0; entity < entity_nodes.size(); ++entity) {

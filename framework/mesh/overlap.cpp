@@ -29,7 +29,7 @@ struct Extent {
 };
 
 /// Each half plane adds one corner at most; two more for what rounding makes of thin polygons.
-constexpr int most_corners = 3 + 3 + 2;
+constexpr int most_corners = 4 + 4 + 2;
 
 /// A convex polygon, counter-clockwise.
 struct Polygon {
@@ -58,34 +58,34 @@ struct Polygon {
   }
 };
 
-/// Triangles by the buckets of a grid that their bounding boxes meet.
+/// Cells by the buckets of a grid that their bounding boxes meet.
 class Buckets {
  public:
-  explicit Buckets(const std::vector<Corners>& triangles) {
+  explicit Buckets(const std::vector<Corners>& cells) {
     Extent whole;
-    for (const Corners& corners : triangles) {
+    for (const Corners& corners : cells) {
       for (const Point& x : corners) whole.add(x);
     }
     low_ = whole.low;
     const Point size = whole.high - whole.low;
-    width_ = std::sqrt(size.x() * size.y() / static_cast<double>(triangles.size()));
+    width_ = std::sqrt(size.x() * size.y() / static_cast<double>(cells.size()));
     for (int axis = 0; axis < 2; ++axis) counts_[axis] = 1 + static_cast<int>(size[axis] / width_);
-    triangles_.offsets.assign(static_cast<std::size_t>(counts_[0]) * counts_[1] + 1, 0);
-    for (const Corners& corners : triangles) {
-      for_each(Extent(corners), [&](int b) { ++triangles_.offsets[b + 1]; });
+    cells_.offsets.assign(static_cast<std::size_t>(counts_[0]) * counts_[1] + 1, 0);
+    for (const Corners& corners : cells) {
+      for_each(Extent(corners), [&](int b) { ++cells_.offsets[b + 1]; });
     }
-    std::partial_sum(triangles_.offsets.begin(), triangles_.offsets.end(), triangles_.offsets.begin());
-    triangles_.items.resize(triangles_.offsets.back());
-    auto next = triangles_.offsets;
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      for_each(Extent(triangles[t]), [&](int b) { triangles_.items[next[b]++] = static_cast<int>(t); });
+    std::partial_sum(cells_.offsets.begin(), cells_.offsets.end(), cells_.offsets.begin());
+    cells_.items.resize(cells_.offsets.back());
+    auto next = cells_.offsets;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      for_each(Extent(cells[c]), [&](int b) { cells_.items[next[b]++] = static_cast<int>(c); });
     }
   }
 
   /// Ascending, each once.
   void find(const Extent& extent, std::vector<int>& found) const {
     found.clear();
-    for_each(extent, [&](int b) { found.insert(found.end(), triangles_[b].begin(), triangles_[b].end()); });
+    for_each(extent, [&](int b) { found.insert(found.end(), cells_[b].begin(), cells_[b].end()); });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
   }
@@ -104,7 +104,7 @@ class Buckets {
   Point low_;
   double width_;
   std::array<int, 2> counts_;
-  Adjacency triangles_;
+  Adjacency cells_;
 };
 
 }  // namespace
@@ -114,7 +114,7 @@ double common_area(const Corners& a, const Corners& b) {
   const Point origin = a[0];
   Polygon part;
   for (const Point& x : b) part.corners[part.count++] = x - origin;
-  for (int k = 0; k < 3 && part.count > 0; ++k) part = part.left_of(a[k] - origin, a[(k + 1) % 3] - origin);
+  for (int k = 0; k < a.size() && part.count > 0; ++k) part = part.left_of(a[k] - origin, a.after(k) - origin);
   return part.count < 3 ? 0 : part.area();
 }
 

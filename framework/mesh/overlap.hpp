@@ -1,4 +1,4 @@
-// The common area of the triangles of two triangulations.
+// The common area of the cells of two meshes.
 #pragma once
 
 #include <array>
@@ -9,14 +9,30 @@
 
 namespace sprekk {
 
-/// Corners of triangles, counter-clockwise, in m.
-using Corners = std::array<Point, 3>;
+/// Corners of a triangle or of a convex quadrilateral, counter-clockwise, in m.
+class Corners {
+ public:
+  Corners(const Point& a, const Point& b, const Point& c) : points_{a, b, c, Point::Zero()}, size_(3) {}
+  Corners(const Point& a, const Point& b, const Point& c, const Point& d) : points_{a, b, c, d}, size_(4) {}
 
-/// The area of the intersection of two triangles, m^2; exact up to rounding relative to the smaller of them, wherever
+  int size() const { return size_; }
+  const Point& operator[](int k) const { return points_[k]; }
+  const Point& after(int k) const { return points_[k + 1 == size_ ? 0 : k + 1]; }
+  const Point* begin() const { return points_.data(); }
+  const Point* end() const { return points_.data() + size_; }
+  Point* begin() { return points_.data(); }
+  Point* end() { return points_.data() + size_; }
+
+ private:
+  std::array<Point, 4> points_;
+  int size_;
+};
+
+/// The area of the intersection of two cells, m^2; exact up to rounding relative to the smaller of them, wherever
 /// they lie.
 double common_area(const Corners& a, const Corners& b);
 
-/// Calls visit(i, j, area) for each pair of a triangle of `one` and one of `other` with common area, i ascending, then
+/// Calls visit(i, j, area) for each pair of a cell of `one` and one of `other` with common area, i ascending, then
 /// j ascending. Looks pairs up in buckets: the work is about proportional to the number of pairs.
 void for_each_overlap(const std::vector<Corners>& one, const std::vector<Corners>& other,
                       const std::function<void(int, int, double)>& visit);

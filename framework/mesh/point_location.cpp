@@ -64,10 +64,10 @@ int PointLocation::bucket(int axis, double coordinate) const {
 int PointLocation::cell_at(const Point& x) const {
   if (!x.allFinite()) return none;
   for (const int cell : cells_[bucket(1, x.y()) * counts_[0] + bucket(0, x.x())]) {
+    const Ring& corners = mesh_->cell_nodes[cell];
     bool is_in = true;
-    for (int k = 0; k < 3 && is_in; ++k) {
-      const Point &a = mesh_->nodes[mesh_->cell_nodes[cell][k]],
-                  &b = mesh_->nodes[mesh_->cell_nodes[cell][(k + 1) % 3]];
+    for (int k = 0; k < corners.size() && is_in; ++k) {
+      const Point &a = mesh_->nodes[corners[k]], &b = mesh_->nodes[corners.after(k)];
       is_in = cross(b - a, x - a) >= -slack_ * (b - a).norm();
     }
     if (is_in) return cell;

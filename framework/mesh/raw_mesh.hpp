@@ -1,15 +1,16 @@
-// A triangulation before it is split along its fractures: what mesh generators and growth write and `build_mesh` reads.
+// A plane mesh before it is split along its fractures: what mesh generators and growth write and `build_mesh` reads.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
+#include "framework/mesh/ring.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {
 
-/// Node positions are in m. Triangle i becomes cell i of the Mesh; nodes that no triangle uses are dropped.
+/// Node positions are in m. Cell i becomes cell i of the Mesh; nodes that no cell uses are dropped.
 struct RawMesh {
   struct BoundaryEdge {
     std::array<int, 2> nodes;
@@ -22,8 +23,8 @@ struct RawMesh {
   };
 
   std::vector<Point> nodes;
-  std::vector<std::array<int, 3>> triangles;  ///< either orientation
-  std::vector<int> regions;                   ///< one per triangle, index into region_names
+  std::vector<Ring> cells;   ///< corners of triangles and convex quadrilaterals, either orientation
+  std::vector<int> regions;  ///< one per cell, index into region_names
   std::vector<std::string> region_names;
   std::vector<BoundaryEdge> boundary_edges;  ///< every edge of the outer boundary, once
   std::vector<std::string> side_names;

@@ -7,16 +7,17 @@
 #include <fstream>
 #include <map>
 
+#include "framework/mesh/cell_edges.hpp"
+#include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/gmsh_model.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"
-#include "framework/mesh/triangle_edges.hpp"
 
 namespace sprekk {
 namespace {
 
-constexpr int two_node_line = 1, three_node_triangle = 2;  // gmsh's element types
+constexpr int two_node_line = 1, three_node_triangle = 2, four_node_quadrilateral = 3;  // gmsh's element types
 
 struct CurveGroup {
   std::string name;
@@ -82,8 +83,8 @@ class Reader {
   RawMesh read(const std::string& file) {
     gmsh::merge(file);
     read_nodes();
-    read_triangles();
-    if (mesh_.triangles.empty()) throw InputError("the file holds no triangles");
+    read_cells();
+    if (mesh_.cells.empty()) throw InputError("the file holds no triangles and no quadrilaterals");
     read_curves();
     return std::move(mesh_);
   }
@@ -111,25 +112,45 @@ class Reader {
     return number_[tag];
   }
 
-  template <std::size_t Nodes>
-  std::vector<std::array<int, Nodes>> elements(int dim, int entity, int type, const std::string& wanted) const {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, dim, entity);
-    std::vector<std::array<int, Nodes>> found;
-    for (std::size_t i = 0; i < types.size(); ++i) {
-      if (types[i] != type)
-        throw InputError("the file holds elements that are no " + wanted + " (gmsh type " + std::to_string(types[i]) +
-                         ")");
-      for (std::size_t n = 0; n + Nodes <= nodes[i].size(); n += Nodes) {
-        auto& element = found.emplace_back();
-        for (std::size_t k = 0; k < Nodes; ++k) element[k] = node(nodes[i][n + k]);
-      }
-    }
-    return found;
+  [[noreturn]] static void refuse(int type, const std::string& wanted) {
+    throw InputError("the file holds elements that are no " + wanted + " (gmsh type " + std::to_string(type) + ")");
   }
 
-  void read_triangles() {
+  std::vector<std::array<int, 2>> lines_of(int curve) const {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, 1, curve);
+    std::vector<std::array<int, 2>> lines;
+    for (std::size_t i = 0; i < types.size(); ++i) {
+      if (types[i] != two_node_line) refuse(types[i], "two-node lines");
+      for (std::size_t n = 0; n + 2 <= nodes[i].size(); n += 2) {
+        lines.push_back({node(nodes[i][n]), node(nodes[i][n + 1])});
+      }
+    }
+    return lines;
+  }
+
+  std::vector<Ring> cells_of(int surface) const {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, 2, surface);
+    std::vector<Ring> cells;
+    for (std::size_t i = 0; i < types.size(); ++i) {
+      const auto at = [&](std::size_t n) { return node(nodes[i][n]); };
+      if (types[i] == three_node_triangle) {
+        for (std::size_t n = 0; n + 3 <= nodes[i].size(); n += 3) cells.push_back({at(n), at(n + 1), at(n + 2)});
+      } else if (types[i] == four_node_quadrilateral) {
+        for (std::size_t n = 0; n + 4 <= nodes[i].size(); n += 4) {
+          cells.push_back({at(n), at(n + 1), at(n + 2), at(n + 3)});
+        }
+      } else {
+        refuse(types[i], "three-node triangles or four-node quadrilaterals");
+      }
+    }
+    return cells;
+  }
+
+  void read_cells() {
     std::map<int, int> region_of_group;
     gmsh::vectorpair groups, surfaces;
     gmsh::model::getPhysicalGroups(groups, 2);
@@ -146,15 +167,14 @@ class Reader {
         throw InputError("a surface belongs to two groups ('" + group_name(2, tags[0]) + "' and '" +
                          group_name(2, tags[1]) + "')");
       }
-      const auto triangles = elements<3>(dim, surface, three_node_triangle, "three-node triangles");
-      if (tags.empty() && !triangles.empty() && rest == none) {
+      const auto cells = cells_of(surface);
+      if (tags.empty() && !cells.empty() && rest == none) {
         rest = static_cast<int>(mesh_.region_names.size());
         mesh_.region_names.emplace_back(default_region);
       }
-      for (const auto& triangle : triangles) {
-        mesh_.triangles.push_back(triangle);
-        auto& [a, b, c] = mesh_.triangles.back();
-        if (signed_area(mesh_.nodes[a], mesh_.nodes[b], mesh_.nodes[c]) < 0) std::swap(b, c);
+      for (const Ring& cell : cells) {
+        mesh_.cells.push_back(cell);
+        if (signed_area(mesh_.nodes, cell) < 0) mesh_.cells.back().turn();
         mesh_.regions.push_back(tags.empty() ? rest : region_of_group.at(tags[0]));
       }
     }
@@ -169,7 +189,7 @@ class Reader {
       std::vector<int> entities;
       gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
       for (const int entity : entities) {
-        const auto lines = elements<2>(1, entity, two_node_line, "two-node lines");
+        const auto lines = lines_of(entity);
         group.lines.insert(group.lines.end(), lines.begin(), lines.end());
       }
     }
@@ -177,7 +197,7 @@ class Reader {
   }
 
   void read_curves() {
-    const TriangleEdges edges(mesh_.nodes, mesh_.triangles);
+    const CellEdges edges(mesh_.nodes, mesh_.cells);
     std::vector<bool> has_side(edges.size(), false);
     for (const CurveGroup& group : curve_groups()) {
       if (group.lines.empty()) continue;
@@ -185,8 +205,8 @@ class Reader {
       for (const auto& [a, b] : group.lines) {
         const int edge = edges.find(a, b);
         if (edge == none) {
-          throw InputError("curve '" + group.name + "' leaves the edges of the triangles near " +
-                           to_text(mesh_.nodes[a]) + " (the mesh does not conform to it)");
+          throw InputError("curve '" + group.name + "' leaves the edges of the cells near " + to_text(mesh_.nodes[a]) +
+                           " (the mesh does not conform to it)");
         }
         if (!edges.is_outer(edge)) continue;
         ++outer;
@@ -205,7 +225,7 @@ class Reader {
     add_unnamed_sides(edges, has_side);
   }
 
-  void add_unnamed_sides(const TriangleEdges& edges, const std::vector<bool>& has_side) {
+  void add_unnamed_sides(const CellEdges& edges, const std::vector<bool>& has_side) {
     int side = none;
     for (int edge = 0; edge < edges.size(); ++edge) {
       if (!edges.is_outer(edge) || has_side[edge]) continue;

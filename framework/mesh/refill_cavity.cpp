@@ -142,9 +142,10 @@ class Refilling {
       for (std::size_t i = 0; i + 1 < path.size(); ++i) outline.add(path[i], path[i + 1], Place::inside, true);
     }
     for (const int cell : cells) {
-      for (int k = 0; k < 3; ++k) {
+      const Ring& corners = mesh_.cell_nodes[cell];
+      for (int k = 0; k < corners.size(); ++k) {
         const int face = mesh_.cell_faces[cell][k], next = cell_across(mesh_, cell, k);
-        const int a = merged_[mesh_.cell_nodes[cell][k]], b = merged_[mesh_.cell_nodes[cell][(k + 1) % 3]];
+        const int a = merged_[corners[k]], b = merged_[corners.after(k)];
         const bool is_fracture = mesh_.face_fracture_cell[face] != none;
         if (next == none) {
           outer_edges.push_back(

@@ -1,5 +1,6 @@
 #include "framework/mesh/regions.hpp"
 
+#include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
@@ -12,11 +13,10 @@ std::vector<std::string> region_names(const Geometry& geometry) {
 
 void assign_regions(const Geometry& geometry, RawMesh& mesh) {
   mesh.region_names = region_names(geometry);
-  mesh.regions.assign(mesh.triangles.size(), 0);
+  mesh.regions.assign(mesh.cells.size(), 0);
   if (geometry.regions.empty()) return;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    const Point center = (mesh.nodes[a] + mesh.nodes[b] + mesh.nodes[c]) / 3;
+  for (std::size_t t = 0; t < mesh.cells.size(); ++t) {
+    const Point center = centroid(mesh.nodes, mesh.cells[t]);
     for (std::size_t i = 0; i < geometry.regions.size(); ++i) {
       if (is_inside(center, geometry.regions[i].polygon)) mesh.regions[t] = static_cast<int>(i) + 1;
     }

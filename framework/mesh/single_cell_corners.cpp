@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "framework/mesh/cell_edges.hpp"
+#include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"
-#include "framework/mesh/triangle_edges.hpp"
 
 namespace sprekk {
 namespace {
@@ -14,8 +15,8 @@ namespace {
 constexpr double good_angle = 20 * std::numbers::pi / 180;
 
 void turn_counter_clockwise(RawMesh& mesh) {
-  for (auto& [a, b, c] : mesh.triangles) {
-    if (signed_area(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c]) < 0) std::swap(b, c);
+  for (Ring& cell : mesh.cells) {
+    if (signed_area(mesh.nodes, cell) < 0) cell.turn();
   }
 }
 
@@ -28,7 +29,7 @@ struct Quadrilateral {
 };
 
 int node_opposite(const RawMesh& mesh, int triangle, int p, int q) {
-  for (const int node : mesh.triangles[triangle]) {
+  for (const int node : mesh.cells[triangle]) {
     if (node != p && node != q) return node;
   }
   return none;
@@ -38,7 +39,7 @@ int node_opposite(const RawMesh& mesh, int triangle, int p, int q) {
 class Pass {
  public:
   explicit Pass(RawMesh& mesh)
-      : mesh_(mesh), edges_(mesh.nodes, mesh.triangles), is_barrier_(edges_.size()), is_stale_(mesh.triangles.size()) {
+      : mesh_(mesh), edges_(mesh.nodes, mesh.cells), is_barrier_(edges_.size()), is_stale_(mesh.cells.size()) {
     for (int edge = 0; edge < edges_.size(); ++edge) is_barrier_[edge] = edges_.is_outer(edge);
     for (const auto& [name, chain] : mesh.fractures) {
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
@@ -54,13 +55,17 @@ class Pass {
     for (int triangle = 0; triangle < count; ++triangle) {
       const int k = only_inner_edge(triangle);
       if (k == none || is_stale_[triangle]) continue;
-      const auto [one, other] = edges_.triangles(edges_.of_triangle(triangle)[k]);
+      const auto [one, other] = edges_.cells(edges_.of_cell(triangle)[k]);
       const int neighbour = one == triangle ? other : one;
       if (is_stale_[neighbour]) continue;
-      const auto& nodes = mesh_.triangles[triangle];
+      const auto& nodes = mesh_.cells[triangle];
       const int c = nodes[k], a = nodes[(k + 1) % 3], b = nodes[(k + 2) % 3];
       const int barriers = barrier_count(neighbour);
-      cure({triangle, neighbour, a, b, c, node_opposite(mesh_, neighbour, a, c), barriers == 0});
+      if (mesh_.cells[neighbour].size() == 4) {
+        halve(triangle, neighbour, a, b, c);
+      } else {
+        cure({triangle, neighbour, a, b, c, node_opposite(mesh_, neighbour, a, c), barriers == 0});
+      }
       is_stale_[triangle] = is_stale_[neighbour] = true;
       ++cured;
     }
@@ -70,13 +75,13 @@ class Pass {
  private:
   int barrier_count(int triangle) const {
     int count = 0;
-    for (const int edge : edges_.of_triangle(triangle)) count += is_barrier_[edge] ? 1 : 0;
+    for (const int edge : edges_.of_cell(triangle)) count += is_barrier_[edge] ? 1 : 0;
     return count;
   }
 
   int only_inner_edge(int triangle) const {
-    if (barrier_count(triangle) != 2) return none;
-    const auto& edges = edges_.of_triangle(triangle);
+    if (mesh_.cells[triangle].size() != 3 || barrier_count(triangle) != 2) return none;
+    const auto& edges = edges_.of_cell(triangle);
     for (int k = 0; k < 3; ++k) {
       if (!is_barrier_[edges[k]]) return k;
     }
@@ -91,24 +96,49 @@ class Pass {
         std::min({smallest_angle(a, b, m), smallest_angle(b, c, m), smallest_angle(c, d, m), smallest_angle(d, a, m)});
     const int region = mesh_.regions[q.corner], other_region = mesh_.regions[q.neighbour];
     if (region == other_region && q.neighbour_is_free && flipped > 0 && (flipped >= good_angle || flipped >= halved)) {
-      mesh_.triangles[q.corner] = {q.a, q.b, q.d};
-      mesh_.triangles[q.neighbour] = {q.b, q.c, q.d};
+      mesh_.cells[q.corner] = {q.a, q.b, q.d};
+      mesh_.cells[q.neighbour] = {q.b, q.c, q.d};
       return;
     }
     const int middle = static_cast<int>(mesh_.nodes.size());
     mesh_.nodes.push_back(m);
-    mesh_.triangles[q.corner] = {q.a, q.b, middle};
-    mesh_.triangles[q.neighbour] = {q.c, q.d, middle};
-    mesh_.triangles.push_back({q.b, q.c, middle});
+    mesh_.cells[q.corner] = {q.a, q.b, middle};
+    mesh_.cells[q.neighbour] = {q.c, q.d, middle};
+    mesh_.cells.push_back({q.b, q.c, middle});
     mesh_.regions.push_back(region);
-    mesh_.triangles.push_back({q.d, q.a, middle});
+    mesh_.cells.push_back({q.d, q.a, middle});
     mesh_.regions.push_back(other_region);
   }
 
+  /// Triangle a b c and, behind its edge c a, a quadrilateral that begins there with a, c.
+  void halve(int triangle, int neighbour, int a, int b, int c) {
+    const Ring quadrilateral = mesh_.cells[neighbour];
+    const int middle = static_cast<int>(mesh_.nodes.size());
+    mesh_.nodes.push_back(0.5 * (mesh_.nodes[a] + mesh_.nodes[c]));
+    mesh_.cells[triangle] = {a, b, middle};
+    add({b, c, middle}, mesh_.regions[triangle]);
+    bool is_first = true;
+    for (int k = 0; k < quadrilateral.size(); ++k) {
+      if (quadrilateral[k] == a) continue;  // followed by c: the edge that is halved
+      const Ring part{quadrilateral[k], quadrilateral.after(k), middle};
+      if (is_first) {
+        mesh_.cells[neighbour] = part;
+      } else {
+        add(part, mesh_.regions[neighbour]);
+      }
+      is_first = false;
+    }
+  }
+
+  void add(const Ring& cell, int region) {
+    mesh_.cells.push_back(cell);
+    mesh_.regions.push_back(region);
+  }
+
   RawMesh& mesh_;
-  const TriangleEdges edges_;
+  const CellEdges edges_;
   std::vector<bool> is_barrier_;  ///< per edge: outer or fracture
-  std::vector<bool> is_stale_;    ///< per triangle: changed in this pass
+  std::vector<bool> is_stale_;    ///< per cell: changed in this pass
 };
 
 }  // namespace

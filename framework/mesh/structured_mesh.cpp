@@ -14,6 +14,7 @@ namespace {
 struct Grid {
   Box box;
   std::array<int, 2> cells;
+  bool has_diagonals;
   int parity;  ///< rectangle (i, j) is cut from its lower left to its upper right corner when i + j + parity is even
 
   bool rises(int i, int j) const { return (i + j + parity) % 2 == 0; }
@@ -26,7 +27,8 @@ struct Grid {
   }
   bool joined(int i, int j, int di, int dj) const {
     if (i + di < 0 || i + di > cells[0] || j + dj < 0 || j + dj > cells[1]) return false;
-    return di == 0 || dj == 0 || rises(std::min(i, i + di), std::min(j, j + dj)) == (di == dj);
+    if (di == 0 || dj == 0) return true;
+    return has_diagonals && rises(std::min(i, i + di), std::min(j, j + dj)) == (di == dj);
   }
 };
 
@@ -77,7 +79,7 @@ int first_astray(const Grid& grid, const Geometry& geometry) {
 }
 
 Grid choose_grid(const Geometry& geometry, const MeshOptions& options) {
-  Grid grid{geometry.box, options.cells, 0};
+  Grid grid{geometry.box, options.cells, options.shape == MeshOptions::Shape::triangles, 0};
   for (int axis = 0; axis < 2; ++axis) {
     if (grid.cells[axis] > 0) continue;
     // The subtraction forgives rounding in quotients that are meant to be whole.
@@ -91,7 +93,7 @@ Grid choose_grid(const Geometry& geometry, const MeshOptions& options) {
   const FractureGeometry& fracture = geometry.fractures[astray];
   throw InputError(fracture.origin, "fracture '" + fracture.name + "' does not follow the structured mesh",
                    "with " + std::to_string(grid.cells[0]) + " x " + std::to_string(grid.cells[1]) +
-                       " cells it leaves the grid lines and diagonals",
+                       " cells it leaves the grid lines" + (grid.has_diagonals ? " and diagonals" : ""),
                    "choose other cells or kind: unstructured");
 }
 
@@ -107,12 +109,14 @@ RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options) {
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
       const int a = grid.node(i, j), b = grid.node(i + 1, j), c = grid.node(i + 1, j + 1), d = grid.node(i, j + 1);
-      if (grid.rises(i, j)) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
+      if (!grid.has_diagonals) {
+        mesh.cells.push_back({a, b, c, d});
+      } else if (grid.rises(i, j)) {
+        mesh.cells.push_back({a, b, c});
+        mesh.cells.push_back({a, c, d});
       } else {
-        mesh.triangles.push_back({a, b, d});
-        mesh.triangles.push_back({b, c, d});
+        mesh.cells.push_back({a, b, d});
+        mesh.cells.push_back({b, c, d});
       }
     }
   }

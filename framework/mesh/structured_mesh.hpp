@@ -1,4 +1,4 @@
-// Squares cut into triangles with alternating diagonals.
+// Rectangles, whole or cut into triangles with alternating diagonals.
 #pragma once
 
 #include "framework/mesh/geometry.hpp"
@@ -6,8 +6,9 @@
 
 namespace sprekk {
 
-/// Rectangles of equal size, cut by diagonals whose direction alternates like a chess board ("union jack"). Fractures
-/// must lie on grid lines and diagonals, else InputError; triangles take the region of their centre. The geometry is a
+/// Rectangles of equal size; for triangles they are cut by diagonals whose direction alternates like a chess board
+/// ("union jack"). Fractures must lie on grid lines and diagonals, else InputError; cells take the region of their
+/// centre. The geometry is a
 /// valid one.
 RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options);
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/planar.hpp"
-#include "framework/mesh/triangle_edges.hpp"
 
 namespace sprekk {
 namespace {
@@ -18,7 +18,10 @@ constexpr int most_rounds = 12;
 class Round {
  public:
   explicit Round(Triangulation& t)
-      : t_(t), edges_(t.points, t.triangles), is_fixed_(edges_.size()), is_barrier_(edges_.size()) {
+      : t_(t),
+        edges_(t.points, std::vector<Ring>(t.triangles.begin(), t.triangles.end())),
+        is_fixed_(edges_.size()),
+        is_barrier_(edges_.size()) {
     for (const auto& [points, is_barrier] : t.fixed_edges) {
       const int edge = edges_.find(points[0], points[1]);
       if (edge < 0) continue;
@@ -33,7 +36,7 @@ class Round {
     bool changed = false;
     for (int edge = 0; edge < edges_.size(); ++edge) {
       if (is_fixed_[edge] || edges_.is_outer(edge)) continue;
-      const auto [one, other] = edges_.triangles(edge);
+      const auto [one, other] = edges_.cells(edge);
       if (is_stale[one] || is_stale[other]) continue;
       const auto [a, c] = edges_.nodes(edge);
       const int b = opposite(other, a, c), d = opposite(one, a, c);  // a, b, c, d is counter-clockwise
@@ -72,9 +75,9 @@ class Round {
     for (int triangle = 0; triangle < count; ++triangle) {
       if (barriers(triangle) != 2 || is_stale[triangle]) continue;
       for (int k = 0; k < 3; ++k) {
-        const int edge = edges_.of_triangle(triangle)[k];
+        const int edge = edges_.of_cell(triangle)[k];
         if (is_barrier_[edge] || edges_.is_outer(edge)) continue;
-        const auto [one, other] = edges_.triangles(edge);
+        const auto [one, other] = edges_.cells(edge);
         const int neighbour = one == triangle ? other : one;
         if (is_stale[neighbour]) continue;
         halve(triangle, neighbour, t_.triangles[triangle][k], t_.triangles[triangle][(k + 1) % 3]);
@@ -86,7 +89,7 @@ class Round {
 
   int barriers(int triangle) const {
     int count = 0;
-    for (const int edge : edges_.of_triangle(triangle)) count += is_barrier_[edge] ? 1 : 0;
+    for (const int edge : edges_.of_cell(triangle)) count += is_barrier_[edge] ? 1 : 0;
     return count;
   }
 
@@ -168,7 +171,7 @@ class Round {
   }
 
   Triangulation& t_;
-  const TriangleEdges edges_;
+  const CellEdges edges_;
   std::vector<bool> is_fixed_, is_barrier_;
 };
 

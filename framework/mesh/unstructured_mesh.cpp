@@ -8,6 +8,7 @@
 
 #include "framework/mesh/arrangement.hpp"
 #include "framework/mesh/gmsh_model.hpp"
+#include "framework/mesh/join_triangles.hpp"
 #include "framework/mesh/regions.hpp"
 #include "framework/mesh/size_field.hpp"
 
@@ -121,7 +122,7 @@ void fetch_mesh(const Geometry& geometry, const Arrangement& arrangement, const 
   constexpr int three_node_triangle = 2;
   gmsh::model::mesh::getElementsByType(three_node_triangle, elements, tags);
   for (std::size_t i = 0; i + 2 < tags.size(); i += 3) {
-    mesh.triangles.push_back({number[tags[i]], number[tags[i + 1]], number[tags[i + 2]]});
+    mesh.cells.push_back({number[tags[i]], number[tags[i + 1]], number[tags[i + 2]]});
   }
 
   mesh.side_names.assign(box_sides.begin(), box_sides.end());
@@ -169,6 +170,7 @@ RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options) 
     fetch_mesh(geometry, arrangement, frame, curves, mesh);
   });
   assign_regions(geometry, mesh);
+  if (options.shape == MeshOptions::Shape::quadrilaterals) join_triangles(mesh);
   return mesh;
 }
 

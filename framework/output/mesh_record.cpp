@@ -60,6 +60,27 @@ Adjacency read_adjacency(const Hdf5Reader& file, const std::string& path) {
   return adjacency;
 }
 
+void write_rings(Hdf5Writer& file, const std::string& path, const std::vector<Ring>& rings) {
+  Adjacency flat;
+  for (const Ring& ring : rings) {
+    flat.items.insert(flat.items.end(), ring.begin(), ring.end());
+    flat.offsets.push_back(static_cast<int>(flat.items.size()));
+  }
+  write_adjacency(file, path, flat);
+}
+
+std::vector<Ring> read_rings(const Hdf5Reader& file, const std::string& path) {
+  const Adjacency flat = read_adjacency(file, path);
+  std::vector<Ring> rings;
+  for (int i = 0; i < flat.size(); ++i) {
+    const auto items = flat[i];
+    if (items.size() != 3 && items.size() != 4) throw Hdf5Error("array " + path + " contradicts itself");
+    rings.push_back(items.size() == 3 ? Ring(items[0], items[1], items[2])
+                                      : Ring(items[0], items[1], items[2], items[3]));
+  }
+  return rings;
+}
+
 void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
   std::vector<std::string> names;
   std::vector<int> ranges;
@@ -147,8 +168,8 @@ void require_consistent(const Mesh& mesh) {
 
 void write_mesh(Hdf5Writer& file, const Mesh& mesh) {
   file.doubles("mesh/nodes", values(mesh.nodes));
-  file.integers("mesh/cell_nodes", values(mesh.cell_nodes));
-  file.integers("mesh/cell_faces", values(mesh.cell_faces));
+  write_rings(file, "mesh/cell_nodes", mesh.cell_nodes);
+  write_rings(file, "mesh/cell_faces", mesh.cell_faces);
   file.integers("mesh/face_nodes", values(mesh.face_nodes));
   file.integers("mesh/face_cells", values(mesh.face_cells));
   file.doubles("mesh/cell_center", values(mesh.cell_center));
@@ -171,8 +192,8 @@ Mesh read_mesh(const Hdf5Reader& file) {
   Mesh mesh;
   mesh.version = next_mesh_version();
   mesh.nodes = read_points(file, "mesh/nodes");
-  mesh.cell_nodes = read_lists<3>(file, "mesh/cell_nodes");
-  mesh.cell_faces = read_lists<3>(file, "mesh/cell_faces");
+  mesh.cell_nodes = read_rings(file, "mesh/cell_nodes");
+  mesh.cell_faces = read_rings(file, "mesh/cell_faces");
   mesh.face_nodes = read_lists<2>(file, "mesh/face_nodes");
   mesh.face_cells = read_lists<2>(file, "mesh/face_cells");
   mesh.cell_center = read_points(file, "mesh/cell_center");

@@ -12,6 +12,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -47,20 +48,28 @@ vtkSmartPointer<vtkIntArray> make_array(const std::string& name, int count) {
   return array;
 }
 
-template <std::size_t points_per_cell, class PointsOfCell>
-void set_cells(vtkUnstructuredGrid& grid, VTKCellType type, int count, const PointsOfCell& points_of_cell) {
+/// Two points make a line, three a triangle, four a quadrilateral.
+template <class PointsOfCell>
+void set_cells(vtkUnstructuredGrid& grid, int count, const PointsOfCell& points_of_cell) {
+  vtkNew<vtkUnsignedCharArray> types;
   vtkNew<vtkIdTypeArray> connectivity, offsets;
-  connectivity->SetNumberOfValues(count * points_per_cell);
+  types->SetNumberOfValues(count);
   offsets->SetNumberOfValues(count + 1);
   vtkIdType next = 0;
   for (int i = 0; i < count; ++i) {
     offsets->SetValue(i, next);
-    for (const int point : points_of_cell(i)) connectivity->SetValue(next++, point);
+    const auto& points = points_of_cell(i);
+    types->SetValue(i, points.size() == 2 ? VTK_LINE : points.size() == 3 ? VTK_TRIANGLE : VTK_QUAD);
+    next += static_cast<vtkIdType>(points.size());
   }
   offsets->SetValue(count, next);
+  connectivity->SetNumberOfValues(next);
+  next = 0;
+  for (int i = 0; i < count; ++i)
+    for (const int point : points_of_cell(i)) connectivity->SetValue(next++, point);
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, connectivity);
-  grid.SetCells(type, cells);
+  grid.SetCells(types, cells);
 }
 
 template <class Position>
@@ -119,7 +128,7 @@ std::string labelled(const std::string& quantity, const std::string& unit) {
 void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields) {
   vtkNew<vtkUnstructuredGrid> grid;
   set_points(*grid, mesh.node_count(), [&](int i) { return mesh.nodes[i]; });
-  set_cells<3>(*grid, VTK_TRIANGLE, mesh.cell_count(), [&](int i) { return mesh.cell_nodes[i]; });
+  set_cells(*grid, mesh.cell_count(), [&](int i) -> const Ring& { return mesh.cell_nodes[i]; });
   const auto region = make_array("region", mesh.cell_count());
   for (int i = 0; i < mesh.cell_count(); ++i) region->SetValue(i, mesh.cell_region[i]);
   grid->GetCellData()->AddArray(region);
@@ -136,7 +145,7 @@ void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, con
   const int cell_count = mesh.fracture_cell_count();
   set_points(*grid, static_cast<int>(mesh.fracture_points.size()),
              [&](int i) { return mesh.fracture_points[i].position; });
-  set_cells<2>(*grid, VTK_LINE, cell_count, [&](int i) { return mesh.fracture_cells[i].points; });
+  set_cells(*grid, cell_count, [&](int i) -> const std::array<int, 2>& { return mesh.fracture_cells[i].points; });
   const auto fracture = make_array("fracture", cell_count);
   for (int i = 0; i < cell_count; ++i) fracture->SetValue(i, mesh.fracture_cells[i].fracture);
   grid->GetCellData()->AddArray(fracture);

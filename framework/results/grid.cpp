@@ -11,8 +11,10 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "framework/output/time_series.hpp"
@@ -20,13 +22,14 @@
 namespace sprekk {
 namespace {
 
-void add_arrays(vtkFieldData& data, Grid::Place place, Grid& grid) {
+/// `sources`: for each entity of the grid, the tuple that holds its values.
+void add_arrays(vtkFieldData& data, Grid::Place place, const std::vector<vtkIdType>& sources, Grid& grid) {
   for (int i = 0; i < data.GetNumberOfArrays(); ++i) {
     vtkDataArray* const array = data.GetArray(i);
     if (array == nullptr || array->GetName() == nullptr) continue;
     const int components = array->GetNumberOfComponents();
     Grid::Values values{array->GetName(), place, components, {}};
-    for (vtkIdType k = 0; k < array->GetNumberOfTuples(); ++k)
+    for (const vtkIdType k : sources)
       for (int c = 0; c < components; ++c) values.values.push_back(array->GetComponent(k, c));
     grid.arrays.push_back(std::move(values));
   }
@@ -58,13 +61,22 @@ Grid read_grid(const std::filesystem::path& vtu) {
     grid.points.push_back({position[0], position[1]});
   }
   vtkNew<vtkIdList> corners;
+  std::vector<vtkIdType> cell_of;  // of each triangle or line of the grid
   for (vtkIdType i = 0; i < read.GetNumberOfCells(); ++i) {
     read.GetCellPoints(i, corners);
-    grid.points_per_cell = static_cast<int>(corners->GetNumberOfIds());
-    for (const vtkIdType corner : *corners) grid.cells.push_back(static_cast<int>(corner));
+    const auto corner = [&](int k) { return static_cast<int>(corners->GetId(k)); };
+    const int count = static_cast<int>(corners->GetNumberOfIds());
+    grid.points_per_cell = count == 2 ? 2 : 3;
+    for (int k = 2; k < std::max(count, 3); ++k) {
+      cell_of.push_back(i);
+      grid.cells.insert(grid.cells.end(), {corner(0), corner(k - 1)});
+      if (count > 2) grid.cells.push_back(corner(k));
+    }
   }
-  add_arrays(*read.GetCellData(), Grid::Place::cell, grid);
-  add_arrays(*read.GetPointData(), Grid::Place::point, grid);
+  std::vector<vtkIdType> all_points(static_cast<std::size_t>(read.GetNumberOfPoints()));
+  std::iota(all_points.begin(), all_points.end(), 0);
+  add_arrays(*read.GetCellData(), Grid::Place::cell, cell_of, grid);
+  add_arrays(*read.GetPointData(), Grid::Place::point, all_points, grid);
   return grid;
 }
 

@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// Triangles or lines with arrays on them.
+/// Triangles or lines with arrays on them, to be drawn: a quadrilateral becomes two triangles with its values.
 struct Grid {
   enum class Place { cell, point };
   struct Values {

@@ -32,8 +32,21 @@ inline MeshOptions structured(int columns, int rows, double distortion = 0) {
   return options;
 }
 
+inline MeshOptions rectangles(int columns, int rows, double distortion = 0) {
+  MeshOptions options = structured(columns, rows, distortion);
+  options.shape = MeshOptions::Shape::quadrilaterals;
+  return options;
+}
+
+/// Mostly quadrilaterals, with triangles between them.
+inline MeshOptions mixed(double size, double distortion = 0) {
+  MeshOptions options = unstructured(size, distortion);
+  options.shape = MeshOptions::Shape::quadrilaterals;
+  return options;
+}
+
 /// A distorted unit square with two fractures, one of which ends on the boundary.
-inline Mesh fractured_square() {
+inline Mesh fractured_square(const MeshOptions& options = unstructured(0.1, 0.35)) {
   Geometry geometry = box(1, 1);
   FractureGeometry inside, through;
   inside.name = "inside";
@@ -41,7 +54,44 @@ inline Mesh fractured_square() {
   through.name = "through";
   through.points = {Point(0, 0.7), Point(0.6, 0.8)};
   geometry.fractures = {inside, through};
-  return generate_mesh(geometry, unstructured(0.1, 0.35));
+  return generate_mesh(geometry, options);
+}
+
+/// A unit square of distorted quadrilaterals with fractures along what were grid lines, one of which bends around the
+/// corner of a cell.
+inline Mesh fractured_rectangles() {
+  Geometry geometry = box(1, 1);
+  FractureGeometry bent, through;
+  bent.name = "bent";
+  bent.points = {Point(0.2, 0.3), Point(0.6, 0.3), Point(0.6, 0.7)};
+  through.name = "through";
+  through.points = {Point(0, 0.9), Point(0.5, 0.9)};
+  geometry.fractures = {bent, through};
+  return generate_mesh(geometry, rectangles(10, 10, 0.4));
+}
+
+/// Rectangles between grid lines at the given coordinates (m, ascending).
+inline Mesh grid_of(const std::vector<double>& x, const std::vector<double>& y) {
+  RawMesh raw;
+  raw.region_names = {"rock"};
+  raw.side_names = {"left", "right", "bottom", "top"};
+  const int columns = static_cast<int>(x.size()) - 1, rows = static_cast<int>(y.size()) - 1;
+  const auto node = [&](int i, int j) { return i + (columns + 1) * j; };
+  for (const double v : y)
+    for (const double u : x) raw.nodes.emplace_back(u, v);
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i)
+      raw.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+  raw.regions.assign(raw.cells.size(), 0);
+  for (int j = 0; j < rows; ++j) {
+    raw.boundary_edges.push_back({{node(0, j), node(0, j + 1)}, 0});
+    raw.boundary_edges.push_back({{node(columns, j), node(columns, j + 1)}, 1});
+  }
+  for (int i = 0; i < columns; ++i) {
+    raw.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 2});
+    raw.boundary_edges.push_back({{node(i, rows), node(i + 1, rows)}, 3});
+  }
+  return build_mesh(raw);
 }
 
 /// Squares cut by parallel diagonals: a single triangle in two of the corners. Inner nodes are displaced.
@@ -58,10 +108,10 @@ inline Mesh square_with_single_corners(int n) {
     }
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      raw.triangles.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-      raw.triangles.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+      raw.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+      raw.cells.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
     }
-  raw.regions.assign(raw.triangles.size(), 0);
+  raw.regions.assign(raw.cells.size(), 0);
   for (int i = 0; i < n; ++i) {
     raw.boundary_edges.push_back({{node(0, i), node(0, i + 1)}, 0});
     raw.boundary_edges.push_back({{node(n, i), node(n, i + 1)}, 1});

@@ -48,7 +48,7 @@ double largest_error(const NodalValues& values, const Mesh& mesh, const Function
   double error = 0;
   for (int i = 0; i < mesh.cell_count(); ++i) {
     if (!is_asked(i)) continue;
-    const auto& [a, b, c] = mesh.cell_nodes[i];
+    const int a = mesh.cell_nodes[i][0], b = mesh.cell_nodes[i][1], c = mesh.cell_nodes[i][2];
     const double s = part(random), t = (1 - s) * part(random);
     const Point inside = mesh.nodes[a] + s * (mesh.nodes[b] - mesh.nodes[a]) + t * (mesh.nodes[c] - mesh.nodes[a]);
     for (const Point& x : {mesh.nodes[a], mesh.nodes[b], mesh.nodes[c], inside})

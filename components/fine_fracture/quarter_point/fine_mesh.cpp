@@ -71,12 +71,12 @@ void add_rosettes(const std::vector<TipRoom>& rooms, OutsideMesh& outside) {
     raw.nodes.push_back(rooms[t].position);
     const auto& corners = outside.rosettes[t];
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      raw.triangles.push_back({tip, corners[k], corners[(k + 1) % corners.size()]});
+      raw.cells.push_back({tip, corners[k], corners[(k + 1) % corners.size()]});
     }
     auto& chain = raw.fractures[rooms[t].crack].nodes;
     chain.insert(rooms[t].is_last ? chain.end() : chain.begin(), tip);
   }
-  raw.regions.assign(raw.triangles.size(), 0);
+  raw.regions.assign(raw.cells.size(), 0);
   raw.region_names = {"rock"};
 }
 
@@ -108,7 +108,7 @@ class Builder {
 
  private:
   /// The corner of a rosette's triangle that is the tip.
-  int tip_node(const TipRoom& room, const std::array<int, 3>& corners) const {
+  int tip_node(const TipRoom& room, const Ring& corners) const {
     const auto away = [&](int node) { return (mesh_.nodes[node] - room.position).norm(); };
     return *std::min_element(corners.begin(), corners.end(), [&](int a, int b) { return away(a) < away(b); });
   }

@@ -157,7 +157,7 @@ class Reader {
     constexpr int three_node_triangle = 2;
     gmsh::model::mesh::getElementsByType(three_node_triangle, elements, tags);
     for (std::size_t i = 0; i + 2 < tags.size(); i += 3) {
-      raw.triangles.push_back({number_[tags[i]], number_[tags[i + 1]], number_[tags[i + 2]]});
+      raw.cells.push_back({number_[tags[i]], number_[tags[i + 1]], number_[tags[i + 2]]});
     }
     for (std::size_t i = 0; i < drawing.points.size(); ++i) {
       tags.clear(), coordinates.clear(), parameters.clear();
@@ -254,7 +254,7 @@ OutsideMesh mesh_outside(const FineGeometry& geometry, const std::vector<TipRoom
     gmsh::model::mesh::generate(2);
     mesh = read(drawing, canonical, static_cast<int>(geometry.outline.size()));
   });
-  if (mesh.raw.triangles.empty()) throw std::runtime_error("gmsh made no triangles on the fine level");
+  if (mesh.raw.cells.empty()) throw std::runtime_error("gmsh made no triangles on the fine level");
   return mesh;
 }
 

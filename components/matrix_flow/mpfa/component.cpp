@@ -10,7 +10,7 @@ struct MpfaOptions : Options {
   Spec spec() {
     return Options::spec(
         "matrix_flow/mpfa",
-        "Flow in the matrix (Eq. 6): multi-point flux approximation, exact for linear pressures on any triangles.");
+        "Flow in the matrix (Eq. 6): multi-point flux approximation, exact for linear pressures on any mesh.");
   }
 };
 

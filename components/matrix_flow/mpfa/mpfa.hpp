@@ -1,4 +1,4 @@
-// The multi-point flux approximation (MPFA-O) on triangles.
+// The multi-point flux approximation (MPFA-O) on triangles and convex quadrilaterals.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace sprekk::matrix_flow {
 /// `mobility`: permeability tensor over viscosity of every cell (m^2/(Pa s)). `conditions`: one a face.
 /// `nodes`: the nodes whose interaction regions are to be discretized; empty means all. Rows of faces with an end
 /// outside `nodes` are then incomplete and must not be used.
-/// Exact for linear pressures on any mesh of triangles, with any (also discontinuous, anisotropic) mobility whose
+/// Exact for linear pressures on any mesh, with any (also discontinuous, anisotropic) mobility whose
 /// solution is linear. Aavatsmark 2002; continuity points as in Klausen, Radu, Eigestad 2008 (1/3 of the half face from
 /// its centre; the centre itself on the boundary).
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,

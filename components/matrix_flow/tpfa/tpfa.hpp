@@ -1,4 +1,4 @@
-// The two-point flux approximation on triangles.
+// The two-point flux approximation on triangles and quadrilaterals.
 #pragma once
 
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -20,12 +21,14 @@ inline void add_scaled(double* target, double factor, const double* source, int 
   for (int j = 0; j < count; ++j) target[j] += factor * source[j];
 }
 
-/// The cell on the other side of the face that does not touch the node, or none.
-int cell_across(const Mesh& mesh, int cell, int node) {
-  for (const int face : mesh.cell_faces[cell])
-    if (mesh.face_nodes[face][0] != node && mesh.face_nodes[face][1] != node)
-      return mesh.face_cells[face][mesh.face_cells[face][0] == cell ? 1 : 0];
-  return none;
+/// The cells on the other sides of the faces that do not touch the node: one at most of a triangle, two of a
+/// quadrilateral.
+void add_cells_across(const Mesh& mesh, int cell, int node, std::vector<int>& cells) {
+  for (const int face : mesh.cell_faces[cell]) {
+    if (mesh.face_nodes[face][0] == node || mesh.face_nodes[face][1] == node) continue;
+    const int across = mesh.face_cells[face][mesh.face_cells[face][0] == cell ? 1 : 0];
+    if (across != none) cells.push_back(across);
+  }
 }
 
 }  // namespace
@@ -37,8 +40,8 @@ Adjacency local_cells(const Mesh& mesh) {
     const auto at_node = mesh.node_cells[node];
     cells.items.insert(cells.items.end(), at_node.begin(), at_node.end());
     if (at_node.size() == 1) {
-      const int across = cell_across(mesh, at_node[0], node);
-      if (across != none) cells.items.insert(cells.items.end() - (across < at_node[0] ? 1 : 0), across);
+      add_cells_across(mesh, at_node[0], node, cells.items);
+      std::sort(cells.items.begin() + cells.offsets.back(), cells.items.end());
     }
     cells.offsets.push_back(static_cast<int>(cells.items.size()));
   }
@@ -49,7 +52,7 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
                           const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions) {
   subcells_ = region.subcell_count();
   cells_ = static_cast<int>(cells.size());
-  first_column_ = cells[0] == region.subcells[0].cell ? 0 : 1;
+  first_column_ = static_cast<int>(std::find(cells.begin(), cells.end(), region.subcells[0].cell) - cells.begin());
   subfaces_ = region.subface_count();
   int outer = 0;
   for (int f = 0; f < subfaces_; ++f) outer += !region.is_inner(f);
@@ -180,18 +183,24 @@ void LocalStresses::solve_singular(const Mesh& mesh, const InteractionRegion& re
   svd.setThreshold(weak);
   Eigen::MatrixXd solution = svd.solve(system.rightCols(columns_));
   if (cells_ > 1) {
-    // What is free is chosen so that the subcell's linear displacement, continued to the centre of the cell across,
-    // comes as near as it can to that cell's displacement.
+    // What is free is chosen so that the subcell's linear displacement, continued to the centres of the cells across,
+    // comes as near as it can to their displacements.
     const Subcell& subcell = region.subcells[0];
-    const Point arm = mesh.cell_center[cells[1 - first_column_]] - mesh.cell_center[subcell.cell];
-    Eigen::MatrixXd continuation = Eigen::MatrixXd::Zero(2, n), target = Eigen::MatrixXd::Zero(2, columns_);
-    for (int c = 0; c < 2; ++c) {
-      target(c, 2 * (1 - first_column_) + c) = 1;
-      target(c, 2 * first_column_ + c) = -1;
-      for (int i = 0; i < 2; ++i) {
-        const double weight = subcell.gradient[i].dot(arm);
-        continuation(c, 2 * subcell.subfaces[i] + c) += weight;
-        target(c, 2 * first_column_ + c) += weight;
+    const int targets = 2 * (cells_ - 1);
+    Eigen::MatrixXd continuation = Eigen::MatrixXd::Zero(targets, n);
+    Eigen::MatrixXd target = Eigen::MatrixXd::Zero(targets, columns_);
+    int row = 0;
+    for (int other = 0; other < cells_; ++other) {
+      if (other == first_column_) continue;
+      const Point arm = mesh.cell_center[cells[other]] - mesh.cell_center[subcell.cell];
+      for (int c = 0; c < 2; ++c, ++row) {
+        target(row, 2 * other + c) = 1;
+        target(row, 2 * first_column_ + c) = -1;
+        for (int i = 0; i < 2; ++i) {
+          const double weight = subcell.gradient[i].dot(arm);
+          continuation(row, 2 * subcell.subfaces[i] + c) += weight;
+          target(row, 2 * first_column_ + c) += weight;
+        }
       }
     }
     const Eigen::MatrixXd free = svd.matrixV().rightCols(n - svd.rank());

@@ -16,7 +16,7 @@ class TipField;
 using FaceConditions = std::array<MechanicalCondition, 2>;
 
 /// The cells whose displacements and stresses a node's local problem reads, in ascending order: those at the node. A
-/// cell that is alone there is joined by the one across its third face, if any.
+/// cell that is alone there is joined by those across its faces that do not touch the node, if any.
 Adjacency local_cells(const Mesh& mesh);
 
 /// In every subcell the displacement is linear; displacements agree at the continuity points and forces, C : grad u - s
@@ -33,8 +33,9 @@ Adjacency local_cells(const Mesh& mesh);
 ///
 /// A region of a single subcell has no weak symmetry: its mean gradient is its own. A rotation of the subcell about its
 /// centre then costs nothing unless a prescribed displacement stops it, and two rollers leave a mixture of shear and
-/// stretching free. Such freedom is used to continue the displacement of the cell across, which keeps the method exact
-/// for linear displacements; a triangle that has no neighbour at all gets the least displacement of its subfaces.
+/// stretching free. Such freedom is used to continue the displacement of the cell across (of a quadrilateral: of both
+/// cells across, by least squares), which keeps the method exact for linear displacements; a cell that has no
+/// neighbour at all gets the least displacement of its subfaces.
 class LocalStresses {
  public:
   /// Throws std::runtime_error if the local system is singular for another reason.

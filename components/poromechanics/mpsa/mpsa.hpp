@@ -1,5 +1,5 @@
-// The multi-point stress approximation with weak symmetry (MPSA-W) on triangles, with the Biot terms and the pressure
-// stabilization that come from the same local problems.
+// The multi-point stress approximation with weak symmetry (MPSA-W) on triangles and convex quadrilaterals, with the
+// Biot terms and the pressure stabilization that come from the same local problems.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct StressOperators {
 };
 
 /// `conditions`: [f][direction]. `nodes` as for MPFA. Exact for linear displacements with constant s, and for layers
-/// whose displacement is linear in each, on any mesh of triangles; where layers of another stiffness also shear
+/// whose displacement is linear in each, on any mesh; where layers of another stiffness also shear
 /// differently, the relative error of the force next to the interface is of the order of the ratio of their
 /// stiffnesses. Keilegavlen and Nordbotten 2017 (weak symmetry; the weights of the mean differ, see LocalStresses);
 /// Nordbotten 2016 (Biot terms and stabilization). Throws std::invalid_argument for arguments that do not fit the mesh

@@ -17,10 +17,10 @@ Mesh equilateral(int n) {
     for (int i = 0; i <= n; ++i) raw.nodes.emplace_back(i + 0.5 * j, std::sqrt(0.75) * j);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      raw.triangles.push_back({node(i, j), node(i + 1, j), node(i, j + 1)});
-      raw.triangles.push_back({node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+      raw.cells.push_back({node(i, j), node(i + 1, j), node(i, j + 1)});
+      raw.cells.push_back({node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
     }
-  raw.regions.assign(raw.triangles.size(), 0);
+  raw.regions.assign(raw.cells.size(), 0);
   for (int i = 0; i < n; ++i) {
     raw.boundary_edges.push_back({{node(0, i), node(0, i + 1)}, 0});
     raw.boundary_edges.push_back({{node(n, i), node(n, i + 1)}, 0});

@@ -46,6 +46,8 @@ test::BiotStep column(const Mesh& mesh, const Rock& rock, double load) {
 TEST(TerzaghiStep, UndrainedPressureIsExact) {
   const Rock rock;
   for (const Mesh& mesh : {generate_mesh(test::box(0.2, 1), test::structured(6, 30, 0.3)),
+                           generate_mesh(test::box(0.2, 1), test::rectangles(6, 30, 0.3)),
+                           generate_mesh(test::box(0.2, 1), test::mixed(0.04)),
                            generate_mesh(test::box(0.2, 1), test::unstructured(0.04))}) {
     auto step = column(mesh, rock, 2);
     step.time_step = 0;
@@ -66,6 +68,31 @@ TEST(TerzaghiStep, SmallStepsRaiseThePressureByLessThanAHundredthOfTheLoss) {
       const Vector p = test::BiotSystem(step).solve(step).pressure / rock.undrained_pressure(1);
       EXPECT_LT(p.maxCoeff() - 1, 0.01 * (1 - p.minCoeff())) << "c dt / h^2 = " << number;
       EXPECT_GT(p.minCoeff(), 0);
+    }
+}
+
+TEST(TerzaghiStep, RectanglesHaveNoOvershoot) {
+  const Rock rock;
+  const int rows = 40;
+  std::vector<double> even, graded, stretched;
+  for (int j = 0; j <= rows; ++j) {
+    const double y = static_cast<double>(j) / rows;
+    even.push_back(y);
+    graded.push_back(y * (0.3 + 0.7 * y));                 // finest at the closed end
+    stretched.push_back(j % 2 == 0 ? y : y - 0.4 / rows);  // layers of 0.6 and 1.4 in turn
+  }
+  const std::vector<double> one{0, 0.025}, several{0, 0.02, 0.025, 0.1, 0.11};
+  for (const auto& x : {one, several})
+    for (const auto& y : {even, graded, stretched}) {
+      const Mesh mesh = test::grid_of(x, y);
+      const double h = 1.0 / rows;
+      for (const double number : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+        auto step = column(mesh, rock, 1);
+        step.time_step = number * h * h / rock.diffusivity();
+        const Vector p = test::BiotSystem(step).solve(step).pressure / rock.undrained_pressure(1);
+        EXPECT_LT(p.maxCoeff() - 1, 1e-10) << "c dt / h^2 = " << number;
+        EXPECT_GT(p.minCoeff(), 0) << "c dt / h^2 = " << number;
+      }
     }
 }
 

@@ -1,7 +1,7 @@
 #include "framework/mesh/build_mesh.hpp"
 
+#include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/structured_mesh.hpp"
-#include "framework/mesh/triangle_edges.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {
@@ -105,7 +105,7 @@ TEST(BuildMesh, SplitNodesKeepTheirPlaceAndCopiesComeLast) {
 TEST(BuildMesh, TurnsClockwiseTrianglesAndDropsUnusedNodes) {
   RawMesh raw = squares({});
   const Mesh straight = build_mesh(raw);
-  for (auto& triangle : raw.triangles) std::swap(triangle[1], triangle[2]);
+  for (Ring& cell : raw.cells) cell.turn();
   raw.nodes.emplace_back(100, 100);
   const Mesh turned = build_mesh(raw);
   expect_consistent(turned);
@@ -124,7 +124,7 @@ TEST(BuildMesh, RawMeshClosesTheWallsAgain) {
   std::vector<int> merged;
   const RawMesh closed = to_raw_mesh(mesh, &merged);
   EXPECT_EQ(closed.nodes, raw.nodes);
-  EXPECT_EQ(closed.triangles, raw.triangles);
+  EXPECT_EQ(closed.cells, raw.cells);
   EXPECT_EQ(closed.fractures[0].nodes, raw.fractures[0].nodes);
   EXPECT_EQ(closed.fractures[1].nodes, raw.fractures[1].nodes);
   EXPECT_EQ(closed.boundary_edges.size(), raw.boundary_edges.size());
@@ -162,7 +162,7 @@ TEST(BuildMesh, RefusesFracturesThatAreNoPaths) {
 
 TEST(BuildMesh, RefusesWrongTriangles) {
   const RawMesh good{.nodes = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}},
-                     .triangles = {{0, 1, 2}, {1, 3, 2}},
+                     .cells = {{0, 1, 2}, {1, 3, 2}},
                      .regions = {0, 0},
                      .region_names = {"rock"},
                      .boundary_edges = {{{0, 1}, 0}, {{1, 3}, 0}, {{3, 2}, 0}, {{2, 0}, 0}},
@@ -174,14 +174,14 @@ TEST(BuildMesh, RefusesWrongTriangles) {
   raw.nodes[3] = {0.5, 0.5};
   EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("is degenerate"));
   raw = good;
-  raw.triangles.push_back({1, 4, 2});
+  raw.cells.push_back({1, 4, 2});
   raw.regions.push_back(0);
-  EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("more than two triangles meet"));
+  EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("more than two cells meet"));
   raw = good;
   raw.nodes[3] = {0.1, 0.1};
-  EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("two triangles lie on the same side"));
+  EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("two cells lie on the same side"));
   raw = good;
-  raw.triangles[1][1] = 7;
+  raw.cells[1][1] = 7;
   EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("a node that does not exist"));
   raw = good;
   raw.boundary_edges.pop_back();
@@ -200,7 +200,7 @@ TEST(BuildMesh, RefusesWrongTriangles) {
 
 TEST(BuildMesh, RefusesTrianglesThatMeetInOneNode) {
   const RawMesh raw{.nodes = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}},
-                    .triangles = {{0, 1, 2}, {0, 3, 4}},
+                    .cells = {{0, 1, 2}, {0, 3, 4}},
                     .regions = {0, 0},
                     .region_names = {"rock"},
                     .boundary_edges = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 0}, 0}, {{0, 3}, 0}, {{3, 4}, 0}, {{4, 0}, 0}},
@@ -209,14 +209,14 @@ TEST(BuildMesh, RefusesTrianglesThatMeetInOneNode) {
   EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("touches itself at (0, 0)"));
 }
 
-TEST(TriangleEdges, FindsEdgesInEitherDirection) {
+TEST(CellEdges, FindsEdgesInEitherDirection) {
   const std::vector<Point> nodes{{0, 0}, {1, 0}, {0, 1}, {1, 1}};
-  const TriangleEdges edges(nodes, {{0, 1, 2}, {1, 3, 2}});
+  const CellEdges edges(nodes, {{0, 1, 2}, {1, 3, 2}});
   EXPECT_EQ(edges.size(), 5);
   const int diagonal = edges.find(2, 1);
   EXPECT_EQ(diagonal, edges.find(1, 2));
   EXPECT_EQ(edges.nodes(diagonal), (std::array{1, 2}));
-  EXPECT_EQ(edges.triangles(diagonal), (std::array{0, 1}));
+  EXPECT_EQ(edges.cells(diagonal), (std::array{0, 1}));
   EXPECT_FALSE(edges.is_outer(diagonal));
   EXPECT_EQ(edges.find(0, 3), none);
   EXPECT_EQ(edges.find(0, 9), none);

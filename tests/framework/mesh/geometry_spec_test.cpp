@@ -104,6 +104,9 @@ TEST(MeshSpec, ReadsStructuredMeshes) {
   EXPECT_EQ(options.cells, (std::array{20, 10}));
   EXPECT_DOUBLE_EQ(options.distortion, 0.3);
   EXPECT_EQ(options.seed, 5);
+  EXPECT_EQ(options.shape, MeshOptions::Shape::triangles);
+  EXPECT_EQ(read_mesh("{kind: structured, shape: quadrilaterals}").shape, MeshOptions::Shape::quadrilaterals);
+  EXPECT_THAT(input_error([] { read_mesh("{shape: squares}"); }), HasSubstr("quadrilaterals"));
 }
 
 TEST(MeshSpec, RefusesWrongValues) {

@@ -80,10 +80,13 @@ inline void expect_consistent(const Mesh& mesh) {
   std::vector<std::vector<int>> cells_of_face(mesh.face_count());
   std::vector<std::set<int>> cells_of_node(mesh.node_count()), faces_of_node(mesh.node_count());
   for (int c = 0; c < mesh.cell_count(); ++c) {
-    Point corner_sum = Point::Zero(), normal_sum = Point::Zero();
+    Point moment = Point::Zero(), normal_sum = Point::Zero();
     double perimeter = 0, twice_area = 0;
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.cell_nodes[c][k], b = mesh.cell_nodes[c][(k + 1) % 3], f = mesh.cell_faces[c][k];
+    const int corners = mesh.cell_nodes[c].size();
+    ASSERT_EQ(mesh.cell_faces[c].size(), corners);
+    const Point origin = mesh.nodes[mesh.cell_nodes[c][0]];
+    for (int k = 0; k < corners; ++k) {
+      const int a = mesh.cell_nodes[c][k], b = mesh.cell_nodes[c][(k + 1) % corners], f = mesh.cell_faces[c][k];
       const Point &p = mesh.nodes[a], &q = mesh.nodes[b];
       const bool is_first = mesh.face_cells[f][0] == c;
       ASSERT_EQ(mesh.face_nodes[f], (is_first ? std::array{a, b} : std::array{b, a}));
@@ -100,12 +103,15 @@ inline void expect_consistent(const Mesh& mesh) {
       ASSERT_NEAR((mesh.face_center[f] - (p + q) / 2).norm(), 0, 1e-15);
       normal_sum += mesh.face_length[f] * outward;
       perimeter += mesh.face_length[f];
-      corner_sum += p;
-      twice_area += p.x() * q.y() - p.y() * q.x();
+      // Of the polygon, with the first corner as origin (Green's theorem).
+      const Point u = p - origin, v = q - origin;
+      const double twice_part = u.x() * v.y() - u.y() * v.x();
+      moment += twice_part / 6 * (u + v);
+      twice_area += twice_part;
     }
     ASSERT_GT(mesh.cell_area[c], 0);
     ASSERT_NEAR(mesh.cell_area[c], twice_area / 2, 1e-14);
-    ASSERT_NEAR((mesh.cell_center[c] - corner_sum / 3).norm(), 0, 1e-14);
+    ASSERT_NEAR((mesh.cell_center[c] - origin - moment / mesh.cell_area[c]).norm(), 0, 1e-14);
     ASSERT_LT(normal_sum.norm(), 1e-14 * perimeter);
     ASSERT_GE(mesh.cell_region[c], 0);
     ASSERT_LT(mesh.cell_region[c], static_cast<int>(mesh.region_names.size()));

@@ -49,7 +49,7 @@ TEST(ForEachOverlap, SumsToTheAreasOfTwoMeshes) {
   const Mesh two = generate_mesh(box(0, 2, 0, 2), {.size = 0.07});
   const auto corners = [](const Mesh& mesh) {
     std::vector<Corners> all;
-    for (const auto& [a, b, c] : mesh.cell_nodes) all.push_back({mesh.nodes[a], mesh.nodes[b], mesh.nodes[c]});
+    for (const Ring& t : mesh.cell_nodes) all.push_back({mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]]});
     return all;
   };
   std::vector<double> of_one = one.cell_area, of_two = two.cell_area;

@@ -161,7 +161,7 @@ TEST(ReadMsh, RefusesFracturesThatAreNoSingleLine) {
               HasSubstr("fracture 'crack' is a closed loop"));
   EXPECT_THAT(refusal(three_by_three({{11, 6, 7}, {11, 10, 11}})), HasSubstr("fracture 'crack' is in several parts"));
   EXPECT_THAT(refusal(three_by_three({{11, 5, 1}, {11, 5, 6}})), HasSubstr("partly inside and partly on the boundary"));
-  EXPECT_THAT(refusal(three_by_three({{11, 6, 16}})), HasSubstr("curve 'crack' leaves the edges of the triangles"));
+  EXPECT_THAT(refusal(three_by_three({{11, 6, 16}})), HasSubstr("curve 'crack' leaves the edges of the cells"));
 }
 
 TEST(ReadMsh, FracturesThatMeetAreRefusedWithTheFilesName) {
@@ -174,13 +174,48 @@ TEST(ReadMsh, FracturesThatMeetAreRefusedWithTheFilesName) {
       AllOf(HasSubstr("scene.yaml:3:9"), HasSubstr(file.path()), HasSubstr("'crack' and 'vein' meet at (1, 1)")));
 }
 
-TEST(ReadMsh, RefusesWhatIsNoPlaneTriangleMesh) {
+TEST(ReadMsh, ReadsTrianglesBesideQuadrilaterals) {
+  // Two squares, the second of them cut in two; a crack along the face between the first and the others.
+  const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 11 \"crack\"\n2 20 \"sand\"\n2 21 \"clay\"\n"
+      "$EndPhysicalNames\n$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n7 0 2 0\n8 1 2 0\n9 2 2 0\n"
+      "$EndNodes\n$Elements\n6\n1 1 2 11 11 2 5\n";
+  const TemporaryFile file(head +
+                           "2 3 2 20 20 1 2 5 4\n3 2 2 21 21 2 3 6\n4 2 2 21 21 2 6 5\n5 3 2 21 21 4 7 8 5\n"
+                           "6 3 2 21 21 5 6 9 8\n$EndElements\n");
+  const Mesh mesh = build_mesh(read_msh(file.path()));
+  expect_consistent(mesh);
+  ASSERT_EQ(mesh.cell_count(), 5);
+  int quadrilaterals = 0;
+  for (const Ring& cell : mesh.cell_nodes) quadrilaterals += cell.size() == 4 ? 1 : 0;
+  EXPECT_EQ(quadrilaterals, 3);
+  EXPECT_NEAR(total_area(mesh), 4, 1e-14);
+  EXPECT_EQ(std::count(mesh.cell_region.begin(), mesh.cell_region.end(), 0), 1);
+  EXPECT_EQ(mesh.fracture_cell_count(), 1);
+  // The same with an arrowhead: the node in the middle is moved over the diagonal of the first square.
+  std::string moved = head;
+  moved.replace(moved.find("5 1 1 0"), 7, "5 0.4 0.4 0");
+  const TemporaryFile bad(moved +
+                          "2 3 2 20 20 1 2 5 4\n3 2 2 21 21 2 3 6\n4 2 2 21 21 2 6 5\n5 3 2 21 21 4 7 8 5\n"
+                          "6 3 2 21 21 5 6 9 8\n$EndElements\n");
+  Geometry geometry;
+  geometry.file = bad.path();
+  geometry.file_origin = {"scene.yaml", 3, 9};
+  EXPECT_THAT(input_error([&] { generate_mesh(geometry, {}); }),
+              AllOf(HasSubstr("scene.yaml:3:9"), HasSubstr(bad.path()), HasSubstr("is not convex")));
+  geometry.file = file.path();
+  EXPECT_THAT(input_error([&] { generate_mesh(geometry, {.shape = MeshOptions::Shape::quadrilaterals}); }),
+              HasSubstr("keep their shape"));
+}
+
+TEST(ReadMsh, RefusesWhatIsNoPlaneMeshOfTrianglesAndQuadrilaterals) {
   EXPECT_THAT(input_error([] { read_msh("no_such_file.msh"); }), HasSubstr("does not exist"));
   EXPECT_THAT(refusal("this is no mesh\n"), HasSubstr("cannot use the mesh file"));
   EXPECT_THAT(refusal(""), HasSubstr("cannot use the mesh file"));
-  EXPECT_THAT(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
-                      "$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n"),
-              HasSubstr("elements that are no three-node triangles"));
+  EXPECT_THAT(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.5 0 0\n5 0.5 "
+                      "0.5 0\n6 0 0.5 0\n"
+                      "$EndNodes\n$Elements\n1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n"),
+              HasSubstr("elements that are no three-node triangles or four-node quadrilaterals"));
   EXPECT_THAT(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 1 1 1\n$EndNodes\n"
                       "$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n"),
               HasSubstr("leaves the x-y plane"));

@@ -18,11 +18,11 @@ RawMesh rising(int nx, int ny) {
   const auto node = [&](int i, int j) { return j * (nx + 1) + i; };
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
-      mesh.triangles.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-      mesh.triangles.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+      mesh.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+      mesh.cells.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
     }
   }
-  mesh.regions.assign(mesh.triangles.size(), 0);
+  mesh.regions.assign(mesh.cells.size(), 0);
   for (int i = 0; i < nx; ++i) {
     mesh.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 0});
     mesh.boundary_edges.push_back({{node(i, ny), node(i + 1, ny)}, 0});
@@ -45,7 +45,7 @@ TEST(SingleCellCorners, FlipsTheInnerEdge) {
   RawMesh mesh = rising(3, 3);
   EXPECT_EQ(mesh_quality(build_mesh(mesh)).cells_with_one_neighbour, 2);
   EXPECT_EQ(avoid_single_cell_corners(mesh), 2);
-  EXPECT_EQ(mesh.triangles.size(), 18u);
+  EXPECT_EQ(mesh.cells.size(), 18u);
   EXPECT_EQ(mesh.nodes.size(), 16u);
   expect_cured(mesh, 9);
   EXPECT_EQ(avoid_single_cell_corners(mesh), 0);
@@ -54,7 +54,7 @@ TEST(SingleCellCorners, FlipsTheInnerEdge) {
 TEST(SingleCellCorners, HalvesTheEdgeWhereAFlipOnlyMovesTheTrouble) {
   RawMesh mesh = rising(1, 1);
   EXPECT_EQ(avoid_single_cell_corners(mesh), 1);
-  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_EQ(mesh.cells.size(), 4u);
   expect_cured(mesh, 1);
 }
 
@@ -62,7 +62,7 @@ TEST(SingleCellCorners, HalvesTheEdgeBetweenRegions) {
   RawMesh mesh = rising(3, 3);
   mesh.regions[4] = 1;  // the lower right corner
   avoid_single_cell_corners(mesh);
-  EXPECT_EQ(mesh.triangles.size(), 20u);
+  EXPECT_EQ(mesh.cells.size(), 20u);
   expect_cured(mesh, 9);
   const Mesh built = build_mesh(mesh);
   double area = 0;
@@ -82,14 +82,14 @@ TEST(SingleCellCorners, SeesFracturesAsWalls) {
 
 TEST(SingleCellCorners, LeavesALonelyTriangle) {
   RawMesh mesh{.nodes = {{0, 0}, {1, 0}, {0, 1}},
-               .triangles = {{0, 1, 2}},
+               .cells = {{0, 1, 2}},
                .regions = {0},
                .region_names = {"rock"},
                .boundary_edges = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 0}, 0}},
                .side_names = {"outside"},
                .fractures = {}};
   EXPECT_EQ(avoid_single_cell_corners(mesh), 0);
-  EXPECT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.cells.size(), 1u);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "framework/output/mesh_record.hpp"
 
+#include "framework/mesh/generate_mesh.hpp"
 #include "tests/framework/output/small_case.hpp"
 
 namespace sprekk {
@@ -14,6 +15,23 @@ class MeshRecord : public TemporaryFolder {
     return read_mesh(Hdf5Reader(folder / "mesh.h5"));
   }
 };
+
+TEST_F(MeshRecord, TrianglesBesideQuadrilateralsComeBack) {
+  Geometry geometry;
+  geometry.box = {{0, 0}, {1, 1}, {}};
+  const Mesh mesh = generate_mesh(geometry, {.shape = MeshOptions::Shape::quadrilaterals, .size = 0.2});
+  const auto corners = [&](int count) {
+    return std::count_if(mesh.cell_nodes.begin(), mesh.cell_nodes.end(),
+                         [&](const Ring& cell) { return cell.size() == count; });
+  };
+  ASSERT_GT(corners(3), 0);
+  ASSERT_GT(corners(4), 0);
+  const Mesh read = round_trip(mesh);
+  EXPECT_EQ(read.cell_nodes, mesh.cell_nodes);
+  EXPECT_EQ(read.cell_faces, mesh.cell_faces);
+  EXPECT_EQ(read.cell_center, mesh.cell_center);
+  EXPECT_TRUE(is_same_mesh(read, mesh));
+}
 
 TEST_F(MeshRecord, EveryMemberComesBackToTheBit) {
   Mesh mesh = small_mesh();

@@ -1,12 +1,14 @@
 #include "framework/output/vtu_writer.hpp"
 
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include "framework/mesh/build_mesh.hpp"
 #include "tests/framework/output/small_case.hpp"
 
 namespace sprekk {
@@ -69,6 +71,31 @@ TEST_F(VtuWriter, MatrixIsReadBackToTheBit) {
   expect_values(grid->GetCellData()->GetArray("rock.stress[Pa]"), stress);
   EXPECT_EQ(grid->GetCellData()->GetArray("conduit.aperture[Pa]"), nullptr);
   EXPECT_NE(grid->GetCellData()->GetArray("region"), nullptr);
+}
+
+TEST_F(VtuWriter, TrianglesBesideQuadrilateralsAreReadBack) {
+  RawMesh raw{.nodes = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0.5}},
+              .cells = {{0, 1, 2, 3}, {1, 4, 2}},
+              .regions = {0, 1},
+              .region_names = {"rock", "other"},
+              .boundary_edges = {{{0, 1}, 0}, {{2, 3}, 0}, {{3, 0}, 0}, {{1, 4}, 0}, {{4, 2}, 0}},
+              .side_names = {"outside"},
+              .fractures = {}};
+  const Mesh mixed = build_mesh(raw);
+  const auto pressure = field_on(mixed, "pore.pressure", Location::cell, 1);
+  write_matrix_vtu(folder / "mixed.vtu", mixed, {pressure});
+  vtkUnstructuredGrid* grid = read(folder / "mixed.vtu");
+  ASSERT_EQ(grid->GetNumberOfCells(), 2);
+  EXPECT_EQ(grid->GetCellType(0), VTK_QUAD);
+  EXPECT_EQ(grid->GetCellType(1), VTK_TRIANGLE);
+  for (int i = 0; i < 2; ++i) {
+    vtkIdType count;
+    const vtkIdType* points;
+    grid->GetCellPoints(i, count, points);
+    EXPECT_EQ(std::vector<int>(points, points + count),
+              std::vector<int>(mixed.cell_nodes[i].begin(), mixed.cell_nodes[i].end()));
+  }
+  expect_values(grid->GetCellData()->GetArray("pore.pressure[Pa]"), pressure);
 }
 
 TEST_F(VtuWriter, FracturesAreReadBackToTheBitWithTheirWallsAndFrames) {
