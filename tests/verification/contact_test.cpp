@@ -26,7 +26,8 @@ Tensor traction_free_strain() {
 /// A square cut by a straight fracture at some angle, whose sides follow a uniform strain on the minus side of the
 /// fracture, and the same with a rigid jump on the plus side's opposite. In units with lambda = G = 1.
 std::string patch_scene(const std::string& normal_jump, const std::string& tangential_jump, double friction,
-                        const std::string& dilation, const Tensor& strain = uniform_strain()) {
+                        const std::string& dilation, const Tensor& strain = uniform_strain(),
+                        const std::string& shape = "triangles") {
   // The fracture runs through (0.5, 0.5) along t = (cos 30, sin 30); n = (sin 30, -cos 30); minus side where n·x > 0.5
   // n·(1,1).
   const std::string side = "(0.5*(x-0.5) - 0.8660254037844386*(y-0.5) > 0)";
@@ -37,7 +38,9 @@ std::string patch_scene(const std::string& normal_jump, const std::string& tange
   const std::string u = "{displacement: [" + displacement(0, "0.5", "0.8660254037844386") + ", " +
                         displacement(1, "(-0.8660254037844386)", "0.5") + "]}";
   return "{geometry: {box: {x: [0, 1], y: [0, 1]}, fractures: {cut: {points: [[0, 0.2113248654051871], [1, "
-         "0.7886751345948129]]}}}, mesh: {size: 0.12, distortion: 0.2}, components: {rock: {type: poromechanics/mpsa, "
+         "0.7886751345948129]]}}}, mesh: {size: 0.12, distortion: 0.2, shape: " +
+         shape +
+         "}, components: {rock: {type: poromechanics/mpsa, "
          "young_modulus: 2.5, poisson_ratio: 0.25, boundary: {left: " +
          u + ", right: " + u + ", bottom: " + u + ", top: " + u +
          "}}, contact: {type: contact/coulomb, friction: " + fmt::format("{:.17g}", friction) +
@@ -68,19 +71,26 @@ void expect_patch(const std::string& scene, const Point& jump, const Point& trac
 }
 
 // Jumps are up to 1e-3 and tractions up to 0.06: 1e-12 is 1e-9 of them.
-TEST(ContactPatch, Sticks) { expect_patch(patch_scene("0", "0", 1.0, "0"), Point::Zero(), uniform_traction(), 1e-12); }
+class ContactPatch : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Cells, ContactPatch, ::testing::Values("triangles", "quadrilaterals"),
+                         [](const auto& info) { return std::string(info.param); });
 
-TEST(ContactPatch, Opens) {
-  // A strain whose stress s t⊗t leaves the fracture without traction, and a rigid jump that opens it.
-  expect_patch(patch_scene("1e-3", "0", 0.5, "0", traction_free_strain()), {1e-3, 0}, Point::Zero(), 1e-12);
+TEST_P(ContactPatch, Sticks) {
+  expect_patch(patch_scene("0", "0", 1.0, "0", uniform_strain(), GetParam()), Point::Zero(), uniform_traction(), 1e-12);
 }
 
-TEST(ContactPatch, SlipsWithDilation) {
+TEST_P(ContactPatch, Opens) {
+  // A strain whose stress s t⊗t leaves the fracture without traction, and a rigid jump that opens it.
+  expect_patch(patch_scene("1e-3", "0", 0.5, "0", traction_free_strain(), GetParam()), {1e-3, 0}, Point::Zero(), 1e-12);
+}
+
+TEST_P(ContactPatch, SlipsWithDilation) {
   // Friction that the uniform traction just reaches: f_t = mu |f_n| holds for the uniform state.
   const Point traction = uniform_traction();
   const double friction = std::abs(traction[1] / traction[0]);
   const double slip = traction[1] > 0 ? 1e-3 : -1e-3, opening = 1e-3 * std::tan(10 * M_PI / 180);
-  expect_patch(patch_scene(fmt::format("{:.17g}", opening), fmt::format("{:.17g}", slip), friction, "10 deg"),
+  expect_patch(patch_scene(fmt::format("{:.17g}", opening), fmt::format("{:.17g}", slip), friction, "10 deg",
+                           uniform_strain(), GetParam()),
                {opening, slip}, traction, 1e-12);
 }
 

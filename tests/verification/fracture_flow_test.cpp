@@ -24,10 +24,10 @@ struct Errors {
   double matrix, fracture;  ///< relative to the largest pressure
 };
 
-Errors errors(const Mode& mode, double size) {
+Errors errors(const Mode& mode, const std::string& mesh_text) {
   const auto text = [](double value, const char* unit) { return std::to_string(value * 1e9) + "e-9 " + unit; };
   SceneRun run("verification/single_mode_fracture.yaml",
-               {{"mesh.size", std::to_string(size) + " m"},
+               {{"mesh", mesh_text},
                 {"components.conduit.transmissivity_value", text(mode.transmissivity, "m^3")},
                 {"components.conduit.normal_permeability_value", text(mode.kappa, "m/(Pa*s)")}});
   run.run();
@@ -48,12 +48,12 @@ Errors errors(const Mode& mode, double size) {
   return {std::sqrt(square / area), std::sqrt(fracture_square)};
 }
 
-TEST(SingleMode, IsSecondOrderUniformlyInTransmissivityAndPermeability) {
+void expect_second_order(const std::string& coarse_mesh, const std::string& fine_mesh) {
   const std::vector<Mode> all = modes();
   ASSERT_EQ(all.size(), 25u);
   double worst_coarse = 0, worst = 0, worst_fracture_coarse = 0, worst_fracture = 0;
   for (const Mode& mode : all) {
-    const Errors coarse = errors(mode, 0.1), fine = errors(mode, 0.05);
+    const Errors coarse = errors(mode, coarse_mesh), fine = errors(mode, fine_mesh);
     worst_coarse = std::max(worst_coarse, coarse.matrix);
     worst = std::max(worst, fine.matrix);
     worst_fracture_coarse = std::max(worst_fracture_coarse, coarse.fracture);
@@ -64,6 +64,15 @@ TEST(SingleMode, IsSecondOrderUniformlyInTransmissivityAndPermeability) {
   // Over all pairs together: the error is uniform, and falls with the square of the mesh size.
   EXPECT_GT(std::log2(worst_coarse / worst), 1.8) << worst_coarse << " " << worst;
   EXPECT_GT(std::log2(worst_fracture_coarse / worst_fracture), 1.8) << worst_fracture_coarse << " " << worst_fracture;
+}
+
+TEST(SingleMode, IsSecondOrderUniformlyInTransmissivityAndPermeability) {
+  expect_second_order("{size: 0.1 m}", "{size: 0.05 m}");
+}
+
+TEST(SingleMode, IsSecondOrderOnQuadrilaterals) {
+  const std::string squares = "{kind: structured, shape: quadrilaterals, cells: ";
+  expect_second_order(squares + "[14, 14]}", squares + "[28, 28]}");
 }
 
 }  // namespace

@@ -138,6 +138,29 @@ TEST(WingCracks, BothTipsGrowAlike) {
   EXPECT_NEAR(run.quantity("tips.main_first.length"), run.quantity("tips.main_last.length"), 0.006);
 }
 
+TEST(WingCracks, GrowThroughQuadrilaterals) {
+  // The cells around a path are made anew as triangles; those further away stay quadrilaterals. The critical load is
+  // that of the first test.
+  SceneRun run = wings("mesh.shape", "quadrilaterals");
+  const auto quadrilaterals = [&] {
+    int count = 0;
+    for (const Ring& cell : run.mesh().cell_nodes) count += cell.size() == 4 ? 1 : 0;
+    return count;
+  };
+  const int first = quadrilaterals();
+  EXPECT_GT(first, run.mesh().cell_count() / 2);
+  double before = 0;
+  while (run.mesh_changes() < 2) {
+    if (run.quantity("tips.main_last.length") == 0) before = std::abs(run.quantity("tips.main_last.K_II"));
+    ASSERT_TRUE(run.step());
+    EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-9 * run.quantity("fluid_injected"));
+  }
+  EXPECT_GT(before, 0.55 * mega);
+  EXPECT_LT(before, 0.601 * 1.02 * mega);
+  EXPECT_GT(quadrilaterals(), first / 4);
+  EXPECT_LT(quadrilaterals(), first);
+}
+
 TEST(WingCracks, TheChangeOfTheMeshAloneChangesNoState) {
   SceneRun run = wings();
   run.run_until(0.06 * hour);
