@@ -12,16 +12,42 @@ NUMBER_TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i
 
 @dataclass
 class Grid:
-    """Points (n, 3), cells (m, points per cell), and the arrays on them by name."""
+    """Points (n, 3), cells (m, points per cell), and the arrays on them by name.
+
+    Where there are quadrilaterals the cells have four points, and triangles between them repeat their last one."""
 
     points: np.ndarray
     cells: np.ndarray
     cell_data: dict = field(default_factory=dict)
     point_data: dict = field(default_factory=dict)
 
+    def triangles(self):
+        """Triangles (k, 3) that cover the cells, and the cell of each: a quadrilateral is two of them."""
+        if self.cells.shape[1] == 3:
+            return self.cells, np.arange(len(self.cells))
+        second = np.flatnonzero(self.cells[:, 2] != self.cells[:, 3])
+        return (np.concatenate([self.cells[:, :3], self.cells[second][:, [0, 2, 3]]]),
+                np.concatenate([np.arange(len(self.cells)), second]))
+
+    def centres_and_sizes(self):
+        """Centres of gravity (m, 2), and the areas of cells or the lengths of lines."""
+        if self.cells.shape[1] == 2:
+            ends = self.points[self.cells][:, :, :2]
+            return ends.mean(axis=1), np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        triangles, cell = self.triangles()
+        corners = self.points[triangles][:, :, :2]
+        a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        areas = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+        count = len(self.cells)
+        sizes = np.bincount(cell, areas, count)
+        moments = areas[:, None] * corners.mean(axis=1)
+        centres = np.stack([np.bincount(cell, moments[:, k], count) for k in range(2)], axis=1) / sizes[:, None]
+        return centres, sizes
+
 
 def read_vtu(path):
-    """A .vtu file as Sprekk writes it: raw appended data, not compressed, cells of one kind."""
+    """A .vtu file as Sprekk writes it: raw appended data, not compressed, triangles and
+    quadrilaterals, or lines."""
     content = Path(path).read_bytes()
     head, marker, tail = content.partition(b"<AppendedData")
     if not marker:
@@ -45,7 +71,10 @@ def read_vtu(path):
     piece = root.find("UnstructuredGrid/Piece")
     cells = named("Cells")
     count = int(piece.get("NumberOfCells"))
-    connectivity = cells["connectivity"].reshape(count, -1) if count else np.zeros((0, 2), int)
+    ends = cells["offsets"] if count else np.zeros(0, int)
+    lengths = np.diff(ends, prepend=0)
+    places = (ends - lengths)[:, None] + np.minimum(np.arange(lengths.max(initial=2)), lengths[:, None] - 1)
+    connectivity = cells["connectivity"][places] if count else np.zeros((0, 2), int)
     points = values(piece.find("Points/DataArray")).reshape(-1, 3)
     return Grid(points, connectivity, named("CellData"), named("PointData"))
 

@@ -45,14 +45,6 @@ def data(grid, name):
     return next(values for key, values in grid.cell_data.items() if key.partition("[")[0] == name)
 
 
-def centres_and_sizes(grid):
-    corners = grid.points[grid.cells][:, :, :2]
-    if corners.shape[1] == 2:
-        return corners.mean(axis=1), np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)
-    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return corners.mean(axis=1), np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
-
-
 def error(sizes, values, exact):
     values, exact = values.reshape(len(sizes), -1), exact.reshape(len(sizes), -1)
     return sqrt((sizes @ (values - exact) ** 2).sum() / (sizes @ exact**2).sum())
@@ -89,7 +81,7 @@ MANUFACTURED = (MANUFACTURED
 
 def manufactured(size):
     grid, _ = run(MANUFACTURED, {"mesh": f"{{size: {size} m}}"})
-    (x, y), areas = centres_and_sizes(grid)[0].T, centres_and_sizes(grid)[1]
+    (x, y), areas = grid.centres_and_sizes()[0].T, grid.centres_and_sizes()[1]
     p = x * (1 - x) * sin(2 * pi * y)
     u = np.column_stack([p, sin(2 * pi * x) * sin(2 * pi * y)])
     return len(areas), {"p": error(areas, data(grid, "pore.pressure"), p),
@@ -97,8 +89,8 @@ def manufactured(size):
 
 
 def terzaghi(layers):
-    grid, _ = run("verification/terzaghi.yaml", {"mesh.cells": f"[{layers // 10}, {layers}]"})
-    centres, areas = centres_and_sizes(grid)
+    grid, _ = run("verification/terzaghi.yaml", {"mesh.shape": "triangles", "mesh.cells": f"[{layers // 10}, {layers}]"})
+    centres, areas = grid.centres_and_sizes()
     n = (np.arange(4000) + 0.5) * pi
     exact = (2 / n * sin(np.outer(centres[:, 1], n)) * (1 + 0.01 * n**2) ** -10.0).sum(axis=1)
     return len(areas), {"p": error(areas, data(grid, "pore.pressure"), exact)}
@@ -121,7 +113,7 @@ def mandel(size):
     A = (low + high) / 2
     e = (1 + A**2 * diffusivity * 1079) ** -10.0 / (A - sin(A) * cos(A))
     grid, _ = run("verification/mandel.yaml", {"mesh": f"{{size: {size} m}}"})
-    (x, y), areas = centres_and_sizes(grid)[0].T, centres_and_sizes(grid)[1]
+    (x, y), areas = grid.centres_and_sizes()[0].T, grid.centres_and_sizes()[1]
     waves = np.outer(x, A)
     p = 2 * force * skempton * (1 + nu_u) / 3 * ((cos(waves) - cos(A)) @ (sin(A) * e))
     uniform = (sin(A) * cos(A) * e).sum()
@@ -139,9 +131,9 @@ def single_mode(size, along=1.0, across=1.0):
     f, b = 1.0, along * pi / 2
     a = f + pi * b / across
     scale = 1 / (a * cosh(pi / 2) + b * sinh(pi / 2))
-    (x, y), areas = centres_and_sizes(grid)[0].T, centres_and_sizes(grid)[1]
+    (x, y), areas = grid.centres_and_sizes()[0].T, grid.centres_and_sizes()[1]
     exact = scale * cos(pi * x) * (a * cosh(pi * abs(y)) + b * sinh(pi * abs(y)))
-    centres, lengths = centres_and_sizes(fractures)
+    centres, lengths = fractures.centres_and_sizes()
     values, in_fracture = data(fractures, "conduit.pressure"), scale * f * cos(pi * centres[:, 0])
     # Relative to the largest pressure, 1, as the pressure in the fracture may be as small as one likes.
     return len(areas), {"p": sqrt(areas @ (data(grid, "pore.pressure") - exact) ** 2 / areas.sum()),
@@ -166,7 +158,7 @@ def steady(kind, structured):
     def measure(n):
         mesh = f"{{kind: structured, cells: [{n}, {n}]}}" if structured else f"{{size: {1.4 / n} m}}"
         grid, _ = run(STEADY, {"mesh": mesh, "components.pore.type": f"matrix_flow/{kind}"})
-        (x, y), areas = centres_and_sizes(grid)[0].T, centres_and_sizes(grid)[1]
+        (x, y), areas = grid.centres_and_sizes()[0].T, grid.centres_and_sizes()[1]
         return len(areas), {"p": error(areas, data(grid, "pore.pressure"), cos(pi * x) * cosh(pi * y))}
     return measure
 
@@ -175,7 +167,7 @@ def crack(scene, component, peak):
     def measure(size):
         # The cells around the crack shrink with those on it.
         grid, fractures = run(scene, {"mesh": f"{{size: 8 m, fracture_size: {size} m, growth: {2 * size}}}"})
-        centres, lengths = centres_and_sizes(fractures)
+        centres, lengths = fractures.centres_and_sizes()
         x = np.linalg.norm(centres, axis=1)
         jump, exact = abs(data(fractures, f"contact.jump.{component}")), peak * sqrt(1 - x**2)
         inner = x < 0.85

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_TRIANGLE, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_QUAD, VTK_TRIANGLE, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -23,12 +23,12 @@ TRIANGLES = ((0, 1, 2), (0, 2, 3))
 LINES = ((2, 1), (0, 2))  # out of order: the chain is 0, 2, 1
 
 
-def write_vtu(path, kind, cells, cell_data, point_data):
+def write_vtu(path, kinds, cells, cell_data, point_data, corners=POINTS):
     grid = vtkUnstructuredGrid()
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(POINTS))
+    points.SetData(numpy_to_vtk(corners.astype(float)))
     grid.SetPoints(points)
-    for cell in cells:
+    for kind, cell in zip(kinds, cells):
         grid.InsertNextCell(kind, len(cell), cell)
     for target, arrays in ((grid.GetCellData(), cell_data), (grid.GetPointData(), point_data)):
         for name, values in arrays.items():
@@ -54,7 +54,7 @@ def write_results(folder):
             data = {"a.pressure[Pa]": number, "a.state[1]": number, "fracture": np.zeros(2, np.int32)}
             if name == "fractures":
                 data["a.jump[m]"] = np.outer(number, [1, 2, 0])
-            write_vtu(folder / f"{name}_{step}.vtu", kind, cells, data, {"a.displacement[m]": POINTS * (step + 1)})
+            write_vtu(folder / f"{name}_{step}.vtu", (kind, kind), cells, data, {"a.displacement[m]": POINTS * (step + 1)})
             entries += f'<DataSet timestep="{step * 7200}" file="{name}_{step}.vtu"/>'
         (folder / f"{name}.pvd").write_text(f'<VTKFile type="Collection"><Collection>{entries}</Collection></VTKFile>')
     (folder / "history.csv").write_text('time[s],p[Pa],note,q[1]\n0,1,"a, b",\n7200,0.1,c,3\n')
@@ -76,6 +76,20 @@ class Results(unittest.TestCase):
         np.testing.assert_array_equal(grid.cell_data["a.pressure[Pa]"], [1 + 1 / 3, 3])
         np.testing.assert_array_equal(grid.cell_data["a.jump[m]"][1], [3, 6, 0])
         np.testing.assert_array_equal(grid.point_data["a.displacement[m]"], POINTS * 2)
+
+    def test_triangles_beside_quadrilaterals(self):
+        path = self.folder / "mixed.vtu"
+        points, cells = np.array([[0, 0, 0], [2, 0, 0], [1, 1, 0], [0, 1, 0], [3, 1, 0]]), ((0, 1, 2, 3), (1, 4, 2))
+        write_vtu(path, (VTK_QUAD, VTK_TRIANGLE), cells, {"a.p[Pa]": np.array([3.0, 5.0])}, {}, points)
+        grid = results.read_vtu(path)
+        np.testing.assert_array_equal(grid.cells, [[0, 1, 2, 3], [1, 4, 2, 2]])
+        triangles, cell = grid.triangles()
+        np.testing.assert_array_equal(triangles, [[0, 1, 2], [1, 4, 2], [0, 2, 3]])
+        np.testing.assert_array_equal(cell, [0, 1, 0])
+        # A trapezoid with parallel sides 2 and 1: its centre is at 4/9 of the height, 7/9 along.
+        centres, sizes = grid.centres_and_sizes()
+        np.testing.assert_allclose(sizes, [1.5, 1], rtol=1e-15)
+        np.testing.assert_allclose(centres, [[7 / 9, 4 / 9], [2, 2 / 3]], rtol=1e-15)
 
     def test_cells_of_a_fracture_follow_one_another(self):
         grid = results.read_vtu(self.folder / "fractures_0.vtu")

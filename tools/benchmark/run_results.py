@@ -21,15 +21,10 @@ class RunResults:
         self.time, matrix = read_pvd(self.folder / "matrix.pvd")[entry]
         self.steps = self.counters["steps accepted"]
         self.matrix = read_vtu(matrix)
-        corners = self.matrix.points[self.matrix.cells][:, :, :2]
-        self.centres = corners.mean(axis=1)
-        a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        self.areas = 0.5 * abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        self.centres, self.areas = self.matrix.centres_and_sizes()
         if (self.folder / "fractures.pvd").exists():
             self.fractures = read_vtu(read_pvd(self.folder / "fractures.pvd")[entry][1])
-            ends = self.fractures.points[self.fractures.cells][:, :, :2]
-            self.fracture_centres = ends.mean(axis=1)
-            self.fracture_lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+            self.fracture_centres, self.fracture_lengths = self.fractures.centres_and_sizes()
 
     @property
     def history(self):
