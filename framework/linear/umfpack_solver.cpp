@@ -2,8 +2,10 @@
 
 #include <umfpack.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "framework/linear/entity_graph.hpp"
 #include "framework/linear/near_singular.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
@@ -79,13 +81,35 @@ LinearReport UmfpackSolver::order() {
   const Stopwatch watch(counts_.seconds_ordering);
   const SparseMatrix& a = scaled_.matrix;
   const int n = static_cast<int>(a.rows());
-  const int status =
-      umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), nullptr, &symbolic_, control_.data(), nullptr);
+  const std::vector<int> given = order_of_entities();
+  const int status = given.empty() ? umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), nullptr,
+                                                         &symbolic_, control_.data(), nullptr)
+                                   : umfpack_di_qsymbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), nullptr,
+                                                          given.data(), &symbolic_, control_.data(), nullptr);
   ++counts_.orderings;
   if (status != UMFPACK_OK) return LinearReport::failure(status_text(status));
   integer_work_.resize(n);
   work_.resize(n);
   return LinearReport::success();
+}
+
+std::vector<int> UmfpackSolver::order_of_entities() const {
+  const bool has_local = std::any_of(system_.blocks.begin(), system_.blocks.end(), [](const UnknownBlock& block) {
+    return block.kind == UnknownBlock::Kind::local && block.entities > 0;
+  });
+  if (has_local) return {};  // their zero diagonals need pivots that an ordering of entities would not foresee
+  const EntityGraph graph(scaled_.matrix, system_.blocks);
+  const int n = graph.size();
+  if (n == static_cast<int>(scaled_.matrix.rows())) return {};
+  void* symbolic = nullptr;
+  if (umfpack_di_symbolic(n, n, graph.starts().data(), graph.neighbours().data(), nullptr, &symbolic, control_.data(),
+                          nullptr) != UMFPACK_OK)
+    return {};
+  std::vector<int> order(n);
+  umfpack_di_get_symbolic(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, order.data(), nullptr, nullptr,
+                          nullptr, nullptr, nullptr, nullptr, nullptr, symbolic);
+  umfpack_di_free_symbolic(&symbolic);
+  return graph.unknowns_in_order(order);
 }
 
 LinearReport UmfpackSolver::factor_values() {
