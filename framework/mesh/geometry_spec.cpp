@@ -90,9 +90,10 @@ Spec region_spec(const std::string& name, const Origin& origin, std::function<vo
 Spec geometry_spec(Geometry& geometry, const std::string& folder) {
   Spec spec("geometry", "The rock, the fractures in it, and its regions.");
   spec.section("box", box_spec(std::make_shared<BoxInput>(), geometry.box), {.doc = "The rock as a rectangle."});
-  spec.text("file", geometry.file,
-            {.doc = "A gmsh mesh file instead of a box, relative to the scene: groups of curves are sides (on the "
-                    "boundary) or fractures (inside), groups of surfaces are regions."});
+  spec.text(
+      "file", geometry.file,
+      {.doc = "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: groups "
+              "of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."});
   spec.named_sections("fractures", fracture_spec("", {}, [](FractureGeometry) {}),
                       [&geometry](const std::string& name, const Origin& origin) {
                         return fracture_spec(name, origin, [&geometry](FractureGeometry f) {
@@ -132,7 +133,8 @@ Spec mesh_spec(MeshOptions& options) {
   Spec spec("mesh", "How the geometry is cut into cells.");
   spec.choice("kind", input->kind,
               {{"unstructured", "cells of varying size, made by gmsh"},
-               {"structured", "equal rectangles with alternating diagonals; fractures must lie on their lines"}},
+               {"structured",
+                "equal rectangles, cut into triangles by alternating diagonals; fractures must lie on their lines"}},
               {.doc = "What kind of mesh."});
   spec.choice("shape", input->shape,
               {{"triangles", "triangles only"},

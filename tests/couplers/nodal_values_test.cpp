@@ -48,11 +48,14 @@ double largest_error(const NodalValues& values, const Mesh& mesh, const Function
   double error = 0;
   for (int i = 0; i < mesh.cell_count(); ++i) {
     if (!is_asked(i)) continue;
-    const int a = mesh.cell_nodes[i][0], b = mesh.cell_nodes[i][1], c = mesh.cell_nodes[i][2];
-    const double s = part(random), t = (1 - s) * part(random);
-    const Point inside = mesh.nodes[a] + s * (mesh.nodes[b] - mesh.nodes[a]) + t * (mesh.nodes[c] - mesh.nodes[a]);
-    for (const Point& x : {mesh.nodes[a], mesh.nodes[b], mesh.nodes[c], inside})
-      error = std::max(error, (Point(values.at(i, x)) - function(x, i)).norm());
+    const Ring& corners = mesh.cell_nodes[i];
+    const Point& a = mesh.nodes[corners[0]];
+    for (int k = 1; k + 1 < corners.size(); ++k) {
+      const Point &b = mesh.nodes[corners[k]], &c = mesh.nodes[corners[k + 1]];
+      const double s = part(random), t = (1 - s) * part(random);
+      for (const Point& x : {a, b, c, Point(a + s * (b - a) + t * (c - a))})
+        error = std::max(error, (Point(values.at(i, x)) - function(x, i)).norm());
+    }
   }
   return error;
 }
@@ -61,11 +64,12 @@ constexpr auto everywhere = [](int) { return true; };
 constexpr double rounding = 1e-12;
 
 TEST(NodalValues, CellsAndFacesGiveLinearFieldsExactly) {
-  const Mesh mesh = fractured_square();
   const auto function = [](const Point& x, int) { return linear(x); };
-  NodalValues values(mesh, NodalValues::From::cells_and_faces);
-  set(values, mesh, function);
-  EXPECT_LT(largest_error(values, mesh, function, everywhere), rounding);
+  for (const Mesh& mesh : {fractured_square(), fractured_rectangles(), fractured_square(mixed(0.1, 0.3))}) {
+    NodalValues values(mesh, NodalValues::From::cells_and_faces);
+    set(values, mesh, function);
+    EXPECT_LT(largest_error(values, mesh, function, everywhere), rounding);
+  }
 }
 
 TEST(NodalValues, CellsAndFacesGiveBothSidesOfAJumpExactly) {
@@ -104,7 +108,7 @@ TEST(NodalValues, CellsAloneGiveBothSidesOfAJumpExactly) {
 
 TEST(NodalValues, ConstantsAreExactAlsoInCornersOfOneOrTwoCells) {
   const auto function = [](const Point&, int) { return Point(2, -7); };
-  for (const Mesh& mesh : {square_with_single_corners(4), fractured_square(), split_square()})
+  for (const Mesh& mesh : {square_with_single_corners(4), fractured_square(), fractured_rectangles(), split_square()})
     for (const auto from :
          {NodalValues::From::cells_and_faces, NodalValues::From::cells, NodalValues::From::mean_of_cells}) {
       NodalValues values(mesh, from);
