@@ -154,6 +154,17 @@ TEST(Rediscretize, GivesTheSameBitsWhereCellsGetOtherNumbers) {
   EXPECT_LT(expect_the_same_bits(before, after, grown.change)[0], after.mesh.node_count());
 }
 
+TEST(Rediscretize, GivesTheSameBitsThroughQuadrilaterals) {
+  // Corners of the square and of the bent fracture have a single cell, whose local problem reads two more.
+  Rock rock(fractured_rectangles());
+  for (const double angle : {0.4, -0.3}) {
+    GrownMesh grown = extend_fractures(rock.mesh, {straight(rock.mesh, 0, true, 0.06, angle)}, {0.1, 0.03, 0.3});
+    Rock after(std::move(grown.mesh));
+    EXPECT_LT(expect_the_same_bits(rock, after, grown.change)[0], after.mesh.node_count());
+    rock = std::move(after);
+  }
+}
+
 TEST(Rediscretize, SolvesNoLocalProblemWhereNothingHasChanged) {
   const Rock rock(fractured_square());
   EXPECT_EQ(expect_the_same_bits(rock, rock, identity(rock.mesh)), (std::array{0, 0}));
