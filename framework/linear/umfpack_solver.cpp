@@ -82,10 +82,18 @@ LinearReport UmfpackSolver::order() {
   const SparseMatrix& a = scaled_.matrix;
   const int n = static_cast<int>(a.rows());
   const std::vector<int> given = order_of_entities();
-  const int status = given.empty() ? umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), nullptr,
-                                                         &symbolic_, control_.data(), nullptr)
-                                   : umfpack_di_qsymbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), nullptr,
-                                                          given.data(), &symbolic_, control_.data(), nullptr);
+  int status = UMFPACK_OK;
+  if (given.empty()) {
+    status =
+        umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), nullptr, &symbolic_, control_.data(), nullptr);
+  } else {
+    // Without values UMFPACK cannot see that the diagonal is full, as it is for bulks, and would not prefer pivots
+    // from it, which leave residuals that are ten times smaller.
+    std::array<double, UMFPACK_CONTROL> control = control_;
+    control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+    status = umfpack_di_qsymbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), nullptr, given.data(), &symbolic_,
+                                  control.data(), nullptr);
+  }
   ++counts_.orderings;
   if (status != UMFPACK_OK) return LinearReport::failure(status_text(status));
   integer_work_.resize(n);
