@@ -62,8 +62,6 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                              .role = Role::input,
                                              .unit = "m/s",
                                              .doc = "Flux from the fracture into the matrix (lambda of Eq. 9)"});
-  place_wells();
-  check_sides();
   initial_pressure_ = evaluate_on_cells(mesh_, options_.initial_pressure, context.start_time);
   pressure_.set_both(initial_pressure_);
   if (options_.porosity) porosity_ = evaluate_on_cells(mesh_, *options_.porosity, 0);
@@ -77,6 +75,8 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
     mobility_[c] = options_.permeability.at(place) / options_.viscosity.at(place);
   }
   check_mobility();
+  place_wells();
+  check_sides();
 
   const auto potential = [&](const Point& x) {
     return options_.gravity.is_zero() ? 0.0 : options_.fluid_density * options_.gravity.at({x, 0, 0}).dot(x);
@@ -113,7 +113,12 @@ void MatrixFlow::check_mobility() {
 }
 
 void MatrixFlow::place_wells() {
-  for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at);
+  // What a well adds must not reach rock of another permeability: there it might be caught.
+  const auto is_like = [&](int cell, int other) {
+    const double ratio = mobility_[other].trace() / mobility_[cell].trace();
+    return is_sealed_ || (ratio > 0.5 && ratio < 2);
+  };
+  for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at, is_like);
 }
 
 void MatrixFlow::find_conditions() {

@@ -1,6 +1,7 @@
 // The value at a point of the linear function that fits cell values around it.
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,11 @@ namespace sprekk {
 /// Cells and weights such that sum of weight · value is the value at `x` of the linear function that fits the values of
 /// the cells that share a node with the cell at `x`, in the sense of least squares: exact for linear fields, and a
 /// point source spread with these weights has the total and the position of the point. Empty outside of the mesh.
-std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x);
+///
+/// Only cells of the region of the cell at `x` count, and of these only the ones that `is_like` (the cell at x, another
+/// one) accepts: a field may have a kink where the rock changes, and a well must not feed the rock on the other side.
+/// With fewer than three cells, or all in a line, it is the value of the cell at `x`.
+std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
+                                               const std::function<bool(int, int)>& is_like = {});
 
 }  // namespace sprekk
