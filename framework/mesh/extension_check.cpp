@@ -275,6 +275,19 @@ std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<
   return Check(mesh, extensions, size).run();
 }
 
+bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, const Point& from, const Point& to,
+                    double size) {
+  const Segment step{from, to};
+  const auto is_near = [&](const Segment& other) {
+    return distance(step, other) < std::min(1.5 * least_gap * size, (1 + approach) / 2 * distance(beginning, other));
+  };
+  for (int face = 0; face < mesh.face_count(); ++face)
+    if (mesh.face_side[face] != none && is_near(segment_of_face(mesh, face))) return true;
+  for (int cell = 0; cell < mesh.fracture_cell_count(); ++cell)
+    if (mesh.fracture_cells[cell].fracture != fracture && is_near(segment_of(mesh, cell))) return true;
+  return false;
+}
+
 FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point& from, const Point& direction) {
   if (!(direction.norm() > 0)) throw std::invalid_argument("free_length: the direction has no length");
   const Point u = direction.normalized();

@@ -51,6 +51,12 @@ inline constexpr double least_incidence = 0.2617993877991494;
 std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                             double size);
 
+/// Whether a straight step of a path comes so near to the outer boundary or to another fracture that check_extensions
+/// would soon refuse the path: nearer than 1.5 times the least gap, and nearer than the path's beginning by more than
+/// half of what is allowed. `beginning`: the old tip; `size` as there.
+bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, const Point& from, const Point& to,
+                    double size);
+
 /// What a straight path meets first.
 struct FreeLength {
   enum class Met { nothing, fracture, boundary };

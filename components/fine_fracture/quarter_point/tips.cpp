@@ -278,6 +278,7 @@ bool Tips::is_near(const Tip& tip, const Tip& other) const {
 
 double Tips::free_way(const Tip& tip, const TipPath& path, const Point& to) const {
   const Point from = position(tip, path);
+  if (comes_too_near(mesh_, tip.end.fracture, position(tip, {}), from, to, cavity().size)) return 0;
   const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, to - from);
   return free.length - tip.coarse_size;
 }
