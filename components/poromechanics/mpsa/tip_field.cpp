@@ -42,9 +42,12 @@ std::optional<TipField> TipField::find(const Mesh& mesh, const InteractionRegion
   for (const int cell : cells)
     if (stiffness[cell] != rock) return std::nullopt;
   if (!is_isotropic(rock)) return std::nullopt;
+  // Of a fracture of a single cell both ends may be tips: this one is where all faces of the region meet.
   const auto& ends = mesh.face_nodes[region.faces[(*walls)[0]]];
-  const auto& others = mesh.face_nodes[region.faces[(*walls)[1]]];
-  const int node = ends[0] == others[0] || ends[0] == others[1] ? ends[0] : ends[1];
+  const bool is_first = std::all_of(region.faces.begin(), region.faces.end(), [&](int face) {
+    return mesh.face_nodes[face][0] == ends[0] || mesh.face_nodes[face][1] == ends[0];
+  });
+  const int node = is_first ? ends[0] : ends[1];
   TipField field(mesh, region, rock, node, region.faces[(*walls)[0]]);
   if (!field.fit(cells)) return std::nullopt;
   return field;
