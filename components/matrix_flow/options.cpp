@@ -40,12 +40,16 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                  .material = true});
   spec.data("initial_pressure", initial_pressure, {.unit = "Pa", .doc = "Pressure at the start."});
   spec.data("source", source,
-            {.unit = "1/s", .doc = "Volume of fluid added per volume of rock and time.", .source = "q of Eq. 6"});
+            {.unit = "1/s",
+             .doc = "Volume of fluid added per volume of rock and time.",
+             .source = "q of Eq. 6",
+             .in_time = true});
   static SideCondition example_side;
   const auto side_spec = [](SideCondition& side) {
     Spec inner("boundary condition of flow", "At most one of the two; none lets no fluid through.");
-    inner.data("pressure", side.pressure, {.unit = "Pa", .doc = "Pressure on this side."});
-    inner.data("flux", side.flux, {.unit = "m/s", .doc = "Flux out of the rock, per area of this side."});
+    inner.data("pressure", side.pressure, {.unit = "Pa", .doc = "Pressure on this side.", .in_time = true});
+    inner.data("flux", side.flux,
+               {.unit = "m/s", .doc = "Flux out of the rock, per area of this side.", .in_time = true});
     inner.check([](const Node& node) {
       if (node.find("pressure") && node.find("flux"))
         throw InputError(node.origin, "contradictory boundary condition at '" + node.path + "'",
@@ -64,8 +68,9 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   const auto well_spec = [](Well& well) {
     Spec inner("well", "A point that injects (or with a negative rate extracts) fluid.");
     inner.point("at", well.at, {.unit = "m", .doc = "Position.", .required = true});
-    inner.data("rate", well.rate,
-               {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth.", .required = true});
+    inner.data(
+        "rate", well.rate,
+        {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth.", .required = true, .in_time = true});
     return inner;
   };
   spec.named_sections("wells", well_spec(example_well),

@@ -37,14 +37,20 @@ void refuse_both(const Node& node, const char* one, const char* other) {
 Spec side_spec(SideCondition& side) {
   Spec spec("boundary condition of mechanics",
             "Per direction a displacement or a total traction; a direction without either is free of traction.");
-  spec.vector("displacement", side.displacement, {.unit = "m", .doc = "Displacement in both directions."});
-  spec.data("displacement_x", side.displacement_along[0], {.unit = "m", .doc = "Displacement in x; 0 is a roller."});
-  spec.data("displacement_y", side.displacement_along[1], {.unit = "m", .doc = "Displacement in y; 0 is a roller."});
-  spec.vector("traction", side.traction, {.unit = "Pa", .doc = "Total traction sigma·n, n out of the rock."});
-  spec.data("traction_x", side.traction_along[0], {.unit = "Pa", .doc = "Total traction in x."});
-  spec.data("traction_y", side.traction_along[1], {.unit = "Pa", .doc = "Total traction in y."});
+  spec.vector("displacement", side.displacement,
+              {.unit = "m", .doc = "Displacement in both directions.", .in_time = true});
+  spec.data("displacement_x", side.displacement_along[0],
+            {.unit = "m", .doc = "Displacement in x; 0 is a roller.", .in_time = true});
+  spec.data("displacement_y", side.displacement_along[1],
+            {.unit = "m", .doc = "Displacement in y; 0 is a roller.", .in_time = true});
+  spec.vector("traction", side.traction,
+              {.unit = "Pa", .doc = "Total traction sigma·n, n out of the rock.", .in_time = true});
+  spec.data("traction_x", side.traction_along[0], {.unit = "Pa", .doc = "Total traction in x.", .in_time = true});
+  spec.data("traction_y", side.traction_along[1], {.unit = "Pa", .doc = "Total traction in y.", .in_time = true});
   spec.data("normal_stress", side.normal_stress,
-            {.unit = "Pa", .doc = "Total traction along the outward normal; tension is positive, a load is negative."});
+            {.unit = "Pa",
+             .doc = "Total traction along the outward normal; tension is positive, a load is negative.",
+             .in_time = true});
   spec.check([](const Node& node) {
     refuse_both(node, "displacement", "displacement_x");
     refuse_both(node, "displacement", "displacement_y");
@@ -98,10 +104,11 @@ Spec Options::spec() {
             {.unit = "kg/m^3",
              .range = non_negative(),
              .doc = "Density of the saturated rock; matters with gravity only.",
-             .material = true});
+             .material = true,
+             .in_time = true});
   spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Acceleration of gravity.", .material = true});
   spec.vector("body_force", body_force,
-              {.unit = "N/m^3", .doc = "Force per volume, besides gravity.", .source = "-b of Eq. 5"});
+              {.unit = "N/m^3", .doc = "Force per volume, besides gravity.", .source = "-b of Eq. 5", .in_time = true});
   spec.tensor(
       "initial_stress", initial_stress,
       {.unit = "Pa", .doc = "Total stress in which the rock is at rest with its initial pressure; tension positive."});

@@ -181,6 +181,11 @@ Data read_data(const Node& node, const DataRequest& request) {
     throw InputError(node.origin, quoted(request.name) + " is " + quoted(node.text()),
                      "needed is one number that does not depend on x, y or t");
   }
+  if (data.depends_on_time() && !request.about.in_time) {
+    throw InputError(node.origin, quoted(request.name) + " depends on time: " + quoted(node.text()),
+                     "it is evaluated once, and what holds at the start would hold all the time",
+                     "give it without t, and without windows (from, to)");
+  }
   return within_range(std::move(data), node.origin, request);
 }
 

@@ -11,15 +11,16 @@ using Json = nlohmann::ordered_json;
 
 Json map_schema(const Spec& spec);
 
-/// The bounds hold for plain numbers, which are SI; texts with units are checked by the program.
-void add_bounds(Json& schema, const Range& range) {
+/// The bounds hold for plain numbers: of what has a unit other than m, only 0. Texts are checked by the program.
+void add_bounds(Json& schema, const About& about) {
+  const Range range = about.unit.empty() || about.unit == "m" ? about.range : Range{.low = 0, .high = 0};
   if (std::isfinite(range.low)) schema[range.low_allowed ? "minimum" : "exclusiveMinimum"] = range.low;
   if (std::isfinite(range.high)) schema[range.high_allowed ? "maximum" : "exclusiveMaximum"] = range.high;
 }
 
-Json number_schema(const Range& range) {
+Json number_schema(const About& about) {
   Json schema = {{"type", {"number", "string"}}};
-  add_bounds(schema, range);
+  add_bounds(schema, about);
   return schema;
 }
 
@@ -33,7 +34,7 @@ Json pair_schema(Json items) {
 }
 
 Json datum_schema(const About& about) {
-  Json schema = number_schema(about.range);
+  Json schema = number_schema(about);
   if (!about.constant_only) schema["type"] = {"number", "string", "object", "array"};
   return schema;
 }
@@ -47,13 +48,13 @@ Json choice_schema(const Parameter& parameter) {
 Json value_schema(const Parameter& parameter) {
   const std::string& kind = parameter.kind;
   const About& about = parameter.about;
-  if (kind == "quantity") return number_schema(about.range);
+  if (kind == "quantity") return number_schema(about);
   if (kind == "data") return datum_schema(about);
   if (kind == "vector") return pair_schema(datum_schema(about));
   if (kind == "tensor") return {{"type", {"number", "string", "object", "array"}}};
-  if (kind == "point") return pair_schema(number_schema(about.range));
-  if (kind == "points") return list_schema(pair_schema(number_schema(about.range)));
-  if (kind == "quantities") return list_schema(number_schema(about.range));
+  if (kind == "point") return pair_schema(number_schema(about));
+  if (kind == "points") return list_schema(pair_schema(number_schema(about)));
+  if (kind == "quantities") return list_schema(number_schema(about));
   if (kind == "flag") return {{"type", "boolean"}};
   if (kind == "choice") return choice_schema(parameter);
   if (kind == "text") return {{"type", {"string", "number"}}};
@@ -65,7 +66,7 @@ Json value_schema(const Parameter& parameter) {
   if (kind == "list of sections") return list_schema(map_schema(*parameter.inner));
   if (kind != "integer") return Json::object();  // read by the declarer itself
   Json schema = {{"type", "integer"}};
-  add_bounds(schema, about.range);
+  add_bounds(schema, about);
   return schema;
 }
 

@@ -58,7 +58,7 @@ void set_origins(Node& node, const Origin& origin) {
 
 /// Where a message about the path of an override points.
 Origin place_of(const Override& change) {
-  return change.key_origin.line > 0 ? change.key_origin : Origin{change.key_origin.source + " " + change.path};
+  return change.key_origin.source == "--set" ? Origin{"--set " + change.path} : change.key_origin;
 }
 
 std::vector<std::string> split_path(const Override& change) {
@@ -119,7 +119,7 @@ void apply(Node& root, const Override& change) {
       Node created;
       created.origin = change.value_origin;
       created.path = joined_path(node->path, parts[i]);
-      node->entries.push_back({parts[i], change.key_origin, std::move(created)});
+      node->entries.push_back({parts[i], place_of(change), std::move(created)});
       entry = &node->entries.back();
     }
     node = &entry->value;

@@ -22,6 +22,7 @@ std::string facts(const Parameter& parameter) {
   if (!about.unit.empty()) text += " in " + about.unit;
   if (!about.range.text().empty()) text += ", " + about.range.text();
   if (about.constant_only) text += ", constant";
+  if (about.in_time) text += ", may change with time";
   if (about.required) {
     text += ", required";
   } else if (!parameter.default_text.empty()) {

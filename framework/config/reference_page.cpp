@@ -22,6 +22,7 @@ std::string table(const Spec& spec, const std::string& path, int level) {
   for (const Parameter& parameter : spec.parameters()) {
     const bool is_code = !parameter.about.required && !parameter.default_text.empty();
     std::string meant = meaning(parameter);
+    if (parameter.about.in_time) meant += " May change with time.";
     if (parameter.about.material) meant += " May stand in `materials`.";
     text += "|" + cell(code(path + parameter.name)) + "|" + cell(kind_text(parameter)) + "|" +
             cell(code(parameter.about.unit)) + "|" + cell(parameter.about.range.text()) + "|" +

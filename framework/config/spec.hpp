@@ -46,6 +46,7 @@ struct About {
   bool required = false;       ///< else the target's value at declaration is the default
   bool material = false;       ///< may also stand in the scene's `materials:` section, shared by all components
   bool constant_only = false;  ///< data that cannot be a function, a table or a value per region
+  bool in_time = false;        ///< data that are evaluated in every step; others must not depend on t
 };
 
 /// What a scene's names mean, gathered before the components are read.

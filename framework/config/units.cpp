@@ -48,7 +48,13 @@ double parse_quantity(const std::string& text, const std::string& unit, const Or
                      "write a number like 2.5e-3");
   }
   const std::string written = trimmed(content.substr(number->length));
-  if (written.empty()) return number->value;
+  const bool needs_no_unit = unit.empty() || unit == "m" || number->value == 0;
+  if (written.empty() && needs_no_unit) return number->value;
+  if (written.empty()) {
+    throw InputError(where, given_as(name, text) + " has no unit",
+                     "needed is " + parse_unit(unit).dimension.name() + ", in " + unit + " or another unit of it",
+                     "write " + quoted(content + " " + (unit == "rad" ? "deg" : unit)) + ", if that is what it is");
+  }
   const double value = number->value * scale_to_si(written, unit, text, where, name);
   if (!std::isfinite(value)) throw InputError(where, given_as(name, text) + " is not finite", "in " + needed(unit));
   return value;

@@ -9,8 +9,9 @@
 namespace sprekk {
 
 /// The value in SI units of "40 GPa", "5e-20 m^2", "1 deg", "30 h", "0.7 MPa*m^0.5", "2" where `unit` is the SI unit
-/// expected ("" for a plain number; "rad" for angles). A plain number is taken as SI. Throws InputError when the
-/// dimension differs, the unit is unknown, or the number is not finite. `name` is the parameter's, for messages.
+/// expected ("" for a plain number; "rad" for angles). Only 0, and lengths in m (lists of points), need no
+/// unit: a modulus of 20 or an angle of 45 is a mistake. Throws InputError when the dimension differs, the unit is
+/// unknown or missing, or the number is not finite. `name` is the parameter's, for messages.
 double parse_quantity(const std::string& text, const std::string& unit, const Origin& where,
                       const std::string& name = "");
 

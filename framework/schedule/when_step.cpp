@@ -6,7 +6,8 @@ Spec WhenOptions::spec() {
   Spec spec("when", "Runs the steps inside only while a condition holds.");
   spec.data("when", condition,
             {.doc = "An expression of t (s), evaluated at the middle of the time step; it holds when it is not 0.",
-             .required = true});
+             .required = true,
+             .in_time = true});
   return spec;
 }
 

@@ -18,12 +18,12 @@ SceneRun sheared_to_and_fro() {
       "rock: {type: poromechanics/mpsa, young_modulus: 10 GPa, poisson_ratio: 0.2, boundary: {"
       "bottom: {displacement: [0 m, 0 m]}, "
       "top: {displacement_x: '0.002 * sin(6.283185307179586 * t)', displacement_y: -0.5 mm}}}, "
-      "conduit: {type: fracture_flow/tpfa, viscosity: 1.0e-3, fluid_compressibility: 4.0e-11, "
-      "initial_aperture: 0.01 mm, transmissivity: constant, transmissivity_value: 1.0e-10}, "
+      "conduit: {type: fracture_flow/tpfa, viscosity: 1.0e-3 Pa*s, fluid_compressibility: 4.0e-11 1/Pa, "
+      "initial_aperture: 0.01 mm, transmissivity: constant, transmissivity_value: 1.0e-10 m^3}, "
       "contact: {type: contact/coulomb, friction: 0.4, dilation_angle: 15 deg}}, "
       "couplers: [{type: wall_traction, between: [rock, contact, conduit]}, "
       "{type: aperture, between: [contact, conduit]}], "
-      "schedule: [{solve: [rock, conduit, contact]}], time: {end: 1, step: 0.25}}");
+      "schedule: [{solve: [rock, conduit, contact]}], time: {end: 1 s, step: 0.25 s}}");
 }
 
 TEST(BackSlip, ReachesTheMirroredStateInOneStep) {

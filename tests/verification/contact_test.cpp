@@ -41,12 +41,12 @@ std::string patch_scene(const std::string& normal_jump, const std::string& tange
          "0.7886751345948129]]}}}, mesh: {size: 0.12, distortion: 0.2, shape: " +
          shape +
          "}, components: {rock: {type: poromechanics/mpsa, "
-         "young_modulus: 2.5, poisson_ratio: 0.25, boundary: {left: " +
+         "young_modulus: 2.5 Pa, poisson_ratio: 0.25, boundary: {left: " +
          u + ", right: " + u + ", bottom: " + u + ", top: " + u +
          "}}, contact: {type: contact/coulomb, friction: " + fmt::format("{:.17g}", friction) +
          ", dilation_angle: " + dilation +
          "}}, couplers: [{type: wall_traction, between: [rock, contact]}], schedule: [{solve: [rock, contact]}], time: "
-         "{end: 1, step: 1}}";
+         "{end: 1 s, step: 1 s}}";
 }
 
 /// Traction of the uniform strain on the plus wall: n·sigma with sigma = 2 G eps + lambda tr(eps) I.

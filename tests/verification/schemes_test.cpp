@@ -159,15 +159,17 @@ TEST(Steps, InjectionConservesFluidToRoundOff) {
 TEST(Steps, NothingExistsThatASceneDoesNotName) {
   SceneRun mechanics = SceneRun::from_text(
       "{geometry: {box: {x: [0, 1], y: [0, 1]}}, mesh: {size: 0.2}, components: {rock: {type: poromechanics/mpsa, "
-      "young_modulus: 1, poisson_ratio: 0.2, boundary: {left: {displacement_x: 0}, bottom: {displacement_y: 0}, top: "
-      "{normal_stress: -1}}}}, schedule: [{solve: rock}], time: {end: 1, step: 1}}");
+      "young_modulus: 1 Pa, poisson_ratio: 0.2, boundary: {left: {displacement_x: 0}, bottom: {displacement_y: 0}, "
+      "top: "
+      "{normal_stress: -1 Pa}}}}, schedule: [{solve: rock}], time: {end: 1 s, step: 1 s}}");
   ASSERT_TRUE(mechanics.step());
   EXPECT_EQ(mechanics.model().fields().all().size(), 1u);
   EXPECT_EQ(mechanics.linear_counts().factorizations, 1);
   SceneRun flow = SceneRun::from_text(
       "{geometry: {box: {x: [0, 1], y: [0, 1]}}, mesh: {size: 0.2}, components: {pore: {type: matrix_flow/tpfa, "
-      "permeability: 1, viscosity: 1, storage: 1, boundary: {left: {pressure: 1}}}}, schedule: [{solve: pore}], time: "
-      "{end: 4, step: 1}}");
+      "permeability: 1 m^2, viscosity: 1 Pa*s, storage: 1 1/Pa, boundary: {left: {pressure: 1 Pa}}}}, schedule: "
+      "[{solve: pore}], time: "
+      "{end: 4 s, step: 1 s}}");
   flow.run();
   for (const auto& field : flow.model().fields().all()) EXPECT_EQ(field->spec().owner, "pore");
   EXPECT_EQ(flow.linear_counts().factorizations, 1);

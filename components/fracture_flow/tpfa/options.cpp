@@ -16,20 +16,22 @@ Spec injection_spec(Injection& injection) {
             {.unit = "m^2/s",
              .doc = "Volume of fluid per time and metre of depth, in all.",
              .source = "q_i of Eq. 8",
-             .required = true});
+             .required = true,
+             .in_time = true});
   return spec;
 }
 
 Spec prescribed_spec(PrescribedPressure& prescribed) {
   Spec spec("prescribed pressure", "A part of a fracture whose pressure is given instead of its balance of fluid.");
   add_where(spec, prescribed.where);
-  spec.data("pressure", prescribed.pressure, {.unit = "Pa", .doc = "The pressure.", .required = true});
+  spec.data("pressure", prescribed.pressure, {.unit = "Pa", .doc = "The pressure.", .required = true, .in_time = true});
   return spec;
 }
 
 Spec side_spec(Data& pressure) {
   Spec spec("boundary condition of flow in fractures", "For fractures that end on this side.");
-  spec.data("pressure", pressure, {.unit = "Pa", .doc = "Pressure where fractures meet this side.", .required = true});
+  spec.data("pressure", pressure,
+            {.unit = "Pa", .doc = "Pressure where fractures meet this side.", .required = true, .in_time = true});
   return spec;
 }
 

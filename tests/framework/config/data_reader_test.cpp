@@ -22,18 +22,21 @@ ReadContext regions() {
   return context;
 }
 
-Data data(const std::string& text, const About& about = {}) {
+Data data(const std::string& text, About about = {}) {
   const ReadContext context = regions();
+  about.in_time = true;
   return read_data(*parse_yaml("v: " + text, "s.yaml").find("v"), {"k", about, context});
 }
 
-VectorData vector(const std::string& text, const About& about = {}) {
+VectorData vector(const std::string& text, About about = {}) {
   const ReadContext context = regions();
+  about.in_time = true;
   return read_vector(*parse_yaml("v: " + text, "s.yaml").find("v"), {"k", about, context});
 }
 
-TensorData tensor(const std::string& text, const About& about = {}) {
+TensorData tensor(const std::string& text, About about = {}) {
   const ReadContext context = regions();
+  about.in_time = true;
   return read_tensor(*parse_yaml("v: " + text, "s.yaml").find("v"), {"k", about, context});
 }
 
@@ -70,7 +73,7 @@ TEST(ReadData, in_a_window_that_includes_its_beginning_and_not_its_end) {
 }
 
 TEST(ReadData, in_windows_that_add_up) {
-  const Data q = data("[{value: 1, to: 20}, {value: 10, from: 10, to: 30}, {value: 100*x, from: 20}]");
+  const Data q = data("[{value: 1, to: 20 s}, {value: 10, from: 10 s, to: 30 s}, {value: 100*x, from: 20 s}]");
   const auto at = [&](double t) { return q.at({{2, 0}, 0, t}); };
   EXPECT_EQ(at(-5), 1);
   EXPECT_EQ(at(9), 1);
@@ -89,13 +92,13 @@ TEST(ReadData, a_window_without_ends_is_its_value) {
 }
 
 TEST(ReadData, a_window_may_hold_values_by_region) {
-  const Data q = data("{value: {regions: {granite: 1, default: 2}}, from: 10}");
+  const Data q = data("{value: {regions: {granite: 1, default: 2}}, from: 10 s}");
   EXPECT_EQ(q.at({Point::Zero(), 1, 10}), 2);
   EXPECT_EQ(q.at({Point::Zero(), 1, 9}), 0);
 }
 
 TEST(ReadData, regions_keep_the_switch_times_of_their_windows) {
-  const Data q = data("{regions: {granite: {value: 1, from: 5}, lens: {value: 1, from: 2}}}");
+  const Data q = data("{regions: {granite: {value: 1, from: 5 s}, lens: {value: 1, from: 2 s}}}");
   EXPECT_THAT(q.switch_times(), ElementsAre(2, 5));
 }
 
@@ -116,21 +119,21 @@ struct Wrong {
 class WrongData : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongData, is_refused) {
-  const About about{.unit = "m^2", .range = positive()};
+  const About about{.unit = "m", .range = positive()};
   EXPECT_THAT(input_error_of([&] { data(GetParam().text, about); }), HasSubstr(GetParam().message));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     all, WrongData,
     testing::Values(
-        Wrong{"-1", "s.yaml:1:4: 'k' is '-1 m^2', out of range (it must be > 0 m^2)"},
-        Wrong{"", "s.yaml:1:1: 'k' has no value (needed is a number in m^2, an expression"},
-        Wrong{"{}", "s.yaml:1:4: 'k' is a map (needed is a number in m^2"},
+        Wrong{"-1", "s.yaml:1:4: 'k' is '-1 m', out of range (it must be > 0 m)"},
+        Wrong{"", "s.yaml:1:1: 'k' has no value (needed is a number in m, an expression"},
+        Wrong{"{}", "s.yaml:1:4: 'k' is a map (needed is a number in m"},
         Wrong{"{regions: {granite: 1}}",
               "s.yaml:1:14: 'k' has no value in the region 'lens' add 'lens:' or 'default:'"},
         Wrong{"{regions: {granit: 1, default: 2}}",
               "s.yaml:1:15: unknown region 'granit' (it is not one of: granite, lens) did you mean 'granite'?"},
-        Wrong{"{regions: {granite: -1, default: 2}}", "s.yaml:1:24: 'k' is '-1 m^2', out of range"},
+        Wrong{"{regions: {granite: -1, default: 2}}", "s.yaml:1:24: 'k' is '-1 m', out of range"},
         Wrong{"{regions: {granite: 1 s, default: 2}}", "s.yaml:1:24: '1 s' for 'k' has the dimension of time"},
         Wrong{"{regions: 3}", "'k.regions' is '3' (needed is a map of a value for each region)"},
         Wrong{"{regions: {default: 1}, table: a}", "unknown key of 'k': 'table'"},
@@ -138,15 +141,15 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"{value: 1, form: 6 h}",
               "unknown key of 'k': 'form' (it is not one of: value, from, to) did you mean 'from'?"},
         Wrong{"{value: 1, from: 6 m}", "'6 m' for 'k.from' has the dimension of length"},
-        Wrong{"{value: 1, from: 5, to: 5}", "the window of 'k' is empty (it begins at 5 s and ends at 5 s)"},
+        Wrong{"{value: 1, from: 5 s, to: 5 s}", "the window of 'k' is empty (it begins at 5 s and ends at 5 s)"},
         Wrong{"[]", "'k' is an empty list of windows"}, Wrong{"[1, 2]", "'k' is '1' (needed is a list of windows"},
-        Wrong{"[{from: 1}]", "'value' is missing for 'k'"}));
+        Wrong{"[{from: 1 s}]", "'value' is missing for 'k'"}));
 
 TEST(ReadData, checks_the_sum_of_constant_windows) {
   const About about{.range = between(0, 5)};
-  EXPECT_THAT(input_error_of([&] { data("[{value: 3, from: 1, to: 4}, {value: 3, from: 2}]", about); }),
+  EXPECT_THAT(input_error_of([&] { data("[{value: 3, from: 1 s, to: 4 s}, {value: 3, from: 2 s}]", about); }),
               HasSubstr("'k' is 6 at t = 2 s, out of range (it must be from 0 to 5"));
-  EXPECT_NO_THROW(data("[{value: -3, from: 1, to: 4}, {value: 3, from: 0, to: 5}]", about));
+  EXPECT_NO_THROW(data("[{value: -3, from: 1 s, to: 4 s}, {value: 3, from: 0 s, to: 5 s}]", about));
 }
 
 TEST(ReadData, may_have_to_be_constant) {
@@ -156,10 +159,19 @@ TEST(ReadData, may_have_to_be_constant) {
   EXPECT_THAT(input_error_of([&] { data("{regions: {default: 1}}", about); }), HasSubstr("needed is one number"));
 }
 
+TEST(ReadData, may_only_change_with_time_where_it_is_evaluated_in_every_step) {
+  const auto message = [](const std::string& text) {
+    const ReadContext context = regions();
+    return input_error_of([&] { read_data(*parse_yaml("v: " + text, "s.yaml").find("v"), {"k", {}, context}); });
+  };
+  for (const char* text : {"1 + t", "{value: 2, from: 3 s}", "{regions: {lens: t, default: 1}}", "if(t > 5, 1, 2)"})
+    EXPECT_THAT(message(text), HasSubstr("depends on time"));
+}
+
 TEST(ReadVector, has_two_components) {
   const VectorData g = vector("[0, -9.81 m/s^2]", {.unit = "m/s^2"});
   EXPECT_EQ(g.at({}), Point(0, -9.81));
-  const VectorData u = vector("[{value: 1, from: 5}, {value: 2, from: 3}]");
+  const VectorData u = vector("[{value: 1, from: 5 s}, {value: 2, from: 3 s}]");
   EXPECT_THAT(u.switch_times(), ElementsAre(3, 5));
   EXPECT_TRUE(u.depends_on_time());
 }
@@ -171,13 +183,13 @@ TEST(ReadVector, has_neither_less_nor_more) {
   EXPECT_THAT(input_error_of([] { vector("5"); }), HasSubstr("'k' is '5' (needed is a list of two values [x, y])"));
 }
 
-const About permeability{.unit = "m^2", .range = positive()};
+const About permeability{.unit = "m", .range = positive()};  // lengths need no unit
 
 TEST(ReadTensor, isotropic) {
-  const TensorData k = tensor("2 m^2", permeability);
+  const TensorData k = tensor("2 m", permeability);
   EXPECT_EQ(k.at({}), Tensor(2 * Tensor::Identity()));
   EXPECT_TRUE(k.xy.is_zero());
-  EXPECT_EQ(tensor("{value: 2, from: 3}").at(at_time(3)), Tensor(2 * Tensor::Identity()));
+  EXPECT_EQ(tensor("{value: 2, from: 3 s}").at(at_time(3)), Tensor(2 * Tensor::Identity()));
 }
 
 TEST(ReadTensor, by_components) {
@@ -210,12 +222,12 @@ TEST(ReadTensor, is_positive_definite_where_it_must_be) {
   const auto message = [](const char* text) { return input_error_of([&] { tensor(text, permeability); }); };
   EXPECT_EQ(message("{xx: 1, yy: 1, xy: 2}"),
             "s.yaml:1:4: 'k' is not positive definite (xx yy = 1 must be larger than xy^2 = 4)");
-  EXPECT_THAT(message("{xx: 1, yy: -1, xy: 0}"), HasSubstr("'k' is '-1 m^2', out of range"));
+  EXPECT_THAT(message("{xx: 1, yy: -1, xy: 0}"), HasSubstr("'k' is '-1 m', out of range"));
   EXPECT_THAT(message("{along: 0, across: 1, angle: 0}"), HasSubstr("out of range"));
   const TensorData k = tensor("{xx: 1, yy: 1, xy: x}", permeability);
   EXPECT_EQ(k.at({{0.5, 0}, 0, 0})(0, 1), 0.5);
   EXPECT_THAT(runtime_error_of([&] { k.at({{1, 0}, 0, 0}); }), HasSubstr("'k' is not positive definite at x = 1"));
-  EXPECT_EQ(tensor("{xx: -1, yy: -1, xy: 2}", {.unit = "Pa"}).at({})(0, 1), 2);  // a stress may have any sign
+  EXPECT_EQ(tensor("{xx: -1 Pa, yy: -1 Pa, xy: 2 Pa}", {.unit = "Pa"}).at({})(0, 1), 2);  // a stress may have any sign
 }
 
 TEST(ReadTensor, wrong_maps_are_refused) {

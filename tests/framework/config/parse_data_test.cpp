@@ -34,7 +34,7 @@ TEST_P(ParseExpression, has_its_value) {
 INSTANTIATE_TEST_SUITE_P(
     all, ParseExpression,
     testing::Values(Expression{"20 MPa", "Pa", 2e7}, Expression{"20MPa", "Pa", 2e7}, Expression{"5 %", "", 0.05},
-                    Expression{"-3", "Pa", -3}, Expression{"x", "m", 0.3}, Expression{"x km", "m", 300},
+                    Expression{"-3", "m", -3}, Expression{"x", "m", 0.3}, Expression{"x km", "m", 300},
                     Expression{"(1 + 0.1*sin(pi*x)) MPa", "Pa", 1e6 * (1 + 0.1 * std::sin(pi * 0.3))},
                     Expression{"(x)MPa", "Pa", 3e5}, Expression{"sin(x) MPa", "Pa", 1e6 * std::sin(0.3)},
                     Expression{"if(t < 6*h, 0, 5e-9)", "m^2/s", 0}, Expression{"if(t < 1*h, 0, 5e-9)", "m^2/s", 5e-9},

@@ -43,7 +43,7 @@ struct Options {
     spec.tensor("permeability", permeability,
                 {.unit = "m^2", .range = positive(), .doc = "Permeability.", .required = true, .material = true});
     spec.data("viscosity", viscosity, {.unit = "Pa*s", .range = positive(), .doc = "Viscosity.", .material = true});
-    spec.data("source", source, {.unit = "1/s", .doc = "Source."});
+    spec.data("source", source, {.unit = "1/s", .doc = "Source.", .in_time = true});
     spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Gravity."});
     spec.quantity("density", density, {.unit = "kg/m^3", .range = positive(), .doc = "Density."});
     spec.quantity("storage", storage, {.unit = "1/Pa", .range = non_negative(), .doc = "Storage."});
@@ -99,7 +99,7 @@ std::string error(const std::string& yaml, const ReadContext& context = {}) {
 }
 
 TEST(SpecRead, takes_defaults) {
-  const Options options = read("permeability: 1");
+  const Options options = read("permeability: 1 m^2");
   EXPECT_EQ(options.density, 1000);
   EXPECT_FALSE(options.source);
   EXPECT_FALSE(options.storage);
@@ -110,15 +110,15 @@ TEST(SpecRead, takes_defaults) {
 TEST(SpecRead, takes_what_is_given) {
   const Options options = read(R"(
 type: flow/test
-permeability: {xx: 2, yy: 1 m^2}
+permeability: {xx: 2 m^2, yy: 1 m^2}
 viscosity: 2 mPa*s
-source: {value: 1, from: 3}
-gravity: [0, -9.81]
+source: {value: 1 1/s, from: 3 s}
+gravity: [0, -9.81 m/s^2]
 density: 1.2 g/cm^3
-storage: 4e-10
+storage: 4e-10 1/Pa
 centre: [1 km, 2]
 path: [[0, 0], [1, 2 m]]
-times: [1 h, 2]
+times: [1 h, 2 s]
 cells: 7
 fast: no
 title: "a: b"
@@ -127,8 +127,8 @@ fields: [p, u]
 solver: iterative
 limits: {tolerance: 1e-3}
 output:
-wells: {north: {rate: 1}, south: {rate: 2 l/m/s}}
-probes: [{rate: 3}, {rate: 4}]
+wells: {north: {rate: 1 m^2/s}, south: {rate: 2 l/m/s}}
+probes: [{rate: 3 m^2/s}, {rate: 4 m^2/s}]
 schedule: [{solve: [a, b]}]
 )");
   EXPECT_EQ(options.permeability.xx.at({}), 2);
@@ -155,7 +155,7 @@ schedule: [{solve: [a, b]}]
 }
 
 TEST(SpecRead, one_text_is_a_list_of_one) {
-  EXPECT_THAT(read("{permeability: 1, fields: p}").fields, ElementsAre("p"));
+  EXPECT_THAT(read("{permeability: 1 m^2, fields: p}").fields, ElementsAre("p"));
 }
 
 struct Wrong {
@@ -166,7 +166,7 @@ struct Wrong {
 class WrongParameter : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongParameter, is_refused) {
-  EXPECT_EQ(error(std::string("permeability: 1\n") + GetParam().yaml), GetParam().message);
+  EXPECT_EQ(error(std::string("permeability: 1 m^2\n") + GetParam().yaml), GetParam().message);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"path: [1]", "s.yaml:2:8: 'path' is '1' (needed is a point [x, y] in m)"},
         Wrong{"path: 1", "s.yaml:2:7: 'path' is '1' (needed is a list of points [[x, y], …])"},
         Wrong{"times: 5", "s.yaml:2:8: 'times' is '5' (needed is a list [a, b, …])"},
-        Wrong{"times: [1, -5]", "s.yaml:2:12: 'times' is '-5', out of range (it must be >= 0 s)"},
+        Wrong{"times: [1 s, -5 s]", "s.yaml:2:14: 'times' is '-5 s', out of range (it must be >= 0 s)"},
         Wrong{"cells: 2.5", "s.yaml:2:8: 'cells' is '2.5' (needed is a whole number)"},
         Wrong{"cells: 101", "s.yaml:2:8: 'cells' is '101', out of range (it must be from 1 to 100)"},
         Wrong{"cells: 99999999999", "s.yaml:2:8: 'cells' is '99999999999' (too large for a whole number)"},
@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"wells: {north: {}}", "s.yaml:2:16: 'rate' is missing in 'wells.north' (Rate.) add 'rate:' in m^2/s"},
         Wrong{"wells: [1]", "s.yaml:2:8: 'wells' is a list (needed is a map of names)"},
         Wrong{"probes: {a: 1}", "s.yaml:2:9: 'probes' is a map (needed is a list of maps)"},
-        Wrong{"probes: [{rate: 1}, 3]", "s.yaml:2:21: 'probes.1' is '3' (needed is a map of parameters)"}));
+        Wrong{"probes: [{rate: 1 m^2/s}, 3]", "s.yaml:2:27: 'probes.1' is '3' (needed is a map of parameters)"}));
 
 TEST(SpecRead, answers_an_unknown_key_with_all_and_the_nearest) {
   const std::string message = error("a: 1");
@@ -240,20 +240,20 @@ class Materials : public testing::Test {
       records_[path] = value + " from " + origin;
     };
   }
-  const Node whole_ = parse_yaml("materials: {permeability: 5, viscosity: 7, density: 9}", "m.yaml");
+  const Node whole_ = parse_yaml("materials: {permeability: 5 m^2, viscosity: 7 Pa*s, density: 9 kg/m^3}", "m.yaml");
   std::vector<std::string> used_;
   std::map<std::string, std::string> records_;
   ReadContext context_;
 };
 
 TEST_F(Materials, fill_what_the_component_does_not_say) {
-  const Options options = read("viscosity: 3", context_);
+  const Options options = read("viscosity: 3 Pa*s", context_);
   EXPECT_EQ(options.permeability.xx.at({}), 5);
   EXPECT_EQ(options.viscosity.at({}), 3);
   EXPECT_EQ(options.density, 1000) << "density is not declared as a material";
   EXPECT_THAT(used_, ElementsAre("permeability", "viscosity"));
-  EXPECT_EQ(records_.at("permeability"), "5 from m.yaml:1:27");
-  EXPECT_EQ(records_.at("viscosity"), "3 from s.yaml:1:12");
+  EXPECT_EQ(records_.at("permeability"), "5 m^2 from m.yaml:1:27");
+  EXPECT_EQ(records_.at("viscosity"), "3 Pa*s from s.yaml:1:12");
 }
 
 TEST_F(Materials, are_checked_where_they_stand) {
@@ -263,25 +263,27 @@ TEST_F(Materials, are_checked_where_they_stand) {
 }
 
 TEST_F(Materials, every_parameter_is_recorded) {
-  read("{permeability: 1 m^2, wells: {a: {rate: 2}}, probes: [{rate: 1}], schedule: [{solve: a}], title: 'a: b'}",
-       context_);
+  read(
+      "{permeability: 1 m^2, wells: {a: {rate: 2 m^2/s}}, probes: [{rate: 1 m^2/s}], schedule: [{solve: a}], title: "
+      "'a: b'}",
+      context_);
   EXPECT_EQ(records_.at("permeability"), "1 m^2 from s.yaml:1:16");
   EXPECT_EQ(records_.at("density"), "1000 kg/m^3 from default");
   EXPECT_EQ(records_.at("gravity"), "[0 m/s^2, 0 m/s^2] from default");
   EXPECT_EQ(records_.at("path"), "[] from default");
   EXPECT_EQ(records_.at("fast"), "true from default");
   EXPECT_EQ(records_.at("limits.tolerance"), "1e-08 from default");
-  EXPECT_EQ(records_.at("wells.a.rate"), "2 from s.yaml:1:41");
-  EXPECT_EQ(records_.at("probes.0.rate"), "1 from s.yaml:1:62");
-  EXPECT_EQ(records_.at("schedule"), "[{solve: a}] from s.yaml:1:77");
-  EXPECT_EQ(records_.at("title"), "\"a: b\" from s.yaml:1:98");
+  EXPECT_EQ(records_.at("wells.a.rate"), "2 m^2/s from s.yaml:1:41");
+  EXPECT_EQ(records_.at("probes.0.rate"), "1 m^2/s from s.yaml:1:68");
+  EXPECT_EQ(records_.at("schedule"), "[{solve: a}] from s.yaml:1:89");
+  EXPECT_EQ(records_.at("title"), "\"a: b\" from s.yaml:1:110");
   EXPECT_EQ(records_.count("source"), 0U);
   EXPECT_EQ(records_.count("output.interval"), 0U) << "the section is off";
   EXPECT_EQ(records_.count("type"), 0U);
 }
 
 TEST_F(Materials, recorded_defaults_read_back) {
-  read("permeability: 1", context_);
+  read("permeability: 1 m^2", context_);
   records_.erase("limits.tolerance");
   std::string scene;
   for (const auto& [path, record] : records_) scene += path + ": " + record.substr(0, record.find(" from ")) + "\n";

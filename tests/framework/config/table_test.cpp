@@ -40,7 +40,7 @@ class ReadTable : public testing::Test {
 
   static double at_time(const Data& data, double t) { return data.at({Point::Zero(), 0, t}); }
 
-  About about_{.unit = "Pa"};
+  About about_{.unit = "Pa", .in_time = true};
   ReadContext context_;
 };
 

@@ -32,27 +32,29 @@ constexpr double pi = std::numbers::pi;
 
 INSTANTIATE_TEST_SUITE_P(
     all, ParseQuantity,
-    testing::Values(
-        Quantity{"2", "", 2}, Quantity{"-2.5e-3", "Pa", -2.5e-3}, Quantity{"+3", "m", 3}, Quantity{" 3 ", "m", 3},
-        Quantity{"40 GPa", "Pa", 4e10}, Quantity{"40GPa", "Pa", 4e10}, Quantity{"7 kPa", "Pa", 7e3},
-        Quantity{"7 MPa", "Pa", 7e6}, Quantity{"2 bar", "Pa", 2e5}, Quantity{"1 atm", "Pa", 101325},
-        Quantity{"3 mm", "m", 3e-3}, Quantity{"3 cm", "m", 3e-2}, Quantity{"3 km", "m", 3e3},
-        Quantity{"3 um", "m", 3e-6}, Quantity{"3 µm", "m", 3e-6}, Quantity{"3 nm", "m", 3e-9},
-        Quantity{"5 min", "s", 300}, Quantity{"30 h", "s", 108000}, Quantity{"2 d", "s", 172800},
-        Quantity{"2 day", "s", 172800}, Quantity{"1 year", "s", 31557600}, Quantity{"1 ms", "s", 1e-3},
-        Quantity{"90 deg", "rad", pi / 2}, Quantity{"90°", "rad", pi / 2}, Quantity{"1 rad", "rad", 1},
-        Quantity{"5 J", "N*m", 5}, Quantity{"5 kN/m", "Pa*m", 5e3}, Quantity{"5 N", "kg*m/s^2", 5},
-        Quantity{"2 g", "kg", 2e-3}, Quantity{"2 kg", "kg", 2}, Quantity{"2 t", "kg", 2e3}, Quantity{"300 K", "K", 300},
-        Quantity{"1 mPa*s", "Pa*s", 1e-3}, Quantity{"1 cP", "Pa*s", 1e-3},
-        // 1 darcy = 9.869233e-13 m^2, exactly 1e-7/101325 (1 cm^2 cP/(s atm)).
-        Quantity{"1 D", "m^2", 1e-7 / 101325}, Quantity{"1 mD", "m^2", 1e-10 / 101325}, Quantity{"2 l", "m^3", 2e-3},
-        Quantity{"15 %", "", 0.15}, Quantity{"15%", "", 0.15}, Quantity{"5e-20 m^2", "m^2", 5e-20},
-        Quantity{"1 cm^2", "m^2", 1e-4}, Quantity{"0.7 MPa*m^0.5", "Pa*m^0.5", 7e5},
-        Quantity{"0.7 MPa*m^(1/2)", "Pa*m^0.5", 7e5}, Quantity{"1 m^2/s", "m^2/s", 1},
-        Quantity{"4 1/GPa", "1/Pa", 4e-9}, Quantity{"4 GPa^-1", "1/Pa", 4e-9}, Quantity{"4 Pa^(-1)", "1/Pa", 4},
-        Quantity{"1 l/min", "m^3/s", 1e-3 / 60}, Quantity{"900 J/(kg*K)", "m^2/(s^2*K)", 900},
-        Quantity{"1 MPa * m ^ 0.5", "kg/(m^0.5*s^2)", 1e6}, Quantity{"1 (kN/m)^2", "Pa^2*m^2", 1e6},
-        Quantity{"9.81 m/s^2", "m/s^2", 9.81}, Quantity{"3 1/h", "1/s", 3. / 3600}, Quantity{"1e-320", "m", 1e-320}));
+    testing::Values(Quantity{"2", "", 2}, Quantity{"-2.5e-3", "", -2.5e-3}, Quantity{"0", "Pa", 0},
+                    Quantity{"+3", "m", 3}, Quantity{" 3 ", "m", 3}, Quantity{"40 GPa", "Pa", 4e10},
+                    Quantity{"40GPa", "Pa", 4e10}, Quantity{"7 kPa", "Pa", 7e3}, Quantity{"7 MPa", "Pa", 7e6},
+                    Quantity{"2 bar", "Pa", 2e5}, Quantity{"1 atm", "Pa", 101325}, Quantity{"3 mm", "m", 3e-3},
+                    Quantity{"3 cm", "m", 3e-2}, Quantity{"3 km", "m", 3e3}, Quantity{"3 um", "m", 3e-6},
+                    Quantity{"3 µm", "m", 3e-6}, Quantity{"3 nm", "m", 3e-9}, Quantity{"5 min", "s", 300},
+                    Quantity{"30 h", "s", 108000}, Quantity{"2 d", "s", 172800}, Quantity{"2 day", "s", 172800},
+                    Quantity{"1 year", "s", 31557600}, Quantity{"1 ms", "s", 1e-3}, Quantity{"90 deg", "rad", pi / 2},
+                    Quantity{"90°", "rad", pi / 2}, Quantity{"1 rad", "rad", 1}, Quantity{"5 J", "N*m", 5},
+                    Quantity{"5 kN/m", "Pa*m", 5e3}, Quantity{"5 N", "kg*m/s^2", 5}, Quantity{"2 g", "kg", 2e-3},
+                    Quantity{"2 kg", "kg", 2}, Quantity{"2 t", "kg", 2e3}, Quantity{"300 K", "K", 300},
+                    Quantity{"1 mPa*s", "Pa*s", 1e-3}, Quantity{"1 cP", "Pa*s", 1e-3},
+                    // 1 darcy = 9.869233e-13 m^2, exactly 1e-7/101325 (1 cm^2 cP/(s atm)).
+                    Quantity{"1 D", "m^2", 1e-7 / 101325}, Quantity{"1 mD", "m^2", 1e-10 / 101325},
+                    Quantity{"2 l", "m^3", 2e-3}, Quantity{"15 %", "", 0.15}, Quantity{"15%", "", 0.15},
+                    Quantity{"5e-20 m^2", "m^2", 5e-20}, Quantity{"1 cm^2", "m^2", 1e-4},
+                    Quantity{"0.7 MPa*m^0.5", "Pa*m^0.5", 7e5}, Quantity{"0.7 MPa*m^(1/2)", "Pa*m^0.5", 7e5},
+                    Quantity{"1 m^2/s", "m^2/s", 1}, Quantity{"4 1/GPa", "1/Pa", 4e-9},
+                    Quantity{"4 GPa^-1", "1/Pa", 4e-9}, Quantity{"4 Pa^(-1)", "1/Pa", 4},
+                    Quantity{"1 l/min", "m^3/s", 1e-3 / 60}, Quantity{"900 J/(kg*K)", "m^2/(s^2*K)", 900},
+                    Quantity{"1 MPa * m ^ 0.5", "kg/(m^0.5*s^2)", 1e6}, Quantity{"1 (kN/m)^2", "Pa^2*m^2", 1e6},
+                    Quantity{"9.81 m/s^2", "m/s^2", 9.81}, Quantity{"3 1/h", "1/s", 3. / 3600},
+                    Quantity{"1e-320", "m", 1e-320}));
 
 TEST(ParseQuantity, darcy_agrees_with_the_tabulated_value) {
   EXPECT_NEAR(parse_quantity("1 D", "m^2", here), 9.869233e-13, 0.5e-19);
@@ -94,6 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"infinity", "m", "is not finite"}, Wrong{"1e999", "m", "is not finite"},
         Wrong{"1e305 GPa", "Pa", "is not finite"}, Wrong{"", "m", "is not a number with a unit"},
         Wrong{"MPa", "Pa", "is not a number with a unit"}, Wrong{"nano", "Pa", "is not a number with a unit"},
+        Wrong{"20", "Pa", "has no unit (needed is pressure, in Pa or another unit of it) write '20 Pa', if that is"},
+        Wrong{"45", "rad", "has no unit (needed is angle, in rad or another unit of it) write '45 deg'"},
         Wrong{"+-3", "Pa", "is not a number"}, Wrong{"abc", "", "is not a number (needed is a plain number)"},
         Wrong{"0x10", "", "unknown unit 'x10'"}, Wrong{"1,5 m", "m", "malformed unit"}));
 
