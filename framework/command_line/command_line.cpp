@@ -45,6 +45,13 @@ void check_scene(const Scene& scene) {
 }
 
 std::filesystem::path find_checkpoint(const std::string& given, const std::string& folder, const Scene& scene) {
+  if (!given.empty() && !folder.empty()) {
+    const std::filesystem::path beside = std::filesystem::absolute(given).parent_path();
+    if (beside.lexically_normal() != (std::filesystem::absolute(folder) / "").lexically_normal().parent_path())
+      throw InputError({"--output " + folder}, "a run goes on in the folder of its checkpoint",
+                       "the checkpoint is in " + beside.string(),
+                       "leave -o out; to keep the old results, copy their folder and restart the copy");
+  }
   if (!given.empty()) return given;
   if (!folder.empty()) return std::filesystem::path(folder) / "checkpoint.h5";
   return std::filesystem::path("results") / scene.name / "checkpoint.h5";

@@ -6,7 +6,9 @@ namespace sprekk {
 
 void SceneArguments::add_to(CLI::App& command) {
   command.add_option("scene", files, "Scene files; later ones win over earlier ones")->required();
-  command.add_option("--set", settings, "Sets one value of the scene: --set time.end='2 h'")->allow_extra_args(false);
+  command.add_option("--set", settings, "Sets one value of the scene: --set time.end='2 h'; once for each value")
+      ->allow_extra_args(false)
+      ->type_name("PATH=VALUE");
 }
 
 Scene SceneArguments::read() const {
@@ -16,8 +18,17 @@ Scene SceneArguments::read() const {
     if (equals == std::string::npos || equals == 0)
       throw InputError({"--set", 0, 0}, "'" + setting + "' sets nothing", "a setting is a path, '=' and a value",
                        "write for example --set time.end='2 h'");
-    overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+    const std::string path = setting.substr(0, equals);
+    Override change;
+    change.path = path;
+    change.value = setting.substr(equals + 1);
+    change.value_origin = Origin{"--set " + path};
+    overrides.push_back(change);
   }
+  for (const std::string& file : files)
+    if (file.find('=') != std::string::npos && !std::filesystem::exists(file))
+      throw InputError({"sprekk"}, "there is no scene file '" + file + "'", "it looks like a setting",
+                       "write --set before each setting");
   const Node whole = load_scene(files, overrides);
   const std::string folder = std::filesystem::path(files.front()).parent_path().string();
   return read_scene(whole, folder.empty() ? "." : folder, std::filesystem::path(files.front()).stem().string());

@@ -141,13 +141,15 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
 }
 
 void require_scene(const Checkpoint& checkpoint, const std::filesystem::path& path, const std::string& scene_name,
-                   const std::string& scene_fingerprint) {
+                   const std::string& scene_fingerprint, const std::string& difference) {
   if (checkpoint.scene_fingerprint == scene_fingerprint) return;
   if (checkpoint.scene_name != scene_name)
     throw unusable(path, "it belongs to the scene '" + checkpoint.scene_name + "', this one is '" + scene_name + "'",
                    "restart with the scene that wrote it, or give this scene's own checkpoint");
-  throw unusable(path, "the scene '" + scene_name + "' has changed since it was written",
-                 "undo the changes (run.json beside the checkpoint holds the scene as it was), or " + start_anew);
+  throw unusable(
+      path,
+      "the scene '" + scene_name + "' has changed since it was written" + (difference.empty() ? "" : ": " + difference),
+      "undo the changes (run.json beside the checkpoint holds the scene as it was), or " + start_anew);
 }
 
 std::map<std::string, Checkpoint::Values> field_values(const FieldStore& store) {

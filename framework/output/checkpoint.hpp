@@ -48,7 +48,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 /// Throws InputError if the checkpoint read from `path` belongs to another scene.
 void require_scene(const Checkpoint& checkpoint, const std::filesystem::path& path, const std::string& scene_name,
-                   const std::string& scene_fingerprint);
+                   const std::string& scene_fingerprint, const std::string& difference = "");
 
 /// The values of all fields of a store, for Checkpoint::fields.
 std::map<std::string, Checkpoint::Values> field_values(const FieldStore& store);

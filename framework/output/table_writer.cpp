@@ -76,6 +76,15 @@ TableWriter TableWriter::continued(std::filesystem::path file, double time) {
   return table;
 }
 
+std::vector<std::string> TableWriter::columns_of(const std::filesystem::path& file) {
+  std::ifstream table(file, std::ios::binary);
+  std::string header;
+  if (!table || !std::getline(table, header)) return {};
+  std::vector<std::string> columns = split_row(header);
+  columns.erase(columns.begin());
+  return columns;
+}
+
 void TableWriter::open() {
   stream_.open(file_, std::ios::binary | std::ios::app);
   if (!stream_) throw std::runtime_error("cannot write " + file_.string());

@@ -24,6 +24,9 @@ class TableWriter {
   /// missing file is a new table. Throws InputError if the file is not a table with a time column.
   static TableWriter continued(std::filesystem::path file, double time);
 
+  /// The columns of a table without time[s]; empty if there is none.
+  static std::vector<std::string> columns_of(const std::filesystem::path& file);
+
   /// Columns that the row lacks stay empty. Throws std::logic_error for a column that the table does not have,
   /// std::runtime_error when the file cannot be written.
   void append(double time, const Row& row);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <iostream>
@@ -11,6 +12,7 @@
 #include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/partition.hpp"
 #include "framework/output/checkpoint.hpp"
+#include "framework/output/parameter_difference.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -65,6 +67,7 @@ class Run {
     return [this](const IterationRecord& record) { output_.write_iteration(record); };
   }
   void restore();
+  void require_columns() const;
   void record_start();
   void retire_counts(const Model& model);  ///< adds what the model has counted to the totals
   bool follows_growth();                   ///< false when the mesh could not
@@ -117,10 +120,17 @@ std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Checkp
   return std::make_unique<Model>(scene, std::move(mesh), std::move(log));
 }
 
+std::vector<RunRecord::Parameter> parameters_of(const Scene& scene) {
+  std::vector<RunRecord::Parameter> parameters;
+  for (const Scene::Resolved& r : scene.resolved) parameters.push_back({r.path, r.value, r.origin});
+  return parameters;
+}
+
 std::optional<Checkpoint> read_if_given(const Scene& scene, const RunOptions& options) {
   if (!options.checkpoint) return std::nullopt;
   Checkpoint checkpoint = read_checkpoint(*options.checkpoint);
-  require_scene(checkpoint, *options.checkpoint, scene.name, scene_fingerprint(scene));
+  require_scene(checkpoint, *options.checkpoint, scene.name, scene_fingerprint(scene),
+                parameter_difference(options.checkpoint->parent_path() / "run.json", parameters_of(scene)));
   return checkpoint;
 }
 
@@ -136,7 +146,10 @@ Run::Run(const Scene& scene, const RunOptions& options)
       began_(now()),
       processor_at_first_step_(processor_now()) {
   if (scene.time.has_stop) resolve_stop();
-  if (checkpoint_) restore();
+  if (checkpoint_) {
+    restore();
+    require_columns();
+  }
 }
 
 void Run::restore() {
@@ -149,11 +162,24 @@ void Run::restore() {
   checkpoint_.reset();
 }
 
+/// A run that goes on appends to its tables, whose columns are there.
+void Run::require_columns() const {
+  const std::vector<std::string> columns = TableWriter::columns_of(output_.path() / "history.csv");
+  if (columns.empty()) return;
+  for (const Quantity& quantity : model_->quantities()) {
+    const std::string column = labelled(quantity.name, quantity.unit);
+    if (std::find(columns.begin(), columns.end(), column) == columns.end())
+      throw InputError(
+          "history.csv of the run that is to go on has no column " + column +
+          " (a probe that it did not have) restart with the probes it had, or start the scene anew with -o");
+  }
+}
+
 void Run::record_start() {
   const Scene& scene = model_->scene();
   record_.scene_name = scene.name;
   record_.scene_files = options_.scene_files;
-  for (const Scene::Resolved& r : scene.resolved) record_.parameters.push_back({r.path, r.value, r.origin});
+  record_.parameters = parameters_of(scene);
   const BlasInfo blas = blas_in_use();
   record_.blas = blas.name;
   if (blas.is_reference)
@@ -341,12 +367,16 @@ void Run::finish(ExitCode code) {
   move_time("linear: solve", counts.seconds_solve, counts.solves, 0);
   if (!parallel::is_root()) return;
   record_.write(output_.path() / "run.json", profile_);
-  if (options_.quiet) return;
-  std::cerr << profile_.table(record_.seconds) << "\n";
-  for (const std::string& warning : record_.warnings) std::cerr << "warning: " << warning << "\n";
+  if (!options_.quiet) {
+    std::cerr << profile_.table(record_.seconds) << "\n";
+    for (const std::string& warning : record_.warnings) std::cerr << "warning: " << warning << "\n";
+    if (record_.counters["steps accepted"] == 0 && code == ExitCode::done)
+      std::cerr << "nothing was to be done: the run ended at t = " << controller_.time()
+                << " s before, and time.end is " << model_->scene().time.end << " s\n";
+  }
   if (code != ExitCode::done)
     std::cerr << reason_ << "\nthe checkpoint is " << output_.checkpoint_path().string() << "\n";
-  std::cout << "results: " << output_.path().string() << "\n";
+  if (!options_.quiet) std::cout << "results: " << output_.path().string() << "\n";
 }
 
 ExitCode Run::execute() {

@@ -136,8 +136,14 @@ void Sweep::finish(std::size_t i, int code) {
   const double before = state.seconds;
   record_end(state, code, run_folder(i), log(i));
   const std::string seconds = duration_text(state.seconds - before);
-  say(fmt::format("[{}/{}] {}: {} {}", ++ended_, study_.runs.size(), state.name, standing_text(state.standing),
-                  state.standing == RunState::Standing::failed ? "(" + state.reason + ")" : "after " + seconds));
+  const bool has_failed = state.standing == RunState::Standing::failed;
+  const std::string text =
+      fmt::format("[{}/{}] {}: {} {}", ++ended_, study_.runs.size(), state.name, standing_text(state.standing),
+                  has_failed ? "(" + state.reason + ")" : "after " + seconds);
+  if (has_failed)
+    std::cerr << text << std::endl;
+  else
+    say(text);
   comparison_.write_record(folder_, states_);
 }
 

@@ -75,7 +75,7 @@ TEST(Show, GivesEveryValueItsOrigin) {
   const Folder folder;
   const Outcome shown = sprekk_command({"show", tutorial, "--set", "time.step=2 h"}, folder.path());
   ASSERT_EQ(shown.code, 0) << shown.err;
-  const std::regex leaf(R"(^\s*(- )?[\w"./-]+: \S.*  # (.*first_scene\.yaml:\d+:\d+|default|--set)$)");
+  const std::regex leaf(R"(^\s*(- )?[\w"./-]+: \S.*  # (.*first_scene\.yaml:\d+:\d+|default|--set [\w.]+)$)");
   const std::regex branch(R"(^\s*(- )?[\w"./-]+:$)");
   for (const std::string& line : lines_of(shown.out))
     EXPECT_TRUE(std::regex_match(line, leaf) || std::regex_match(line, branch)) << line;
@@ -126,7 +126,7 @@ TEST(Check, NotesMaterialsThatNothingUses) {
       {"check", std::string(SPREKK_SOURCE_DIR) + "/tests/input/base/flow.yaml", "--set", "materials.friction=0.6"},
       folder.path());
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_THAT(outcome.err, HasSubstr("note: --set: no component of this scene uses 'friction'"));
+  EXPECT_THAT(outcome.err, HasSubstr("note: --set materials.friction: no component of this scene uses 'friction'"));
 }
 
 TEST(Graph, ShowsComponentsCouplersAndSchedule) {

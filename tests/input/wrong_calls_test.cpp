@@ -55,9 +55,10 @@ TEST(Settings, ThatAreWrongAreRefused) {
   refused("=3", {"'=3' sets nothing"});
   refused("time..end=3", {"--set time..end: empty name in the path"});
   refused("time.end.x=3", {"--set time.end.x: 'time.end' has no keys"});
-  refused("time.ende=3", {"--set: unknown key 'ende' in 'time'", "did you mean 'end'?"});
+  refused("time.ende=3", {"--set time.ende: unknown key 'ende' in 'time'", "did you mean 'end'?"});
   refused("tmie.end=3", {"unknown section of a scene 'tmie'", "did you mean 'time'?"});
-  refused("components.pore.viscosity=1 m", {"--set: '1 m' for 'viscosity' has the dimension of length"});
+  refused("components.pore.viscosity=1 m",
+          {"--set components.pore.viscosity: '1 m' for 'viscosity' has the dimension of length"});
   refused("schedule.3.solve=pore", {"--set schedule.3.solve: 'schedule' has no item '3'"});
   refused("time.end=[1", {"--set time.end:1:1: malformed YAML"});
   refused("output.nothing=", {"there is no 'output.nothing' to remove"});
@@ -69,6 +70,8 @@ TEST(Arguments, ThatAreWrongAreRefused) {
   expect_refused({"chekc", flow}, {"unknown command 'chekc'", "did you mean 'check'?"}, folder);
   expect_refused({"check"}, {"scene"}, folder);
   expect_refused({"check", flow, "--setting", "a=b"}, {"--setting"}, folder);
+  expect_refused({"check", flow, "--set", "time.end=1 s", "time.step=1 s"},
+                 {"no scene file 'time.step=1 s'", "write --set before each setting"}, folder);
   expect_refused({"explain", "matrix_flow/mfpa"},
                  {"unknown name 'matrix_flow/mfpa'", "did you mean 'matrix_flow/mpfa'?"}, folder);
   expect_refused({"graph", flow, "-o", "picture.png"}, {"has no known kind", "end it with .dot or .svg"}, folder);
@@ -102,7 +105,14 @@ TEST(Checkpoints, ThatCannotBeContinuedAreRefused) {
   expect_refused({"run", flow, "--restart", "text/checkpoint.h5"}, {"text/checkpoint.h5", "not an HDF5 file"}, folder);
   expect_refused({"run", flow, "--restart", "done"}, {"cannot restart from done"}, folder);
   expect_refused({"run", flow, "--set", "components.pore.viscosity=2 mPa*s", "-o", "done", "--restart"},
-                 {"done/checkpoint.h5", "the scene 'flow' has changed since it was written"}, folder);
+                 {"done/checkpoint.h5", "the scene 'flow' has changed since it was written",
+                  "components.pore.viscosity was", "and is 2 mPa*s"},
+                 folder);
+  expect_refused({"run", flow, "--restart", "done/checkpoint.h5", "-o", "other"},
+                 {"a run goes on in the folder of its checkpoint", "leave -o out"}, folder);
+  expect_refused(
+      {"run", flow, "--set", "output.probes.more={of: pore.pressure, take: mean}", "-o", "done", "--restart"},
+      {"no column more[Pa]", "restart with the probes it had"}, folder);
   expect_refused({"run", flow, "--set", "mesh.cells=[5, 5]", "-o", "done", "--restart"}, {"done/checkpoint.h5"},
                  folder);
   EXPECT_EQ(text_of(folder / "done/history.csv"), before);
