@@ -25,15 +25,15 @@ def rock_sides(p):
                 f"      top: {{displacement_x: \"{across!r}*{factor}\", displacement_y: {down!r}}}"]
     return ["      left: {displacement_x: 0}", "      bottom: {displacement_y: 0}",
             f"      right: {{normal_stress: \"{-p['stress'] * p['ratio']!r}*{factor}\"}}",
-            f"      top: {{normal_stress: {-p['stress']!r}}}"]
+            f"      top: {{normal_stress: {-p['stress']!r} Pa}}"]
 
 
 def flow_sides(p):
     if p["boundary"] == "none":
         return []
-    lines = ["    boundary:", f"      right: {{pressure: {p['initial']!r}}}"]
+    lines = ["    boundary:", f"      right: {{pressure: {p['initial']!r} Pa}}"]
     if p["boundary"] == "across":
-        lines.append(f"      left: {{pressure: {p['boundary_pressure']!r}}}")
+        lines.append(f"      left: {{pressure: {p['boundary_pressure']!r} Pa}}")
     return lines
 
 
@@ -41,9 +41,9 @@ def wells(p):
     if p["well"] == "none":
         return []
     half, rate = 0.5 * physics.end(p), physics.rate(p)
-    lines = ["    injection:", f"      first: {{fracture: main, rate: {{value: {rate!r}, from: 0, to: {half!r}}}}}"]
+    lines = ["    injection:", f"      first: {{fracture: main, rate: {{value: {rate!r} m^2/s, from: 0, to: {half!r} s}}}}"]
     if p["well"] == "inject_extract":
-        lines.append(f"      second: {{fracture: main, rate: {{value: {-rate!r}, from: {half!r}, to: {2 * half!r}}}}}")
+        lines.append(f"      second: {{fracture: main, rate: {{value: {-rate!r} m^2/s, from: {half!r} s, to: {2 * half!r} s}}}}")
     return lines
 
 
@@ -57,21 +57,21 @@ def write(p, folder):
         _, shape = box_and_mesh(p)
     step = physics.time_step(p)
     lines = [f"# tools/stress --seed {p['seed']} --only {p['number']}", f"name: stress_{p['number']}", "", shape, "",
-             "materials:", f"  young_modulus: {p['young']!r}", f"  poisson_ratio: {p['poisson']!r}",
-             f"  biot_coefficient: {p['alpha']!r}", f"  permeability: {p['permeability']!r}",
-             f"  viscosity: {p['viscosity']!r}", f"  fluid_compressibility: {p['compressibility']!r}",
-             f"  friction: {p['friction']!r}", f"  dilation_angle: {math.radians(p['dilation'])!r}", "",
-             "components:", "  pore:", f"    type: matrix_flow/{p['discretization']}", f"    storage: {p['storage']!r}",
-             f"    initial_pressure: {p['initial']!r}", *flow_sides(p),
+             "materials:", f"  young_modulus: {p['young']!r} Pa", f"  poisson_ratio: {p['poisson']!r}",
+             f"  biot_coefficient: {p['alpha']!r}", f"  permeability: {p['permeability']!r} m^2",
+             f"  viscosity: {p['viscosity']!r} Pa*s", f"  fluid_compressibility: {p['compressibility']!r} 1/Pa",
+             f"  friction: {p['friction']!r}", f"  dilation_angle: {math.radians(p['dilation'])!r} rad", "",
+             "components:", "  pore:", f"    type: matrix_flow/{p['discretization']}", f"    storage: {p['storage']!r} 1/Pa",
+             f"    initial_pressure: {p['initial']!r} Pa", *flow_sides(p),
              "  rock:", "    type: poromechanics/mpsa", "    boundary:", *rock_sides(p),
-             "  conduit:", "    type: fracture_flow/tpfa", f"    initial_aperture: {p['aperture']!r}",
-             f"    initial_pressure: {p['initial']!r}", *wells(p),
+             "  conduit:", "    type: fracture_flow/tpfa", f"    initial_aperture: {p['aperture']!r} m",
+             f"    initial_pressure: {p['initial']!r} Pa", *wells(p),
              "  contact: {type: contact/coulomb}", "",
              "couplers:", "  - {type: biot, between: [pore, rock]}", "  - {type: wall_exchange, between: [pore, conduit]}",
              "  - {type: wall_traction, between: [rock, contact, conduit]}",
              "  - {type: aperture, between: [contact, conduit]}", "",
              "schedule: [{solve: [pore, rock, conduit, contact]}]", "",
-             f"time: {{end: {physics.end(p)!r}, step: {step!r}}}", f"output: {{every: {step!r}}}", ""]
+             f"time: {{end: {physics.end(p)!r} s, step: {step!r} s}}", f"output: {{every: {step!r} s}}", ""]
     path = folder / "scene.yaml"
     path.write_text("\n".join(lines))
     return path
