@@ -51,14 +51,21 @@ ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
   return [options](const ScheduleContext& context) { return std::make_unique<SolveStep>(options, context); };
 }
 
+/// The spec of a step that has steps inside; `inside` receives them.
+template <class Options>
+Spec with_steps(Options& options, const Node*& inside) {
+  Spec spec = options.spec();
+  spec.custom("steps", [&inside](const Node& value) { inside = &value; },
+              {.doc = "The steps inside: a list, as a schedule.", .required = true});
+  return spec;
+}
+
 /// The options of a step that has steps inside, and these steps; `adapt` may change what they are read with.
 template <class Options>
 ScheduleBuilder read_inside(const Node& node, Options& options, ScheduleReading reading,
                             const std::function<void(ScheduleReading&)>& adapt = {}) {
-  Spec spec = options.spec();
   const Node* inside = nullptr;
-  spec.custom("steps", [&](const Node& value) { inside = &value; }, {.doc = "The steps inside.", .required = true});
-  spec.read(node, reading.read);
+  with_steps(options, inside).read(node, reading.read);
   if (adapt) adapt(reading);
   return read_schedule(*inside, reading);
 }
@@ -129,13 +136,20 @@ Spec example_spec() {
   return options.spec();
 }
 
+template <class Options>
+Spec example_with_steps() {
+  static Options options;
+  static const Node* inside;
+  return with_steps(options, inside);
+}
+
 }  // namespace
 
 const std::vector<ScheduleKind>& schedule_kinds() {
   static const std::vector<ScheduleKind> kinds = {{"solve", read_solve, example_spec<SolveOptions>},
-                                                  {"iterate", read_iterate, example_spec<IterateOptions>},
-                                                  {"subcycle", read_subcycle, example_spec<SubcycleOptions>},
-                                                  {"when", read_when, example_spec<WhenOptions>},
+                                                  {"iterate", read_iterate, example_with_steps<IterateOptions>},
+                                                  {"subcycle", read_subcycle, example_with_steps<SubcycleOptions>},
+                                                  {"when", read_when, example_with_steps<WhenOptions>},
                                                   {"grow", read_grow, example_spec<GrowOptions>}};
   return kinds;
 }
