@@ -166,7 +166,6 @@ void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
 void MatrixFlow::use_operators() {
   is_discretized_ = true;
   discretized_version_ = mesh_.version;
-  place_wells();
   data_evaluated_ = false;
   const int rank = parallel::rank();
   capacity_ = storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
