@@ -24,7 +24,7 @@ class Growth {
         options_(options),
         extensions_(check_extensions(mesh, extensions, options.size)),
         raw_(to_raw_mesh(mesh, &merged_)),
-        path_nodes_(place_path_nodes(mesh, raw_, merged_, extensions_, options.size)) {
+        path_nodes_(place_path_nodes(mesh, raw_, merged_, extensions_, options.size, options.gap_edges)) {
     for (const auto& path : path_nodes_.paths) {
       paths_.emplace_back();
       for (std::size_t i = 0; i + 1 < path.size(); ++i) {
@@ -220,6 +220,7 @@ GrownMesh extend_fractures(const Mesh& mesh, const std::vector<PathExtension>& e
       throw std::invalid_argument("extend_fractures: radius, size and growth must be positive numbers");
     }
   }
+  if (!(options.gap_edges >= 0)) throw std::invalid_argument("extend_fractures: gap_edges must not be negative");
   return Growth(mesh, extensions, options).run();
 }
 

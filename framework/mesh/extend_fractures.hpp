@@ -15,6 +15,8 @@ struct CavityOptions {
   double radius;
   double size;    ///< edge length at the new path, m
   double growth;  ///< by how many m the edge length grows per m of distance from the path, where the rim lets it
+  /// Edges across a gap between path and outer boundary that is narrower than `size` times this; 0 leaves gaps alone.
+  double gap_edges = 1;
 };
 
 struct GrownMesh {
@@ -25,14 +27,14 @@ struct GrownMesh {
   std::vector<std::vector<int>> extension_cells;
 };
 
-/// Extends fractures. Each given segment becomes one or more fracture cells of about `size`. All that is older stays as
-/// it is: fracture cells, interfaces between regions, and the outer boundary, whose edges may be divided near a path.
-/// Cells outside of the cavity keep their corners; they keep their numbers, too, unless there are fewer cells than
-/// before: then the last ones move to the lowest free numbers. What is made anew is triangles, whatever was there. An
-/// end within a hundredth of `size` of the outer boundary is put onto it and becomes on_boundary. When an angle falls
-/// below 25 degrees, further cavities are tried and the best is taken. Throws ExtensionError, before any work, for
-/// paths that are refused (see check_extensions), std::invalid_argument for options that are not positive, and
-/// std::runtime_error when the cavity cannot be meshed.
+/// Extends fractures. Each given segment becomes one or more fracture cells of about `size`, shorter in narrow gaps.
+/// All that is older stays as it is: fracture cells, interfaces between regions, and the outer boundary, whose edges
+/// may be divided near a path. Cells outside of the cavity keep their corners; they keep their numbers, too, unless
+/// there are fewer cells than before: then the last ones move to the lowest free numbers. What is made anew is
+/// triangles, whatever was there. An end within a hundredth of `size` of the outer boundary is put onto it and becomes
+/// on_boundary. When an angle falls below 25 degrees, further cavities are tried and the best is taken. Throws
+/// ExtensionError, before any work, for paths that are refused (see check_extensions), std::invalid_argument for
+/// options that are not positive, and std::runtime_error when the cavity cannot be meshed.
 GrownMesh extend_fractures(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                            const CavityOptions& options);
 

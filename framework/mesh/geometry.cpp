@@ -182,6 +182,11 @@ void validate_options(const MeshOptions& options) {
   validate_size("size", options.size, options.origin);
   validate_size("fracture_size", options.fracture_size, options.origin);
   validate_size("tip_size", options.tip_size, options.origin);
+  validate_size("gap_size", options.gap_size, options.origin);
+  if (!(options.gap_edges >= 0 && std::isfinite(options.gap_edges))) {
+    throw InputError(options.origin, "mesh gap_edges is " + number(options.gap_edges), "it must be 0 or more",
+                     "0 leaves narrow gaps alone");
+  }
   if (!(options.growth > 0 && options.growth <= 2)) {
     throw InputError(options.origin, "mesh growth is " + number(options.growth),
                      "it must be greater than 0 and at most 2", "0.3 is usual");
@@ -205,6 +210,14 @@ void validate_cell_count(const Geometry& geometry, const MeshOptions& options) {
     estimate = SizeField(geometry, options).estimated_triangles();
   }
   if (estimate > most_cells) {
+    MeshOptions without_gaps = options;
+    without_gaps.gap_edges = 0;
+    if (options.kind == MeshOptions::Kind::unstructured &&
+        SizeField(geometry, without_gaps).estimated_triangles() <= most_cells) {
+      throw InputError(options.origin, "narrow gaps ask for about " + number(estimate) + " triangles",
+                       "at most " + number(most_cells) + " are made",
+                       "choose a larger gap_size, or gap_edges: 0 to leave gaps alone");
+    }
     const bool has_rectangles =
         options.kind == MeshOptions::Kind::structured && options.shape == MeshOptions::Shape::quadrilaterals;
     throw InputError(

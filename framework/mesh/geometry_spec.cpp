@@ -156,6 +156,17 @@ Spec mesh_spec(MeshOptions& options) {
                 {.unit = "",
                  .range = Range{0, 2, false, true},
                  .doc = "By how much the edge length grows per distance from fractures and tips."});
+  spec.quantity(
+      "gap_edges", options.gap_edges,
+      {.unit = "",
+       .range = between(0, 10),
+       .doc = "Unstructured: edges across a gap that is narrower than the edge length, between a fracture and "
+              "a side, another fracture, another part of itself or an edge of a region; 0 leaves gaps alone."});
+  spec.quantity(
+      "gap_size", options.gap_size,
+      {.unit = "m",
+       .range = positive(),
+       .doc = "Narrow gaps make edges no shorter than this; by default a 500th of the shortest size asked for."});
   spec.quantities(
       "cells", input->cells,
       {.unit = "", .range = positive(), .doc = "Structured: rectangles along x and y; by default as size asks."});

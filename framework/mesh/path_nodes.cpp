@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "framework/mesh/graded_division.hpp"
+#include "framework/mesh/narrow_gaps.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
@@ -16,8 +17,8 @@ constexpr double growth_along = 0.5;
 
 class Placement {
  public:
-  Placement(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged, double size)
-      : mesh_(mesh), merged_(merged), size_(size), is_on_fracture_(raw.nodes.size()) {
+  Placement(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged, double size, double gap_edges)
+      : mesh_(mesh), merged_(merged), size_(size), gap_edges_(gap_edges), is_on_fracture_(raw.nodes.size()) {
     result_.nodes = raw.nodes;
     for (const auto& [name, nodes] : raw.fractures) {
       for (const int node : nodes) is_on_fracture_[node] = true;
@@ -39,6 +40,7 @@ class Placement {
         pass_interface_nodes(path);
         cross_interfaces(path);
       }
+      if (gap_edges_ > 0) find_narrow_places(path, fracture);
       result_.paths.push_back(divide(path));
     }
     return std::move(result_);
@@ -140,6 +142,53 @@ class Placement {
            std::find(found->second.begin(), found->second.end(), node) != found->second.end();
   }
 
+  /// What a path may be near to. A side on which it ends meets it at an angle and leaves no gap.
+  struct Obstacle {
+    Segment segment;
+    double least;  ///< m, the length of edges beside it that cannot change
+  };
+  std::vector<Obstacle> obstacles_near(const std::vector<int>& path, int fracture) const {
+    int side = none;
+    for (const auto& [face, nodes] : result_.on_face) {
+      if (std::find(nodes.begin(), nodes.end(), path.back()) != nodes.end() && mesh_.face_side[face] != none)
+        side = mesh_.face_side[face];
+    }
+    for (int face = 0; face < mesh_.face_count() && side == none; ++face) {
+      if (mesh_.face_side[face] != none && (ends(face)[0] == path.back() || ends(face)[1] == path.back()))
+        side = mesh_.face_side[face];
+    }
+    std::vector<Obstacle> near;
+    const auto add = [&](const Segment& segment, double least) {
+      for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+        if (distance(segment, Segment{at(path[i]), at(path[i + 1])}) >= gap_edges_ * size_) continue;
+        near.push_back({segment, least});
+        return;
+      }
+    };
+    for (int face = 0; face < mesh_.face_count(); ++face) {
+      if (mesh_.face_side[face] != none && mesh_.face_side[face] != side) add(segment(face), least_gap_part * size_);
+    }
+    for (const FractureCell& cell : mesh_.fracture_cells) {
+      if (cell.fracture != fracture) add(segment(cell.faces[0]), cell.length);
+    }
+    return near;
+  }
+
+  void find_narrow_places(const std::vector<int>& path, int fracture) {
+    const std::vector<Obstacle> obstacles = obstacles_near(path, fracture);
+    if (obstacles.empty()) return;
+    constexpr int samples = 64;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      for (int k = 0; k <= samples; ++k) {
+        const Point x = at(path[i]) + k * (at(path[i + 1]) - at(path[i])) / samples;
+        double size = size_;
+        for (const auto& [segment, least] : obstacles)
+          size = std::min(size, std::max(distance(x, segment) / gap_edges_, least));
+        if (size < size_) result_.narrow.push_back({x, size});
+      }
+    }
+  }
+
   std::vector<int> divide(const std::vector<int>& path) {
     // Interfaces may leave short pieces; the edges grow away from them.
     std::vector<Segment> pieces;
@@ -149,6 +198,8 @@ class Placement {
       for (const Segment& piece : pieces) {
         if (piece.length() < 0.5 * size_) least = std::min(least, piece.length() + growth_along * distance(x, piece));
       }
+      for (const auto& [position, size] : result_.narrow)
+        least = std::min(least, size + growth_along * (x - position).norm());
       return least;
     };
     std::vector<int> divided{path.front()};
@@ -168,7 +219,7 @@ class Placement {
 
   const Mesh& mesh_;
   const std::vector<int>& merged_;
-  const double size_;
+  const double size_, gap_edges_;
   std::vector<bool> is_on_fracture_;  ///< per raw node
   std::vector<int> interfaces_;
   PathNodes result_;
@@ -177,8 +228,8 @@ class Placement {
 }  // namespace
 
 PathNodes place_path_nodes(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
-                           const std::vector<PathExtension>& extensions, double size) {
-  return Placement(mesh, raw, merged, size).run(raw, extensions);
+                           const std::vector<PathExtension>& extensions, double size, double gap_edges) {
+  return Placement(mesh, raw, merged, size, gap_edges).run(raw, extensions);
 }
 
 }  // namespace sprekk

@@ -246,7 +246,10 @@ class Refilling {
       for (const auto& path : paths_) {
         for (const Segment& s : path) away = std::min(away, distance(x, s));
       }
-      return options_.size + options_.growth * away;
+      double size = options_.size + options_.growth * away;
+      for (const auto& narrow : path_nodes_.narrow)
+        size = std::min(size, narrow.size + options_.growth * (x - narrow.position).norm());
+      return size;
     };
     std::vector<int> divided{chain.front()};
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {

@@ -9,7 +9,8 @@
 namespace sprekk {
 
 /// The smallest of: the far size; at each fracture its size plus growth times the distance from it; at each of its
-/// ends inside the box the tip size plus growth times the distance from the end.
+/// ends inside the box the tip size plus growth times the distance from the end; at each gap that is narrower than what
+/// these ask for, its width over gap_edges plus growth, but not more than half, times the distance from it.
 class SizeField {
  public:
   /// The geometry is that of a box and valid, except that sizes may still be absurdly small.
@@ -25,9 +26,12 @@ class SizeField {
   struct Source {
     Segment segment;  ///< a point when from == to
     double size;
+    double growth;
     double reach;  ///< the distance at which the far size is reached
   };
-  void add_source(const Segment& segment, double size);
+  void add_source(const Segment& segment, double size, double growth);
+  void add_gaps(const Geometry& geometry, const MeshOptions& options);
+  static double lowered(double size, const Source& source, const Point& x);
   void fill_buckets();
   int bucket(int axis, double coordinate) const;
 

@@ -67,7 +67,9 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
 MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const std::vector<PathExtension>& extensions,
                              const StepTime& data, IterationLog log) {
   const GrowStep& step = *before.growing()[grow_step];
-  GrownMesh grown = extend_fractures(before.mesh(), extensions, step.cavity());
+  CavityOptions cavity = step.cavity();
+  cavity.gap_edges = before.scene().mesh.gap_edges;
+  GrownMesh grown = extend_fractures(before.mesh(), extensions, cavity);
   partition(grown.mesh, parallel::size());
   for (std::size_t i = 0; i < grown.mesh.fracture_cells.size(); ++i) {
     const int origin = grown.change.fracture_cell[i];

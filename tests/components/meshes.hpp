@@ -57,6 +57,18 @@ inline Mesh fractured_square(const MeshOptions& options = unstructured(0.1, 0.35
   return generate_mesh(geometry, options);
 }
 
+/// A unit square in which a fracture leaves gaps of a fiftieth of the edge length to a side and to another one.
+inline Mesh square_with_narrow_gaps() {
+  Geometry geometry = box(1, 1);
+  FractureGeometry main, beside;
+  main.name = "main";
+  main.points = {Point(0.4, 0.3), Point(0.998, 0.45)};
+  beside.name = "beside";
+  beside.points = {Point(0.4, 0.302), Point(0.3, 0.7)};
+  geometry.fractures = {main, beside};
+  return generate_mesh(geometry, unstructured(0.1));
+}
+
 /// A unit square of distorted quadrilaterals with fractures along what were grid lines, one of which bends around the
 /// corner of a cell.
 inline Mesh fractured_rectangles() {

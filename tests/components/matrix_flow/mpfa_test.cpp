@@ -41,9 +41,9 @@ TEST(Mpfa, IsExactForLinearPressuresInAnisotropicRock) {
   mobility << 3, 1.2, 1.2, 0.7;
   const Point gradient(1.3, -0.4);
   const auto pressure = [&](const Point& x) { return 2 + gradient.dot(x); };
-  for (const Mesh& mesh :
-       {test::fractured_square(), test::square_with_single_corners(6), test::fractured_rectangles(),
-        test::fractured_square(test::mixed(0.1, 0.3)), generate_mesh(test::box(2, 1), test::structured(7, 5, 0.4))}) {
+  for (const Mesh& mesh : {test::fractured_square(), test::square_with_single_corners(6), test::fractured_rectangles(),
+                           test::square_with_narrow_gaps(), test::fractured_square(test::mixed(0.1, 0.3)),
+                           generate_mesh(test::box(2, 1), test::structured(7, 5, 0.4))}) {
     const auto flux = [&](int f) { return -test::face_vector(mesh, f).dot(mobility * gradient); };
     const auto conditions = mixed_conditions(mesh);
     const auto operators = discretize_mpfa(mesh, std::vector<Tensor>(mesh.cell_count(), mobility), conditions);
