@@ -56,6 +56,55 @@ Point meeting_point(const Segment& path, const Segment& other) {
   return a <= b ? other.from : other.to;
 }
 
+/// Whether an edge lies on the line through another one.
+bool is_in_line(const Segment& edge, const Segment& line) {
+  constexpr double straight = 1e-6;  // rad
+  const Point along = line.to - line.from;
+  return std::max(std::abs(cross(along, edge.from - line.from)), std::abs(cross(along, edge.to - line.from))) <=
+         straight * along.norm() * std::max(line.length(), (edge.to - line.from).norm());
+}
+
+void join(const Segment& edge, Segment& line) {
+  const Point along = line.to - line.from;
+  for (const Point& x : {edge.from, edge.to}) {
+    if ((x - line.from).dot(along) < 0) line.from = x;
+    if ((x - line.to).dot(along) > 0) line.to = x;
+  }
+}
+
+/// The straight part of a side that a face belongs to: what counts shall not depend on how short edges are.
+Segment straight_side(const Mesh& mesh, int face) {
+  const Segment given = segment_of_face(mesh, face);
+  Segment line = given;
+  for (int other = 0; other < mesh.face_count(); ++other) {
+    if (mesh.face_side[other] != mesh.face_side[face]) continue;
+    const Segment edge = segment_of_face(mesh, other);
+    if (is_in_line(edge, given)) join(edge, line);
+  }
+  return line;
+}
+
+/// The part of a fracture without a bend that a cell belongs to.
+Segment straight_part(const Mesh& mesh, int fracture_cell) {
+  const auto& [name, first, count] = mesh.fractures[mesh.fracture_cells[fracture_cell].fracture];
+  const Segment given = segment_of(mesh, fracture_cell);
+  Segment line = given;
+  for (const int step : {1, -1}) {
+    for (int cell = fracture_cell + step; cell >= first && cell < first + count; cell += step) {
+      const Segment edge = segment_of(mesh, cell);
+      if (!is_in_line(edge, given)) break;
+      join(edge, line);
+    }
+  }
+  return line;
+}
+
+/// Whether a part of a path leads away from a straight line that is near to the path's beginning.
+bool leads_away(const Segment& step, const Point& beginning, const Segment& line) {
+  return distance(step.to, line) - distance(step.from, line) >= std::sin(least_incidence) * step.length() &&
+         distance(step, line) >= approach * distance(beginning, line);
+}
+
 class Check {
  public:
   Check(const Mesh& mesh, const std::vector<PathExtension>& extensions, double size)
@@ -174,6 +223,8 @@ class Check {
           }
           continue;
         }
+        if (distance(s, side) < allowed(distance(tip, side)) && leads_away(s, tip, straight_side(mesh_, face)))
+          continue;
         note(i, side, is_ending ? 0 : allowed(distance(tip, side)), Reason::leaves_mesh, "the outer boundary");
       }
     }
@@ -227,6 +278,9 @@ class Check {
           const int cell = at_end ? first + count - 1 - n : first + n;
           const Segment other = segment_of(mesh_, cell);
           if (f != fracture) {
+            if (distance(segments[i], other) < allowed(distance(tip, other)) &&
+                leads_away(segments[i], tip, straight_part(mesh_, cell)))
+              continue;
             note(i, other, allowed(distance(tip, other)), Reason::crosses_fracture, name_of(f));
           } else if (i > 0 || n > 0) {
             note(i, other, allowed_to_itself(way_ahead + way_behind), Reason::crosses_fracture, "itself");
@@ -282,9 +336,13 @@ bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, cons
     return distance(step, other) < std::min(1.5 * least_gap * size, (1 + approach) / 2 * distance(beginning, other));
   };
   for (int face = 0; face < mesh.face_count(); ++face)
-    if (mesh.face_side[face] != none && is_near(segment_of_face(mesh, face))) return true;
+    if (mesh.face_side[face] != none && is_near(segment_of_face(mesh, face)) &&
+        !leads_away(step, beginning, straight_side(mesh, face)))
+      return true;
   for (int cell = 0; cell < mesh.fracture_cell_count(); ++cell)
-    if (mesh.fracture_cells[cell].fracture != fracture && is_near(segment_of(mesh, cell))) return true;
+    if (mesh.fracture_cells[cell].fracture != fracture && is_near(segment_of(mesh, cell)) &&
+        !leads_away(step, beginning, straight_part(mesh, cell)))
+      return true;
   return false;
 }
 

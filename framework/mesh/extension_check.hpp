@@ -46,8 +46,9 @@ inline constexpr double boundary_snap = 0.01;
 /// A path that meets the outer boundary at less than this angle passes too near to it, rad (15 degrees).
 inline constexpr double least_incidence = 0.2617993877991494;
 
-/// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). Returns the
-/// extensions with ends near the outer boundary put onto it.
+/// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). What is nearer to the
+/// old tip than the least gap may be passed at nine tenths of that distance, and left at 15 degrees or more. Returns
+/// the extensions with ends near the outer boundary put onto it.
 std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                             double size);
 

@@ -134,7 +134,8 @@ class Search {
     }
   }
 
-  /// Along the fracture of two lines from a part of the one to the joints: the shortest way, and a bound for the longest.
+  /// Along the fracture of two lines from a part of the one to the joints: the shortest way, and a bound for the
+  /// longest.
   static Stretch way_along(const Line& line, const Stretch& range, const Line& other,
                            const std::vector<Stretch>& joints) {
     const auto at = [&](double t) { return line.stretch.from + t * (line.stretch.to - line.stretch.from); };
