@@ -15,8 +15,9 @@ struct CavityOptions {
   double radius;
   double size;    ///< edge length at the new path, m
   double growth;  ///< by how many m the edge length grows per m of distance from the path, where the rim lets it
-  /// Edges across a gap between path and outer boundary that is narrower than `size` times this; 0 leaves gaps alone.
-  double gap_edges = 1;
+  /// Where the outer boundary or another fracture is nearer than `size` times this, edges of the path are as long as
+  /// the gap over this; 0 leaves gaps alone.
+  double gap_edges = 0.5;
 };
 
 struct GrownMesh {

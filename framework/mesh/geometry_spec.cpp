@@ -160,13 +160,12 @@ Spec mesh_spec(MeshOptions& options) {
       "gap_edges", options.gap_edges,
       {.unit = "",
        .range = between(0, 10),
-       .doc = "Unstructured: edges across a gap that is narrower than the edge length, between a fracture and "
-              "a side, another fracture, another part of itself or an edge of a region; 0 leaves gaps alone."});
-  spec.quantity(
-      "gap_size", options.gap_size,
-      {.unit = "m",
-       .range = positive(),
-       .doc = "Narrow gaps make edges no shorter than this; by default a 500th of the shortest size asked for."});
+       .doc = "Unstructured: how many edges a gap between a fracture and a side, another fracture, another part "
+              "of itself or an edge of a region has across, where that makes shorter ones; 0 leaves gaps alone."});
+  spec.quantity("gap_size", options.gap_size,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Gaps make edges no shorter than this; by default a 500th of the shortest size asked for."});
   spec.quantities(
       "cells", input->cells,
       {.unit = "", .range = positive(), .doc = "Structured: rectangles along x and y; by default as size asks."});

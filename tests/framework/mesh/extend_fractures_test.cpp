@@ -165,13 +165,7 @@ TEST(ExtendFractures, OutOfNarrowGaps) {
                                        std::pair(beside_wall, PathExtension{0, true, {Point(1, 1 + y) + way}})}) {
         const GrownMesh grown = extend_fractures(mesh, {path}, usual);
         expect_sound(mesh, grown);
-        EXPECT_GE(grown.smallest_angle, 20 * degree) << gap << ' ' << angle;
-        CavityOptions without = usual;
-        without.gap_edges = 0;
-        printf("gap %g angle %g: %g (initial mesh %g), without %g degrees; cells %d new %d\n", gap, angle,
-               grown.smallest_angle / degree, mesh_quality(mesh).smallest_angle / degree,
-               extend_fractures(mesh, {path}, without).smallest_angle / degree, (int)grown.extension_cells[0].size(),
-               (int)grown.change.new_cells.size());
+        EXPECT_GE(grown.smallest_angle, 18 * degree) << gap << ' ' << angle;  // measured: 20.5; without gap_edges 3.3
       }
     }
   }
