@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <iostream>
+#include <numbers>
 
 #include "framework/config/units.hpp"
 #include "framework/mesh/mesh_quality.hpp"
@@ -24,6 +25,9 @@
 namespace sprekk {
 
 namespace {
+
+/// Degrees; what tools/stress has found to be harmless.
+constexpr double least_good_angle = 5;
 
 double now() { return Progress::steady_seconds(); }
 double processor_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -191,6 +195,11 @@ void Run::record_start() {
   record_.counters["mesh: cells"] = quality.cells;
   record_.counters["mesh: fracture cells"] = quality.fracture_cells;
   record_.results["mesh_smallest_angle[rad]"] = quality.smallest_angle;
+  if (const double angle = quality.smallest_angle * 180 / std::numbers::pi; angle < least_good_angle)
+    record_.warnings.push_back(
+        fmt::format("the mesh has an angle of {:.2g} degrees, where multi-point fluxes and stresses may overshoot "
+                    "(lines that meet at a small angle, or a gap narrower than mesh.gap_size)",
+                    angle));
   record_.counters["objects: components"] = static_cast<long>(model_->components().size());
   record_.counters["objects: couplers"] = static_cast<long>(model_->couplers().size());
   record_.counters["objects: fields"] = static_cast<long>(model_->fields().all().size());
