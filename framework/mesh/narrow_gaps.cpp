@@ -114,6 +114,8 @@ class Search {
     const double half = 0.5 * (range.from + range.to);
     const Segment part{at(range.from), at(range.to)};
     const double gap = distance(part, other.segment), length = part.length();
+    const auto [shortest_way, longest_way] = way_along(line, range, other, joints);
+    if (longest_way < least_detour * gap) return;
     double wanted = 0, widest = 0;  // the distance from a segment is convex along a line: widest at an end
     bool is_narrow = false;
     for (const Point& x : {part.from, at(half), part.to}) {
@@ -123,8 +125,6 @@ class Search {
       widest = std::max(widest, here);
     }
     if (gap >= wanted + 0.25 * limits_.slope * length) return;
-    const auto [shortest_way, longest_way] = way_along(line, range, other, joints);
-    if (longest_way < least_detour * gap) return;
     const bool is_even = widest <= std::max(evenness * gap, limits_.least);
     if (is_even && is_narrow && shortest_way >= least_detour * gap) {
       keep_({part, gap});

@@ -29,28 +29,28 @@ SizeField::SizeField(const Geometry& geometry, const MeshOptions& options)
       if (!is_on_boundary(end)) add_source({end, end}, options.tip_size.value_or(size), growth_);
     }
   }
-  if (options.gap_edges > 0 && !geometry.fractures.empty()) add_gaps(geometry, options);
   fill_buckets();
+  if (options.gap_edges > 0 && !geometry.fractures.empty()) add_gaps(geometry, options);
 }
 
 void SizeField::add_gaps(const Geometry& geometry, const MeshOptions& options) {
   double shortest = far_size_;
   for (const Source& source : sources_) shortest = std::min(shortest, source.size);
   const double least = options.gap_size.value_or(least_gap_part * shortest);
-  const auto size_at = [&](const Point& x) {
-    double size = far_size_;
-    for (const Source& source : sources_) size = lowered(size, source, x);
-    return size;
-  };
   // What is narrow is a number of edges.
   const double edges = options.gap_edges, growth = std::min(growth_, most_growth_from_gaps);
   for_each_narrow_gap(
-      geometry, {edges * least, edges * far_size_, edges * growth_}, [&](const Point& x) { return edges * size_at(x); },
-      [&](const NarrowGap& gap) { add_source(gap.part, std::max(gap.width / edges, least), growth); });
+      geometry, {edges * least, edges * far_size_, edges * growth_}, [&](const Point& x) { return edges * at(x); },
+      [&](const NarrowGap& gap) {
+        if (add_source(gap.part, std::max(gap.width / edges, least), growth))
+          put_into_buckets(static_cast<int>(sources_.size()) - 1);
+      });
 }
 
-void SizeField::add_source(const Segment& segment, double size, double growth) {
-  if (size < far_size_) sources_.push_back({segment, size, growth, (far_size_ - size) / growth});
+bool SizeField::add_source(const Segment& segment, double size, double growth) {
+  if (size >= far_size_) return false;
+  sources_.push_back({segment, size, growth, (far_size_ - size) / growth});
+  return true;
 }
 
 int SizeField::bucket(int axis, double coordinate) const {
@@ -61,14 +61,16 @@ int SizeField::bucket(int axis, double coordinate) const {
 void SizeField::fill_buckets() {
   buckets_a_side_ = 1 + 2 * static_cast<int>(std::sqrt(sources_.size()));
   buckets_.resize(buckets_a_side_ * buckets_a_side_);
-  for (std::size_t s = 0; s < sources_.size(); ++s) {
-    const auto& [segment, size, growth, reach] = sources_[s];
-    const Point low = segment.from.cwiseMin(segment.to).array() - reach;
-    const Point high = segment.from.cwiseMax(segment.to).array() + reach;
-    for (int j = bucket(1, low.y()); j <= bucket(1, high.y()); ++j) {
-      for (int i = bucket(0, low.x()); i <= bucket(0, high.x()); ++i) {
-        buckets_[j * buckets_a_side_ + i].push_back(static_cast<int>(s));
-      }
+  for (int s = 0; s < static_cast<int>(sources_.size()); ++s) put_into_buckets(s);
+}
+
+void SizeField::put_into_buckets(int source) {
+  const auto& [segment, size, growth, reach] = sources_[source];
+  const Point low = segment.from.cwiseMin(segment.to).array() - reach;
+  const Point high = segment.from.cwiseMax(segment.to).array() + reach;
+  for (int j = bucket(1, low.y()); j <= bucket(1, high.y()); ++j) {
+    for (int i = bucket(0, low.x()); i <= bucket(0, high.x()); ++i) {
+      buckets_[j * buckets_a_side_ + i].push_back(source);
     }
   }
 }

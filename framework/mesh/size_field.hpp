@@ -29,10 +29,12 @@ class SizeField {
     double growth;
     double reach;  ///< the distance at which the far size is reached
   };
-  void add_source(const Segment& segment, double size, double growth);
+  /// Whether it asks for anything.
+  bool add_source(const Segment& segment, double size, double growth);
   void add_gaps(const Geometry& geometry, const MeshOptions& options);
   static double lowered(double size, const Source& source, const Point& x);
   void fill_buckets();
+  void put_into_buckets(int source);
   int bucket(int axis, double coordinate) const;
 
   Box box_;

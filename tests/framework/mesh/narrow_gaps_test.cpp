@@ -142,6 +142,8 @@ TEST(NarrowGaps, GapSizeIsTheShortest) {
   const Geometry geometry = in_box(with_gap.at("end and side")(1e-6 * size));
   const SizeField chosen(geometry, {.size = 2 * size, .fracture_size = size, .gap_size = 0.01});
   EXPECT_DOUBLE_EQ(chosen.at({2, 1.1}), 0.01);
+  const SizeField large(geometry, {.size = 2 * size, .gap_size = 3 * size});
+  EXPECT_DOUBLE_EQ(large.at({2, 1.1}), 2 * size);
   const SizeField usual(geometry, {.size = 2 * size, .fracture_size = size});
   EXPECT_DOUBLE_EQ(usual.at({2, 1.1}), least_gap_part * size);
 }
