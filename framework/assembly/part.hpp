@@ -40,9 +40,9 @@ class Part {
   virtual ~Part() = default;
 
   /// Evaluates the data that depend on time, as the step needs them (value_in_step), and nothing else. Called before a
-  /// run for its first and its last step, so that data without a value there are refused. Throws DataError.
+  /// run for its last and its first step, so that data without a value there are refused. Throws DataError.
   virtual void evaluate_data(const StepTime&) {}
-  /// Evaluates data, and rediscretizes what a changed mesh or parameter makes stale.
+  /// Called when all parts have evaluated their data: rediscretizes what a changed mesh or property makes stale.
   virtual void begin_step(const StepTime& step) = 0;
   /// Adds all terms of all its equations; the assembly keeps what its solve needs.
   virtual void assemble(Assembly& assembly, const StepTime& step) const = 0;
@@ -84,5 +84,11 @@ class Part {
   /// How often something was computed or reused, for the end-of-run table: name → count.
   virtual std::map<std::string, long> counts() const { return {}; }
 };
+
+/// All data first: what a part discretizes may depend on properties of another.
+inline void begin_step(const std::vector<Part*>& parts, const StepTime& step) {
+  for (Part* part : parts) part->evaluate_data(step);
+  for (Part* part : parts) part->begin_step(step);
+}
 
 }  // namespace sprekk

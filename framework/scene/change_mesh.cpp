@@ -79,8 +79,9 @@ MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const s
       std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), grown.smallest_angle, {}};
   Model& model = *result.model;
   transfer_fields(before.fields(), grown.change, before.mesh(), model.fields());
+  for (Part* part : model.parts()) part->evaluate_data(data);
   for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);
-  for (Part* part : model.parts()) part->begin_step(data);
+  begin_step(model.parts(), data);
   result.settling = model.growing()[grow_step]->settle(data);
   for (Part* part : model.parts()) part->settled(grown.change);
   model.accept();

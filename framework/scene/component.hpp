@@ -35,12 +35,19 @@ class Component : public Part {
 /// What a coupler is built from: the components that it stands between, asked for by capability.
 class CouplerContext {
  public:
-  CouplerContext(std::string name, const Mesh& mesh, FieldStore& fields, std::vector<Component*> between, Origin origin)
-      : name(std::move(name)), mesh(mesh), fields(fields), origin(std::move(origin)), between_(std::move(between)) {}
+  CouplerContext(std::string name, const Mesh& mesh, FieldStore& fields, std::vector<Component*> between,
+                 double start_time, Origin origin)
+      : name(std::move(name)),
+        mesh(mesh),
+        fields(fields),
+        start_time(start_time),
+        origin(std::move(origin)),
+        between_(std::move(between)) {}
 
   const std::string name;  ///< its type, or type#2 for a second one
   const Mesh& mesh;
   FieldStore& fields;
+  const double start_time;  ///< s
   const Origin origin;
 
   /// The one component between which it stands that has the capability. Throws InputError when there is none, or two.

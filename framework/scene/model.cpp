@@ -44,7 +44,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
     for (const std::string& name : entry.between)
       for (const auto& component : components_)
         if (component->name() == name) between.push_back(component.get());
-    const CouplerContext context(entry.name, mesh_, fields_, between, entry.origin);
+    const CouplerContext context(entry.name, mesh_, fields_, between, scene_.time.start, entry.origin);
     couplers_.push_back(refusing_bad_data([&] { return entry.build(context); }));
     context.check_all_used();
     parts_.push_back(couplers_.back().get());
@@ -78,10 +78,9 @@ void Model::check_determined() const {
 void Model::check_data() {
   const TimeOptions& time = scene_.time;
   const double step = std::min(time.step, time.end - time.start);
-  for (Part* part : parts_) {
-    part->evaluate_data({time.end - step, step, time.end});
-    part->evaluate_data({time.start, step, time.start + step});
-  }
+  // The last step first: parts are left with what the first one needs.
+  for (const StepTime& at : {StepTime{time.end - step, step, time.end}, {time.start, step, time.start + step}})
+    for (Part* part : parts_) part->evaluate_data(at);
 }
 
 void Model::check_levels() const {
@@ -91,7 +90,7 @@ void Model::check_levels() const {
 }
 
 StepStatus Model::attempt(const StepTime& step) {
-  for (Part* part : parts_) part->begin_step(step);
+  begin_step(parts_, step);
   return schedule_->run(step);
 }
 

@@ -38,7 +38,7 @@ StepStatus SubcycleStep::run(const StepTime& step) {
     throw;
   }
   put_back();
-  for (Part* part : parts_) part->begin_step(step);
+  begin_step(parts_, step);
   return status;
 }
 
@@ -49,7 +49,7 @@ StepStatus SubcycleStep::take_substeps(const StepTime& step) {
     substep.start = step.start + step.dt * i / options_.count;
     substep.end = i + 1 == options_.count ? step.end : step.start + step.dt * (i + 1) / options_.count;
     substep.dt = step.dt / options_.count;
-    for (Part* part : parts_) part->begin_step(substep);
+    begin_step(parts_, substep);
     const StepStatus inner = inside_->run(substep);
     status.iterations = std::max(status.iterations, inner.iterations);
     status.converged = inner.converged;

@@ -58,7 +58,7 @@ TEST(ChangeOfMesh, HasTheBitsOfAModelThatIsBuiltOnTheNewMesh) {
   const MeshChangeResult changed = grow_a_wing(run);
   // As a restart does.
   Model fresh(run.model().scene(), changed.model->mesh());
-  for (Part* part : fresh.parts()) part->begin_step({-3600, 3600, run.time()});
+  begin_step(fresh.parts(), {-3600, 3600, run.time()});
   for (const std::string name : {"stress discretizations: cells", "flux discretizations: cells"}) {
     EXPECT_EQ(count(fresh, name), fresh.mesh().cell_count());
     EXPECT_LT(count(*changed.model, name), fresh.mesh().cell_count() / 2);

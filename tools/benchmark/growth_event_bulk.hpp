@@ -34,7 +34,7 @@ struct Bulk {
 };
 
 inline std::unique_ptr<Bulk> bulk_of(Model& model, const StepTime& step) {
-  for (Part* part : model.parts()) part->begin_step(step);
+  begin_step(model.parts(), step);
   const std::vector<const Field*> unknowns = model.schedule().unknowns();
   Assembly assembly(unknowns, Assembly::Want::residual_and_derivatives);
   for (const Part* part : model.parts()) part->assemble(assembly, step);

@@ -1,0 +1,44 @@
+#include "framework/assembly/property.hpp"
+
+namespace sprekk {
+
+namespace {
+
+template <class Evaluate>
+Vector at_all(const std::vector<Place>& places, const Evaluate& evaluate) {
+  Vector values(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) values[i] = evaluate(places[i]);
+  return values;
+}
+
+}  // namespace
+
+Property::Property(const Data& data, const std::vector<Place>& places, double start) : data_(data) {
+  set(at_all(places, [&](const Place& place) { return data.at({place.x, place.region, start}); }));
+  if (data.depends_on_time()) places_ = places;
+}
+
+void Property::evaluate(const StepTime& step) {
+  if (depends_on_time()) set(at_all(places_, [&](const Place& place) { return value_in_step(data_, place, step); }));
+}
+
+void Property::set(Vector values) {
+  if (values.size() == values_.size() && values == values_) return;
+  values_ = std::move(values);
+  ++version_;
+}
+
+std::vector<Place> cell_places(const Mesh& mesh) {
+  std::vector<Place> places;
+  for (int c = 0; c < mesh.cell_count(); ++c) places.push_back({mesh.cell_center[c], mesh.cell_region[c], 0});
+  return places;
+}
+
+std::vector<Place> fracture_cell_places(const Mesh& mesh) {
+  std::vector<Place> places;
+  for (const FractureCell& cell : mesh.fracture_cells)
+    places.push_back({cell.center, mesh.cell_region[mesh.face_cells[cell.faces[0]][0]], 0});
+  return places;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,45 @@
+// Values of a datum that others compute from, with a version that says whether they are still the same.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framework/assembly/step_time.hpp"
+#include "framework/mesh/mesh.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+/// A datum at fixed places, as a step takes it (value_in_step). Its version grows when a value has changed, and only
+/// then: who keeps what was made with the values (operators, factorizations) compares versions. A datum that does not
+/// depend on time is evaluated once.
+class Property {
+ public:
+  /// Without values, for `set`.
+  Property() = default;
+  /// With the values at `start` (s), or where they jump there, right after it. Throws DataError.
+  Property(const Data& data, const std::vector<Place>& places, double start);
+
+  /// Takes the values of this step. Throws DataError, and then keeps those that it has.
+  void evaluate(const StepTime& step);
+  /// Values that somebody else has computed.
+  void set(Vector values);
+
+  const Vector& values() const { return values_; }
+  double operator[](int i) const { return values_[i]; }
+  std::uint64_t version() const { return version_; }  ///< 0 as long as there are no values
+  bool depends_on_time() const { return data_.depends_on_time(); }
+
+ private:
+  Data data_;
+  std::vector<Place> places_;  ///< kept of data that depend on time
+  Vector values_;
+  std::uint64_t version_ = 0;
+};
+
+/// Where properties are evaluated: the centre of each cell of the rock, or of each cell of the fractures, whose region
+/// is that of the rock on the plus side.
+std::vector<Place> cell_places(const Mesh& mesh);
+std::vector<Place> fracture_cell_places(const Mesh& mesh);
+
+}  // namespace sprekk
