@@ -183,7 +183,9 @@ Data read_data(const Node& node, const DataRequest& request) {
   }
   if (data.depends_on_time() && !request.about.in_time) {
     throw InputError(node.origin, quoted(request.name) + " depends on time: " + quoted(node.text()),
-                     "it is evaluated once, and what holds at the start would hold all the time",
+                     request.about.fixed.empty()
+                         ? "it is evaluated once, and what holds at the start would hold all the time"
+                         : request.about.fixed,
                      "give it without t, and without windows (from, to)");
   }
   return within_range(std::move(data), node.origin, request);

@@ -47,6 +47,7 @@ struct About {
   bool material = false;       ///< may also stand in the scene's `materials:` section, shared by all components
   bool constant_only = false;  ///< data that cannot be a function, a table or a value per region
   bool in_time = false;        ///< data that are evaluated in every step; others must not depend on t
+  std::string fixed = "";      ///< why not, for the message
 };
 
 /// What a scene's names mean, gathered before the components are read.

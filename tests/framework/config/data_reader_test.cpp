@@ -12,6 +12,7 @@
 namespace sprekk {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -162,10 +163,12 @@ TEST(ReadData, may_have_to_be_constant) {
 TEST(ReadData, may_only_change_with_time_where_it_is_evaluated_in_every_step) {
   const auto message = [](const std::string& text) {
     const ReadContext context = regions();
-    return input_error_of([&] { read_data(*parse_yaml("v: " + text, "s.yaml").find("v"), {"k", {}, context}); });
+    return input_error_of([&] {
+      read_data(*parse_yaml("v: " + text, "s.yaml").find("v"), {"k", {.fixed = "it is fixed"}, context});
+    });
   };
   for (const char* text : {"1 + t", "{value: 2, from: 3 s}", "{regions: {lens: t, default: 1}}", "if(t > 5, 1, 2)"})
-    EXPECT_THAT(message(text), HasSubstr("depends on time"));
+    EXPECT_THAT(message(text), AllOf(HasSubstr("depends on time"), HasSubstr("(it is fixed)")));
 }
 
 TEST(ReadVector, has_two_components) {
