@@ -21,7 +21,8 @@ struct BiotOptions {
                .doc = "Biot's coefficient alpha.",
                .source = "Eqs. 6, 7",
                .required = true,
-               .material = true});
+               .material = true,
+               .in_time = true});
     spec.quantity("fixed_stress_factor", fixed_stress_factor,
                   {.range = positive(),
                    .doc = "The fixed-stress stabilization of split schemes is this times alpha^2/K.",
@@ -35,32 +36,37 @@ struct BiotOptions {
 ///
 /// What is subtracted as "old" is the volume that the fluid balance has counted last, kept in `counted_volume`: so a
 /// split scheme that is not iterated counts every change of volume once, if late.
+///
+/// alpha and the compressibility of the grains are those of the end of the step. They multiply changes: one of them
+/// that changes moves no fluid by itself, as a storage does not.
 class Biot : public Coupler {
  public:
   Biot(const CouplerContext& context, const BiotOptions& options)
       : Coupler(context.name),
         mesh_(context.mesh),
-        factor_(options.fixed_stress_factor),
         fluid_(context.the<MatrixFluid>()),
         rock_(context.the<PoroelasticRock>()),
         counted_volume_(context.fields.add(
             mesh_, book(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
         stored_(context.fields.add(
-            mesh_, book(context, "fluid_stored", "Fluid stored by the change of volume and of grains"))) {
-    const int cells = mesh_.cell_count();
-    alpha_.resize(cells);
-    for (int c = 0; c < cells; ++c)
-      alpha_[c] = options.biot_coefficient.at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
-    decoupled_ = alpha_.isZero(0);
-    grain_capacity_ = Vector::Zero(cells);
-    if (const Vector* porosity = fluid_.porosity_for_storage()) check_and_set_grains(context, *porosity);
-    has_grains_ = !grain_capacity_.isZero(0);
-    grains_ = Operator(diagonal_matrix(grain_capacity_));
+            mesh_, book(context, "fluid_stored", "Fluid stored by the change of volume and of grains"))),
+        origin_(context.origin),
+        options_(options) {
+    alpha_ = Property(options.biot_coefficient, cell_places(mesh_), context.start_time);
+    decoupled_ = alpha_.values().isZero(0) && !alpha_.depends_on_time();
+    use_grains();
     if (decoupled_) return;
-    if (rock_.bulk_modulus().minCoeff() <= 0)
+    if (rock_.bulk_modulus().values().minCoeff() <= 0)
       throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
                        "its stiffness is anisotropic", "give 'bulk_modulus' to the component");
-    rock_.accept_pore_pressure(fluid_.pressure(), alpha_, fluid_.initial_pressure());
+    rock_.accept_pore_pressure(fluid_.pressure(), alpha_.values(), fluid_.initial_pressure());
+  }
+
+  void evaluate_data(const StepTime& step) override {
+    const std::uint64_t before = alpha_.version();
+    alpha_.evaluate(step);
+    if (alpha_.version() != before) rock_.change_alpha(fluid_.pressure(), alpha_.values());
+    use_grains();
   }
 
   void begin_step(const StepTime&) override {}
@@ -74,8 +80,8 @@ class Biot : public Coupler {
       assembly.compare_round_off(pressure, grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
       assembly.derivative(pressure, pressure, grains_);
     }
-    assembly.linear(pressure, rock_.volume_change(), 1, &alpha_);
-    assembly.add(pressure, -alpha_.cwiseProduct(counted_volume_.accepted()));
+    assembly.linear(pressure, rock_.volume_change(), 1, &alpha_.values());
+    assembly.add(pressure, -alpha_.values().cwiseProduct(counted_volume_.accepted()));
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime&) override {
@@ -85,7 +91,7 @@ class Biot : public Coupler {
     if (!decoupled_) {
       Vector volume = rock_.volume_change().now();
       replicate(mesh_, Location::cell, 1, volume);
-      stored += alpha_.cwiseProduct(volume - counted_volume_.accepted());
+      stored += alpha_.values().cwiseProduct(volume - counted_volume_.accepted());
       counted_volume_.set(std::move(volume));
     }
     stored_.set(std::move(stored));
@@ -117,12 +123,14 @@ class Biot : public Coupler {
     if (!decoupled_) levels.hold(fluid_.pressure());
   }
 
+  std::vector<double> switch_times() const override { return options_.biot_coefficient.switch_times(); }
+
   std::vector<std::string> stabilizations() const override { return {"fixed_stress"}; }
   void stabilize(const std::string& scheme, Stabilization& stabilization) const override {
     if (decoupled_ || scheme != "fixed_stress") return;
     Vector diagonal(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c)
-      diagonal[c] = factor_ * alpha_[c] * alpha_[c] / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
+      diagonal[c] = options_.fixed_stress_factor * alpha_[c] * alpha_[c] / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
     const auto [place, fresh] = stabilization.try_emplace(&fluid_.pressure(), diagonal);
     if (!fresh) place->second += diagonal;
   }
@@ -139,25 +147,37 @@ class Biot : public Coupler {
             .is_amount = true};
   }
 
-  void check_and_set_grains(const CouplerContext& context, const Vector& porosity) {
-    for (int c = 0; c < mesh_.cell_count(); ++c) {
-      if (decoupled_) continue;
-      if (alpha_[c] < porosity[c])
-        throw InputError(context.origin, "Biot's coefficient is below the porosity",
-                         "the grains would have a negative compressibility, (alpha - phi)/K",
-                         "raise biot_coefficient, or give 'storage' to the flow in the matrix");
-      grain_capacity_[c] = (alpha_[c] - porosity[c]) / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
-    }
+  void use_grains() {
+    const Property* porosity = fluid_.porosity_for_storage();
+    const std::uint64_t version =
+        alpha_.version() + rock_.bulk_modulus().version() + (porosity ? porosity->version() : 0);
+    if (version == grains_version_) return;
+    grains_version_ = version;
+    grain_capacity_ = Vector::Zero(mesh_.cell_count());
+    if (porosity && !decoupled_)
+      for (int c = 0; c < mesh_.cell_count(); ++c) {
+        if (alpha_[c] < (*porosity)[c])
+          throw DataError(InputError(origin_, "Biot's coefficient is below the porosity",
+                                     "the grains would have a negative compressibility, (alpha - phi)/K",
+                                     "raise biot_coefficient, or give 'storage' to the flow in the matrix")
+                              .what());
+        grain_capacity_[c] = (alpha_[c] - (*porosity)[c]) / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
+      }
+    has_grains_ = !grain_capacity_.isZero(0);
+    grains_ = Operator(diagonal_matrix(grain_capacity_));
   }
 
   const Mesh& mesh_;
-  double factor_;
   MatrixFluid& fluid_;
   PoroelasticRock& rock_;
   Field& counted_volume_;
   Field& stored_;
-  Vector alpha_, grain_capacity_;  ///< (alpha − phi)/K V
-  Operator grains_;                ///< grain_capacity_ as a diagonal
+  Origin origin_;
+  BiotOptions options_;
+  Property alpha_;
+  Vector grain_capacity_;  ///< (alpha − phi)/K V
+  std::uint64_t grains_version_ = 0;
+  Operator grains_;  ///< grain_capacity_ as a diagonal
   bool decoupled_ = false, has_grains_ = false;
 };
 

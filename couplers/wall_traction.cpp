@@ -5,6 +5,7 @@
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -21,7 +22,8 @@ struct WallTractionOptions {
     spec.data("fracture_biot_coefficient", fracture_biot_coefficient,
               {.range = between(0, 1),
                .doc = "Part of the fluid pressure that acts on the walls.",
-               .source = "alpha_i of Eq. 4"});
+               .source = "alpha_i of Eq. 4",
+               .in_time = true});
     return spec;
   }
 };
@@ -33,6 +35,7 @@ class WallTraction : public Coupler {
   WallTraction(const CouplerContext& context, const WallTractionOptions& options)
       : Coupler(context.name),
         mesh_(context.mesh),
+        options_(options),
         rock_(context.the<RockWalls>()),
         contact_(context.find<FractureContact>()),
         fluid_(context.find<FractureFluid>()) {
@@ -43,16 +46,10 @@ class WallTraction : public Coupler {
     context.determine(rock_.wall_traction());
     if (contact_) context.determine(contact_->jump());
     if (!fluid_) return;
-    std::vector<Triplet> entries;
-    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-      const FractureCell& cell = mesh_.fracture_cells[i];
-      const Place place{cell.center, mesh_.cell_region[mesh_.face_cells[cell.faces[0]][0]], 0};
-      entries.emplace_back(2 * i, i, options.fracture_biot_coefficient.at(place));
-    }
-    SparseMatrix load(2 * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());
-    load.setFromTriplets(entries.begin(), entries.end());
-    normal_load_ = Operator(std::move(load));
+    alpha_ = Property(options_.fracture_biot_coefficient, fracture_cell_places(mesh_), context.start_time);
   }
+
+  void evaluate_data(const StepTime& step) override { alpha_.evaluate(step); }
 
   void begin_step(const StepTime&) override {
     // How a cell's own traction changes its own jump.
@@ -64,7 +61,10 @@ class WallTraction : public Coupler {
     replicate(mesh_, Location::fracture_cell, 2, compliance);
     compliance_ = positive(std::move(compliance));
     if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
+    if (loaded_with_ != alpha_.version()) load_with_fluid();
   }
+
+  std::vector<double> switch_times() const override { return options_.fracture_biot_coefficient.switch_times(); }
 
   void assemble(Assembly& assembly, const StepTime&) const override {
     const Field& traction = rock_.wall_traction();
@@ -98,10 +98,22 @@ class WallTraction : public Coupler {
     return compliance;
   }
 
+  void load_with_fluid() {
+    loaded_with_ = alpha_.version();
+    std::vector<Triplet> entries;
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) entries.emplace_back(2 * i, i, alpha_[i]);
+    SparseMatrix load(2 * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());
+    load.setFromTriplets(entries.begin(), entries.end());
+    normal_load_ = Operator(std::move(load));
+  }
+
   const Mesh& mesh_;
+  WallTractionOptions options_;
   RockWalls& rock_;
   FractureContact* contact_;
   FractureFluid* fluid_;
+  Property alpha_;  ///< alpha_i of Eq. 4, with a fluid
+  std::uint64_t loaded_with_ = 0;
   Vector compliance_;     ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
   Operator normal_load_;  ///< 2 fracture cells × fracture cells: pressure pushes the plus wall along −n
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "framework/assembly/linear_expression.hpp"
+#include "framework/assembly/property.hpp"
 #include "framework/field/field.hpp"
 
 namespace sprekk {
@@ -18,7 +19,7 @@ class MatrixFluid {
   virtual const Vector& initial_pressure() const = 0;
   /// The porosity, one a cell, if the storage is to be completed by the compressibility of the grains, (alpha − phi)/K
   /// (below Eq. 7); nullptr if the storage was given as a whole.
-  virtual const Vector* porosity_for_storage() const = 0;
+  virtual const Property* porosity_for_storage() const = 0;
 };
 
 /// "I accept a flux through the walls of fractures, and give the pressure there."

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "framework/assembly/linear_expression.hpp"
+#include "framework/assembly/property.hpp"
 #include "framework/field/field.hpp"
 
 namespace sprekk {
@@ -14,10 +15,12 @@ class PoroelasticRock {
   /// From now on the stress contains −alpha (p − reference) I: `pressure` one a cell (Pa), `alpha` one a cell,
   /// `reference` one a cell (Pa). To be called while the scene is built.
   virtual void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) = 0;
+  /// The alpha of a pressure that has been accepted has changed. To be called by Part::evaluate_data.
+  virtual void change_alpha(const Field& pressure, const Vector& alpha) = 0;
   /// div u integrated over each cell (m^2).
   virtual const LinearExpression& volume_change() const = 0;
   /// The drained bulk modulus (Pa), one a cell.
-  virtual const Vector& bulk_modulus() const = 0;
+  virtual const Property& bulk_modulus() const = 0;
 };
 
 /// "I accept tractions on the walls of fractures, and give the jump of the displacement across them."

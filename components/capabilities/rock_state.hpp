@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 
 #include "framework/field/field.hpp"
@@ -28,6 +29,8 @@ class RockState {
   virtual Eigen::Vector3d initial_stress(int cell, const Point& x) const = 0;
   /// Nothing for an anisotropic rock.
   virtual std::optional<LameParameters> stiffness(int cell) const = 0;
+  /// Grows when the stiffness has changed, or alpha of the pore pressure.
+  virtual std::uint64_t properties_version() const = 0;
 };
 
 }  // namespace sprekk

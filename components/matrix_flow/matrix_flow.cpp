@@ -12,12 +12,6 @@ namespace sprekk::matrix_flow {
 
 namespace {
 
-Vector evaluate_on_cells(const Mesh& mesh, const Data& data, double time) {
-  Vector values(mesh.cell_count());
-  for (int c = 0; c < mesh.cell_count(); ++c) values[c] = data.at({mesh.cell_center[c], mesh.cell_region[c], time});
-  return values;
-}
-
 /// Of rock without permeability: what is prescribed on a side is all that flows.
 FluxOperators no_flow(const Mesh& mesh, const std::vector<FlowCondition>& conditions) {
   FluxOperators operators;
@@ -62,20 +56,21 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                              .role = Role::input,
                                              .unit = "m/s",
                                              .doc = "Flux from the fracture into the matrix (lambda of Eq. 9)"});
-  initial_pressure_ = evaluate_on_cells(mesh_, options_.initial_pressure, context.start_time);
+  const std::vector<Place> places = cell_places(mesh_);
+  const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
+  initial_pressure_ = property(options_.initial_pressure).values();
   pressure_.set_both(initial_pressure_);
-  if (options_.porosity) porosity_ = evaluate_on_cells(mesh_, *options_.porosity, 0);
-  storage_ = options_.storage
-                 ? evaluate_on_cells(mesh_, *options_.storage, 0)
-                 : porosity_.cwiseProduct(evaluate_on_cells(mesh_, *options_.fluid_compressibility, 0)).eval();
-
-  mobility_.resize(mesh_.cell_count());
-  for (int c = 0; c < mesh_.cell_count(); ++c) {
-    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
-    mobility_[c] = options_.permeability.at(place) / options_.viscosity.at(place);
+  permeability_ = {property(options_.permeability.xx), property(options_.permeability.yy),
+                   property(options_.permeability.xy)};
+  viscosity_ = property(options_.viscosity);
+  if (options_.porosity) porosity_ = property(*options_.porosity);
+  if (options_.storage) {
+    storage_ = property(*options_.storage);
+  } else {
+    compressibility_ = property(*options_.fluid_compressibility);
   }
-  check_mobility();
-  place_wells();
+  for (const Data* data : properties()) properties_change_ = properties_change_ || data->depends_on_time();
+  use_properties();
   check_sides();
 
   const auto potential = [&](const Point& x) {
@@ -85,6 +80,30 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   for (int c = 0; c < mesh_.cell_count(); ++c) gravity_potential_cell_[c] = potential(mesh_.cell_center[c]);
   gravity_potential_face_.resize(mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) gravity_potential_face_[f] = potential(mesh_.face_center[f]);
+}
+
+std::vector<const Data*> MatrixFlow::properties() const {
+  const TensorData& k = options_.permeability;
+  std::vector<const Data*> data = {&k.xx, &k.yy, &k.xy, &options_.viscosity};
+  for (const std::optional<Data>* given : {&options_.storage, &options_.porosity, &options_.fluid_compressibility})
+    if (*given) data.push_back(&**given);
+  return data;
+}
+
+void MatrixFlow::use_properties() {
+  if (!options_.storage) storage_.set(porosity_.values().cwiseProduct(compressibility_.values()));
+  std::uint64_t version = viscosity_.version();
+  for (const Property& entry : permeability_) version += entry.version();
+  if (version == mobility_version_) return;
+  mobility_version_ = version;
+  mobility_.resize(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    Tensor permeability;
+    permeability << permeability_[0][c], permeability_[2][c], permeability_[2][c], permeability_[1][c];
+    mobility_[c] = permeability / viscosity_[c];
+  }
+  check_mobility();
+  place_wells();
 }
 
 void MatrixFlow::check_sides() const {
@@ -102,14 +121,16 @@ void MatrixFlow::check_mobility() {
   for (const Tensor& mobility : mobility_) {
     sealed += mobility.isZero(0);
     if (!mobility.isZero(0) && mobility(0, 0) * mobility(1, 1) <= mobility(0, 1) * mobility(1, 0))
-      throw InputError(origin_, "the permeability is not positive definite", "fluid could not flow in one direction",
-                       "raise it in that direction");
+      throw DataError(InputError(origin_, "the permeability is not positive definite",
+                                 "fluid could not flow in one direction", "raise it in that direction")
+                          .what());
   }
   is_sealed_ = sealed == mesh_.cell_count();
   if (sealed > 0 && !is_sealed_)
-    throw InputError(origin_, "the permeability is zero in a part of the rock",
-                     "there is no pressure at the face of a cell that lets no fluid through",
-                     "give that part a very small permeability");
+    throw DataError(InputError(origin_, "the permeability is zero in a part of the rock",
+                               "there is no pressure at the face of a cell that lets no fluid through",
+                               "give that part a very small permeability")
+                        .what());
 }
 
 void MatrixFlow::place_wells() {
@@ -132,8 +153,12 @@ void MatrixFlow::find_conditions() {
   }
 }
 
+bool MatrixFlow::is_discretized() const {
+  return discretized_mesh_ == mesh_.version && discretized_mobility_ == mobility_version_;
+}
+
 void MatrixFlow::discretize() {
-  if (discretized_version_ == mesh_.version && is_discretized_) return;
+  if (is_discretized()) return;
   find_conditions();
   if (is_sealed_) {
     operators_ = no_flow(mesh_, conditions_);
@@ -150,9 +175,7 @@ void MatrixFlow::discretize() {
 void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
   // With several processes the change may have given cells to others.
-  if (parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized_ ||
-      before.discretized_version_ != before.mesh_.version)
-    return;
+  if (parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
   find_conditions();
   Rediscretized result = rediscretize(discretize_, {before.mesh_, before.mobility_, before.conditions_},
                                       before.operators_, {mesh_, mobility_, conditions_}, change);
@@ -164,12 +187,11 @@ void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
 }
 
 void MatrixFlow::use_operators() {
-  is_discretized_ = true;
-  discretized_version_ = mesh_.version;
-  data_evaluated_ = false;
+  discretized_mesh_ = mesh_.version;
+  discretized_mobility_ = mobility_version_;
+  boundary_applied_ = false;
+  fluxes_.is_valid = false;
   const int rank = parallel::rank();
-  capacity_ = storage_.cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
-  capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
   outflow_of_pressure_ = Operator(cell_sums(mesh_, operators_.flux_cell, 1, rank));
   largest_conductance_ = 0;
   const SparseMatrix& outflow = outflow_of_pressure_.entries();
@@ -195,8 +217,15 @@ void MatrixFlow::use_operators() {
                           {wall_flux_, Operator(pick_walls * operators_.trace_boundary * boundary_of_wall_flux)}};
 }
 
+void MatrixFlow::use_storage() {
+  if (capacity_version_ == storage_.version()) return;
+  capacity_version_ = storage_.version();
+  capacity_ = storage_.values().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
+  capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
+}
+
 bool MatrixFlow::depends_on_time() const {
-  return options_.source.depends_on_time() ||
+  return properties_change_ || options_.source.depends_on_time() ||
          std::any_of(options_.wells.begin(), options_.wells.end(),
                      [](const auto& well) { return well.second.rate.depends_on_time(); }) ||
          std::any_of(options_.boundary.begin(), options_.boundary.end(),
@@ -204,12 +233,18 @@ bool MatrixFlow::depends_on_time() const {
 }
 
 void MatrixFlow::evaluate_data(const StepTime& step) {
+  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
+  const bool is_evaluated = data_evaluated_ && (same_step || !depends_on_time());
+  if (properties_change_ && !is_evaluated) {
+    for (Property& entry : permeability_) entry.evaluate(step);
+    for (Property* property : {&viscosity_, &porosity_, &compressibility_, &storage_}) property->evaluate(step);
+    use_properties();
+  }
   if (is_sealed_ && wall_flux_ && !wall_flux_->determined_by().empty())
     throw InputError(origin_, "fluid is to flow through the walls of rock that has no permeability",
                      "what enters a cell could not leave it",
                      "remove the coupler of its walls, or give it a permeability");
-  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
-  if (data_evaluated_ && (same_step || !depends_on_time())) return;
+  if (is_evaluated) return;
   data_evaluated_ = true;
   evaluated_for_ = step;
   boundary_applied_ = false;
@@ -256,8 +291,9 @@ void MatrixFlow::evaluate_sources(const StepTime& step) {
 }
 
 void MatrixFlow::begin_step(const StepTime& step) {
-  discretize();
   evaluate_data(step);
+  discretize();
+  use_storage();
   apply_boundary();
 }
 
@@ -316,10 +352,11 @@ void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
 }
 
 std::vector<double> MatrixFlow::switch_times() const {
-  std::vector<double> times = options_.source.switch_times();
+  std::vector<double> times = merged_switch_times(properties());
   const auto append = [&](const Data& data) {
     times.insert(times.end(), data.switch_times().begin(), data.switch_times().end());
   };
+  append(options_.source);
   for (const auto& [name, well] : options_.wells) append(well.rate);
   for (const auto& [side, condition] : options_.boundary) {
     if (condition.pressure) append(*condition.pressure);
@@ -331,7 +368,7 @@ std::vector<double> MatrixFlow::switch_times() const {
 void MatrixFlow::relate_levels(Levels& levels) const {
   const bool has_pressure = std::any_of(options_.boundary.begin(), options_.boundary.end(),
                                         [](const auto& side) { return side.second.pressure.has_value(); });
-  if (is_sealed_ ? storage_.minCoeff() > 0 : has_pressure || storage_.maxCoeff() > 0) return;
+  if (is_sealed_ ? storage_.values().minCoeff() > 0 : has_pressure || storage_.values().maxCoeff() > 0) return;
   levels.floats(pressure_, origin_, "nothing stores fluid and no side has a pressure: any constant may be added to it",
                 "give a storage, or the pressure of a side");
 }
@@ -339,7 +376,7 @@ void MatrixFlow::relate_levels(Levels& levels) const {
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one.
-  if (!is_discretized_) return;
+  if (discretized_mobility_ == 0) return;
   const Vector& fluxes = face_fluxes();
   Vector velocity = Vector::Zero(2 * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c)

@@ -1,6 +1,7 @@
 // Flow of a slightly compressible fluid in the matrix (Eq. 6), for any discretization of the flux.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/matrix_flow/flux_operators.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
+#include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 
@@ -47,7 +49,8 @@ struct Options {
 
 /// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):
 ///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
-/// Gravity enters through the potential p − rho g·x, which is exact for a constant density.
+/// Gravity enters through the potential p − rho g·x, which is exact for a constant density. Properties may change with
+/// time; those of the end of the step hold: a storage that changes moves no fluid by itself.
 class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
  public:
   MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize);
@@ -70,7 +73,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
 
   Field& pressure() override { return pressure_; }
   const Vector& initial_pressure() const override { return initial_pressure_; }
-  const Vector* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
+  const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
   Field& wall_flux() override { return *wall_flux_; }
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
 
@@ -79,6 +82,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
 
  private:
   void check_sides() const;
+  std::vector<const Data*> properties() const;
+  /// What follows from properties that have changed.
+  void use_properties();
   void check_mobility();
   /// Spreads each well over the cells around it such that its total and its position are kept.
   void place_wells();
@@ -86,6 +92,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   void find_conditions();
   /// What follows from the operators.
   void use_operators();
+  void use_storage();
+  bool is_discretized() const;  ///< on this mesh, with this mobility
   bool depends_on_time() const;
   void evaluate_sources(const StepTime& step);
   void apply_boundary();
@@ -97,12 +105,16 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Field& pressure_;
   Field* wall_flux_ = nullptr;  ///< exists with fractures only
   Field& books_;                ///< (stored, injected, outflow) of each cell since the start, m^2
-  Vector initial_pressure_, porosity_, storage_, gravity_potential_cell_, gravity_potential_face_;
+  Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
+  std::array<Property, 3> permeability_;  ///< xx, yy, xy
+  Property viscosity_, porosity_, compressibility_, storage_;
+  bool properties_change_ = false;
   std::vector<Tensor> mobility_;  ///< m^2/(Pa s), one a cell
-  bool is_sealed_ = false;        ///< the mobility is zero: no flux exists, and none is discretized
+  std::uint64_t mobility_version_ = 0;
+  bool is_sealed_ = false;  ///< the mobility is zero: no flux exists, and none is discretized
 
-  std::uint64_t discretized_version_ = 0;
-  bool is_discretized_ = false, data_evaluated_ = false, boundary_applied_ = false;
+  std::uint64_t discretized_mesh_ = 0, discretized_mobility_ = 0, capacity_version_ = 0;
+  bool data_evaluated_ = false, boundary_applied_ = false;
   StepTime evaluated_for_;
   long discretizations_ = 0, discretized_cells_ = 0, discretized_regions_ = 0;
   FluxOperators operators_;

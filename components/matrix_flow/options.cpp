@@ -11,34 +11,44 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                .doc = "Permeability of the rock; positive definite, or zero everywhere: then no fluid flows in it.",
                .source = "Eq. 6",
                .required = true,
-               .material = true});
+               .material = true,
+               .in_time = true});
   spec.data("viscosity", viscosity,
             {.unit = "Pa*s",
              .range = positive(),
              .doc = "Viscosity of the fluid.",
              .source = "Eq. 6",
              .required = true,
-             .material = true});
+             .material = true,
+             .in_time = true});
   spec.data("storage", storage,
             {.unit = "1/Pa",
              .range = non_negative(),
              .doc = "Specific storage as a whole; else it is porosity times fluid compressibility, completed by the "
                     "compressibility of the grains when the rock is poroelastic.",
-             .source = "M below Eq. 7"});
-  spec.data("porosity", porosity, {.range = between(0, 1), .doc = "Porosity.", .source = "Table 1", .material = true});
+             .source = "M below Eq. 7",
+             .in_time = true});
+  spec.data("porosity", porosity,
+            {.range = between(0, 1), .doc = "Porosity.", .source = "Table 1", .material = true, .in_time = true});
   spec.data("fluid_compressibility", fluid_compressibility,
             {.unit = "1/Pa",
              .range = non_negative(),
              .doc = "Compressibility of the fluid.",
              .source = "Table 1",
-             .material = true});
-  spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Acceleration of gravity.", .material = true});
+             .material = true,
+             .in_time = true});
+  spec.vector("gravity", gravity,
+              {.unit = "m/s^2",
+               .doc = "Acceleration of gravity.",
+               .material = true,
+               .fixed = "what is at rest under gravity is found once"});
   spec.quantity("fluid_density", fluid_density,
                 {.unit = "kg/m^3",
                  .range = non_negative(),
                  .doc = "Density of the fluid; matters with gravity only.",
                  .material = true});
-  spec.data("initial_pressure", initial_pressure, {.unit = "Pa", .doc = "Pressure at the start."});
+  spec.data("initial_pressure", initial_pressure,
+            {.unit = "Pa", .doc = "Pressure at the start.", .fixed = "it is what the run starts from"});
   spec.data("source", source,
             {.unit = "1/s",
              .doc = "Volume of fluid added per volume of rock and time.",

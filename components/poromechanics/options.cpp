@@ -78,16 +78,21 @@ Spec Options::spec() {
              .range = positive(),
              .doc = "Young's modulus of the drained rock.",
              .source = "Table 1",
-             .material = true});
+             .material = true,
+             .in_time = true});
   spec.data("poisson_ratio", poisson_ratio,
             {.range = strictly_between(-1, 0.5),
              .doc = "Poisson's ratio of the drained rock.",
              .source = "Table 1",
-             .material = true});
+             .material = true,
+             .in_time = true});
   Spec tensor("stiffness", "Plane-strain stiffness of an anisotropic rock, instead of the two moduli.");
   const auto entry = [&](const char* name, Data& target, bool required) {
     tensor.data(name, target,
-                {.unit = "Pa", .doc = std::string("Entry ") + name + " of the stiffness.", .required = required});
+                {.unit = "Pa",
+                 .doc = std::string("Entry ") + name + " of the stiffness.",
+                 .required = required,
+                 .in_time = true});
   };
   entry("xxxx", stiffness.xxxx, true);
   entry("yyyy", stiffness.yyyy, true);
@@ -99,19 +104,25 @@ Spec Options::spec() {
   spec.data("bulk_modulus", bulk_modulus,
             {.unit = "Pa",
              .range = positive(),
-             .doc = "Drained bulk modulus of an anisotropic rock, where a coupler asks for it."});
+             .doc = "Drained bulk modulus of an anisotropic rock, where a coupler asks for it.",
+             .in_time = true});
   spec.data("rock_density", rock_density,
             {.unit = "kg/m^3",
              .range = non_negative(),
              .doc = "Density of the saturated rock; matters with gravity only.",
              .material = true,
              .in_time = true});
-  spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Acceleration of gravity.", .material = true});
+  spec.vector("gravity", gravity,
+              {.unit = "m/s^2",
+               .doc = "Acceleration of gravity.",
+               .material = true,
+               .fixed = "a weight that changes is a change of rock_density"});
   spec.vector("body_force", body_force,
               {.unit = "N/m^3", .doc = "Force per volume, besides gravity.", .source = "-b of Eq. 5", .in_time = true});
-  spec.tensor(
-      "initial_stress", initial_stress,
-      {.unit = "Pa", .doc = "Total stress in which the rock is at rest with its initial pressure; tension positive."});
+  spec.tensor("initial_stress", initial_stress,
+              {.unit = "Pa",
+               .doc = "Total stress in which the rock is at rest with its initial pressure; tension positive.",
+               .fixed = "displacements are counted from the state in which it holds"});
   static SideCondition example;
   spec.named_sections(
       "boundary", side_spec(example),

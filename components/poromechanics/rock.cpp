@@ -13,6 +13,20 @@
 
 namespace sprekk::poromechanics {
 
+namespace {
+
+/// Replaces the term of a field.
+void put_term(LinearExpression& expression, const Field* field, Operator matrix) {
+  for (LinearExpression::Term& term : expression.terms)
+    if (term.field == field) {
+      term.matrix = std::move(matrix);
+      return;
+    }
+  expression.terms.push_back({field, std::move(matrix)});
+}
+
+}  // namespace
+
 Rock::Rock(const ComponentContext& context, const Options& options)
     : Component(context.name),
       mesh_(context.mesh),
@@ -23,7 +37,8 @@ Rock::Rock(const ComponentContext& context, const Options& options)
                                                .components = 2,
                                                .unit = "m",
                                                .doc = "Displacement of the rock",
-                                               .smoothing = "elasticity"})) {
+                                               .smoothing = "elasticity"})),
+      origin_(context.origin) {
   if (mesh_.wall_count() > 0)
     wall_traction_ = &context.fields.add(mesh_, {.owner = context.name,
                                                  .name = "wall_traction",
@@ -34,7 +49,14 @@ Rock::Rock(const ComponentContext& context, const Options& options)
                                                  .doc = "Traction on the plus wall, normal and tangential (Eq. 4)"});
   check_sides();
   check_held(context.origin);
-  stiffness_ = stiffness(context.origin);
+  const std::vector<Place> places = cell_places(mesh_);
+  for (const Data* data : properties()) moduli_.emplace_back(*data, places, context.start_time);
+  if (options_.is_anisotropic) {
+    bulk_modulus_ = Property(options_.bulk_modulus.value_or(0), places, context.start_time);
+    moduli_.resize(6);
+  }
+  for (const Data* data : properties()) properties_change_ = properties_change_ || data->depends_on_time();
+  use_properties();
 }
 
 const SideCondition* Rock::condition_of(int face) const {
@@ -76,35 +98,47 @@ void Rock::check_held(const Origin& where) const {
                      "the displacements of its sides allow a small rotation about a point", add);
 }
 
-std::vector<Stiffness> Rock::stiffness(const Origin& where) {
-  std::vector<Stiffness> stiffness(mesh_.cell_count());
-  bulk_modulus_ = Vector::Zero(mesh_.cell_count());
-  for (int c = 0; c < mesh_.cell_count(); ++c) {
-    const Place place{mesh_.cell_center[c], mesh_.cell_region[c], 0};
-    if (options_.is_anisotropic) {
-      const AnisotropicStiffness& s = options_.stiffness;
-      const double xxyy = s.xxyy.at(place), xxxy = s.xxxy.at(place), yyxy = s.yyxy.at(place);
-      stiffness[c] << s.xxxx.at(place), xxyy, xxxy, xxyy, s.yyyy.at(place), yyxy, xxxy, yyxy, s.xyxy.at(place);
-      const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness[c]).eigenvalues();
-      if (eigenvalues[0] <= 0)
-        throw InputError(
-            where, "the stiffness of component '" + name() + "' is not positive definite",
-            "the rock would give way by itself; its smallest eigenvalue is " + fmt::format("{:.3g} Pa", eigenvalues[0]),
-            "raise its diagonal entries, or lower the others");
-      if (options_.bulk_modulus) bulk_modulus_[c] = options_.bulk_modulus->at(place);
-    } else {
-      const double young = options_.young_modulus->at(place), poisson = options_.poisson_ratio->at(place);
-      const double shear = young / (2 * (1 + poisson));
-      const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-      stiffness[c] = isotropic_stiffness(lambda, shear);
-      bulk_modulus_[c] = young / (3 * (1 - 2 * poisson));
-    }
+Stiffness Rock::stiffness_of(int c) const {
+  if (!options_.is_anisotropic) {
+    const double young = moduli_[0][c], poisson = moduli_[1][c];
+    return isotropic_stiffness(young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson)));
   }
+  const double xxyy = moduli_[3][c], xxxy = moduli_[4][c], yyxy = moduli_[5][c];
+  Stiffness stiffness;
+  stiffness << moduli_[0][c], xxyy, xxxy, xxyy, moduli_[1][c], yyxy, xxxy, yyxy, moduli_[2][c];
+  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness).eigenvalues();
+  if (eigenvalues[0] <= 0)
+    throw DataError(InputError(origin_, "the stiffness of component '" + name() + "' is not positive definite",
+                               "the rock would give way by itself; its smallest eigenvalue is " +
+                                   fmt::format("{:.3g} Pa", eigenvalues[0]),
+                               "raise its diagonal entries, or lower the others")
+                        .what());
   return stiffness;
+}
+
+void Rock::use_properties() {
+  std::uint64_t version = 0;
+  for (const Property& modulus : moduli_) version += modulus.version();
+  if (version == stiffness_version_) return;
+  stiffness_version_ = version;
+  stiffness_.resize(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) stiffness_[c] = stiffness_of(c);
+  if (options_.is_anisotropic) return;
+  Vector bulk_modulus(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) bulk_modulus[c] = moduli_[0][c] / (3 * (1 - 2 * moduli_[1][c]));
+  bulk_modulus_.set(std::move(bulk_modulus));
 }
 
 void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
   loads_.push_back({&pressure, alpha, reference, {}});
+}
+
+void Rock::change_alpha(const Field& pressure, const Vector& alpha) {
+  for (Load& load : loads_) {
+    if (load.pressure != &pressure) continue;
+    load.alpha = alpha;
+    ++load.alpha_version;
+  }
 }
 
 void Rock::map_walls() {
@@ -141,8 +175,12 @@ void Rock::find_conditions() {
   }
 }
 
+bool Rock::is_discretized() const {
+  return discretized_mesh_ == mesh_.version && discretized_stiffness_ == stiffness_version_;
+}
+
 void Rock::discretize() {
-  if (discretized_version_ == mesh_.version && discretizations_ > 0) return;
+  if (is_discretized()) return;
   find_conditions();
   const std::vector<char> nodes = nodes_to_discretize(mesh_);
   discretized_cells_ += mesh_.cell_count();
@@ -154,8 +192,7 @@ void Rock::discretize() {
 void Rock::carry_over(const Part& part, const MeshChange& change) {
   const Rock& before = dynamic_cast<const Rock&>(part);
   // With several processes the change may have given cells to others.
-  if (parallel::size() > 1 || before.discretizations_ == 0 || before.discretized_version_ != before.mesh_.version)
-    return;
+  if (parallel::size() > 1 || !before.is_discretized()) return;
   find_conditions();
   Rediscretized result = rediscretize_mpsa({before.mesh_, before.stiffness_, before.conditions_}, before.operators_,
                                            {mesh_, stiffness_, conditions_}, change);
@@ -166,7 +203,8 @@ void Rock::carry_over(const Part& part, const MeshChange& change) {
 }
 
 void Rock::use_operators() {
-  discretized_version_ = mesh_.version;
+  discretized_mesh_ = mesh_.version;
+  discretized_stiffness_ = stiffness_version_;
   ++discretizations_;
   boundary_applied_ = false;
   const int rank = parallel::rank();
@@ -188,12 +226,20 @@ void Rock::use_operators() {
     jump_.terms = {{&displacement_, Operator(wall_jump_ * operators_.trace_displacement)},
                    {wall_traction_, Operator(wall_jump_ * operators_.trace_boundary * wall_forces_)}};
   }
+  for (Load& load : loads_) load.used_version = 0;
+  use_loads();
+}
+
+void Rock::use_loads() {
   for (Load& load : loads_) {
-    const SparseMatrix force = cell_sums(mesh_, operators_.force_stress, 2, rank);
+    if (load.used_version == load.alpha_version) continue;
+    load.used_version = load.alpha_version;
+    boundary_applied_ = false;
+    const SparseMatrix force = cell_sums(mesh_, operators_.force_stress, 2, parallel::rank());
     load.force_on_cell = Operator(-force * load.alpha.asDiagonal());
-    volume_change_.terms.push_back({load.pressure, Operator(operators_.volume_stress * load.alpha.asDiagonal())});
+    put_term(volume_change_, load.pressure, Operator(operators_.volume_stress * load.alpha.asDiagonal()));
     if (wall_traction_)
-      jump_.terms.push_back({load.pressure, Operator(wall_jump_ * operators_.trace_stress * load.alpha.asDiagonal())});
+      put_term(jump_, load.pressure, Operator(wall_jump_ * operators_.trace_stress * load.alpha.asDiagonal()));
   }
 }
 
@@ -206,7 +252,7 @@ Point Rock::initial_traction(int face, const Point& normal) const {
 bool Rock::depends_on_time() const {
   return std::any_of(options_.boundary.begin(), options_.boundary.end(),
                      [](const auto& side) { return side.second.depends_on_time(); }) ||
-         options_.body_force.depends_on_time() || options_.rock_density.depends_on_time() ||
+         properties_change_ || options_.body_force.depends_on_time() || options_.rock_density.depends_on_time() ||
          options_.gravity.depends_on_time();
 }
 
@@ -216,6 +262,11 @@ void Rock::evaluate_data(const StepTime& step) {
   data_evaluated_ = true;
   evaluated_for_ = step;
   boundary_applied_ = false;
+  if (properties_change_) {
+    for (Property& modulus : moduli_) modulus.evaluate(step);
+    bulk_modulus_.evaluate(step);
+    use_properties();
+  }
 
   boundary_values_ = Vector::Zero(2 * mesh_.face_count());
   initial_forces_ = Vector::Zero(2 * mesh_.face_count());
@@ -270,8 +321,9 @@ void Rock::apply_boundary() {
 }
 
 void Rock::begin_step(const StepTime& step) {
-  discretize();
   evaluate_data(step);
+  discretize();
+  use_loads();
   apply_boundary();
 }
 
@@ -320,10 +372,30 @@ std::optional<LameParameters> Rock::stiffness(int cell) const {
   return LameParameters{stiffness_[cell](0, 1), stiffness_[cell](2, 2)};
 }
 
+std::uint64_t Rock::properties_version() const {
+  std::uint64_t version = stiffness_version_;
+  for (const Load& load : loads_) version += load.alpha_version;
+  return version;
+}
+
+std::vector<const Data*> Rock::properties() const {
+  std::vector<const Data*> data;
+  if (options_.is_anisotropic) {
+    const AnisotropicStiffness& s = options_.stiffness;
+    data = {&s.xxxx, &s.yyyy, &s.xyxy, &s.xxyy, &s.xxxy, &s.yyxy};
+    if (options_.bulk_modulus) data.push_back(&*options_.bulk_modulus);
+  } else {
+    data = {&*options_.young_modulus, &*options_.poisson_ratio};
+  }
+  return data;
+}
+
 std::vector<double> Rock::switch_times() const {
-  std::vector<double> times =
-      merged_switch_times({&options_.body_force.component[0], &options_.body_force.component[1], &options_.rock_density,
-                           &options_.gravity.component[0], &options_.gravity.component[1]});
+  std::vector<const Data*> data = properties();
+  for (const VectorData* vector : {&options_.body_force, &options_.gravity})
+    for (const Data& component : vector->component) data.push_back(&component);
+  data.push_back(&options_.rock_density);
+  std::vector<double> times = merged_switch_times(data);
   const auto append = [&](const std::optional<Data>& data) {
     if (data) times.insert(times.end(), data->switch_times().begin(), data->switch_times().end());
   };

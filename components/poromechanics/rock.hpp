@@ -13,7 +13,8 @@
 namespace sprekk::poromechanics {
 
 /// Unknown: the displacement u of every cell, from the reference state with the initial stress and pressure:
-///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I.
+///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
+/// with C and alpha as they are at the end of the step: the rock remembers none that it had.
 /// Each pair of rows balances the forces on one cell (N/m): −(sum of the forces on its faces) − body force = 0.
 class Rock : public Component, public PoroelasticRock, public RockWalls, public RockState {
  public:
@@ -36,7 +37,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
 
   void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) override;
   const LinearExpression& volume_change() const override { return volume_change_; }
-  const Vector& bulk_modulus() const override { return bulk_modulus_; }
+  void change_alpha(const Field& pressure, const Vector& alpha) override;
+  const Property& bulk_modulus() const override { return bulk_modulus_; }
   Field& wall_traction() override { return *wall_traction_; }
   const LinearExpression& displacement_jump() const override { return jump_; }
 
@@ -45,6 +47,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   Vector pore_stress() const override;
   Eigen::Vector3d initial_stress(int cell, const Point& x) const override;
   std::optional<LameParameters> stiffness(int cell) const override;
+  std::uint64_t properties_version() const override;
 
   /// The total force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m, x and y); for tests and output.
   Vector face_forces() const;
@@ -54,15 +57,21 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
     const Field* pressure;
     Vector alpha, reference;
     Operator force_on_cell;  ///< momentum rows of p
+    std::uint64_t alpha_version = 1, used_version = 0;
   };
 
   void check_sides() const;
   void check_held(const Origin& where) const;
-  std::vector<Stiffness> stiffness(const Origin& where);
+  std::vector<const Data*> properties() const;
+  /// What follows from properties that have changed.
+  void use_properties();
+  Stiffness stiffness_of(int cell) const;
+  bool is_discretized() const;  ///< on this mesh, with this stiffness
   void discretize();
   void find_conditions();
   /// What follows from the operators.
   void use_operators();
+  void use_loads();
   void map_walls();
   const SideCondition* condition_of(int face) const;  ///< nullptr where nothing is prescribed
   bool depends_on_time() const;
@@ -73,11 +82,15 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   Options options_;
   Field& displacement_;
   Field* wall_traction_ = nullptr;  ///< exists with fractures only
-  Vector bulk_modulus_;
+  Origin origin_;
+  /// Young's modulus and Poisson's ratio, or the entries of AnisotropicStiffness.
+  std::vector<Property> moduli_;
+  Property bulk_modulus_;
+  bool properties_change_ = false;
   std::vector<Load> loads_;
 
-  std::uint64_t discretized_version_ = 0;
   std::vector<Stiffness> stiffness_;  ///< one a cell
+  std::uint64_t stiffness_version_ = 0, discretized_mesh_ = 0, discretized_stiffness_ = 0;
   StepTime evaluated_for_;
   bool data_evaluated_ = false, boundary_applied_ = false;
   long discretizations_ = 0, discretized_cells_ = 0, discretized_regions_ = 0;

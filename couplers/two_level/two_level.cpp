@@ -67,7 +67,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   }
 
   std::uint64_t version() const override {
-    return 1 + rock_.displacement().version() + walls_.wall_traction().version() +
+    return rock_.properties_version() + rock_.displacement().version() + walls_.wall_traction().version() +
            (fluid_ ? fluid_->pressure().version() : 0);
   }
 

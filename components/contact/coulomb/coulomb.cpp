@@ -17,13 +17,15 @@ Spec Options::spec() {
              .doc = "Coefficient of friction.",
              .source = "mu_s of Eq. 3",
              .required = true,
-             .material = true});
+             .material = true,
+             .in_time = true});
   spec.data("dilation_angle", dilation_angle,
             {.unit = "rad",
              .range = between(0, 1.5),
              .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
              .source = "psi below Eq. 2",
-             .material = true});
+             .material = true,
+             .in_time = true});
   return spec;
 }
 
@@ -44,20 +46,28 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
                                        .role = Role::input,
                                        .unit = "m",
                                        .doc = "Displacement jump, normal (opening) and tangential (slip) (Eq. 1)",
-                                       .needs_coupler = "wall_traction"})) {
+                                       .needs_coupler = "wall_traction"})),
+      options_(options) {
   const int count = mesh_.fracture_cell_count();
   if (count == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
-  friction_.resize(count);
-  dilation_.resize(count);
-  for (int i = 0; i < count; ++i) {
-    const FractureCell& cell = mesh_.fracture_cells[i];
-    const Place place{cell.center, mesh_.cell_region[mesh_.face_cells[cell.faces[0]][0]], context.start_time};
-    friction_[i] = options.friction.at(place);
-    dilation_[i] = std::tan(options.dilation_angle.at(place));
-  }
+  const std::vector<Place> places = fracture_cell_places(mesh_);
+  friction_ = Property(options_.friction, places, context.start_time);
+  dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
+  dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   stiffness_ = Vector::Ones(2 * count);
+}
+
+void Coulomb::evaluate_data(const StepTime& step) {
+  friction_.evaluate(step);
+  if (!dilation_angle_.depends_on_time()) return;
+  dilation_angle_.evaluate(step);
+  dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
+}
+
+std::vector<double> Coulomb::switch_times() const {
+  return merged_switch_times({&options_.friction, &options_.dilation_angle});
 }
 
 void Coulomb::set_wall_stiffness(const Vector& stiffness) {

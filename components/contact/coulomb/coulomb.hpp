@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
+#include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 
@@ -27,6 +28,9 @@ enum class State { stick, slip, open };
 /// wall, [u] = u(minus) − u(plus), so friction makes f_t point along the slip: power −f·[u]' ≤ 0 is drawn from the
 /// walls. (Eq. 3 of the paper has the opposite sign.)
 ///
+/// mu_s and psi are those of the end of the step. The gap knows the slip and not its history: where psi falls, a
+/// fracture that has slipped closes.
+///
 /// A wall that slides back comes down from what it has climbed by dilation. The fracture closes, the fluid in it is
 /// pressed together where it cannot leave, the walls are pushed apart and hold less shear: there may be no state
 /// between its slip and none in which friction balances the load, and Newton's method, which finds the one where slip
@@ -37,12 +41,14 @@ class Coulomb : public Component, public FractureContact {
  public:
   Coulomb(const ComponentContext& context, const Options& options);
 
+  void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime&) override { back_slip_.clear(); }
   /// Cells that have grown hold together, [u] = 0, until the state without them has been found on the new mesh.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   std::uint64_t discrete_state() const override;
+  std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
 
@@ -80,7 +86,9 @@ class Coulomb : public Component, public FractureContact {
   const Mesh& mesh_;
   Field& traction_;
   Field& jump_;
-  Vector friction_, dilation_;               ///< mu_s, tan psi
+  Options options_;
+  Property friction_, dilation_angle_;       ///< mu_s, psi
+  Vector dilation_;                          ///< tan psi
   std::vector<char> bonded_;                 ///< empty for none
   mutable std::vector<BackSlip> back_slip_;  ///< empty before the first update of a step
   Vector stiffness_;                         ///< c, Pa/m, (normal, tangential) of each cell

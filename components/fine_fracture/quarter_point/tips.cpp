@@ -160,9 +160,11 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   mesh.sectors = options_.sectors;
   const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
   FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls);
-  if (!tip.model || !is_same(domain.geometry, tip.domain.geometry)) {
-    const LameParameters lame = surroundings_->stiffness(center);
-    const Elasticity rock{lame.lambda, lame.shear};
+  const LameParameters lame = surroundings_->stiffness(center);
+  const Elasticity rock{lame.lambda, lame.shear};
+  if (!tip.model || rock.lambda != tip.rock.lambda || rock.shear != tip.rock.shear ||
+      !is_same(domain.geometry, tip.domain.geometry)) {
+    tip.rock = rock;
     tip.domain = std::move(domain);
     if (options_.tolerance) {
       Adapted adapted = adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance});

@@ -66,8 +66,9 @@ class Tips : public Component, public FractureTips, public Growing {
     std::string name;
     double coarse_size;  ///< m, Delta H: the length of the original cell at this end
     State now, accepted;
-    // A factorization is reused while the geometry is what it was, and an answer while the coarse level is.
+    // A factorization is reused while geometry and rock are what they were, and an answer while the coarse level is.
     std::optional<FineModel> model;
+    Elasticity rock;  ///< of the model
     FineDomain domain;
     std::uint64_t answered_for = 0;
   };

@@ -16,15 +16,6 @@ int region_of(const Mesh& mesh, int fracture_cell) {
   return mesh.cell_region[mesh.face_cells[mesh.fracture_cells[fracture_cell].faces[0]][0]];
 }
 
-Vector evaluate_on_cells(const Mesh& mesh, const Data& data, double time) {
-  Vector values(mesh.fracture_cell_count());
-  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
-    const FractureCell& cell = mesh.fracture_cells[i];
-    values[i] = data.at({cell.center, region_of(mesh, i), time});
-  }
-  return values;
-}
-
 }  // namespace
 
 FractureFlow::FractureFlow(const ComponentContext& context, const Options& options)
@@ -61,17 +52,24 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
   check_names();
-  initial_aperture_ = evaluate_on_cells(mesh_, options_.initial_aperture, context.start_time);
+  const std::vector<Place> places = fracture_cell_places(mesh_);
+  const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
+  initial_aperture_ = property(options_.initial_aperture).values();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     if (mesh_.fracture_cells[i].grown) initial_aperture_[i] = options_.grown_aperture;
   aperture_.set_both(initial_aperture_);
-  pressure_.set_both(evaluate_on_cells(mesh_, options_.initial_pressure, context.start_time));
-  viscosity_ = evaluate_on_cells(mesh_, options_.viscosity, context.start_time);
-  compressibility_ = evaluate_on_cells(mesh_, options_.fluid_compressibility, context.start_time);
-  if (options_.transmissivity_value)
-    given_transmissivity_ = evaluate_on_cells(mesh_, *options_.transmissivity_value, context.start_time);
-  if (options_.normal_permeability_value)
-    given_normal_permeability_ = evaluate_on_cells(mesh_, *options_.normal_permeability_value, context.start_time);
+  pressure_.set_both(property(options_.initial_pressure).values());
+  viscosity_ = property(options_.viscosity);
+  compressibility_ = property(options_.fluid_compressibility);
+  if (options_.transmissivity_value) given_transmissivity_ = property(*options_.transmissivity_value);
+  if (options_.normal_permeability_value) given_normal_permeability_ = property(*options_.normal_permeability_value);
+}
+
+std::vector<const Data*> FractureFlow::properties() const {
+  std::vector<const Data*> data = {&options_.viscosity, &options_.fluid_compressibility};
+  for (const std::optional<Data>* given : {&options_.transmissivity_value, &options_.normal_permeability_value})
+    if (*given) data.push_back(&**given);
+  return data;
 }
 
 void FractureFlow::carry_over(const Part&, const MeshChange& change) {
@@ -170,11 +168,11 @@ void FractureFlow::make_links(const StepTime& step) {
 }
 
 void FractureFlow::evaluate_data(const StepTime& step) {
+  for (Property* property : {&viscosity_, &compressibility_, &given_transmissivity_, &given_normal_permeability_})
+    property->evaluate(step);
   make_links(step);
   prescribe(step);
 }
-
-void FractureFlow::begin_step(const StepTime& step) { evaluate_data(step); }
 
 void FractureFlow::prescribe(const StepTime& step) {
   source_ = Vector::Zero(mesh_.fracture_cell_count());
@@ -348,7 +346,7 @@ void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
 }
 
 std::vector<double> FractureFlow::switch_times() const {
-  std::vector<double> times;
+  std::vector<double> times = merged_switch_times(properties());
   const auto append = [&](const Data& data) {
     times.insert(times.end(), data.switch_times().begin(), data.switch_times().end());
   };
@@ -361,7 +359,7 @@ std::vector<double> FractureFlow::switch_times() const {
 void FractureFlow::relate_levels(Levels& levels) const {
   const bool has_open_end =
       std::any_of(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; });
-  if (has_open_end || !prescribed_.empty() || compressibility_.maxCoeff() > 0) return;
+  if (has_open_end || !prescribed_.empty() || compressibility_.values().maxCoeff() > 0) return;
   levels.floats(pressure_, origin_,
                 "the fluid is incompressible and no pressure is given: any constant may be added to it",
                 "give a compressibility, or a pressure under 'prescribed' or 'boundary'");

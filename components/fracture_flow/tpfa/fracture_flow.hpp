@@ -8,6 +8,7 @@
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
+#include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::fracture_flow {
@@ -17,7 +18,7 @@ namespace sprekk::fracture_flow {
 ///   L (a − a_old) + L a c_p (p − p_old) + dt (sum of Q out of it) − dt q = 0,
 /// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series. Keeping Q lets
 /// a fracture conduct 1e12 times better than rock does without loss of digits: Q is not a difference of nearly equal
-/// pressures, and what leaves one cell enters the next to the bit.
+/// pressures, and what leaves one cell enters the next to the bit. Properties are those of the end of the step.
 class FractureFlow : public Component, public FractureFluid {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
@@ -25,7 +26,7 @@ class FractureFlow : public Component, public FractureFluid {
   /// Cells that have grown start at the pressure of their neighbours; whether they start with fluid is a parameter.
   void carry_over(const Part& before, const MeshChange& change) override;
   void evaluate_data(const StepTime& step) override;
-  void begin_step(const StepTime& step) override;
+  void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void constrain(Assembly& assembly) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
@@ -60,6 +61,7 @@ class FractureFlow : public Component, public FractureFluid {
   double pressure_drop(const Link& link) const;
   void assemble_fluxes(Assembly& assembly, const StepTime& step) const;
   void check_names() const;
+  std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);
   void prescribe(const StepTime& step);
 
@@ -70,7 +72,8 @@ class FractureFlow : public Component, public FractureFluid {
   Field& flux_;
   Field& aperture_;
   Field& books_;  ///< (stored, injected, outflow) of each cell since the start, m^2
-  Vector initial_aperture_, viscosity_, compressibility_, given_transmissivity_, given_normal_permeability_;
+  Vector initial_aperture_;
+  Property viscosity_, compressibility_, given_transmissivity_, given_normal_permeability_;
   std::vector<Link> links_;
   Vector source_;  ///< m^2/s, one a cell
   struct Prescribed {

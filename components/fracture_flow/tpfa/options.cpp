@@ -47,21 +47,25 @@ Spec Options::spec() {
              .doc = "Viscosity of the fluid.",
              .source = "Eq. 8",
              .required = true,
-             .material = true});
+             .material = true,
+             .in_time = true});
   spec.data("fluid_compressibility", fluid_compressibility,
             {.unit = "1/Pa",
              .range = non_negative(),
              .doc = "Compressibility of the fluid.",
              .source = "c_p of Eq. 8",
              .required = true,
-             .material = true});
+             .material = true,
+             .in_time = true});
   spec.data("initial_aperture", initial_aperture,
             {.unit = "m",
              .range = positive(),
              .doc = "Aperture of the undeformed fracture.",
              .source = "a^0 below Eq. 8",
-             .required = true});
-  spec.data("initial_pressure", initial_pressure, {.unit = "Pa", .doc = "Pressure at the start."});
+             .required = true,
+             .fixed = "it is what the run starts from, and what opens adds to it"});
+  spec.data("initial_pressure", initial_pressure,
+            {.unit = "Pa", .doc = "Pressure at the start.", .fixed = "it is what the run starts from"});
   Spec grown("grown", "What the cells of a fracture that grows start with.");
   grown.quantity("aperture", grown_aperture,
                  {.unit = "m",
@@ -79,14 +83,24 @@ Spec Options::spec() {
               {{"cubic_law", "a^3/12"}, {"constant", "the value given as transmissivity_value"}},
               {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below Eq. 8"});
   spec.data("transmissivity_value", transmissivity_value,
-            {.unit = "m^3", .range = non_negative(), .doc = "Of a constant transmissivity."});
+            {.unit = "m^3",
+             .range = non_negative(),
+             .doc = "Of a transmissivity that does not follow from the aperture.",
+             .in_time = true});
   spec.choice("normal_permeability", normal_permeability,
               {{"cubic_law", "2 K_i/(mu a^2), which with the cubic law is a/(6 mu)"},
                {"constant", "the value given as normal_permeability_value"}},
               {.doc = "How kappa follows from the aperture.", .source = "below Eq. 9"});
   spec.data("normal_permeability_value", normal_permeability_value,
-            {.unit = "m/(Pa*s)", .range = non_negative(), .doc = "Of a constant normal permeability."});
-  spec.vector("gravity", gravity, {.unit = "m/s^2", .doc = "Acceleration of gravity.", .material = true});
+            {.unit = "m/(Pa*s)",
+             .range = non_negative(),
+             .doc = "Of a normal permeability that does not follow from the aperture.",
+             .in_time = true});
+  spec.vector("gravity", gravity,
+              {.unit = "m/s^2",
+               .doc = "Acceleration of gravity.",
+               .material = true,
+               .fixed = "what is at rest under gravity is found once"});
   spec.quantity("fluid_density", fluid_density,
                 {.unit = "kg/m^3",
                  .range = non_negative(),
