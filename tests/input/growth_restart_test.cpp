@@ -39,15 +39,19 @@ long mesh_changes(const fs::path& folder) {
   return counters.value("changes of the mesh", 0L);
 }
 
-TEST(RunWithGrowth, InterruptedAndContinuedHasTheSameBits) {
+void expect_same_bits_in_parts(const std::vector<std::string>& settings) {
   const Folder folder;
-  const Outcome whole = sprekk_command(growing_run({"-q", "-o", "whole"}), folder.path());
+  const auto growing = [&](std::vector<std::string> more) {
+    more.insert(more.end(), settings.begin(), settings.end());
+    return growing_run(more);
+  };
+  const Outcome whole = sprekk_command(growing({"-q", "-o", "whole"}), folder.path());
   ASSERT_EQ(whole.code, 0) << whole.err;
   const long changes = mesh_changes(folder / "whole"), all = rows(folder / "whole/history.csv");
   ASSERT_GE(changes, 2);
 
   // Interrupted while the fine level has a path of its own, and again after the mesh has changed.
-  std::vector<std::string> arguments = growing_run({"-q", "-o", "parts"});
+  std::vector<std::string> arguments = growing({"-q", "-o", "parts"});
   long changes_in_parts = 0;
   for (const long until : {all / 3, 2 * all / 3}) {
     Program program(arguments, folder.path());
@@ -57,7 +61,7 @@ TEST(RunWithGrowth, InterruptedAndContinuedHasTheSameBits) {
     const Outcome interrupted = program.wait();
     ASSERT_EQ(interrupted.code, 130) << interrupted.err;
     changes_in_parts += mesh_changes(folder / "parts");
-    arguments = growing_run({"-q", "--restart", "parts/checkpoint.h5"});
+    arguments = growing({"-q", "--restart", "parts/checkpoint.h5"});
   }
   EXPECT_GE(changes_in_parts, 1);
   EXPECT_LT(changes_in_parts, changes);
@@ -65,6 +69,15 @@ TEST(RunWithGrowth, InterruptedAndContinuedHasTheSameBits) {
   ASSERT_EQ(rest.code, 0) << rest.err;
   EXPECT_EQ(changes_in_parts + mesh_changes(folder / "parts"), changes);
   EXPECT_EQ(text_of(folder / "parts/history.csv"), text_of(folder / "whole/history.csv"));
+}
+
+TEST(RunWithGrowth, InterruptedAndContinuedHasTheSameBits) { expect_same_bits_in_parts({}); }
+
+TEST(RunWithGrowth, WithPropertiesThatChangeInterruptedAndContinuedHasTheSameBits) {
+  expect_same_bits_in_parts({"--set", "materials.young_modulus=(40e9*(1 - t/(20*min))) Pa", "--set",
+                             "materials.permeability=(5e-20*(1 + t/min)) m^2", "--set",
+                             "materials.biot_coefficient=0.8 - 0.01*t/min", "--set",
+                             "materials.friction=0.5 - 0.01*t/min"});
 }
 
 }  // namespace

@@ -49,17 +49,32 @@ TEST(Run, GoesIntoResultsUnderTheNameOfTheScene) {
   EXPECT_TRUE(fs::exists(folder / "results/first_scene-2/history.csv"));
 }
 
-TEST(Run, ContinuedFromItsHalfHasTheSameBits) {
+void expect_same_bits_in_halves(const std::vector<std::string>& settings) {
   const Folder folder;
-  ASSERT_EQ(sprekk_command(tutorial_run("4 h", {"-q", "-o", "whole"}), folder.path()).code, 0);
-  ASSERT_EQ(sprekk_command(tutorial_run("4 h", {"-q", "-o", "parts", "--set", "time.end=1 day"}), folder.path()).code,
-            0);
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.end(), settings.begin(), settings.end());
+    return sprekk_command(tutorial_run("4 h", more), folder.path());
+  };
+  ASSERT_EQ(run({"-q", "-o", "whole"}).code, 0);
+  ASSERT_EQ(run({"-q", "-o", "parts", "--set", "time.end=1 day"}).code, 0);
   EXPECT_EQ(rows(folder / "parts/history.csv"), 6);
-  const Outcome rest = sprekk_command(tutorial_run("4 h", {"-q", "-o", "parts", "--restart"}), folder.path());
+  const Outcome rest = run({"-q", "-o", "parts", "--restart"});
   ASSERT_EQ(rest.code, 0) << rest.err;
   EXPECT_EQ(rows(folder / "whole/history.csv"), 12);
   EXPECT_EQ(text_of(folder / "parts/history.csv"), text_of(folder / "whole/history.csv"));
   EXPECT_EQ(text_of(folder / "parts/coupling.csv"), text_of(folder / "whole/coupling.csv"));
+}
+
+TEST(Run, ContinuedFromItsHalfHasTheSameBits) { expect_same_bits_in_halves({}); }
+
+/// Two jump where the second half begins.
+TEST(Run, WithPropertiesThatChangeContinuedFromItsHalfHasTheSameBits) {
+  expect_same_bits_in_halves({"--set", "materials.permeability=(1e-18*(1 + t/day)) m^2", "--set",
+                              "materials.young_modulus=[{value: 20 GPa}, {value: -5 GPa, from: 1 day}]", "--set",
+                              "materials.biot_coefficient=0.8 - 0.1*t/day", "--set",
+                              "materials.fluid_compressibility=(4e-10*(1 + t/day)) 1/Pa", "--set",
+                              "materials.viscosity=[{value: 1 mPa*s, to: 1 day}, {value: 2 mPa*s, from: 1 day}]",
+                              "--set", "materials.friction=0.6 - 0.1*t/day"});
 }
 
 TEST(Run, InterruptedAndContinuedHasTheSameBits) {
