@@ -162,6 +162,8 @@ void MatrixFlow::discretize() {
   find_conditions();
   if (is_sealed_) {
     operators_ = no_flow(mesh_, conditions_);
+  } else if (!mobility_of_operators_.empty()) {
+    return discretize_from({mesh_, mobility_of_operators_, conditions_}, operators_, no_change(mesh_));
   } else {
     const std::vector<char> nodes = nodes_to_discretize(mesh_);
     ++discretizations_;
@@ -177,8 +179,11 @@ void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   // With several processes the change may have given cells to others.
   if (parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
   find_conditions();
-  Rediscretized result = rediscretize(discretize_, {before.mesh_, before.mobility_, before.conditions_},
-                                      before.operators_, {mesh_, mobility_, conditions_}, change);
+  discretize_from({before.mesh_, before.mobility_, before.conditions_}, before.operators_, change);
+}
+
+void MatrixFlow::discretize_from(const FlowInputs& before, const FluxOperators& operators, const MeshChange& change) {
+  Rediscretized result = rediscretize(discretize_, before, operators, {mesh_, mobility_, conditions_}, change);
   ++discretizations_;
   discretized_cells_ += result.cells;
   discretized_regions_ += result.regions;
@@ -189,6 +194,8 @@ void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
 void MatrixFlow::use_operators() {
   discretized_mesh_ = mesh_.version;
   discretized_mobility_ = mobility_version_;
+  mobility_of_operators_.clear();
+  if (properties_change_ && !is_sealed_ && parallel::size() == 1) mobility_of_operators_ = mobility_;
   boundary_applied_ = false;
   fluxes_.is_valid = false;
   const int rank = parallel::rank();

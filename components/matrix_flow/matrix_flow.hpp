@@ -89,6 +89,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   /// Spreads each well over the cells around it such that its total and its position are kept.
   void place_wells();
   void discretize();
+  /// With what stays of the operators that were made for `before`.
+  void discretize_from(const FlowInputs& before, const FluxOperators& operators, const MeshChange& change);
   void find_conditions();
   /// What follows from the operators.
   void use_operators();
@@ -109,7 +111,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   std::array<Property, 3> permeability_;  ///< xx, yy, xy
   Property viscosity_, porosity_, compressibility_, storage_;
   bool properties_change_ = false;
-  std::vector<Tensor> mobility_;  ///< m^2/(Pa s), one a cell
+  std::vector<Tensor> mobility_;               ///< m^2/(Pa s), one a cell
+  std::vector<Tensor> mobility_of_operators_;  ///< kept of properties that change, in one process
   std::uint64_t mobility_version_ = 0;
   bool is_sealed_ = false;  ///< the mobility is zero: no flux exists, and none is discretized
 

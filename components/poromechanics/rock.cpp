@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -182,6 +181,8 @@ bool Rock::is_discretized() const {
 void Rock::discretize() {
   if (is_discretized()) return;
   find_conditions();
+  if (!stiffness_of_operators_.empty())
+    return discretize_from({mesh_, stiffness_of_operators_, conditions_}, operators_, no_change(mesh_));
   const std::vector<char> nodes = nodes_to_discretize(mesh_);
   discretized_cells_ += mesh_.cell_count();
   discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
@@ -194,8 +195,11 @@ void Rock::carry_over(const Part& part, const MeshChange& change) {
   // With several processes the change may have given cells to others.
   if (parallel::size() > 1 || !before.is_discretized()) return;
   find_conditions();
-  Rediscretized result = rediscretize_mpsa({before.mesh_, before.stiffness_, before.conditions_}, before.operators_,
-                                           {mesh_, stiffness_, conditions_}, change);
+  discretize_from({before.mesh_, before.stiffness_, before.conditions_}, before.operators_, change);
+}
+
+void Rock::discretize_from(const StressInputs& before, const StressOperators& operators, const MeshChange& change) {
+  Rediscretized result = rediscretize_mpsa(before, operators, {mesh_, stiffness_, conditions_}, change);
   discretized_cells_ += result.cells;
   discretized_regions_ += result.regions;
   operators_ = std::move(result.operators);
@@ -205,6 +209,7 @@ void Rock::carry_over(const Part& part, const MeshChange& change) {
 void Rock::use_operators() {
   discretized_mesh_ = mesh_.version;
   discretized_stiffness_ = stiffness_version_;
+  if (properties_change_ && parallel::size() == 1) stiffness_of_operators_ = stiffness_;
   ++discretizations_;
   boundary_applied_ = false;
   const int rank = parallel::rank();

@@ -7,6 +7,7 @@
 #include "components/capabilities/rock_state.hpp"
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 #include "components/poromechanics/mpsa/mpsa.hpp"
+#include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "components/poromechanics/options.hpp"
 #include "framework/scene/component.hpp"
 
@@ -68,6 +69,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   Stiffness stiffness_of(int cell) const;
   bool is_discretized() const;  ///< on this mesh, with this stiffness
   void discretize();
+  /// With what stays of the operators that were made for `before`.
+  void discretize_from(const StressInputs& before, const StressOperators& operators, const MeshChange& change);
   void find_conditions();
   /// What follows from the operators.
   void use_operators();
@@ -89,7 +92,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   bool properties_change_ = false;
   std::vector<Load> loads_;
 
-  std::vector<Stiffness> stiffness_;  ///< one a cell
+  std::vector<Stiffness> stiffness_;               ///< one a cell
+  std::vector<Stiffness> stiffness_of_operators_;  ///< kept of properties that change, in one process
   std::uint64_t stiffness_version_ = 0, discretized_mesh_ = 0, discretized_stiffness_ = 0;
   StepTime evaluated_for_;
   bool data_evaluated_ = false, boundary_applied_ = false;

@@ -23,4 +23,7 @@ struct MeshChange {
   std::vector<int> removed_cells;  ///< the old cells that are gone, ascending
 };
 
+/// Every cell, face, fracture cell and point stays; the overlap is left out.
+MeshChange no_change(const Mesh& mesh);
+
 }  // namespace sprekk

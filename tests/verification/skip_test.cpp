@@ -99,6 +99,36 @@ TEST(Skip, InputsThatStayAreDiscretizedOnce) {
   EXPECT_EQ(count(run, "stress discretizations: cells"), run.mesh().cell_count());
 }
 
+/// Only around the cells whose properties change; with the bits of operators that are made as a whole.
+TEST(Skip, PropertiesThatChangeInOneRegionAreDiscretizedThere) {
+  const auto scene = [](const std::string& time) {
+    return "{geometry: {box: {x: [0 m, 2 m], y: [0 m, 2 m]}, regions: {plug: {polygon: [[0 m, 0 m], [0.5 m, 0 m], [0.5 "
+           "m, 0.5 m], [0 m, 0.5 m]]}}}, mesh: {size: 0.2 m}, components: {pore: {type: matrix_flow/mpfa, storage: "
+           "4e-11 1/Pa, viscosity: 1.0e-4 Pa*s, boundary: {left: {pressure: 1 MPa}}, permeability: {regions: {plug: "
+           "\"(1e-17*(1 + t/h)) m^2\", default: 1e-17 m^2}}}, rock: {type: poromechanics/mpsa, young_modulus: "
+           "{regions: {plug: \"(1e10*(1 + t/h)) Pa\", default: 10 GPa}}, poisson_ratio: 0.2, boundary: {left: "
+           "{displacement_x: 0 m}, bottom: {displacement_y: 0 m}, right: {normal_stress: -20 MPa}}}}, couplers: "
+           "[{type: "
+           "biot, between: [pore, rock], biot_coefficient: 0.8}], schedule: [{solve: [pore, rock]}], time: {" +
+           time + "}}";
+  };
+  SceneRun run = SceneRun::from_text(scene("end: 2 h, step: 1 h"));
+  run.run();
+  for (const std::string name : {"flux discretizations", "stress discretizations"}) {
+    EXPECT_EQ(count(run, name), 2);
+    EXPECT_LT(count(run, name + ": cells"), 1.3 * run.mesh().cell_count());
+  }
+  SceneRun whole = SceneRun::from_text(scene("start: 1 h, end: 2 h, step: 1 h"));
+  for (SceneRun* each : {&run, &whole}) {
+    each->model().fields().at("pore.pressure").set_both(Vector::Constant(each->mesh().cell_count(), 1e5));
+    for (const auto& field : each->model().fields().all())
+      if (field->name() != "pore.pressure") field->set_both(Vector::Zero(field->size()));
+    ASSERT_TRUE(each->model().attempt({hour, hour, 2 * hour}).converged);
+  }
+  for (const auto& field : run.model().fields().all())
+    EXPECT_EQ(field->now(), whole.field(field->name())) << field->name();
+}
+
 TEST(Skip, TipsFarFromGrowthHaveNoFineLevel) {
   SceneRun run("paper/onset.yaml", coarse({{"components.tips.toughness", "100 MPa*m^0.5"}}));
   run.run_until(8 * hour);
