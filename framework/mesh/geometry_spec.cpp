@@ -162,6 +162,12 @@ Spec mesh_spec(MeshOptions& options) {
        .range = between(0, 10),
        .doc = "Unstructured: how many edges a gap between a fracture and a side, another fracture, another part "
               "of itself or an edge of a region has across, where that makes shorter ones; 0 leaves gaps alone."});
+  spec.quantity(
+      "gap_length", options.gap_length,
+      {.unit = "",
+       .range = non_negative(),
+       .doc = "Gaps between walls side by side that are longer than so many widths are left alone, but for their "
+              "ends: they would take many cells."});
   spec.quantity("gap_size", options.gap_size,
                 {.unit = "m",
                  .range = positive(),

@@ -42,8 +42,9 @@ void SizeField::add_gaps(const Geometry& geometry, const MeshOptions& options) {
   for_each_narrow_gap(
       geometry, {edges * least, edges * far_size_, edges * growth_}, [&](const Point& x) { return edges * at(x); },
       [&](const NarrowGap& gap) {
-        if (add_source(gap.part, std::max(gap.width / edges, least), growth))
-          put_into_buckets(static_cast<int>(sources_.size()) - 1);
+        const double size = std::max(gap.width / edges, least);
+        if (gap.part.length() > options.gap_length * edges * size) return;
+        if (add_source(gap.part, size, growth)) put_into_buckets(static_cast<int>(sources_.size()) - 1);
       });
 }
 

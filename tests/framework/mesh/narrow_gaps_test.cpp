@@ -63,7 +63,7 @@ TEST(NarrowGaps, AnglesDoNotDependOnTheWidth) {
   for (const auto& [name, fractures] : with_gap) {
     for (const double growth : {0.3, 1.0, 2.0}) {
       for (const double width : {0.5, 0.1, 0.02, 0.004}) {
-        const MeshOptions options{.size = 2 * size, .fracture_size = size, .growth = growth};
+        const MeshOptions options{.size = 2 * size, .fracture_size = size, .growth = growth, .gap_length = 1e9};
         EXPECT_GT(quality(fractures(width * size), options).smallest_angle, wanted_angle)
             << name << ", " << width << ", growth " << growth;
       }
@@ -80,7 +80,8 @@ TEST(NarrowGaps, WithoutRefinementAnglesFallWithTheWidth) {
 
 TEST(NarrowGaps, QuadrilateralsToo) {
   for (const auto& [name, fractures] : with_gap) {
-    const MeshOptions options{.shape = MeshOptions::Shape::quadrilaterals, .size = 2 * size, .fracture_size = size};
+    const MeshOptions options{
+        .shape = MeshOptions::Shape::quadrilaterals, .size = 2 * size, .fracture_size = size, .gap_length = 1e9};
     EXPECT_GT(quality(fractures(0.02 * size), options).smallest_angle, wanted_angle) << name;
   }
 }
@@ -95,6 +96,18 @@ TEST(NarrowGaps, CellsGrowWithTheLogarithmOfTheWidth) {
   const double step = 4 / std::sqrt(3.0) * std::numbers::pi / (0.3 * 0.3) * std::log(5.0);
   EXPECT_NEAR(cells[2] - cells[0], 2 * step, 0.3 * 2 * step);
   EXPECT_NEAR(cells[2] - cells[1], cells[1] - cells[0], 0.2 * step);
+}
+
+TEST(NarrowGaps, WallsSideBySideAreLeftAloneButForTheirEnds) {
+  const double gap = 0.02 * size;
+  const Geometry geometry = in_box(with_gap.at("walls")(gap));
+  const MeshOptions options{.size = 2 * size, .fracture_size = size};
+  const SizeField sizes(geometry, options);
+  for (const double end : {0.9, 1.2}) EXPECT_LT(sizes.at({end, 1}), 3 * gap);
+  EXPECT_GT(sizes.at({1.05, 1}), 0.3 * size);
+  MeshOptions whole = options;
+  whole.gap_length = 300 * size / gap;
+  EXPECT_LT(generate_mesh(geometry, options).cell_count(), 0.5 * generate_mesh(geometry, whole).cell_count());
 }
 
 TEST(NarrowGaps, WideGapsChangeNothing) {
@@ -149,9 +162,9 @@ TEST(NarrowGaps, GapSizeIsTheShortest) {
 }
 
 TEST(NarrowGaps, InterfacesLeaveGapsToo) {
-  // The end of a fracture is a hundredth of the edge length before an interface, another crosses it near its corner.
+  // The end of a fracture is a hundredth of the edge length before an interface, another passes its corner.
   Geometry geometry =
-      in_box({fracture("a", {{0.5, 0.5}, {0.7, 1 - 0.01 * size}}), fracture("b", {{1.501, 0.8}, {1.501, 1.2}})});
+      in_box({fracture("a", {{0.5, 0.5}, {0.7, 1 - 0.01 * size}}), fracture("b", {{1.431, 0.8}, {1.571, 1.2}})});
   geometry.regions = {region("block", {{0.2, 1}, {1.5, 1}, {1.5, 1.5}, {0.2, 1.5}})};
   const MeshOptions options{.size = size};
   const Mesh mesh = generate_mesh(geometry, options);
@@ -161,7 +174,7 @@ TEST(NarrowGaps, InterfacesLeaveGapsToo) {
 
 TEST(NarrowGaps, MakeTheCellCountAnHonestError) {
   const Geometry geometry = in_box(with_gap.at("walls")(2e-7));
-  const MeshOptions options{.size = 2 * size, .fracture_size = size, .gap_size = 1e-7};
+  const MeshOptions options{.size = 2 * size, .fracture_size = size, .gap_length = 1e9, .gap_size = 1e-7};
   EXPECT_THAT(input_error([&] { validate_geometry(geometry, options); }), testing::HasSubstr("gap_size"));
 }
 
