@@ -10,6 +10,7 @@ namespace sprekk::fine_fracture {
 /// Lame's constants, Pa.
 struct Elasticity {
   double lambda, shear;
+  bool operator==(const Elasticity&) const = default;
 
   double poisson_ratio() const { return lambda / (2 * (lambda + shear)); }
   double kolosov() const { return 3 - 4 * poisson_ratio(); }            ///< kappa

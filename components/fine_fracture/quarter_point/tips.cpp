@@ -162,9 +162,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls);
   const LameParameters lame = surroundings_->stiffness(center);
   const Elasticity rock{lame.lambda, lame.shear};
-  if (!tip.model || rock.lambda != tip.rock.lambda || rock.shear != tip.rock.shear ||
-      !is_same(domain.geometry, tip.domain.geometry)) {
-    tip.rock = rock;
+  if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
     tip.domain = std::move(domain);
     if (options_.tolerance) {
       Adapted adapted = adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance});

@@ -68,7 +68,6 @@ class Tips : public Component, public FractureTips, public Growing {
     State now, accepted;
     // A factorization is reused while geometry and rock are what they were, and an answer while the coarse level is.
     std::optional<FineModel> model;
-    Elasticity rock;  ///< of the model
     FineDomain domain;
     std::uint64_t answered_for = 0;
   };
