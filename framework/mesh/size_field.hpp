@@ -10,7 +10,8 @@ namespace sprekk {
 
 /// The smallest of: the far size; at each fracture its size plus growth times the distance from it; at each of its
 /// ends inside the box the tip size plus growth times the distance from the end; at each gap that is narrower than what
-/// these ask for, and no longer than gap_length, its width over gap_edges plus growth (at most half) times the distance.
+/// these ask for, and no longer than gap_length, its width over gap_edges plus growth (at most half) times the
+/// distance.
 class SizeField {
  public:
   /// The geometry is that of a box and valid, except that sizes may still be absurdly small.
