@@ -6,7 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "components/poromechanics/mpsa/tip_field.hpp"
+#include "components/poromechanics/mpsa/tip_correction.hpp"
+#include "components/poromechanics/mpsa/tips_nearby.hpp"
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::poromechanics {
@@ -36,13 +37,18 @@ void add_cells_across(const Mesh& mesh, int cell, int node, std::vector<int>& ce
 Adjacency local_cells(const Mesh& mesh) {
   Adjacency cells;
   cells.offsets.reserve(mesh.node_count() + 1);
+  const std::vector<int> tips = tips_nearby(mesh);
   for (int node = 0; node < mesh.node_count(); ++node) {
     const auto at_node = mesh.node_cells[node];
     cells.items.insert(cells.items.end(), at_node.begin(), at_node.end());
-    if (at_node.size() == 1) {
-      add_cells_across(mesh, at_node[0], node, cells.items);
-      std::sort(cells.items.begin() + cells.offsets.back(), cells.items.end());
+    if (at_node.size() == 1) add_cells_across(mesh, at_node[0], node, cells.items);
+    if (tips[node] != none) {
+      const auto at_tip = mesh.node_cells[tips[node]];
+      cells.items.insert(cells.items.end(), at_tip.begin(), at_tip.end());
     }
+    const auto first = cells.items.begin() + cells.offsets.back();
+    std::sort(first, cells.items.end());
+    cells.items.erase(std::unique(first, cells.items.end()), cells.items.end());
     cells.offsets.push_back(static_cast<int>(cells.items.size()));
   }
   return cells;
@@ -52,7 +58,10 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
                           const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions) {
   subcells_ = region.subcell_count();
   cells_ = static_cast<int>(cells.size());
-  first_column_ = static_cast<int>(std::find(cells.begin(), cells.end(), region.subcells[0].cell) - cells.begin());
+  column_.resize(subcells_);
+  for (int k = 0; k < subcells_; ++k)
+    column_[k] =
+        static_cast<int>(std::lower_bound(cells.begin(), cells.end(), region.subcells[k].cell) - cells.begin());
   subfaces_ = region.subface_count();
   int outer = 0;
   for (int f = 0; f < subfaces_; ++f) outer += !region.is_inner(f);
@@ -82,12 +91,16 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
   }
   find_gradients(region);
   find_forces(region, stiffness);
-  if (const auto field = TipField::find(mesh, region, cells, stiffness)) correct(*field);
 }
 
-void LocalStresses::correct(const TipField& field) {
+void LocalStresses::correct(const InteractionRegion& region, const TipCorrection& tip) {
   for (int f = 0; f < subfaces_; ++f)
-    for (int c = 0; c < 2; ++c) field.correct(forces_.data() + (2 * f + c) * columns_, field.force(f, c));
+    for (int c = 0; c < 2; ++c)
+      if (region.is_inner(f))
+        tip.of_force(forces_.data() + (2 * f + c) * columns_, f, c);
+      else
+        tip.of_displacement(system_.data() + (2 * f + c) * width_ + 2 * subfaces_, f, c);
+  for (int k = 0; k < subcells_; ++k) tip.of_volume_change(volumes_.data() + k * columns_, k);
 }
 
 void LocalStresses::weigh_means(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
@@ -191,15 +204,15 @@ void LocalStresses::solve_singular(const Mesh& mesh, const InteractionRegion& re
     Eigen::MatrixXd target = Eigen::MatrixXd::Zero(targets, columns_);
     int row = 0;
     for (int other = 0; other < cells_; ++other) {
-      if (other == first_column_) continue;
+      if (other == column(0)) continue;
       const Point arm = mesh.cell_center[cells[other]] - mesh.cell_center[subcell.cell];
       for (int c = 0; c < 2; ++c, ++row) {
         target(row, 2 * other + c) = 1;
-        target(row, 2 * first_column_ + c) = -1;
+        target(row, 2 * column(0) + c) = -1;
         for (int i = 0; i < 2; ++i) {
           const double weight = subcell.gradient[i].dot(arm);
           continuation(row, 2 * subcell.subfaces[i] + c) += weight;
-          target(row, 2 * first_column_ + c) += weight;
+          target(row, 2 * column(0) + c) += weight;
         }
       }
     }

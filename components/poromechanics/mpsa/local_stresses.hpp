@@ -11,12 +11,13 @@
 
 namespace sprekk::poromechanics {
 
-class TipField;
+class TipCorrection;
 
 using FaceConditions = std::array<MechanicalCondition, 2>;
 
 /// The cells whose displacements and stresses a node's local problem reads, in ascending order: those at the node. A
-/// cell that is alone there is joined by those across its faces that do not touch the node, if any.
+/// cell that is alone there is joined by those across its faces that do not touch the node, if any; near the tip of a
+/// crack there are those at the tip, too.
 Adjacency local_cells(const Mesh& mesh);
 
 /// In every subcell the displacement is linear; displacements agree at the continuity points and forces, C : grad u - s
@@ -29,7 +30,7 @@ Adjacency local_cells(const Mesh& mesh);
 /// neighbour's strain loads a stiff cell with its own large modulus: in sheared layers forces are wrong by a quarter of
 /// the contrast. With this weight they are exact up to 1 / contrast, and in even rock both are the same.
 ///
-/// At the tip of a crack the displacement is not linear but like sqrt(r): see TipField.
+/// Near the tip of a crack the displacement is not linear but like sqrt(r): see TipCorrection.
 ///
 /// A region of a single subcell has no weak symmetry: its mean gradient is its own. A rotation of the subcell about its
 /// centre then costs nothing unless a prescribed displacement stops it, and two rollers leave a mixture of shear and
@@ -41,6 +42,8 @@ class LocalStresses {
   /// Throws std::runtime_error if the local system is singular for another reason.
   void solve(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
              const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions);
+  /// After solve, near the tip of a crack with traction on its walls.
+  void correct(const InteractionRegion& region, const TipCorrection& tip);
 
   int stress_column() const { return 2 * cells_; }
   int boundary_column() const { return 3 * cells_; }
@@ -60,14 +63,14 @@ class LocalStresses {
   void weigh_means(const InteractionRegion& region, const std::vector<Stiffness>& stiffness, double most_own_share);
   void assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
   void solve_singular(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells);
-  void correct(const TipField& field);
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
 
-  int column(int subcell) const { return first_column_ + subcell; }
+  int column(int subcell) const { return column_[subcell]; }
   int mean_of(int subcell) const { return means_ == 1 ? 0 : subcell; }
 
-  int subcells_ = 0, cells_ = 0, first_column_ = 0, means_ = 1, subfaces_ = 0, columns_ = 0, width_ = 0;
+  int subcells_ = 0, cells_ = 0, means_ = 1, subfaces_ = 0, columns_ = 0, width_ = 0;
+  std::vector<int> column_;            ///< of the subcells: places of their cells among the local ones
   std::vector<SplitStiffness> split_;  ///< of the subcells
   std::vector<double> share_;          ///< of the subcells in every mean gradient
   std::vector<Point> mean_weight_;     ///< of the subfaces in every mean: d<G>_cd / d displacement_c

@@ -1,9 +1,13 @@
 #include "components/poromechanics/mpsa/mpsa.hpp"
 
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "components/poromechanics/mpsa/local_stresses.hpp"
+#include "components/poromechanics/mpsa/tip_correction.hpp"
+#include "components/poromechanics/mpsa/tips_nearby.hpp"
 #include "framework/mesh/interaction_region.hpp"
 #include "framework/mesh/node_stencil.hpp"
 
@@ -58,6 +62,30 @@ struct Coefficients {
   std::vector<int> cell_slots_, outer_slots_;
 };
 
+/// The fields of all tips, for the nodes near them.
+class TipFields {
+ public:
+  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness)
+      : mesh_(mesh), stiffness_(stiffness), tips_(tips_nearby(mesh)) {}
+
+  /// Null where there is none, or the rock is not the tip's.
+  const TipField* at(int node) {
+    if (tips_[node] == none) return nullptr;
+    const auto [found, is_new] = fields_.try_emplace(tips_[node]);
+    if (is_new) found->second = TipField::find(mesh_, tips_[node], stiffness_);
+    if (!found->second) return nullptr;
+    for (const int cell : mesh_.node_cells[node])
+      if (stiffness_[cell] != found->second->rock()) return nullptr;
+    return &*found->second;
+  }
+
+ private:
+  const Mesh& mesh_;
+  const std::vector<Stiffness>& stiffness_;
+  std::vector<int> tips_;
+  std::map<int, std::optional<TipField>> fields_;
+};
+
 }  // namespace
 
 Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus) {
@@ -83,10 +111,13 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
 
   InteractionRegion region;
   LocalStresses local;
+  TipFields tips(mesh, stiffness);
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
     local.solve(mesh, region, node_cells[node], stiffness, conditions);
+    if (const TipField* tip = tips.at(node))
+      local.correct(region, TipCorrection(*tip, mesh, region, node, node_cells[node]));
     int outer_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {
       const int face = region.faces[f];

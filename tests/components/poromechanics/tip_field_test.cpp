@@ -7,6 +7,7 @@
 #include <complex>
 #include <numbers>
 
+#include "components/poromechanics/mpsa/tips_nearby.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::poromechanics {
@@ -54,6 +55,7 @@ struct TipCase {
   double angle;
   int node = none;
   Conditions conditions;
+  std::vector<int> nearby;  ///< nodes next to it
 };
 
 /// A slanted crack on unstructured triangles, seen from its last end.
@@ -63,20 +65,44 @@ TipCase slanted() {
   crack.name = "crack";
   crack.points = {Point(0.3, 0.35), Point(0.65, 0.55)};
   geometry.fractures = {crack};
-  TipCase tip{generate_mesh(geometry, test::unstructured(0.08)), crack.points[1], std::atan2(0.2, 0.35), none, {}};
+  TipCase tip{generate_mesh(geometry, test::unstructured(0.05)), crack.points[1], std::atan2(0.2, 0.35), none, {}, {}};
   for (int n = 0; n < tip.mesh.node_count(); ++n)
     if ((tip.mesh.nodes[n] - tip.tip).norm() < 1e-12) tip.node = n;
+  const std::vector<int> tips = tips_nearby(tip.mesh);
+  for (int n = 0; n < tip.mesh.node_count(); ++n)
+    if (tips[n] == tip.node && tip.node != none) tip.nearby.push_back(n);
   tip.conditions.assign(tip.mesh.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
   for (int f = 0; f < tip.mesh.face_count(); ++f)
     if (test::is_outer(tip.mesh, f)) tip.conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
   return tip;
 }
 
-/// The forces on the faces at the tip that its local problem makes of displacements.
-Vector forces_at_tip(const TipCase& tip, const std::vector<Stiffness>& rock, const Vector& displacement) {
-  std::vector<char> nodes(tip.mesh.node_count(), 0);
-  nodes[tip.node] = 1;
-  return discretize_mpsa(tip.mesh, rock, tip.conditions, nodes).force_displacement * displacement;
+/// What the local problem of a node makes of displacements.
+struct LocalAnswer {
+  Vector force, trace, volume;
+
+  LocalAnswer(const TipCase& tip, int node, const Vector& displacement) {
+    std::vector<char> nodes(tip.mesh.node_count(), 0);
+    nodes[node] = 1;
+    const std::vector<Stiffness> rock(tip.mesh.cell_count(), isotropic_stiffness(lambda, shear));
+    const StressOperators operators = discretize_mpsa(tip.mesh, rock, tip.conditions, nodes);
+    force = operators.force_displacement * displacement;
+    trace = operators.trace_displacement * displacement;
+    volume = operators.volume_displacement * displacement;
+  }
+};
+
+/// The integral of a function of a point over the line from a to b, at one of which it may go with 1 / sqrt(r).
+template <class Function>
+auto integral(const Point& a, const Point& b, const Function& value) {
+  constexpr int count = 2000;
+  auto sum = value(0.5 * (a + b));
+  sum *= 0;
+  for (int i = 0; i < count; ++i) {
+    const double t = (i + 0.5) / count;  // x = 3 t^2 - 2 t^3 is flat at both ends
+    sum += value(a + t * t * (3 - 2 * t) * (b - a)) * (6 * t * (1 - t) / count);
+  }
+  return Point(sum * (b - a).norm());
 }
 
 std::vector<Stiffness> even(const Mesh& mesh) {
@@ -90,23 +116,62 @@ Vector in_cells(const Mesh& mesh, const Function& u) {
   return values;
 }
 
-TEST(TipField, ForcesAroundATipAreExactForBothModes) {
+TEST(TipField, LocalProblemsNearATipAreExactForBothModes) {
   const TipCase tip = slanted();
-  ASSERT_NE(tip.node, none);
+  ASSERT_GT(tip.nearby.size(), 20u);
+  const Mesh& mesh = tip.mesh;
   for (const Complex K : {Complex(1, 0), Complex(0, 1), Complex(0.6, -0.8)}) {
     const Singular field{tip.tip, tip.angle, K};
-    const Vector force =
-        forces_at_tip(tip, even(tip.mesh), in_cells(tip.mesh, [&](const Point& x) { return field.displacement(x); }));
-    int inner = 0;
-    for (const int face : tip.mesh.node_faces[tip.node]) {
-      if (test::is_outer(tip.mesh, face)) continue;
-      ++inner;
-      // Over the half of the face at the tip, where the traction goes with 1 / sqrt(r).
-      const double half = 0.5 * tip.mesh.face_length[face];
-      const Point exact = 2 * half * field.traction(tip.mesh.face_center[face], tip.mesh.face_normal[face]);
-      EXPECT_LT((force.segment<2>(2 * face) - exact).norm(), 1e-10) << face;
+    const Vector u = in_cells(mesh, [&](const Point& x) { return field.displacement(x); });
+    int inner = 0, walls = 0;
+    for (const int node : tip.nearby) {
+      const LocalAnswer answer(tip, node, u);
+      for (const int face : mesh.node_faces[node]) {
+        if (test::is_outer(mesh, face)) {
+          // A point of the wall, a little inside the rock: the function has its cut along the crack.
+          const Point center = mesh.face_center[face] - 1e-14 * mesh.face_normal[face];
+          const Point exact = 0.5 * field.displacement(center);
+          EXPECT_LT((answer.trace.segment<2>(2 * face) - exact).norm(), 1e-8) << face;
+          ++walls;
+          continue;
+        }
+        const Point exact = integral(mesh.nodes[node], mesh.face_center[face],
+                                     [&](const Point& x) { return field.traction(x, mesh.face_normal[face]); });
+        EXPECT_LT((answer.force.segment<2>(2 * face) - exact).norm(), 1e-6) << face << " at " << node;
+        ++inner;
+      }
     }
-    EXPECT_GE(inner, 4);
+    EXPECT_GT(inner, 100);
+    EXPECT_EQ(walls, 2 + 2 * 2 * 3);  // one face a wall at the tip, two at each of three nodes beside
+  }
+}
+
+TEST(TipField, VolumeChangesNearATipAreExactForBothModes) {
+  const TipCase tip = slanted();
+  const Mesh& mesh = tip.mesh;
+  const Singular field{tip.tip, tip.angle, Complex(0.6, -0.8)};
+  const Vector u = in_cells(mesh, [&](const Point& x) { return field.displacement(x); });
+  for (const int node : tip.nearby) {
+    const LocalAnswer answer(tip, node, u);
+    for (const int cell : mesh.node_cells[node]) {
+      std::vector<Point> ends;
+      for (const int face : mesh.cell_faces[cell])
+        if (mesh.face_nodes[face][0] == node || mesh.face_nodes[face][1] == node)
+          ends.push_back(mesh.face_center[face]);
+      ASSERT_EQ(ends.size(), 2u);
+      // What flows out of the subcell, seen from the inside.
+      const Point center = mesh.cell_center[cell];
+      const Point corners[4] = {mesh.nodes[node], ends[0], center, ends[1]};
+      const Point diagonal[2] = {corners[2] - corners[0], corners[3] - corners[1]};
+      const double turn = diagonal[0].x() * diagonal[1].y() > diagonal[0].y() * diagonal[1].x() ? 1 : -1;
+      double exact = 0;
+      for (int i = 0; i < 4; ++i) {
+        const Point a = corners[i], b = corners[(i + 1) % 4];
+        const Point normal = turn * Point(b.y() - a.y(), a.x() - b.x()).normalized();
+        exact += integral(a, b, [&](const Point& x) { return field.displacement(x - 1e-13 * normal); }).dot(normal);
+      }
+      EXPECT_NEAR(answer.volume[cell], exact, 1e-7) << cell << " at " << node;
+    }
   }
 }
 
@@ -119,12 +184,17 @@ TEST(TipField, LinearDisplacementsStayExact) {
   const Tensor strain = (stress - poisson * stress.trace() * Tensor::Identity()) / (2 * shear);
   Tensor turn;
   turn << 0, -0.7, 0.7, 0;
-  const Vector force = forces_at_tip(tip, even(tip.mesh),
-                                     in_cells(tip.mesh, [&](const Point& x) -> Point { return (strain + turn) * x; }));
-  for (const int face : tip.mesh.node_faces[tip.node]) {
-    if (test::is_outer(tip.mesh, face)) continue;
-    const Point exact = 0.5 * tip.mesh.face_length[face] * (stress * tip.mesh.face_normal[face]);
-    EXPECT_LT((force.segment<2>(2 * face) - exact).norm(), 1e-12) << face;
+  const Vector u = in_cells(tip.mesh, [&](const Point& x) -> Point { return (strain + turn) * x; });
+  for (const int node : tip.nearby) {
+    const LocalAnswer answer(tip, node, u);
+    for (const int face : tip.mesh.node_faces[node]) {
+      const Point stretched = 0.5 * (strain + turn) * tip.mesh.face_center[face];
+      const Point force = 0.5 * tip.mesh.face_length[face] * (stress * tip.mesh.face_normal[face]);
+      if (test::is_outer(tip.mesh, face))
+        EXPECT_LT((answer.trace.segment<2>(2 * face) - stretched).norm(), 1e-12) << face;
+      else
+        EXPECT_LT((answer.force.segment<2>(2 * face) - force).norm(), 1e-12) << face;
+    }
   }
 }
 
@@ -133,17 +203,35 @@ TEST(TipField, IsLeftOutWhereTheRockChangesOrIsAnisotropic) {
   std::vector<Stiffness> layered = even(tip.mesh), anisotropic = even(tip.mesh);
   layered[tip.mesh.node_cells[tip.node][0]] *= 2;
   for (Stiffness& stiffness : anisotropic) stiffness(0, 0) *= 2;
-  InteractionRegion region;
-  region.assign(tip.mesh, tip.node);
-  const auto cells = tip.mesh.node_cells[tip.node];
-  EXPECT_TRUE(TipField::find(tip.mesh, region, cells, even(tip.mesh)).has_value());
-  EXPECT_FALSE(TipField::find(tip.mesh, region, cells, layered).has_value());
-  EXPECT_FALSE(TipField::find(tip.mesh, region, cells, anisotropic).has_value());
-  for (int n = 0; n < tip.mesh.node_count(); ++n) {
-    if ((tip.mesh.nodes[n] - tip.tip).norm() < 1e-12 || (tip.mesh.nodes[n] - Point(0.3, 0.35)).norm() < 1e-12) continue;
-    region.assign(tip.mesh, n);
-    EXPECT_FALSE(TipField::find(tip.mesh, region, tip.mesh.node_cells[n], even(tip.mesh)).has_value()) << n;
+  EXPECT_TRUE(TipField::find(tip.mesh, tip.node, even(tip.mesh)).has_value());
+  EXPECT_FALSE(TipField::find(tip.mesh, tip.node, layered).has_value());
+  EXPECT_FALSE(TipField::find(tip.mesh, tip.node, anisotropic).has_value());
+}
+
+TEST(TipsNearby, AreWithinThreeEdgesAndNotAcrossAKink) {
+  Geometry geometry = test::box(1, 1);
+  FractureGeometry crack;
+  crack.name = "crack";
+  crack.points = {Point(0.3, 0.4), Point(0.5, 0.4), Point(0.6, 0.5)};
+  geometry.fractures = {crack};
+  const Mesh mesh = generate_mesh(geometry, test::unstructured(0.05));
+  const std::vector<int> tips = tips_nearby(mesh);
+  int straight = 0, bent = 0;
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    const double first = (mesh.nodes[n] - crack.points[0]).norm(), last = (mesh.nodes[n] - crack.points[2]).norm();
+    const double kink = (mesh.nodes[n] - crack.points[1]).norm();
+    if (tips[n] == none) {
+      EXPECT_GT(std::min(first, last), kink < 0.06 ? 0.03 : 0.1) << n;
+      continue;
+    }
+    const Point& tip = mesh.nodes[tips[n]];
+    EXPECT_LT((tip - crack.points[first < last ? 0 : 2]).norm(), 1e-12) << n;
+    EXPECT_LT(std::min(first, last), 3 * 0.075) << n;
+    EXPECT_GT(kink, 1e-12) << "the kink itself has two directions";
+    (first < last ? straight : bent) += 1;
   }
+  EXPECT_GT(straight, 25);
+  EXPECT_GT(bent, 20);
 }
 
 }  // namespace

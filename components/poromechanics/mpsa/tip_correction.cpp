@@ -1,0 +1,64 @@
+#include "components/poromechanics/mpsa/tip_correction.hpp"
+
+#include <algorithm>
+
+namespace sprekk::poromechanics {
+namespace {
+
+bool is_wall_at(const InteractionRegion& region) {
+  for (int f = 0; f < region.subface_count(); ++f)
+    if (!region.is_inner(f)) return true;
+  return false;
+}
+
+}  // namespace
+
+TipCorrection::TipCorrection(const TipField& field, const Mesh& mesh, const InteractionRegion& region, int node,
+                             std::span<const int> cells)
+    : field_(field), mesh_(mesh), region_(region), node_(mesh.nodes[node]) {
+  const bool is_tip = std::ranges::equal(mesh.node_cells[node], field.cells());
+  // The cells at a wall are all on one side of the crack, as is a node beside it.
+  const Point& beside = is_wall_at(region) ? mesh.cell_center[region.subcells[0].cell] : node_;
+  side_ = is_tip ? 0 : field.side_of(beside);
+  const auto column = [&](int cell) {
+    return 2 * static_cast<int>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin());
+  };
+  for (const Subcell& subcell : region.subcells) {
+    own_.push_back(column(subcell.cell));
+    modes_.push_back(field.displacement(mesh.cell_center[subcell.cell], side_));
+  }
+  for (const int cell : field.cells()) at_tip_.push_back(column(cell));
+}
+
+void TipCorrection::of_force(double* coefficients, int subface, int component) const {
+  const int face = region_.faces[subface];
+  const Point& center = mesh_.face_center[face];
+  const Point along = center - node_;
+  const double sign = Point(-along.y(), along.x()).dot(mesh_.face_normal[face]) > 0 ? 1 : -1;
+  const TipField::Modes force = field_.force(center, side_) - field_.force(node_, side_);
+  add_missing(coefficients, sign * force.row(component));
+}
+
+void TipCorrection::of_displacement(double* coefficients, int subface, int component) const {
+  const int face = region_.faces[subface];
+  const int side = field_.side_of(mesh_.cell_center[mesh_.face_cells[face][0]]);
+  add_missing(coefficients, field_.displacement(mesh_.face_center[face], side).row(component));
+}
+
+void TipCorrection::of_volume_change(double* coefficients, int subcell) const {
+  const Subcell& part = region_.subcells[subcell];
+  const auto face_center = [&](int i) { return mesh_.face_center[region_.faces[part.subfaces[i]]]; };
+  const Point& center = mesh_.cell_center[part.cell];
+  const int side = side_ == 0 ? field_.side_of(center) : side_;  // a cell at the tip may have a wall as a face
+  add_missing(coefficients, field_.volume_change({node_, face_center(0), center, face_center(1)}, side));
+}
+
+void TipCorrection::add_missing(double* coefficients, const Eigen::RowVector2d& exact) const {
+  Eigen::RowVector2d missing = exact;
+  for (std::size_t k = 0; k < own_.size(); ++k)
+    for (int c = 0; c < 2; ++c) missing -= coefficients[own_[k] + c] * modes_[k].row(c);
+  for (std::size_t k = 0; k < at_tip_.size(); ++k)
+    for (int c = 0; c < 2; ++c) coefficients[at_tip_[k] + c] += missing.dot(field_.share().col(2 * k + c));
+}
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,42 @@
+// What a local problem misses of the field at the tip of a crack.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "components/poromechanics/mpsa/tip_field.hpp"
+#include "framework/mesh/interaction_region.hpp"
+
+namespace sprekk::poromechanics {
+
+/// A local problem with linear displacements takes the traction ahead of a tip from a place half a cell away, where it
+/// is half of its mean: the crack behaves like a longer one, slipping by 0.4 edge lengths at each end, and the
+/// tractions of walls nearby zigzag. So to what a local problem returns is added what it misses of the field at the
+/// tip, whose amount the displacements of the cells at the tip tell. Linear displacements contain none of it and stay
+/// exact.
+class TipCorrection {
+ public:
+  /// `cells`: the local ones, which the coefficients belong to, ascending; the tip's are among them.
+  TipCorrection(const TipField& field, const Mesh& mesh, const InteractionRegion& region, int node,
+                std::span<const int> cells);
+
+  // To the coefficients of a quantity with respect to the displacements (x, y) of the cells these add what makes it
+  // exact for the field.
+  void of_force(double* coefficients, int subface, int component) const;
+  void of_displacement(double* coefficients, int subface, int component) const;  ///< on walls
+  void of_volume_change(double* coefficients, int subcell) const;
+
+ private:
+  void add_missing(double* coefficients, const Eigen::RowVector2d& exact) const;
+
+  const TipField& field_;
+  const Mesh& mesh_;
+  const InteractionRegion& region_;
+  Point node_;
+  int side_;                            ///< of the region; 0 at the tip itself
+  std::vector<int> own_, at_tip_;       ///< columns (of x) of the region's cells, and of the tip's
+  std::vector<TipField::Modes> modes_;  ///< of the region's cells: their displacements
+};
+
+}  // namespace sprekk::poromechanics
