@@ -51,6 +51,12 @@ class WallTraction : public Coupler {
 
   void evaluate_data(const StepTime& step) override { alpha_.evaluate(step); }
 
+  std::vector<Dependence> dependences() const override {
+    if (!contact_) return {};
+    return {{contact_->jump().spec().owner, rock_.wall_traction().spec().owner,
+             "while the rock is held so is the jump, and walls that stick may then have any traction"}};
+  }
+
   void begin_step(const StepTime&) override {
     // How a cell's own traction changes its own jump.
     const Field& traction = rock_.wall_traction();

@@ -166,7 +166,7 @@ def steady(kind, structured):
 def crack(scene, component, peak):
     def measure(size):
         # The cells around the crack shrink with those on it.
-        grid, fractures = run(scene, {"mesh": f"{{size: 8 m, fracture_size: {size} m, growth: {2 * size}}}"})
+        grid, fractures = run(scene, {"mesh": f"{{size: 32 m, fracture_size: {size} m, growth: {2 * size}}}"})
         centres, lengths = fractures.centres_and_sizes()
         x = np.linalg.norm(centres, axis=1)
         jump, exact = abs(data(fractures, f"contact.jump.{component}")), peak * sqrt(1 - x**2)

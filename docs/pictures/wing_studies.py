@@ -17,6 +17,7 @@ sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tools"))
 import results
+from growth_times import time_to
 from paths import apart
 
 STUDIES = {  # the finest run of each
@@ -36,9 +37,7 @@ class Run:
         self.path = line[np.argsort(line[:, 0])]  # x grows along the fracture and both wings
 
     def time_to(self, length):
-        after = np.flatnonzero(self.length >= length)
-        return np.interp(length, self.length[after[0] - 1:after[0] + 1],
-                         self.hours[after[0] - 1:after[0] + 1]) if len(after) else np.nan
+        return time_to(length, self.hours, self.length)
 
 
 figure, axes = plt.subplots(2, len(STUDIES), figsize=(14, 7), layout="constrained", height_ratios=[1.3, 1])

@@ -29,6 +29,12 @@ struct Quantity {
   double value;
 };
 
+/// The equations of one component that have no solution while another's unknowns are held.
+struct Dependence {
+  std::string component, on;  ///< names in the scene
+  std::string because;
+};
+
 /// The diagonals that stabilize a split (see SolveStep): residual(row) += diagonal · (value − value at the solve's
 /// start).
 using Stabilization = std::map<const Field*, Vector>;
@@ -74,6 +80,8 @@ class Part {
   virtual std::vector<std::string> stabilizations() const { return {}; }
   /// Adds the diagonals of a named stabilization to the fields that it knows how to stabilize.
   virtual void stabilize(const std::string& /*scheme*/, Stabilization&) const {}
+  /// Which components cannot be in a solve without which others.
+  virtual std::vector<Dependence> dependences() const { return {}; }
   /// Says what holds the level of potentials and what does not.
   virtual void relate_levels(Levels&) const {}
   /// Times (s) that a step must end at, because data jump there.

@@ -15,6 +15,7 @@
 #include "framework/parallel/parallel.hpp"
 #include "framework/report/report.hpp"
 #include "framework/scene/simulation.hpp"
+#include "framework/scene/stop_condition.hpp"
 
 namespace sprekk {
 
@@ -38,6 +39,7 @@ void print_scene(const Scene& scene) {
 
 void check_scene(const Scene& scene) {
   const Model model(scene);
+  StopCondition(scene, model.quantities());
   if (!parallel::is_root()) return;
   for (const std::string& note : scene.notes) std::cerr << "note: " << note << "\n";
   std::cout << scene.name << ": ok, " << model.mesh().cell_count() << " cells, " << model.mesh().fracture_cell_count()

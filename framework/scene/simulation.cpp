@@ -20,6 +20,7 @@
 #include "framework/scene/interrupt.hpp"
 #include "framework/scene/mesh_growth.hpp"
 #include "framework/scene/run_output.hpp"
+#include "framework/scene/stop_condition.hpp"
 #include "framework/schedule/relative_change.hpp"
 
 namespace sprekk {
@@ -76,8 +77,6 @@ class Run {
   void retire_counts(const Model& model);  ///< adds what the model has counted to the totals
   bool follows_growth();                   ///< false when the mesh could not
   bool fails_with_growth();
-  void resolve_stop();
-  bool reaches_stop(const std::vector<Quantity>& quantities) const;
   bool stays_as_it_is(const StepTime& step) const;  ///< of the state that is about to be accepted
   ExitCode loop();
   bool advance();  ///< one accepted step; false with reason_ when none is possible
@@ -88,6 +87,7 @@ class Run {
   RunOutput output_;
   std::optional<Checkpoint> checkpoint_;  ///< that the run goes on from, until it has been taken over
   std::unique_ptr<Model> model_;
+  StopCondition stop_;
   std::vector<double> output_times_;
   StepController controller_;
   MeshGrowth growth_;
@@ -98,7 +98,6 @@ class Run {
   long newton_iterations_ = 0, rejected_ = 0;
   int restored_steps_ = 0;
   bool is_stopped_ = false;
-  double stop_value_ = 0;  ///< in the unit of TimeOptions::stop
   LinearCounts linear_counts_;
 };
 
@@ -143,13 +142,13 @@ Run::Run(const Scene& scene, const RunOptions& options)
       output_(choose_folder(scene, options)),
       checkpoint_(read_if_given(scene, options)),
       model_(make_model(scene, checkpoint_, log())),
+      stop_(scene, model_->quantities()),
       output_times_(output_times(scene)),
       controller_(scene.time, targets(output_times_, model_->switch_times())),
       growth_(model_, controller_, log(), [this](const Model& model) { retire_counts(model); }),
       fingerprint_(scene_fingerprint(scene)),
       began_(now()),
       processor_at_first_step_(processor_now()) {
-  if (scene.time.has_stop) resolve_stop();
   if (checkpoint_) {
     restore();
     require_columns();
@@ -211,26 +210,6 @@ void Run::record_start() {
   record_.counters["unknowns"] = unknowns;
 }
 
-void Run::resolve_stop() {
-  const TimeOptions::Stop& stop = model_->scene().time.stop;
-  std::vector<std::string> names;
-  for (const Quantity& quantity : model_->quantities()) {
-    names.push_back(quantity.name);
-    if (quantity.name == stop.of) {
-      stop_value_ = parse_quantity(stop.reaches, quantity.unit, stop.origin, "reaches");
-      return;
-    }
-  }
-  throw unknown_name(stop.origin, "quantity of history.csv", stop.of, names);
-}
-
-bool Run::reaches_stop(const std::vector<Quantity>& quantities) const {
-  const TimeOptions& time = model_->scene().time;
-  return time.has_stop && std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& quantity) {
-           return quantity.name == time.stop.of && quantity.value >= stop_value_;
-         });
-}
-
 bool Run::stays_as_it_is(const StepTime& step) const {
   const TimeOptions& time = model_->scene().time;
   if (!time.stop_when_steady) return false;
@@ -280,7 +259,7 @@ bool Run::advance() {
       // Both before the step is accepted: which cells slip shows in what changed since the last accepted step.
       const std::vector<Quantity> quantities = model_->quantities();
       const bool is_steady = stays_as_it_is(step);
-      is_stopped_ = is_steady || reaches_stop(quantities);
+      is_stopped_ = is_steady || stop_.is_reached(quantities);
       if (is_steady) record_.results["steady_since[s]"] = step.start;
       const bool writes_fields = is_stopped_ || contains(output_times_, step.end, 1e-9 * model_->scene().time.step);
       const std::vector<OutputField> fields = writes_fields ? model_->output() : std::vector<OutputField>();

@@ -43,6 +43,7 @@ ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
   options.linear = reading.linear;
   const Node* stabilize = node.find("stabilize");
   options.stabilization_origin = stabilize ? stabilize->origin : node.origin;
+  options.origin = node.find("solve")->origin;
   options.spec().read(node, reading.read);
   check_components(options.components, node, reading);
   if (options.stabilization != "none" && !reading.is_iterated)

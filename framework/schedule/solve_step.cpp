@@ -16,6 +16,17 @@ void require_offered(const SolveOptions& options, const std::vector<Part*>& part
     throw unknown_name(options.stabilization_origin, "stabilization", options.stabilization, offered);
 }
 
+void require_together(const SolveOptions& options, const std::vector<Part*>& parts) {
+  const auto is_solved = [&](const std::string& name) {
+    return std::find(options.components.begin(), options.components.end(), name) != options.components.end();
+  };
+  for (const Part* part : parts)
+    for (const Dependence& dependence : part->dependences())
+      if (is_solved(dependence.component) && !is_solved(dependence.on))
+        throw InputError(options.origin, "'" + dependence.component + "' is solved without '" + dependence.on + "'",
+                         dependence.because, "name both in one 'solve'");
+}
+
 }  // namespace
 
 Spec newton_spec(NewtonOptions& options) {
@@ -71,6 +82,7 @@ SolveStep::SolveStep(const SolveOptions& options, const ScheduleContext& context
       fields_(context.solved_fields(options.components)),
       newton_(context.mesh, fields_, context.parts, options.linear, options.newton, describe(), context.log) {
   require_offered(options, context.parts);
+  require_together(options, context.parts);
 }
 
 std::string SolveStep::describe() const {

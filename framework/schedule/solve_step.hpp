@@ -8,6 +8,7 @@ namespace sprekk {
 
 struct SolveOptions {
   std::vector<std::string> components;
+  Origin origin;  ///< of their names
   std::string stabilization = "none";
   Origin stabilization_origin;
   NewtonOptions newton;  ///< the scene's, with what the step overrides
@@ -18,7 +19,8 @@ struct SolveOptions {
 
 class SolveStep : public ScheduleStep {
  public:
-  /// Throws InputError for a stabilization that no part of the scene offers.
+  /// Throws InputError for a stabilization that no part of the scene offers, and where a component is missing without
+  /// which another's equations have no solution.
   SolveStep(const SolveOptions& options, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {fields_.begin(), fields_.end()}; }

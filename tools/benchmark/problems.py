@@ -92,7 +92,7 @@ def sizes(*values):
 
 def graded(*values):
     """The grading is refined with the crack, so that all of the error falls."""
-    return [(f"{v} m", {"mesh.size": "8 m", "mesh.fracture_size": f"{v} m", "mesh.growth": 2 * v}) for v in values]
+    return [(f"{v} m", {"mesh.size": "32 m", "mesh.fracture_size": f"{v} m", "mesh.growth": 2 * v}) for v in values]
 
 
 PROBLEMS = {

@@ -16,6 +16,7 @@ import numpy as np
 
 import closed_forms as exact
 from cases import run_scene
+from growth_times import time_to
 from paths import apart
 from run_results import ROOT, RunResults
 
@@ -99,16 +100,14 @@ LENGTHS = (0.1, 0.25)
 
 
 def wings_measured(folder):
-    """Hours at which the first tip is as long, and the path."""
+    """Hours at which the first tip is critical with a length, and the path."""
     run = RunResults(folder)
-    length = np.maximum(run.history["tips.main_first.length"], run.history["tips.main_last.length"])
     measured = {}
     for wanted in LENGTHS:
-        after = int(np.argmax(length >= wanted))
-        if not length[after] >= wanted:
+        times = [time_to(wanted, run.history["time"], run.history[f"tips.{tip}.length"]) for tip in ("main_first", "main_last")]
+        if np.isnan(times).all():
             raise RuntimeError(f"no wing became {wanted} m long")
-        pair = slice(after - 1, after + 1)
-        measured[f"hours to {wanted} m"] = float(np.interp(wanted, length[pair], run.history["time"][pair]) / HOUR)
+        measured[f"hours to {wanted} m"] = float(np.nanmin(times) / HOUR)
     points = run.fractures.points[:, :2]
     measured["path"] = points[np.argsort(points[:, 0])].tolist()  # x grows along the fracture and both wings
     return measured

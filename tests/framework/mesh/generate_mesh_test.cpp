@@ -1,6 +1,6 @@
 #include "framework/mesh/generate_mesh.hpp"
 
-#include <chrono>
+#include <ctime>
 
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/mesh_quality.hpp"
@@ -161,16 +161,16 @@ TEST(GenerateMesh, TheModelBeforeLeavesNoTrace) {
 }
 
 TEST(GenerateMesh, AHundredThousandTrianglesTakeSeconds) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+  // Processor time, so that other programs do not count.
+  const auto seconds_since = [](std::clock_t start) {
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   };
-  const auto start = Clock::now();
+  const std::clock_t start = std::clock();
   const Mesh mesh = generate_mesh(paper_geometry(), {.size = 0.0096, .fracture_size = 0.005});
   EXPECT_LT(seconds_since(start), 8);
   EXPECT_GT(mesh.cell_count(), 95000);
   const RawMesh raw = to_raw_mesh(mesh);
-  const auto building = Clock::now();
+  const std::clock_t building = std::clock();
   build_mesh(raw);
   EXPECT_LT(seconds_since(building), 0.5);
 }

@@ -1,0 +1,24 @@
+// The end of a run at a value of one of its quantities.
+#pragma once
+
+#include <vector>
+
+#include "framework/assembly/part.hpp"
+#include "framework/scene/scene.hpp"
+
+namespace sprekk {
+
+/// `stop:` of `time:`. Never reached in a scene that has none.
+class StopCondition {
+ public:
+  /// `quantities`: of the scene. Throws InputError when the named one is not among them, or the value has another unit.
+  StopCondition(const Scene& scene, const std::vector<Quantity>& quantities);
+
+  bool is_reached(const std::vector<Quantity>& quantities) const;
+
+ private:
+  std::string name_;
+  double value_ = 0;  ///< in the quantity's unit
+};
+
+}  // namespace sprekk
