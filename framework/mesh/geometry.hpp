@@ -59,7 +59,7 @@ struct MeshOptions {
   /// Unstructured: a gap between a fracture and another line has edges of its width over this where that is shorter
   /// than what else is asked for; 0 leaves gaps alone. With 0.5 smallest angles stay above 19 degrees.
   double gap_edges = 0.5;
-  double gap_length = 10;  ///< walls side by side leave gaps alone that are longer than so many widths
+  double gap_length = 2;  ///< walls side by side leave gaps alone that are longer than so many widths
   std::optional<double> gap_size = std::nullopt;  ///< gaps refine no further, m; default a 500th of the shortest size
   std::array<int, 2> cells = {0, 0};              ///< structured: rectangles along x and y; 0 means as `size` asks
   double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge there, 0 to 0.4
