@@ -1,10 +1,8 @@
 #include "components/poromechanics/rock.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "components/poromechanics/check_conditions.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -37,7 +35,8 @@ Rock::Rock(const ComponentContext& context, const Options& options)
                                                .unit = "m",
                                                .doc = "Displacement of the rock",
                                                .smoothing = "elasticity"})),
-      origin_(context.origin) {
+      stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
+  check_conditions(options_, mesh_, context.origin);
   if (mesh_.wall_count() > 0)
     wall_traction_ = &context.fields.add(mesh_, {.owner = context.name,
                                                  .name = "wall_traction",
@@ -46,86 +45,6 @@ Rock::Rock(const ComponentContext& context, const Options& options)
                                                  .role = Role::input,
                                                  .unit = "Pa",
                                                  .doc = "Traction on the plus wall, normal and tangential (Eq. 4)"});
-  check_sides();
-  check_held(context.origin);
-  const std::vector<Place> places = cell_places(mesh_);
-  for (const Data* data : properties()) moduli_.emplace_back(*data, places, context.start_time);
-  if (options_.is_anisotropic) {
-    bulk_modulus_ = Property(options_.bulk_modulus.value_or(0), places, context.start_time);
-    moduli_.resize(6);
-  }
-  for (const Data* data : properties()) properties_change_ = properties_change_ || data->depends_on_time();
-  use_properties();
-}
-
-const SideCondition* Rock::condition_of(int face) const {
-  if (mesh_.face_cells[face][1] != none || mesh_.face_side[face] == none) return nullptr;
-  const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[face]]);
-  return found == options_.boundary.end() ? nullptr : &found->second;
-}
-
-void Rock::check_sides() const {
-  for (const auto& [side, condition] : options_.boundary)
-    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
-      throw unknown_name(condition.origin, "side of the boundary", side, mesh_.side_names);
-}
-
-void Rock::check_held(const Origin& where) const {
-  // How prescribed displacements resist the rigid motions: along x, along y, and turning about the middle of the rock.
-  Point middle = Point::Zero();
-  for (const Point& center : mesh_.cell_center) middle += center / mesh_.cell_count();
-  double size = 0;
-  for (const Point& center : mesh_.face_center) size = std::max(size, (center - middle).norm());
-  Eigen::Matrix3d resistance = Eigen::Matrix3d::Zero();
-  for (int f = 0; f < mesh_.face_count(); ++f) {
-    const SideCondition* condition = condition_of(f);
-    if (!condition) continue;
-    const Point arm = (mesh_.face_center[f] - middle) / size;
-    const Eigen::Vector3d motion[2] = {{1, 0, -arm[1]}, {0, 1, arm[0]}};
-    for (int k = 0; k < 2; ++k)
-      if (condition->displacement_of(k)) resistance += motion[k] * motion[k].transpose();
-  }
-  const std::string add =
-      "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to 'boundary:'";
-  for (int k = 0; k < 2; ++k)
-    if (resistance(k, k) == 0)
-      throw InputError(where, std::string("nothing holds the rock along ") + "xy"[k],
-                       std::string("no side has a displacement in ") + "xy"[k] + ", so that it may move freely", add);
-  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(resistance).eigenvalues();
-  if (eigenvalues[0] <= 1e-10 * eigenvalues[2])
-    throw InputError(where, "nothing keeps the rock from turning",
-                     "the displacements of its sides allow a small rotation about a point", add);
-}
-
-Stiffness Rock::stiffness_of(int c) const {
-  if (!options_.is_anisotropic) {
-    const double young = moduli_[0][c], poisson = moduli_[1][c];
-    return isotropic_stiffness(young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson)));
-  }
-  const double xxyy = moduli_[3][c], xxxy = moduli_[4][c], yyxy = moduli_[5][c];
-  Stiffness stiffness;
-  stiffness << moduli_[0][c], xxyy, xxxy, xxyy, moduli_[1][c], yyxy, xxxy, yyxy, moduli_[2][c];
-  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness).eigenvalues();
-  if (eigenvalues[0] <= 0)
-    throw DataError(InputError(origin_, "the stiffness of component '" + name() + "' is not positive definite",
-                               "the rock would give way by itself; its smallest eigenvalue is " +
-                                   fmt::format("{:.3g} Pa", eigenvalues[0]),
-                               "raise its diagonal entries, or lower the others")
-                        .what());
-  return stiffness;
-}
-
-void Rock::use_properties() {
-  std::uint64_t version = 0;
-  for (const Property& modulus : moduli_) version += modulus.version();
-  if (version == stiffness_version_) return;
-  stiffness_version_ = version;
-  stiffness_.resize(mesh_.cell_count());
-  for (int c = 0; c < mesh_.cell_count(); ++c) stiffness_[c] = stiffness_of(c);
-  if (options_.is_anisotropic) return;
-  Vector bulk_modulus(mesh_.cell_count());
-  for (int c = 0; c < mesh_.cell_count(); ++c) bulk_modulus[c] = moduli_[0][c] / (3 * (1 - 2 * moduli_[1][c]));
-  bulk_modulus_.set(std::move(bulk_modulus));
 }
 
 void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
@@ -167,7 +86,7 @@ void Rock::find_conditions() {
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) continue;
     conditions_[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
-    const SideCondition* condition = condition_of(f);
+    const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
     for (int k = 0; k < 2; ++k)
       if (condition->displacement_of(k)) conditions_[f][k] = MechanicalCondition::displacement;
@@ -175,7 +94,7 @@ void Rock::find_conditions() {
 }
 
 bool Rock::is_discretized() const {
-  return discretized_mesh_ == mesh_.version && discretized_stiffness_ == stiffness_version_;
+  return discretized_mesh_ == mesh_.version && discretized_stiffness_ == stiffness_.version();
 }
 
 void Rock::discretize() {
@@ -186,7 +105,7 @@ void Rock::discretize() {
   const std::vector<char> nodes = nodes_to_discretize(mesh_);
   discretized_cells_ += mesh_.cell_count();
   discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
-  operators_ = discretize_mpsa(mesh_, stiffness_, conditions_, nodes);
+  operators_ = discretize_mpsa(mesh_, stiffness_.of_cells(), conditions_, nodes);
   use_operators();
 }
 
@@ -195,11 +114,11 @@ void Rock::carry_over(const Part& part, const MeshChange& change) {
   // With several processes the change may have given cells to others.
   if (parallel::size() > 1 || !before.is_discretized()) return;
   find_conditions();
-  discretize_from({before.mesh_, before.stiffness_, before.conditions_}, before.operators_, change);
+  discretize_from({before.mesh_, before.stiffness_.of_cells(), before.conditions_}, before.operators_, change);
 }
 
 void Rock::discretize_from(const StressInputs& before, const StressOperators& operators, const MeshChange& change) {
-  Rediscretized result = rediscretize_mpsa(before, operators, {mesh_, stiffness_, conditions_}, change);
+  Rediscretized result = rediscretize_mpsa(before, operators, {mesh_, stiffness_.of_cells(), conditions_}, change);
   discretized_cells_ += result.cells;
   discretized_regions_ += result.regions;
   operators_ = std::move(result.operators);
@@ -208,8 +127,8 @@ void Rock::discretize_from(const StressInputs& before, const StressOperators& op
 
 void Rock::use_operators() {
   discretized_mesh_ = mesh_.version;
-  discretized_stiffness_ = stiffness_version_;
-  if (properties_change_ && parallel::size() == 1) stiffness_of_operators_ = stiffness_;
+  discretized_stiffness_ = stiffness_.version();
+  if (stiffness_.changes() && parallel::size() == 1) stiffness_of_operators_ = stiffness_.of_cells();
   ++discretizations_;
   boundary_applied_ = false;
   const int rank = parallel::rank();
@@ -257,7 +176,7 @@ Point Rock::initial_traction(int face, const Point& normal) const {
 bool Rock::depends_on_time() const {
   return std::any_of(options_.boundary.begin(), options_.boundary.end(),
                      [](const auto& side) { return side.second.depends_on_time(); }) ||
-         properties_change_ || options_.body_force.depends_on_time() || options_.rock_density.depends_on_time() ||
+         stiffness_.changes() || options_.body_force.depends_on_time() || options_.rock_density.depends_on_time() ||
          options_.gravity.depends_on_time();
 }
 
@@ -267,11 +186,7 @@ void Rock::evaluate_data(const StepTime& step) {
   data_evaluated_ = true;
   evaluated_for_ = step;
   boundary_applied_ = false;
-  if (properties_change_) {
-    for (Property& modulus : moduli_) modulus.evaluate(step);
-    bulk_modulus_.evaluate(step);
-    use_properties();
-  }
+  stiffness_.evaluate(step);
 
   boundary_values_ = Vector::Zero(2 * mesh_.face_count());
   initial_forces_ = Vector::Zero(2 * mesh_.face_count());
@@ -282,7 +197,7 @@ void Rock::evaluate_data(const StepTime& step) {
     if (mesh_.face_cells[f][1] != none) continue;
     // What tractions prescribe is the total; the stress that deformation makes is the total less the initial one.
     boundary_values_.segment<2>(2 * f) = -length * initial;
-    const SideCondition* condition = condition_of(f);
+    const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
     const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
     const Point traction = condition->traction_in(step, place, mesh_.face_normal[f]);
@@ -374,29 +289,18 @@ Eigen::Vector3d Rock::initial_stress(int cell, const Point& x) const {
 
 std::optional<LameParameters> Rock::stiffness(int cell) const {
   if (options_.is_anisotropic) return std::nullopt;
-  return LameParameters{stiffness_[cell](0, 1), stiffness_[cell](2, 2)};
+  const Stiffness& stiffness = stiffness_.of_cells()[cell];
+  return LameParameters{stiffness(0, 1), stiffness(2, 2)};
 }
 
 std::uint64_t Rock::properties_version() const {
-  std::uint64_t version = stiffness_version_;
+  std::uint64_t version = stiffness_.version();
   for (const Load& load : loads_) version += load.alpha_version;
   return version;
 }
 
-std::vector<const Data*> Rock::properties() const {
-  std::vector<const Data*> data;
-  if (options_.is_anisotropic) {
-    const AnisotropicStiffness& s = options_.stiffness;
-    data = {&s.xxxx, &s.yyyy, &s.xyxy, &s.xxyy, &s.xxxy, &s.yyxy};
-    if (options_.bulk_modulus) data.push_back(&*options_.bulk_modulus);
-  } else {
-    data = {&*options_.young_modulus, &*options_.poisson_ratio};
-  }
-  return data;
-}
-
 std::vector<double> Rock::switch_times() const {
-  std::vector<const Data*> data = properties();
+  std::vector<const Data*> data = stiffness_.data();
   for (const VectorData* vector : {&options_.body_force, &options_.gravity})
     for (const Data& component : vector->component) data.push_back(&component);
   data.push_back(&options_.rock_density);

@@ -9,6 +9,7 @@
 #include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "components/poromechanics/options.hpp"
+#include "components/poromechanics/rock_stiffness.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::poromechanics {
@@ -39,7 +40,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) override;
   const LinearExpression& volume_change() const override { return volume_change_; }
   void change_alpha(const Field& pressure, const Vector& alpha) override;
-  const Property& bulk_modulus() const override { return bulk_modulus_; }
+  const Property& bulk_modulus() const override { return stiffness_.bulk_modulus(); }
   Field& wall_traction() override { return *wall_traction_; }
   const LinearExpression& displacement_jump() const override { return jump_; }
 
@@ -61,12 +62,6 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
     std::uint64_t alpha_version = 1, used_version = 0;
   };
 
-  void check_sides() const;
-  void check_held(const Origin& where) const;
-  std::vector<const Data*> properties() const;
-  /// What follows from properties that have changed.
-  void use_properties();
-  Stiffness stiffness_of(int cell) const;
   bool is_discretized() const;  ///< on this mesh, with this stiffness
   void discretize();
   /// With what stays of the operators that were made for `before`.
@@ -76,7 +71,6 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void use_operators();
   void use_loads();
   void map_walls();
-  const SideCondition* condition_of(int face) const;  ///< nullptr where nothing is prescribed
   bool depends_on_time() const;
   void apply_boundary();
   Point initial_traction(int face, const Point& normal) const;
@@ -85,16 +79,11 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   Options options_;
   Field& displacement_;
   Field* wall_traction_ = nullptr;  ///< exists with fractures only
-  Origin origin_;
-  /// Young's modulus and Poisson's ratio, or the entries of AnisotropicStiffness.
-  std::vector<Property> moduli_;
-  Property bulk_modulus_;
-  bool properties_change_ = false;
+  RockStiffness stiffness_;
   std::vector<Load> loads_;
 
-  std::vector<Stiffness> stiffness_;               ///< one a cell
   std::vector<Stiffness> stiffness_of_operators_;  ///< kept of properties that change, in one process
-  std::uint64_t stiffness_version_ = 0, discretized_mesh_ = 0, discretized_stiffness_ = 0;
+  std::uint64_t discretized_mesh_ = 0, discretized_stiffness_ = 0;
   StepTime evaluated_for_;
   bool data_evaluated_ = false, boundary_applied_ = false;
   long discretizations_ = 0, discretized_cells_ = 0, discretized_regions_ = 0;

@@ -1,0 +1,17 @@
+// Whether what is prescribed on the sides of the rock makes sense.
+#pragma once
+
+#include "components/poromechanics/options.hpp"
+#include "framework/config/input_error.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::poromechanics {
+
+/// What is prescribed on a face, or nullptr.
+const SideCondition* condition_of(const Options& options, const Mesh& mesh, int face);
+
+/// Throws InputError for sides that do not exist, and when the displacements that are prescribed let the rock move as a
+/// rigid body. `where`: of the component.
+void check_conditions(const Options& options, const Mesh& mesh, const Origin& where);
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,71 @@
+#include "components/poromechanics/rock_stiffness.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <utility>
+
+namespace sprekk::poromechanics {
+
+RockStiffness::RockStiffness(const Options& options, const Mesh& mesh, double start_time, std::string component,
+                             Origin origin)
+    : options_(options), component_(std::move(component)), origin_(std::move(origin)), stiffness_(mesh.cell_count()) {
+  const std::vector<Place> places = cell_places(mesh);
+  for (const Data* data : data()) {
+    moduli_.emplace_back(*data, places, start_time);
+    changes_ = changes_ || data->depends_on_time();
+  }
+  if (options_.is_anisotropic) {
+    bulk_modulus_ = Property(options_.bulk_modulus.value_or(0), places, start_time);
+    moduli_.resize(6);
+  }
+  compute();
+}
+
+void RockStiffness::evaluate(const StepTime& step) {
+  if (!changes_) return;
+  for (Property& modulus : moduli_) modulus.evaluate(step);
+  bulk_modulus_.evaluate(step);
+  compute();
+}
+
+void RockStiffness::compute() {
+  std::uint64_t version = 0;
+  for (const Property& modulus : moduli_) version += modulus.version();
+  if (version == version_) return;
+  version_ = version;
+  const int cells = static_cast<int>(stiffness_.size());
+  for (int c = 0; c < cells; ++c) stiffness_[c] = at(c);
+  if (options_.is_anisotropic) return;
+  Vector bulk_modulus(cells);
+  for (int c = 0; c < cells; ++c) bulk_modulus[c] = moduli_[0][c] / (3 * (1 - 2 * moduli_[1][c]));
+  bulk_modulus_.set(std::move(bulk_modulus));
+}
+
+Stiffness RockStiffness::at(int c) const {
+  if (!options_.is_anisotropic) {
+    const double young = moduli_[0][c], poisson = moduli_[1][c];
+    return isotropic_stiffness(young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson)));
+  }
+  const double xxyy = moduli_[3][c], xxxy = moduli_[4][c], yyxy = moduli_[5][c];
+  Stiffness stiffness;
+  stiffness << moduli_[0][c], xxyy, xxxy, xxyy, moduli_[1][c], yyxy, xxxy, yyxy, moduli_[2][c];
+  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness).eigenvalues();
+  if (eigenvalues[0] <= 0)
+    throw DataError(InputError(origin_, "the stiffness of component '" + component_ + "' is not positive definite",
+                               "the rock would give way by itself; its smallest eigenvalue is " +
+                                   fmt::format("{:.3g} Pa", eigenvalues[0]),
+                               "raise its diagonal entries, or lower the others")
+                        .what());
+  return stiffness;
+}
+
+std::vector<const Data*> RockStiffness::data() const {
+  if (!options_.is_anisotropic) return {&*options_.young_modulus, &*options_.poisson_ratio};
+  const AnisotropicStiffness& s = options_.stiffness;
+  std::vector<const Data*> data = {&s.xxxx, &s.yyyy, &s.xyxy, &s.xxyy, &s.xxxy, &s.yyxy};
+  if (options_.bulk_modulus) data.push_back(&*options_.bulk_modulus);
+  return data;
+}
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,45 @@
+// The stiffness of the rock in every cell.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/poromechanics/mpsa/mpsa.hpp"
+#include "components/poromechanics/options.hpp"
+#include "framework/assembly/property.hpp"
+#include "framework/config/input_error.hpp"
+
+namespace sprekk::poromechanics {
+
+/// As the properties in `options` are at the start of the scene, and then at the end of the steps that it is evaluated
+/// for.
+class RockStiffness {
+ public:
+  /// `options` outlive it. `component`, `origin`: for messages. Throws DataError where a stiffness is not positive
+  /// definite.
+  RockStiffness(const Options& options, const Mesh& mesh, double start_time, std::string component, Origin origin);
+
+  /// Does nothing when no property depends on time. Throws DataError.
+  void evaluate(const StepTime& step);
+
+  const std::vector<Stiffness>& of_cells() const { return stiffness_; }
+  const Property& bulk_modulus() const { return bulk_modulus_; }  ///< Pa
+  bool changes() const { return changes_; }                       ///< whether a property depends on time
+  std::uint64_t version() const { return version_; }              ///< larger whenever a stiffness has changed
+  std::vector<const Data*> data() const;                          ///< the properties
+
+ private:
+  void compute();
+  Stiffness at(int cell) const;
+
+  const Options& options_;
+  std::string component_;
+  Origin origin_;
+  std::vector<Property> moduli_;  ///< Young's modulus and Poisson's ratio, or the entries of AnisotropicStiffness
+  Property bulk_modulus_;
+  bool changes_ = false;
+  std::vector<Stiffness> stiffness_;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace sprekk::poromechanics
