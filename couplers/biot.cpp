@@ -152,7 +152,6 @@ class Biot : public Coupler {
     const std::uint64_t version =
         alpha_.version() + rock_.bulk_modulus().version() + (porosity ? porosity->version() : 0);
     if (version == grains_version_) return;
-    grains_version_ = version;
     grain_capacity_ = Vector::Zero(mesh_.cell_count());
     if (porosity && !decoupled_)
       for (int c = 0; c < mesh_.cell_count(); ++c) {
@@ -165,6 +164,7 @@ class Biot : public Coupler {
       }
     has_grains_ = !grain_capacity_.isZero(0);
     grains_ = Operator(diagonal_matrix(grain_capacity_));
+    grains_version_ = version;  // at the end: values may be refused
   }
 
   const Mesh& mesh_;

@@ -95,7 +95,6 @@ void MatrixFlow::use_properties() {
   std::uint64_t version = viscosity_.version();
   for (const Property& entry : permeability_) version += entry.version();
   if (version == mobility_version_) return;
-  mobility_version_ = version;
   mobility_.resize(mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     Tensor permeability;
@@ -104,6 +103,7 @@ void MatrixFlow::use_properties() {
   }
   check_mobility();
   place_wells();
+  mobility_version_ = version;  // at the end: a mobility may be refused
 }
 
 void MatrixFlow::check_sides() const {
@@ -248,9 +248,10 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
     use_properties();
   }
   if (is_sealed_ && wall_flux_ && !wall_flux_->determined_by().empty())
-    throw InputError(origin_, "fluid is to flow through the walls of rock that has no permeability",
-                     "what enters a cell could not leave it",
-                     "remove the coupler of its walls, or give it a permeability");
+    throw DataError(InputError(origin_, "fluid is to flow through the walls of rock that has no permeability",
+                               "what enters a cell could not leave it",
+                               "remove the coupler of its walls, or give it a permeability")
+                        .what());
   if (is_evaluated) return;
   data_evaluated_ = true;
   evaluated_for_ = step;

@@ -33,9 +33,9 @@ void RockStiffness::compute() {
   std::uint64_t version = 0;
   for (const Property& modulus : moduli_) version += modulus.version();
   if (version == version_) return;
-  version_ = version;
   const int cells = static_cast<int>(stiffness_.size());
   for (int c = 0; c < cells; ++c) stiffness_[c] = at(c);
+  version_ = version;  // at the end: a stiffness may be refused
   if (options_.is_anisotropic) return;
   Vector bulk_modulus(cells);
   for (int c = 0; c < cells; ++c) bulk_modulus[c] = moduli_[0][c] / (3 * (1 - 2 * moduli_[1][c]));

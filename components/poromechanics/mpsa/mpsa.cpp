@@ -68,14 +68,14 @@ class TipFields {
   TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness)
       : mesh_(mesh), stiffness_(stiffness), tips_(tips_nearby(mesh)) {}
 
-  /// Null where there is none, or the rock is not the tip's.
+  /// Null where there is none, or the rock is not like the tip's.
   const TipField* at(int node) {
     if (tips_[node] == none) return nullptr;
     const auto [found, is_new] = fields_.try_emplace(tips_[node]);
     if (is_new) found->second = TipField::find(mesh_, tips_[node], stiffness_);
     if (!found->second) return nullptr;
     for (const int cell : mesh_.node_cells[node])
-      if (stiffness_[cell] != found->second->rock()) return nullptr;
+      if (!resembles(stiffness_[cell], found->second->rock())) return nullptr;
     return &*found->second;
   }
 
@@ -117,7 +117,7 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
     region.assign(mesh, node);
     local.solve(mesh, region, node_cells[node], stiffness, conditions);
     if (const TipField* tip = tips.at(node))
-      local.correct(region, TipCorrection(*tip, mesh, region, node, node_cells[node]));
+      local.correct(region, TipCorrection(*tip, mesh, region, node, node_cells[node], stiffness));
     int outer_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {
       const int face = region.faces[f];

@@ -5,21 +5,23 @@
 namespace sprekk::poromechanics {
 namespace {
 
-bool is_wall_at(const InteractionRegion& region) {
+/// A face of the region that is a wall, or none.
+int wall_of(const InteractionRegion& region) {
   for (int f = 0; f < region.subface_count(); ++f)
-    if (!region.is_inner(f)) return true;
-  return false;
+    if (!region.is_inner(f)) return region.faces[f];
+  return none;
 }
 
 }  // namespace
 
 TipCorrection::TipCorrection(const TipField& field, const Mesh& mesh, const InteractionRegion& region, int node,
-                             std::span<const int> cells)
+                             std::span<const int> cells, const std::vector<Stiffness>& stiffness)
     : field_(field), mesh_(mesh), region_(region), node_(mesh.nodes[node]) {
   const bool is_tip = std::ranges::equal(mesh.node_cells[node], field.cells());
-  // The cells at a wall are all on one side of the crack, as is a node beside it.
-  const Point& beside = is_wall_at(region) ? mesh.cell_center[region.subcells[0].cell] : node_;
-  side_ = is_tip ? 0 : field.side_of(beside);
+  const int wall = wall_of(region);
+  if (!is_tip) side_ = wall == none ? field.side_of(node_) : field.side_of_wall(mesh, wall);
+  for (const Subcell& subcell : region.subcells)
+    shear_ratio_ += stiffness[subcell.cell](2, 2) / field.rock()(2, 2) / region.subcell_count();
   const auto column = [&](int cell) {
     return 2 * static_cast<int>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin());
   };
@@ -36,12 +38,12 @@ void TipCorrection::of_force(double* coefficients, int subface, int component) c
   const Point along = center - node_;
   const double sign = Point(-along.y(), along.x()).dot(mesh_.face_normal[face]) > 0 ? 1 : -1;
   const TipField::Modes force = field_.force(center, side_) - field_.force(node_, side_);
-  add_missing(coefficients, sign * force.row(component));
+  add_missing(coefficients, sign * shear_ratio_ * force.row(component));
 }
 
 void TipCorrection::of_displacement(double* coefficients, int subface, int component) const {
   const int face = region_.faces[subface];
-  const int side = field_.side_of(mesh_.cell_center[mesh_.face_cells[face][0]]);
+  const int side = field_.side_of_wall(mesh_, face);
   add_missing(coefficients, field_.displacement(mesh_.face_center[face], side).row(component));
 }
 

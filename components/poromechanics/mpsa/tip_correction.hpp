@@ -19,7 +19,7 @@ class TipCorrection {
  public:
   /// `cells`: the local ones, which the coefficients belong to, ascending; the tip's are among them.
   TipCorrection(const TipField& field, const Mesh& mesh, const InteractionRegion& region, int node,
-                std::span<const int> cells);
+                std::span<const int> cells, const std::vector<Stiffness>& stiffness);
 
   // To the coefficients of a quantity with respect to the displacements (x, y) of the cells these add what makes it
   // exact for the field.
@@ -34,7 +34,8 @@ class TipCorrection {
   const Mesh& mesh_;
   const InteractionRegion& region_;
   Point node_;
-  int side_;                            ///< of the region; 0 at the tip itself
+  int side_ = 0;                        ///< of the region; 0 at the tip itself
+  double shear_ratio_ = 0;              ///< of the region's shear modulus to the tip's
   std::vector<int> own_, at_tip_;       ///< columns (of x) of the region's cells, and of the tip's
   std::vector<TipField::Modes> modes_;  ///< of the region's cells: their displacements
 };

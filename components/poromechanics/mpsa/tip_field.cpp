@@ -19,12 +19,17 @@ bool is_isotropic(const Stiffness& c) {
 
 }  // namespace
 
+bool resembles(const Stiffness& rock, const Stiffness& other) {
+  return (rock - other).lpNorm<Eigen::Infinity>() <= 0.2 * other.lpNorm<Eigen::Infinity>();
+}
+
 std::optional<TipField> TipField::find(const Mesh& mesh, int tip, const std::vector<Stiffness>& stiffness) {
   const auto cells = mesh.node_cells[tip];
   if (2 * cells.size() < terms + 2) return std::nullopt;
-  const Stiffness& rock = stiffness[cells[0]];
+  Stiffness rock = Stiffness::Zero();
+  for (const int cell : cells) rock += stiffness[cell] / static_cast<double>(cells.size());
   for (const int cell : cells)
-    if (stiffness[cell] != rock) return std::nullopt;
+    if (!resembles(stiffness[cell], rock)) return std::nullopt;
   if (!is_isotropic(rock)) return std::nullopt;
   TipField field(mesh, tip, rock);
   if (!field.fit(mesh)) return std::nullopt;
@@ -62,6 +67,13 @@ bool TipField::fit(const Mesh& mesh) {
 }
 
 int TipField::side_of(const Point& x) const { return axes_.col(1).dot(x - tip_) < 0 ? -1 : 1; }
+
+int TipField::side_of_wall(const Mesh& mesh, int face) const {
+  const FractureCell& cell = mesh.fracture_cells[mesh.face_fracture_cell[face]];
+  const bool normal_points_left = axes_.col(1).dot(cell.normal) > 0;
+  const bool is_plus = cell.faces[static_cast<int>(Wall::plus)] == face;
+  return is_plus == normal_points_left ? -1 : 1;  // the normal points out of the plus wall's rock
+}
 
 TipField::Polar TipField::polar(const Point& x, int side) const {
   const Point local = axes_.transpose() * (x - tip_);

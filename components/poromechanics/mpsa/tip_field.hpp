@@ -11,6 +11,9 @@
 
 namespace sprekk::poromechanics {
 
+/// Whether the entries of a stiffness are those of the other to 20 % of its largest.
+bool resembles(const Stiffness& rock, const Stiffness& other);
+
 /// Displacement and stress of modes I and II around the tip of a straight crack with free walls, in even isotropic rock
 /// under plane strain: Williams' terms of order sqrt(r) (Anderson, Fracture Mechanics, Tables 2.1 and 2.2), for
 /// stress-intensity factors of 2 G sqrt(2 pi). How much of them there is, the displacements of the cells at the tip
@@ -23,11 +26,12 @@ class TipField {
   /// Of both modes, a column each.
   using Modes = Eigen::Matrix2d;
 
-  /// None unless the rock at the tip (a node) is isotropic and the same all around, with cells enough to tell the
-  /// fields from linear displacements.
+  /// None unless the rock at the tip (a node) is isotropic and nearly the same all around (resembles), with cells
+  /// enough to tell the fields from linear displacements.
   static std::optional<TipField> find(const Mesh& mesh, int tip, const std::vector<Stiffness>& stiffness);
 
-  int side_of(const Point& x) const;  ///< +1 or -1
+  int side_of(const Point& x) const;                   ///< +1 or -1: of the line through the last wall
+  int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1: of the crack, which may bend
 
   /// The displacement, m.
   Modes displacement(const Point& x, int side) const;
@@ -39,7 +43,7 @@ class TipField {
   std::span<const int> cells() const { return cells_; }  ///< those at the tip, ascending
   /// The modes in displacements (x, y each) of these cells.
   const Eigen::Matrix2Xd& share() const { return share_; }
-  const Stiffness& rock() const { return rock_; }
+  const Stiffness& rock() const { return rock_; }  ///< the mean of the tip's cells
 
  private:
   TipField(const Mesh& mesh, int tip, const Stiffness& rock);

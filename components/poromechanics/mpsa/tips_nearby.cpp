@@ -13,7 +13,7 @@ namespace {
 constexpr int layers = 3;
 /// Halfway between two tips both fields count, and a symmetric mesh must have a symmetric answer: neither is taken.
 constexpr double clearly = 0.9;
-const double straight = std::cos(15 * std::numbers::pi / 180);
+const double straight = std::cos(10 * std::numbers::pi / 180);
 
 /// The fracture cells whose walls are the faces with one cell at a node: {none, none} in the rock.
 struct Walls {

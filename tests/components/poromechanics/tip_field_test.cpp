@@ -29,9 +29,11 @@ struct Singular {
   /// In the frame of the tip.
   Complex local(const Point& x) const { return Complex(x[0] - tip[0], x[1] - tip[1]) * std::polar(1.0, -angle); }
 
-  /// 2 G (u + iv) = kappa phi - z conj(phi') - conj(psi)
-  Point displacement(const Point& x) const {
-    const Complex z = local(x), root = std::sqrt(z);
+  /// 2 G (u + iv) = kappa phi - z conj(phi') - conj(psi), with the root continued across the line of the crack to where
+  /// `side` (1: left of it) is seen from.
+  Point displacement(const Point& x, int side = 0) const {
+    const Complex z = local(x), principal = std::sqrt(z);
+    const Complex root = z.real() < 0 && z.imag() * side < 0 ? -principal : principal;
     const double kappa = 3 - 4 * lambda / (2 * (lambda + shear));
     const Complex u = (2 * kappa * a() * root - z * std::conj(a() / root) - std::conj(2.0 * b() * root)) / (2 * shear);
     const Complex turned = u * std::polar(1.0, angle);
@@ -58,14 +60,16 @@ struct TipCase {
   std::vector<int> nearby;  ///< nodes next to it
 };
 
-/// A slanted crack on unstructured triangles, seen from its last end.
-TipCase slanted() {
+/// A crack on unstructured triangles, seen from its last end.
+TipCase at_end_of(const std::vector<Point>& points) {
   Geometry geometry = test::box(1, 1);
   FractureGeometry crack;
   crack.name = "crack";
-  crack.points = {Point(0.3, 0.35), Point(0.65, 0.55)};
+  crack.points = points;
   geometry.fractures = {crack};
-  TipCase tip{generate_mesh(geometry, test::unstructured(0.05)), crack.points[1], std::atan2(0.2, 0.35), none, {}, {}};
+  const Point ahead = points.back() - points[points.size() - 2];
+  TipCase tip{
+      generate_mesh(geometry, test::unstructured(0.05)), points.back(), std::atan2(ahead.y(), ahead.x()), none, {}, {}};
   for (int n = 0; n < tip.mesh.node_count(); ++n)
     if ((tip.mesh.nodes[n] - tip.tip).norm() < 1e-12) tip.node = n;
   const std::vector<int> tips = tips_nearby(tip.mesh);
@@ -76,6 +80,8 @@ TipCase slanted() {
     if (test::is_outer(tip.mesh, f)) tip.conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
   return tip;
 }
+
+TipCase slanted() { return at_end_of({Point(0.3, 0.35), Point(0.65, 0.55)}); }
 
 /// What the local problem of a node makes of displacements.
 struct LocalAnswer {
@@ -196,6 +202,46 @@ TEST(TipField, LinearDisplacementsStayExact) {
         EXPECT_LT((answer.force.segment<2>(2 * face) - force).norm(), 1e-12) << face;
     }
   }
+}
+
+TEST(TipField, WallsOfACrackThatBendsHaveTheirOwnSides) {
+  // Behind a bend of 9 degrees, one cell from the tip, the crack is off the tip's line by more than centres of cells
+  // are off the crack.
+  const double bend = 9 * M_PI / 180;
+  for (const int turn : {1, -1}) {
+    const Point kink(0.55, 0.5), back = kink - Point(0.3, 0);
+    const TipCase tip = at_end_of({back, kink, kink + 0.05 * Point(std::cos(bend), turn * std::sin(bend))});
+    const Mesh& mesh = tip.mesh;
+    const auto side_of = [&](const Point& x) {
+      const Point along = x.x() < kink.x() ? Point(1, 0) : Point(tip.tip - kink), from = x - kink;
+      return along.x() * from.y() > along.y() * from.x() ? 1 : -1;
+    };
+    const Singular field{tip.tip, tip.angle, Complex(0.6, -0.8)};
+    const Vector u = in_cells(mesh, [&](const Point& x) { return field.displacement(x, side_of(x)); });
+    int across = 0, walls = 0;
+    for (const int node : tip.nearby) {
+      const LocalAnswer answer(tip, node, u);
+      for (const int face : mesh.node_faces[node]) {
+        if (!test::is_outer(mesh, face)) continue;
+        const Point& cell = mesh.cell_center[mesh.face_cells[face][0]];
+        across += field.local(cell).imag() * side_of(cell) < 0;
+        ++walls;
+        const Point exact = 0.5 * field.displacement(mesh.face_center[face], side_of(cell));
+        EXPECT_LT((answer.trace.segment<2>(2 * face) - exact).norm(), 1e-8) << face << " at " << node;
+      }
+    }
+    EXPECT_EQ(walls, 2 + 2 * 2 * 3);  // at the tip one a side, at three nodes on each side two
+    EXPECT_GT(across, 0) << "no cell is on the other side of the tip's line";
+  }
+}
+
+TEST(TipField, RockThatChangesALittleKeepsIt) {
+  const TipCase tip = slanted();
+  std::vector<Stiffness> rock = even(tip.mesh);
+  for (int c = 0; c < tip.mesh.cell_count(); ++c) rock[c] *= 1 + 0.3 * tip.mesh.cell_center[c].x();
+  const auto field = TipField::find(tip.mesh, tip.node, rock);
+  ASSERT_TRUE(field.has_value());
+  EXPECT_NEAR(field->rock()(2, 2), shear * (1 + 0.3 * tip.tip.x()), 0.02 * shear);
 }
 
 TEST(TipField, IsLeftOutWhereTheRockChangesOrIsAnisotropic) {
