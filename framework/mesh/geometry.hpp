@@ -57,7 +57,7 @@ struct MeshOptions {
   std::optional<double> tip_size = std::nullopt;  ///< edge length at fracture ends, m; default that of the fracture
   double growth = 0.3;                            ///< by how many m the edge length grows per m of distance
   /// Unstructured: a gap between a fracture and another line has edges of its width over this where that is shorter
-  /// than what else is asked for; 0 leaves gaps alone. With 0.5 smallest angles stay above 19 degrees.
+  /// than what else is asked for; 0 leaves gaps alone. With 0.5 angles at ends stay above 18 degrees.
   double gap_edges = 0.5;
   double gap_length = 2;  ///< walls side by side leave gaps alone that are longer than so many widths
   std::optional<double> gap_size = std::nullopt;  ///< gaps refine no further, m; default a 500th of the shortest size

@@ -79,14 +79,15 @@ void Model::check_data() {
   const TimeOptions& time = scene_.time;
   const double step = std::min(time.step, time.end - time.start);
   std::vector<StepTime> steps = {{time.end - step, step, time.end}};
-  for (const double jump : switch_times())
-    if (jump > time.start && jump < time.end) steps.push_back({jump, time.end - jump, std::min(jump + step, time.end)});
+  for (const double jump : switch_times()) {
+    if (jump <= time.start || jump >= time.end) continue;
+    const double end = std::min(jump + step, time.end);
+    steps.push_back({jump, end - jump, end});
+  }
   // The first step last: parts are left with what it needs.
   steps.push_back({time.start, step, time.start + step});
-  for (StepTime& at : steps) {
-    at.dt = at.end - at.start;
+  for (const StepTime& at : steps)
     for (Part* part : parts_) part->evaluate_data(at);
-  }
 }
 
 void Model::check_levels() const {

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "components/poromechanics/mpsa/tip_correction.hpp"
-#include "components/poromechanics/mpsa/tips_nearby.hpp"
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::poromechanics {
@@ -34,10 +33,9 @@ void add_cells_across(const Mesh& mesh, int cell, int node, std::vector<int>& ce
 
 }  // namespace
 
-Adjacency local_cells(const Mesh& mesh) {
+Adjacency local_cells(const Mesh& mesh, const std::vector<int>& tips) {
   Adjacency cells;
   cells.offsets.reserve(mesh.node_count() + 1);
-  const std::vector<int> tips = tips_nearby(mesh);
   for (int node = 0; node < mesh.node_count(); ++node) {
     const auto at_node = mesh.node_cells[node];
     cells.items.insert(cells.items.end(), at_node.begin(), at_node.end());

@@ -17,8 +17,8 @@ using FaceConditions = std::array<MechanicalCondition, 2>;
 
 /// The cells whose displacements and stresses a node's local problem reads, in ascending order: those at the node. A
 /// cell that is alone there is joined by those across its faces that do not touch the node, if any; near the tip of a
-/// crack there are those at the tip, too.
-Adjacency local_cells(const Mesh& mesh);
+/// crack (`tips`: see tips_nearby) there are those at the tip, too.
+Adjacency local_cells(const Mesh& mesh, const std::vector<int>& tips);
 
 /// In every subcell the displacement is linear; displacements agree at the continuity points and forces, C : grad u - s
 /// I times the normal, agree on the subfaces. Coefficients are with respect to, in this order: the displacements of the

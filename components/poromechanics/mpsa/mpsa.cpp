@@ -65,8 +65,8 @@ struct Coefficients {
 /// The fields of all tips, for the nodes near them.
 class TipFields {
  public:
-  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness)
-      : mesh_(mesh), stiffness_(stiffness), tips_(tips_nearby(mesh)) {}
+  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const std::vector<int>& tips)
+      : mesh_(mesh), stiffness_(stiffness), tips_(tips) {}
 
   /// Null where there is none, or the rock is not like the tip's.
   const TipField* at(int node) {
@@ -82,7 +82,7 @@ class TipFields {
  private:
   const Mesh& mesh_;
   const std::vector<Stiffness>& stiffness_;
-  std::vector<int> tips_;
+  const std::vector<int>& tips_;  ///< see tips_nearby
   std::map<int, std::optional<TipField>> fields_;
 };
 
@@ -100,7 +100,8 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
   check_arguments(mesh, stiffness, conditions, nodes);
   const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
   const auto any = [&](int, int node) { return is_wanted(node); };
-  const Adjacency node_cells = local_cells(mesh), outer_faces = outer_faces_of_nodes(mesh);
+  const std::vector<int> tips = tips_nearby(mesh);
+  const Adjacency node_cells = local_cells(mesh, tips), outer_faces = outer_faces_of_nodes(mesh);
   Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, outer_faces, 2);
   Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), node_cells, outer_faces, 1);
   Coefficients trace(
@@ -111,12 +112,12 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
 
   InteractionRegion region;
   LocalStresses local;
-  TipFields tips(mesh, stiffness);
+  TipFields fields(mesh, stiffness, tips);
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
     local.solve(mesh, region, node_cells[node], stiffness, conditions);
-    if (const TipField* tip = tips.at(node))
+    if (const TipField* tip = fields.at(node))
       local.correct(region, TipCorrection(*tip, mesh, region, node, node_cells[node], stiffness));
     int outer_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {

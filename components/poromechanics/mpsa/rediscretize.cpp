@@ -2,13 +2,15 @@
 
 #include <cstring>
 
+#include "components/poromechanics/mpsa/tips_nearby.hpp"
 #include "framework/mesh/kept_regions.hpp"
 
 namespace sprekk::poromechanics {
 
 Rediscretized rediscretize_mpsa(const StressInputs& before, const StressOperators& operators, const StressInputs& after,
                                 const MeshChange& change) {
-  const Adjacency cells_before = local_cells(before.mesh), cells_after = local_cells(after.mesh);
+  const Adjacency cells_before = local_cells(before.mesh, tips_nearby(before.mesh)),
+                  cells_after = local_cells(after.mesh, tips_nearby(after.mesh));
   const KeptRegions kept(
       {before.mesh, cells_before}, {after.mesh, cells_after}, change,
       [&](int cell, int was) {
