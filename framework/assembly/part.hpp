@@ -76,6 +76,9 @@ class Part {
 
   /// Changes whenever the discrete state (which cells stick, slip, are open) does; the cycle detector reads it.
   virtual std::uint64_t discrete_state() const { return 0; }
+  /// From now on the discrete state tells all pieces of piecewise linear terms from one another, and derivatives are
+  /// those of the piece that the values are in, not of one where the update is expected. Off at first.
+  virtual void follow_pieces(bool /*exactly*/) {}
   /// The names of the stabilizations that it offers to split schemes.
   virtual std::vector<std::string> stabilizations() const { return {}; }
   /// Adds the diagonals of a named stabilization to the fields that it knows how to stabilize.

@@ -21,6 +21,8 @@ const std::string clear_line = "\r\x1b[K";
 std::string duration_text(double seconds) {
   if (!std::isfinite(seconds)) return "?";
   if (seconds < 59.95) return fmt::format("{:.3g} s", seconds);  // from there on three digits say 60
+  constexpr double year = 365.25 * 86400;
+  if (seconds > 10 * year) return fmt::format("{:.3g} years", seconds / year);
   const auto whole = std::llround(seconds);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
   const auto minutes = std::llround(seconds / 60);

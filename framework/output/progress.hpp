@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// "42 s", "3 min 20 s", "2 h 5 min", "4 d 3 h"; a scene's times and waiting times alike.
+/// "42 s", "3 min 20 s", "2 h 5 min", "4 d 3 h", "4.2e+03 years"; a scene's times and waiting times alike.
 std::string duration_text(double seconds);
 
 class Progress {

@@ -153,12 +153,31 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   start_.clear();
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
   const std::vector<Vector> start = values();
-  const StepStatus first = attempt(step, options_.undamped);
-  if (first.converged || first.iterations <= 1 || options_.undamped == 0) return first;
-  for (std::size_t u = 0; u < unknowns_.size(); ++u) unknowns_[u]->set(start[u]);
-  StepStatus second = attempt(step, 0);
-  second.iterations += first.iterations;
-  return second;
+  state_has_changed_ = false;
+  const auto restart = [&] {
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) unknowns_[u]->set(start[u]);
+  };
+  StepStatus status = attempt(step, options_.undamped);
+  if (status.converged || status.iterations <= 1) return status;
+  if (options_.undamped > 0) {
+    restart();
+    const int before = status.iterations;
+    status = attempt(step, 0);
+    status.iterations += before;
+  }
+  if (status.converged || !state_has_changed_ || options_.pieces == 0) return status;
+  restart();
+  follow_pieces(true);
+  const StepStatus path = follow_path(step);
+  follow_pieces(false);
+  status.iterations += path.iterations;
+  status.converged = path.converged;
+  status.reason += "; then " + path.reason;
+  return status;
+}
+
+void Newton::follow_pieces(bool exactly) {
+  for (Part* part : parts_) part->follow_pieces(exactly);
 }
 
 StepStatus Newton::attempt(const StepTime& step, int undamped) {
@@ -198,6 +217,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped) {
     const std::uint64_t state = discrete_state();
     if (iteration == 0 || state != last_state) {
       cycling = cycling || seen_states.count(state) > 1;
+      state_has_changed_ = state_has_changed_ || iteration > 0;
       seen_states.insert(state);
       last_state = state;
     }

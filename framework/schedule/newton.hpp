@@ -18,14 +18,24 @@ struct NewtonOptions {
   double update = 1e-8;     ///< largest change of a field over its largest value
   int at_most = 30;         ///< iterations
   int undamped = 8;         ///< iterations before the line search asks for descent
+  int pieces = 300;         ///< that the path of the last attempt may have, 0 for no such attempt
 };
 
 /// Converged means: every residual is small against its own terms, and the next (simplified) Newton update, which costs
 /// a back-solve and no factorization, is small against the fields. Full steps at first, as active sets settle by
 /// themselves; descent on the sum of squares of the relative residuals when they have not after `undamped` iterations,
 /// or as soon as the discrete state cycles. When that fails, a second attempt from the same start asks for descent from
-/// its first iteration: full steps may have led to where no descent comes back from. Repeating a call from the same
-/// fields gives the same bits.
+/// its first iteration: full steps may have led to where no descent comes back from.
+///
+/// When that fails too, and the discrete state has changed, a third attempt follows a path. Contact is piecewise
+/// linear, so residual(x) = s residual(x0) is a line that bends where the state changes. It is followed from s = 1 down
+/// to 0, each piece with its own derivatives, up to the place where the piece ends. Where the next piece has a
+/// determinant of the other sign, s grows until the path turns again. Full steps and descent can cycle or end in a
+/// minimum; the path ends at a solution or shows none (Katzenelson 1965; Ralph 1994, "path search"; the turns are those
+/// of Lemke's method, with which Klarbring (1986) solved frictional contact). Where terms are not linear within a piece
+/// (the cubic law), it is a guess.
+///
+/// Repeating a call from the same fields gives the same bits.
 class Newton {
  public:
   Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*> parts, const LinearOptions& linear,
@@ -55,6 +65,9 @@ class Newton {
   double relative_size(const Vector& update, const ResidualCheck& check) const;
   /// Without a line search for the first `undamped` iterations.
   StepStatus attempt(const StepTime& step, int undamped);
+  /// The third attempt (path_search.cpp).
+  StepStatus follow_path(const StepTime& step);
+  void follow_pieces(bool exactly);
   ResidualCheck take_step(const StepTime& step, const Vector& update, bool ask_for_descent, double& length);
 
   std::vector<Field*> unknowns_;
@@ -68,6 +81,7 @@ class Newton {
   std::unique_ptr<Assembly> assembly_;  ///< of the state that was looked at last
   int assemblies_ = 0;
   std::vector<ResidualCheck> recent_;  ///< the last states
+  bool state_has_changed_ = false;     ///< the discrete one, in this solve
   const Stabilization* stabilization_ = nullptr;
   std::map<const Field*, Vector> start_;
 };

@@ -20,7 +20,7 @@ struct IterationRecord {
   double residual = 0;     ///< the largest relative residual of any equation
   std::string equation;    ///< the one that has it
   double update = 0;       ///< relative; 0 where none is computed
-  double step_length = 1;  ///< of the line search
+  double step_length = 1;  ///< of the line search; negative where a path turns against the update
 };
 using IterationLog = std::function<void(const IterationRecord&)>;
 

@@ -40,6 +40,10 @@ Spec newton_spec(NewtonOptions& options) {
                {.range = between(1, 1000), .doc = "Iterations before the step is refused."});
   spec.integer("undamped", options.undamped,
                {.range = between(0, 1000), .doc = "Iterations before the line search asks for descent."});
+  spec.integer("pieces", options.pieces,
+               {.range = between(0, 100000),
+                .doc = "When that does not converge, the path from piece to piece of the piecewise linear contact is "
+                       "followed, through at most so many; 0 for never."});
   return spec;
 }
 

@@ -138,21 +138,25 @@ State Coulomb::state(int i) const {
 
 std::uint64_t Coulomb::discrete_state() const {
   std::uint64_t hash = 0;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-    hash = hash * 1000003 + static_cast<std::uint64_t>(state(i)) * 2 +
-           (state(i) == State::slip && trial(i).tangential > 0);
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const State now = state(i);
+    const Trial t = trial(i);
+    hash = hash * 1000003 + static_cast<std::uint64_t>(now) * 2 + (now == State::slip && t.tangential > 0);
+    if (follows_pieces_) hash = hash * 2 + (now == State::slip && t.slip_sign > 0);
+  }
   return hash;
 }
 
 void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
   if (!assembly.has_row(traction_)) return;
   const int count = mesh_.fracture_cell_count();
-  if (assembly.wants_derivatives()) follow_back_slip();
+  const bool guesses = assembly.wants_derivatives() && !follows_pieces_;
+  if (guesses) follow_back_slip();
   Vector residual(2 * count);
   // The blocks have the same pattern in every state, so that the sparsity of the system never changes.
   std::vector<Triplet> by_traction, by_jump;
   for (int i = 0; i < count; ++i) {
-    const Trial t = assembly.wants_derivatives() ? trial_of_update(i) : trial(i);
+    const Trial t = guesses ? trial_of_update(i) : trial(i);
     const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
     const double c_n = stiffness_[2 * i], c_t = stiffness_[2 * i + 1];
     const double gap_by_t = -t.slip_sign * dilation_[i];  // d gap / d [u]_t; d gap / d [u]_n is 1

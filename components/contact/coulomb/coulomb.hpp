@@ -48,6 +48,7 @@ class Coulomb : public Component, public FractureContact {
   void settled(const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   std::uint64_t discrete_state() const override;
+  void follow_pieces(bool exactly) override { follows_pieces_ = exactly; }
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
@@ -91,6 +92,7 @@ class Coulomb : public Component, public FractureContact {
   Vector dilation_;                          ///< tan psi
   std::vector<char> bonded_;                 ///< empty for none
   mutable std::vector<BackSlip> back_slip_;  ///< empty before the first update of a step
+  bool follows_pieces_ = false;              ///< as they are: no guess of what lies beyond the kink
   Vector stiffness_;                         ///< c, Pa/m, (normal, tangential) of each cell
 };
 

@@ -100,6 +100,7 @@ TEST(DurationText, IsReadable) {
   EXPECT_EQ(duration_text(3599.9), "1 h 0 min");
   EXPECT_EQ(duration_text(7500), "2 h 5 min");
   EXPECT_EQ(duration_text(86400 * 4 + 3600 * 3), "4 d 3 h");
+  EXPECT_EQ(duration_text(3e22), "9.51e+14 years");  // steady states: more minutes than an integer holds
   EXPECT_EQ(duration_text(1e300 * 1e300), "?");
 }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/partition.hpp"
@@ -67,6 +69,73 @@ TEST(Newton, ASecondAttemptStartsFromTheSamePlaceAndAsksForDescent) {
   EXPECT_NEAR(equation.x.now()[1], std::tan(0.5), 1e-10);
   EXPECT_EQ(starts, 2);
   EXPECT_GT(status.iterations, iterations);  // those of both
+}
+
+/// A continuous, piecewise linear function of the first value, given by its corners, and of slope `slope` behind the
+/// last one.
+class Polyline : public Part {
+ public:
+  Polyline(const Field& x, std::vector<Point> corners, double slope)
+      : x_(x), corners_(std::move(corners)), slope_(slope) {}
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly& assembly, const StepTime&) const override {
+    const std::size_t k = discrete_state();
+    const Point& from = corners_[k];
+    const double slope = k + 1 == corners_.size() ? slope_ : tangent(k);
+    Vector value(2), derivative(2);
+    value << from.y() + slope * (x_.now()[0] - from.x()), x_.now()[1];
+    derivative << slope, 1;
+    assembly.add(x_, value);
+    assembly.compare_with(x_, 1);
+    assembly.diagonal(x_, x_, derivative);
+  }
+  std::uint64_t discrete_state() const override {
+    std::uint64_t k = 0;
+    while (k + 1 < corners_.size() && x_.now()[0] >= corners_[k + 1].x()) ++k;
+    return k;
+  }
+
+ private:
+  double tangent(std::size_t k) const {
+    const Point along = corners_[k + 1] - corners_[k];
+    return along.y() / along.x();
+  }
+  const Field& x_;
+  std::vector<Point> corners_;
+  double slope_;
+};
+
+struct PolylineEquation : Equation {
+  StepStatus solve(std::vector<Point> corners, double slope, double start, int pieces, IterationLog log = {}) {
+    Polyline polyline(x, std::move(corners), slope);
+    x.set_both(Vector::Constant(2, start));
+    NewtonOptions options;
+    options.pieces = pieces;
+    return Newton(mesh, {&x}, {&polyline}, {}, options, "solve", std::move(log)).solve({0, 1, 1});
+  }
+};
+
+TEST(PathSearch, PassesAHillThatNeitherFullStepsNorDescentPass) {
+  // Up to -0.2 at 1, down to -0.6 at 2, and through zero at 3.2: steps go to and fro between the first two pieces.
+  const std::vector<Point> corners = {{-10, -9}, {1, -0.2}, {2, -0.6}};
+  PolylineEquation equation;
+  EXPECT_FALSE(equation.solve(corners, 0.5, 0, 0).converged);
+  std::vector<double> lengths;
+  const StepStatus status = equation.solve(corners, 0.5, 0, 10, [&](const IterationRecord& entry) {
+    if (entry.iteration == 0) lengths.clear();
+    if (entry.iteration > 0 && entry.step_length != 0) lengths.push_back(entry.step_length);
+  });
+  EXPECT_TRUE(status.converged) << status.reason;
+  EXPECT_NEAR(equation.x.now()[0], 3.2, 1e-12);
+  EXPECT_NEAR(equation.x.now()[1], 0, 1e-12);
+  EXPECT_LT(*std::min_element(lengths.begin(), lengths.end()), 0);  // over the hill the residual grows
+}
+
+TEST(PathSearch, SaysThatAFunctionWithoutZeroHasNone) {
+  PolylineEquation equation;
+  const StepStatus status = equation.solve({{-10, -9}, {1, -0.2}, {2, -0.6}}, -0.1, 0, 10);
+  EXPECT_FALSE(status.converged);
+  EXPECT_NE(status.reason.find("ray"), std::string::npos) << status.reason;
 }
 
 }  // namespace
