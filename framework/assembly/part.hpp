@@ -11,6 +11,7 @@
 #include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
 #include "framework/field/output_field.hpp"
+#include "framework/output/profile.hpp"
 
 namespace sprekk {
 
@@ -94,6 +95,8 @@ class Part {
   virtual void output(std::vector<OutputField>&) const {}
   /// How often something was computed or reused, for the end-of-run table: name → count.
   virtual std::map<std::string, long> counts() const { return {}; }
+  /// Entries of the end-of-run table for work of its own inside of steps, without that of the schedule's solvers.
+  virtual std::vector<Profile::Entry> efforts() const { return {}; }
 };
 
 /// All data first: what a part discretizes may depend on properties of another.

@@ -72,6 +72,7 @@ struct LinearCounts {
   int patterns = 0;        ///< sparsity patterns built by those who assemble the systems
   int assemblies = 0;      ///< states that were assembled
   double seconds_ordering = 0, seconds_factor = 0, seconds_solve = 0;
+  double seconds() const { return seconds_ordering + seconds_factor + seconds_solve; }
   LinearCounts& operator+=(const LinearCounts& other) {
     orderings += other.orderings;
     factorizations += other.factorizations;

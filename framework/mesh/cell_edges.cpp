@@ -33,12 +33,12 @@ CellEdges::CellEdges(const std::vector<Point>& nodes, const std::vector<Ring>& c
         next_.push_back(first_at_node_[std::min(a, b)]);
         first_at_node_[std::min(a, b)] = edge;
       } else {
-        const std::string where = to_text(0.5 * (nodes[a] + nodes[b]));
+        const auto where = [&] { return to_text(0.5 * (nodes[a] + nodes[b])); };
         if (cells_[edge][1] != none) {
-          throw InputError("more than two cells meet at the edge at " + where + " (the mesh is not a plane one)");
+          throw InputError("more than two cells meet at the edge at " + where() + " (the mesh is not a plane one)");
         }
         if (nodes_[edge][0] == a) {
-          throw InputError("two cells lie on the same side of the edge at " + where + " (the mesh overlaps itself)");
+          throw InputError("two cells lie on the same side of the edge at " + where() + " (the mesh overlaps itself)");
         }
         cells_[edge][1] = static_cast<int>(t);
       }

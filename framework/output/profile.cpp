@@ -10,7 +10,8 @@ std::string Profile::table(double total_seconds) const {
   std::vector<Entry> rows(entries_.begin(), entries_.end());
   std::stable_sort(rows.begin(), rows.end(), [](const Entry& a, const Entry& b) { return a.seconds > b.seconds; });
   double rest = total_seconds;
-  std::size_t width = std::string_view("everything else").size();
+  constexpr std::string_view others = "set-up and others", solvers = "factorizations, back-solves";
+  std::size_t width = solvers.size();
   for (const Entry& row : rows) {
     rest -= row.seconds;
     width = std::max(width, row.name.size());
@@ -23,8 +24,13 @@ std::string Profile::table(double total_seconds) const {
     text += fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>10.3f} {:>5.1f} %\n", row.name, width, row.calls, row.reuses,
                         row.skips, row.seconds, share(row.seconds));
   const std::string blank(29, ' ');
-  text += fmt::format("{:<{}} {} {:>10.3f} {:>5.1f} %\n", "everything else", width, blank, rest, share(rest));
-  text += fmt::format("{:<{}} {} {:>10.3f} {:>5.1f} %\n", "total", width, blank, total_seconds, share(total_seconds));
+  const auto add_sum = [&](std::string_view name, double seconds) {
+    text += fmt::format("{:<{}} {} {:>10.3f} {:>5.1f} %\n", name, width, blank, seconds, share(seconds));
+  };
+  add_sum(others, rest);
+  add_sum("total", total_seconds);
+  add_sum(solvers, solver_seconds());
+  add_sum("everything else", total_seconds - solver_seconds());
   return text;
 }
 

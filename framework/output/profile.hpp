@@ -19,6 +19,7 @@ class Profile {
     long reuses = 0;     ///< how often a kept result was used instead
     long skips = 0;      ///< how often nothing was needed at all
     double seconds = 0;  ///< own time, without that of objects timed inside: the shares add up
+    bool is_solver = false;  ///< a factorization (with its ordering) or back-solves of a linear system
   };
 
   /// The entry of that name, made on first use; the reference stays valid.
@@ -31,8 +32,14 @@ class Profile {
   void skipped(std::string_view name) { ++at(name).skips; }
 
   const std::deque<Entry>& entries() const { return entries_; }  ///< in the order of first use
+  double solver_seconds() const {
+    double seconds = 0;
+    for (const Entry& entry : entries_) seconds += entry.is_solver ? entry.seconds : 0;
+    return seconds;
+  }
 
-  /// The end-of-run table: entries by falling seconds, a line for the rest, the total; shares of `total_seconds` in %.
+  /// The end-of-run table: entries by falling seconds, a line for what has no entry, the total; then factorizations and
+  /// back-solves against everything else. Shares of `total_seconds` in %.
   std::string table(double total_seconds) const;
 
  private:

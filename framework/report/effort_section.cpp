@@ -41,8 +41,12 @@ std::string effort_section(const RunResults& results) {
     text += row(entry.value("name", ""), entry.value("calls", 0L), entry.value("reuses", 0L), entry.value("skips", 0L),
                 entry.value("seconds", 0.0), total);
   }
-  text += row("everything else (mesh, set-up)", -1, -1, -1, std::max(total - timed, 0.0), total);
-  text += row("whole run", -1, -1, -1, total, total) + "</table>\n";
+  text += row("set-up and others", -1, -1, -1, std::max(total - timed, 0.0), total);
+  text += row("whole run", -1, -1, -1, total, total);
+  const Json timings = record.value("timings", Json::object());
+  for (const char* name : {"factorizations, back-solves", "everything else"})
+    if (timings.contains(name)) text += row(name, -1, -1, -1, timings.value(name, 0.0), total);
+  text += "</table>\n";
   text += html_paragraph("Reuses and skips are work that was not done, because nothing that it reads had changed.");
   std::vector<std::vector<std::string>> counters = {{"counter", "count"}};
   const Json counted = record.value("counters", Json::object());

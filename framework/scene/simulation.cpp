@@ -75,6 +75,8 @@ class Run {
   void require_columns() const;
   void record_start();
   void retire_counts(const Model& model);  ///< adds what the model has counted to the totals
+  void split_steps();                      ///< takes what others have timed inside of steps out of their time
+  void count_settling();
   bool follows_growth();                   ///< false when the mesh could not
   bool fails_with_growth();
   bool stays_as_it_is(const StepTime& step) const;  ///< of the state that is about to be accepted
@@ -99,6 +101,8 @@ class Run {
   int restored_steps_ = 0;
   bool is_stopped_ = false;
   LinearCounts linear_counts_;
+  double settling_seconds_ = 0;  ///< of linear solvers during changes of the mesh
+  Profile efforts_;              ///< of parts that are timed inside of steps
 };
 
 OutputFolder choose_folder(const Scene& scene, const RunOptions& options) {
@@ -221,8 +225,24 @@ bool Run::stays_as_it_is(const StepTime& step) const {
 
 void Run::retire_counts(const Model& model) {
   model.schedule().add_counts(linear_counts_);
-  for (const Part* part : model.parts())
+  for (const Part* part : model.parts()) {
     for (const auto& [name, count] : part->counts()) record_.counters[name] += count;
+    for (const Profile::Entry& effort : part->efforts()) {
+      Profile::Entry& entry = efforts_.at(effort.name);
+      entry.calls += effort.calls;
+      entry.reuses += effort.reuses;
+      entry.skips += effort.skips;
+      entry.seconds += effort.seconds;
+      entry.is_solver = effort.is_solver;
+    }
+  }
+}
+
+/// The model of a mesh that has just changed has solved for nothing but its settling.
+void Run::count_settling() {
+  LinearCounts counts;
+  model_->schedule().add_counts(counts);
+  settling_seconds_ += counts.seconds();
 }
 
 bool Run::fails_with_growth() {
@@ -232,7 +252,9 @@ bool Run::fails_with_growth() {
 
 bool Run::follows_growth() {
   const ScopedTimer timer(profile_, "change of mesh");
-  return growth_.after_acceptance() != MeshGrowth::Outcome::failed || fails_with_growth();
+  const MeshGrowth::Outcome outcome = growth_.after_acceptance();
+  if (outcome == MeshGrowth::Outcome::changed) count_settling();
+  return outcome != MeshGrowth::Outcome::failed || fails_with_growth();
 }
 
 bool Run::advance() {
@@ -252,7 +274,10 @@ bool Run::advance() {
     if (status.converged) {
       const ScopedTimer timer(profile_, "change of mesh");
       const MeshGrowth::Outcome outcome = growth_.before_acceptance();
-      if (outcome == MeshGrowth::Outcome::changed) continue;
+      if (outcome == MeshGrowth::Outcome::changed) {
+        count_settling();
+        continue;
+      }
       if (outcome == MeshGrowth::Outcome::failed) return fails_with_growth();
     }
     if (status.converged) {
@@ -317,6 +342,21 @@ ExitCode Run::loop() {
   return ExitCode::done;
 }
 
+void Run::split_steps() {
+  const LinearCounts& counts = linear_counts_;
+  Profile::Entry& steps = profile_.at("steps");
+  const auto move = [&](const Profile::Entry& entry) {
+    profile_.at(entry.name) = entry;
+    steps.seconds -= entry.seconds;
+  };
+  move({"linear: ordering", counts.orderings, 0, 0, counts.seconds_ordering, true});
+  move({"linear: factorization", counts.factorizations, counts.reused, 0, counts.seconds_factor, true});
+  move({"linear: solve", counts.solves, 0, 0, counts.seconds_solve, true});
+  steps.seconds += settling_seconds_;
+  if (settling_seconds_ > 0) profile_.at("change of mesh").seconds -= settling_seconds_;
+  for (const Profile::Entry& entry : efforts_.entries()) move(entry);
+}
+
 void Run::finish(ExitCode code) {
   record_.exit_code = static_cast<int>(code);
   record_.exit_reason = code == ExitCode::done ? "done" : reason_;
@@ -341,18 +381,9 @@ void Run::finish(ExitCode code) {
   record_.counters["linear: columns condensed"] = counts.columns;
   record_.counters["assembly: patterns"] = counts.patterns;
   record_.counters["assembly: states"] = counts.assemblies;
-  // What the linear solvers used is part of the steps; the rest of the steps is assembly and everything else.
-  Profile::Entry& steps = profile_.at("steps");
-  const auto move_time = [&](const char* name, double seconds, long calls, long reuses) {
-    Profile::Entry& entry = profile_.at(name);
-    entry.seconds = seconds;
-    entry.calls = calls;
-    entry.reuses = reuses;
-    steps.seconds -= seconds;
-  };
-  move_time("linear: ordering", counts.seconds_ordering, counts.orderings, 0);
-  move_time("linear: factorization", counts.seconds_factor, counts.factorizations, counts.reused);
-  move_time("linear: solve", counts.seconds_solve, counts.solves, 0);
+  split_steps();
+  record_.timings["factorizations, back-solves"] = profile_.solver_seconds();
+  record_.timings["everything else"] = record_.seconds - profile_.solver_seconds();
   if (!parallel::is_root()) return;
   record_.write(output_.path() / "run.json", profile_);
   if (!options_.quiet) {

@@ -47,10 +47,10 @@ class WantedSizes {
 }  // namespace
 
 Adapted adapt(const FineGeometry& geometry, const FineMeshOptions& options, const Elasticity& rock,
-              const FineLoads& loads, const AdaptOptions& adapt_options) {
+              const FineLoads& loads, const AdaptOptions& adapt_options, const std::shared_ptr<Profile>& profile) {
   FineMeshOptions sizes = options;
   for (int meshes = 1;; ++meshes) {
-    FineModel model(geometry, sizes, rock);
+    FineModel model(geometry, sizes, rock, profile);
     FineSolution solution = model.solve(loads);
     ErrorEstimate estimate = estimate_error(solution);
     const bool is_converged = estimate.relative <= adapt_options.tolerance;

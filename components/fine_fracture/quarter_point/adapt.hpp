@@ -23,6 +23,7 @@ struct Adapted {
 /// Meshes and solves again, with sizes that share the allowed error evenly among the elements, until the estimate keeps
 /// the tolerance. Sizes only shrink, so that the meshes' sizes are those of the options or finer.
 Adapted adapt(const FineGeometry& geometry, const FineMeshOptions& options, const Elasticity& rock,
-              const FineLoads& loads, const AdaptOptions& adapt_options);
+              const FineLoads& loads, const AdaptOptions& adapt_options,
+              const std::shared_ptr<Profile>& profile = std::make_shared<Profile>());
 
 }  // namespace sprekk::fine_fracture

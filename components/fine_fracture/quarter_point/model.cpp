@@ -37,6 +37,12 @@ ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& e
   return stiffness;
 }
 
+std::shared_ptr<const FineMesh> timed_mesh(const FineGeometry& geometry, const FineMeshOptions& options,
+                                           Profile& profile) {
+  const ScopedTimer timer(profile, "mesh");
+  return std::make_shared<const FineMesh>(make_fine_mesh(geometry, options));
+}
+
 ElementVector gather(const FineMesh::Element& element, const Vector& values) {
   ElementVector local;
   for (int k = 0; k < 6; ++k) local.segment<2>(2 * k) = values.segment<2>(2 * element.nodes[k]);
@@ -47,7 +53,24 @@ ElementVector gather(const FineMesh::Element& element, const Vector& values) {
 
 class FineModel::Factors {
  public:
-  Factors(const FineMesh& mesh, const Unknowns& unknowns, const std::vector<ElementMatrix>& stiffness) {
+  Factors(const FineMesh& mesh, const Unknowns& unknowns, const std::vector<ElementMatrix>& stiffness,
+          Profile& profile) {
+    const Eigen::SparseMatrix<double> matrix = assemble(mesh, unknowns, stiffness, profile);
+    {
+      const ScopedTimer timer(profile, "ordering");
+      factorization_.analyzePattern(matrix);
+    }
+    const ScopedTimer timer(profile, "factorization");
+    factorization_.factorize(matrix);
+    if (factorization_.info() != Eigen::Success) throw std::runtime_error("fine level: the stiffness is singular");
+  }
+  Vector solve(const Vector& b) const { return factorization_.solve(b); }
+
+ private:
+  /// The lower triangle.
+  static Eigen::SparseMatrix<double> assemble(const FineMesh& mesh, const Unknowns& unknowns,
+                                              const std::vector<ElementMatrix>& stiffness, Profile& profile) {
+    const ScopedTimer timer(profile, "assembly");
     std::vector<Triplet> entries;
     entries.reserve(stiffness.size() * 78);
     for (std::size_t e = 0; e < stiffness.size(); ++e) {
@@ -62,32 +85,33 @@ class FineModel::Factors {
     }
     Eigen::SparseMatrix<double> matrix(unknowns.count(), unknowns.count());
     matrix.setFromTriplets(entries.begin(), entries.end());
-    factorization_.compute(matrix);
-    if (factorization_.info() != Eigen::Success) throw std::runtime_error("fine level: the stiffness is singular");
+    return matrix;
   }
-  Vector solve(const Vector& b) const { return factorization_.solve(b); }
 
- private:
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factorization_;
 };
 
-FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock)
-    : geometry_(std::move(geometry)),
+FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
+                     std::shared_ptr<Profile> profile)
+    : profile_(std::move(profile)),
+      geometry_(std::move(geometry)),
       rock_(rock),
-      mesh_(std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options))),
+      mesh_(timed_mesh(geometry_, options, *profile_)),
       unknowns_(geometry_, *mesh_) {
-  stiffness_.reserve(mesh_->elements.size());
-  for (const auto& element : mesh_->elements) stiffness_.push_back(element_stiffness(*mesh_, element, rock_));
-  factors_ = std::make_unique<Factors>(*mesh_, unknowns_, stiffness_);
+  for (const char* name : {"ordering", "factorization", "back-solves"}) profile_->at(name).is_solver = true;
+  {
+    const ScopedTimer timer(*profile_, "assembly");
+    stiffness_.reserve(mesh_->elements.size());
+    for (const auto& element : mesh_->elements) stiffness_.push_back(element_stiffness(*mesh_, element, rock_));
+  }
+  factors_ = std::make_unique<Factors>(*mesh_, unknowns_, stiffness_, *profile_);
 }
 
 FineModel::~FineModel() = default;
 FineModel::FineModel(FineModel&&) noexcept = default;
 FineModel& FineModel::operator=(FineModel&&) noexcept = default;
 
-FineSolution FineModel::solve(const FineLoads& loads) const {
-  FineSolution solution{mesh_, rock_, unknowns_.prescribed_values(*mesh_, loads), {}, 0};
-  Vector& u = solution.displacement;
+Vector FineModel::right_hand_side(const FineLoads& loads, const Vector& u) const {
   Vector f = external_forces(geometry_, *mesh_, loads);
   for (std::size_t e = 0; e < stiffness_.size(); ++e) {
     const auto& element = mesh_->elements[e];
@@ -100,8 +124,27 @@ FineSolution FineModel::solve(const FineLoads& loads) const {
   for (int i = 0; i < f.size(); ++i) {
     if (unknowns_.of(i) != none) b[unknowns_.of(i)] += f[i];
   }
+  return b;
+}
+
+Vector FineModel::back_solve(const Vector& b) const {
+  const ScopedTimer timer(*profile_, "back-solves");
   const Vector x = factors_->solve(b);
   if (!x.allFinite()) throw std::runtime_error("fine level: the displacements are not finite");
+  return x;
+}
+
+FineSolution FineModel::solve(const FineLoads& loads) const {
+  FineSolution solution{mesh_, rock_, {}, {}, 0};
+  Vector& u = solution.displacement;
+  Vector b;
+  {
+    const ScopedTimer timer(*profile_, "loads");
+    u = unknowns_.prescribed_values(*mesh_, loads);
+    b = right_hand_side(loads, u);
+  }
+  const Vector x = back_solve(b);
+  const ScopedTimer timer(*profile_, "factors");
   for (int i = 0; i < u.size(); ++i) {
     if (unknowns_.of(i) != none) u[i] += x[unknowns_.of(i)];
   }

@@ -7,6 +7,7 @@
 
 #include "components/fine_fracture/quarter_point/solution.hpp"
 #include "components/fine_fracture/quarter_point/unknowns.hpp"
+#include "framework/output/profile.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -15,8 +16,10 @@ namespace sprekk::fine_fracture {
 /// back-substitution.
 class FineModel {
  public:
-  /// Throws what make_fine_mesh throws, and std::runtime_error when the matrix is singular.
-  FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock);
+  /// Times its work in `profile`: mesh, assembly, ordering, factorization, loads, back-solves, factors. Throws what
+  /// make_fine_mesh throws, and std::runtime_error when the matrix is singular.
+  FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
+            std::shared_ptr<Profile> profile = std::make_shared<Profile>());
   ~FineModel();
   FineModel(FineModel&&) noexcept;
   FineModel& operator=(FineModel&&) noexcept;
@@ -32,6 +35,11 @@ class FineModel {
   using ElementMatrix = Eigen::Matrix<double, 12, 12>;
   class Factors;
 
+  /// For the unknowns, with u of all that is prescribed and 0 elsewhere.
+  Vector right_hand_side(const FineLoads& loads, const Vector& u) const;
+  Vector back_solve(const Vector& b) const;
+
+  std::shared_ptr<Profile> profile_;
   FineGeometry geometry_;
   Elasticity rock_;
   std::shared_ptr<const FineMesh> mesh_;

@@ -165,13 +165,13 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
     tip.domain = std::move(domain);
     if (options_.tolerance) {
-      Adapted adapted = adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance});
+      Adapted adapted = adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance}, profile_);
       tip.model.emplace(std::move(adapted.model));
       meshes_ += adapted.meshes;
       solves_ += adapted.meshes;
       return factors_of(tip, adapted.solution);
     }
-    tip.model.emplace(tip.domain.geometry, mesh, rock);
+    tip.model.emplace(tip.domain.geometry, mesh, rock, profile_);
     ++meshes_;
   } else {
     tip.domain = std::move(domain);
@@ -424,6 +424,12 @@ std::map<std::string, long> Tips::counts() const {
           {"tips: answers kept", kept_},
           {"tips: ruled out", skipped_},
           {"tips: increments", increments_}};
+}
+
+std::vector<Profile::Entry> Tips::efforts() const {
+  std::vector<Profile::Entry> efforts(profile_->entries().begin(), profile_->entries().end());
+  for (Profile::Entry& effort : efforts) effort.name = "tips: " + effort.name;
+  return efforts;
 }
 
 namespace {

@@ -44,6 +44,7 @@ class Tips : public Component, public FractureTips, public Growing {
   void restore(const std::map<std::string, Vector>& state) override;
   void report(std::vector<Quantity>& quantities) const override;
   std::map<std::string, long> counts() const override;
+  std::vector<Profile::Entry> efforts() const override;
 
   void accept_surroundings(TipSurroundings& surroundings) override { surroundings_ = &surroundings; }
 
@@ -93,6 +94,7 @@ class Tips : public Component, public FractureTips, public Growing {
   TipsOptions options_;
   TipSurroundings* surroundings_ = nullptr;
   std::vector<Tip> tips_;
+  std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();  ///< of all fine levels
   long solves_ = 0, meshes_ = 0, kept_ = 0, skipped_ = 0, increments_ = 0;
 };
 
