@@ -32,7 +32,10 @@ GmshModel::GmshModel() {
     start();
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
+    // What callers may change for their model.
     gmsh::option::setNumber("Mesh.Algorithm", 6);
+    gmsh::option::setNumber("Mesh.Smoothing", 1);
+    gmsh::option::setNumber("Mesh.LcIntegrationPrecision", 1e-9);
     gmsh::option::setNumber("Mesh.ElementOrder", 1);
     // Sizes come from the callback alone.
     gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);

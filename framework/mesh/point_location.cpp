@@ -33,8 +33,8 @@ PointLocation::PointLocation(const Mesh& mesh) : mesh_(&mesh) {
   const Point size = whole.high - whole.low;
   low_ = whole.low;
   slack_ = 1e-10 * size.norm();
-  // About one cell a bucket.
-  width_ = std::sqrt(size.x() * size.y() / std::max(1, mesh.cell_count()));
+  // Four buckets for a cell of mean area: where a mesh is graded most points are asked for among its small cells.
+  width_ = 0.5 * std::sqrt(size.x() * size.y() / std::max(1, mesh.cell_count()));
   for (int axis = 0; axis < 2; ++axis) counts_[axis] = 1 + static_cast<int>(size[axis] / width_);
 
   const auto for_each_bucket = [&](int cell, auto&& visit) {
@@ -68,7 +68,8 @@ int PointLocation::cell_at(const Point& x) const {
     bool is_in = true;
     for (int k = 0; k < corners.size() && is_in; ++k) {
       const Point &a = mesh_->nodes[corners[k]], &b = mesh_->nodes[corners.after(k)];
-      is_in = cross(b - a, x - a) >= -slack_ * (b - a).norm();
+      const double above = cross(b - a, x - a);
+      is_in = above >= 0 || above >= -slack_ * (b - a).norm();
     }
     if (is_in) return cell;
   }

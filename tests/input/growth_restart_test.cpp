@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -69,6 +70,36 @@ void expect_same_bits_in_parts(const std::vector<std::string>& settings) {
   ASSERT_EQ(rest.code, 0) << rest.err;
   EXPECT_EQ(changes_in_parts + mesh_changes(folder / "parts"), changes);
   EXPECT_EQ(text_of(folder / "parts/history.csv"), text_of(folder / "whole/history.csv"));
+}
+
+TEST(RunWithGrowth, TheTimesOfBothLevelsAddUp) {
+  const Folder folder;
+  const Outcome run = sprekk_command(growing_run({"-o", "results"}), folder.path());
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("factorizations, back-solves"), std::string::npos);
+  const nlohmann::json record = nlohmann::json::parse(text_of(folder / "results/run.json"));
+  double solvers = 0, timed = 0;
+  std::map<std::string, long> calls;
+  for (const nlohmann::json& entry : record.at("profile")) {
+    const std::string name = entry.at("name");
+    const double seconds = entry.at("seconds");
+    EXPECT_GE(seconds, 0) << name;
+    timed += seconds;
+    calls[name] = entry.at("calls");
+    if (name.starts_with("linear: ") || name == "tips: ordering" || name == "tips: factorization" ||
+        name == "tips: back-solves")
+      solvers += seconds;
+  }
+  const nlohmann::json& timings = record.at("timings");
+  const double whole = record.at("seconds"), written = 1e-9;
+  EXPECT_NEAR(timings.at("factorizations, back-solves"), solvers, written);
+  EXPECT_NEAR(timings.at("everything else").get<double>() + solvers, whole, written);
+  EXPECT_LE(timed, whole);
+  const nlohmann::json& counters = record.at("counters");
+  EXPECT_GT(calls["tips: mesh"], 0);
+  EXPECT_EQ(calls["tips: mesh"], counters.at("tips: meshes"));
+  EXPECT_EQ(calls["tips: factorization"], counters.at("tips: meshes"));
+  EXPECT_EQ(calls["tips: back-solves"], counters.at("tips: solves"));
 }
 
 TEST(RunWithGrowth, InterruptedAndContinuedHasTheSameBits) { expect_same_bits_in_parts({}); }

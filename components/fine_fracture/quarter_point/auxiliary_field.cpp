@@ -18,17 +18,17 @@ struct Potentials {
 
 /// With Psi chosen so that Phi + conj(Phi) + z Phi' + Psi vanishes on both walls.
 Potentials potentials(Auxiliary field, double r, double theta) {
-  const Complex z = std::polar(r, theta);
+  const Complex w = std::polar(1 / r, -theta);  // 1/z
   if (field == Auxiliary::force) {
     const double b = -1 / (4 * std::numbers::pi);
-    return {b / z, -b / (z * z), 2 * b / (z * z * z), -b / z, b / (z * z)};
+    return {b * w, -b * w * w, 2 * b * w * w * w, -b * w, b * w * w};
   }
   // Ahead of the tip s22 + i s12 = (K_I + i K_II) / sqrt(2 pi r).
   const Complex K(field == Auxiliary::opening ? 1 : 0, field == Auxiliary::sliding ? 1 : 0);
   const Complex a = std::conj(K) / (2 * std::sqrt(2 * std::numbers::pi));
   const Complex b = std::conj(a) - 0.5 * a;
   const Complex root = std::polar(1 / std::sqrt(r), -0.5 * theta);  // z^-1/2
-  return {a * root, -0.5 * a * root / z, 0.75 * a * root / (z * z), b * root, -0.5 * b * root / z};
+  return {a * root, -0.5 * a * root * w, 0.75 * a * root * w * w, b * root, -0.5 * b * root * w};
 }
 
 /// From s11 + s22 and s22 - s11 + 2i s12.

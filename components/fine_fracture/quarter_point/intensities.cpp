@@ -37,10 +37,11 @@ bool has_jump_at(const FineMesh& mesh, const FineMesh::Tip& tip) {
 }  // namespace
 
 std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
-                                            const Vector& displacement) {
+                                            const Vector& displacement, const std::optional<TipPlace>& wanted) {
   std::vector<TipIntensities> results;
   for (const FineMesh::Tip& tip : mesh.tips) {
     const TipRoom& room = tip.room;
+    if (wanted && (room.crack != wanted->crack || room.is_last != wanted->is_last)) continue;
     TipIntensities result{};
     result.crack = room.crack;
     result.is_last = room.is_last;
@@ -50,10 +51,11 @@ std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elastici
         std::min(domain_in_radii * room.radius,
                  std::max(2 * room.radius, share_of_room * std::min(room.same_walls, room.clearance)));
     const double inner_radius = 0.5 * (result.domain_radius + room.radius);
-    const auto outer = interaction_integral(mesh, rock, loads, displacement, tip, result.domain_radius);
+    const auto [outer, inner] =
+        interaction_integrals(mesh, rock, loads, displacement, tip, {result.domain_radius, inner_radius});
     result.K_interaction = outer.K;
     result.T = outer.T;
-    result.K_inner = interaction_integral(mesh, rock, loads, displacement, tip, inner_radius).K;
+    result.K_inner = inner.K;
     correlate(tip, rock, displacement, result);
     const bool is_given = has_jump_at(mesh, tip);
     result.K = is_given ? result.K_extrapolated : result.K_interaction;

@@ -1,6 +1,7 @@
 // Stress-intensity factors of a finite-element solution.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "components/fine_fracture/quarter_point/elasticity.hpp"
@@ -31,8 +32,15 @@ struct TipIntensities {
   double domain_radius;  ///< of the interaction integral, m
 };
 
-/// `displacement` holds (x, y) per node. The loads are those of the solution.
+/// One of the tips of a geometry.
+struct TipPlace {
+  int crack;
+  bool is_last;
+};
+
+/// Of all tips, or of the one that is wanted. `displacement` holds (x, y) per node. The loads are those of the
+/// solution.
 std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
-                                            const Vector& displacement);
+                                            const Vector& displacement, const std::optional<TipPlace>& wanted = {});
 
 }  // namespace sprekk::fine_fracture

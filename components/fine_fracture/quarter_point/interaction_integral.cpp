@@ -18,8 +18,8 @@ constexpr std::array fields = {Auxiliary::opening, Auxiliary::sliding, Auxiliary
 class Integral {
  public:
   Integral(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads, const Vector& displacement,
-           const FineMesh::Tip& tip, double radius)
-      : mesh_(mesh), rock_(rock), loads_(loads), displacement_(displacement), tip_(tip), radius_(radius) {
+           const FineMesh::Tip& tip, const std::array<double, 2>& radii)
+      : mesh_(mesh), rock_(rock), loads_(loads), displacement_(displacement), tip_(tip), radii_(radii) {
     const Point& x1 = tip.room.direction;
     frame_ << x1.x(), -x1.y(), x1.y(), x1.x();
     subtract_constant_state();
@@ -29,12 +29,15 @@ class Integral {
     }
   }
 
-  InteractionResult result() const {
+  InteractionResult result(int domain) const {
     const double modulus = rock_.plane_modulus();
-    return {{0.5 * modulus * sum_[0], 0.5 * modulus * sum_[1]}, modulus * sum_[2] - constant_(1, 1)};
+    const auto& sum = sums_[domain];
+    return {{0.5 * modulus * sum[0], 0.5 * modulus * sum[1]}, modulus * sum[2] - constant_(1, 1)};
   }
 
  private:
+  static constexpr int domains = 2;
+
   bool is_own(const FineMesh::WallEdge& edge) const { return edge.tip != none && &mesh_.tips[edge.tip] == &tip_; }
 
   Tensor turned(const Tensor& global) const { return frame_.transpose() * global * frame_; }
@@ -64,7 +67,7 @@ class Integral {
     Eigen::Matrix2d normal_matrix = Eigen::Matrix2d::Zero(), right_side = Eigen::Matrix2d::Zero();
     for (const FineMesh::WallEdge& edge : mesh_.wall_edges) {
       const bool is_near = edge.crack == tip_.room.crack && edge.tip == none &&
-                           (weight(edge.nodes[0][0]) > 0 || weight(edge.nodes[0][1]) > 0);
+                           (weight(edge.nodes[0][0], 0) > 0 || weight(edge.nodes[0][1], 0) > 0);
       if (!is_near) continue;
       const Point normal = frame_.transpose() * edge.normal;
       constexpr int points = 3;
@@ -85,9 +88,10 @@ class Integral {
     return loads_.wall_traction(edge.crack, place.segment, place.s);
   }
 
-  double weight(int node) const {
+  /// That for domain 0, the larger one, is 0 only where the others are.
+  double weight(int node, int domain) const {
     const double r = (mesh_.nodes[node] - tip_.room.position).norm(), inner = tip_.room.radius;
-    return std::clamp((radius_ - r) / (radius_ - inner), 0.0, 1.0);
+    return std::clamp((radii_[domain] - r) / (radii_[domain] - inner), 0.0, 1.0);
   }
 
   /// du_i/dx_j in the frame of the tip.
@@ -98,16 +102,19 @@ class Integral {
   }
 
   void add_element(const FineMesh::Element& element) {
-    std::array<double, 3> q;
-    for (int k = 0; k < 3; ++k) q[k] = weight(element.nodes[k]);
-    if (q[0] == 0 && q[1] == 0 && q[2] == 0) return;
+    std::array<std::array<double, 3>, domains> q;
+    for (int k = 0; k < 3; ++k) q[0][k] = weight(element.nodes[k], 0);
+    if (q[0] == std::array<double, 3>{}) return;
     const bool is_rosette = element.tip != none;
     if (is_rosette && !loads_.stress_offset) return;  // the weight is constant there
+    std::array<Point, domains> dq;
+    for (int d = 0; d < domains; ++d) {
+      for (int k = 0; k < 3; ++k) q[d][k] = weight(element.nodes[k], d);
+      dq[d] = is_rosette ? Point(0, 0) : weight_gradient(element, q[d]);
+    }
     constexpr int along_rays = 4, across = 5, degree = 6;
     for (const TrianglePoint& place : is_rosette ? polar_rule(along_rays, across) : triangle_rule(degree)) {
       const ShapePoint p = shape_point(mesh_, element, place.xi, place.eta);
-      const double q_here = is_rosette ? 1 : q[0] + place.xi * (q[1] - q[0]) + place.eta * (q[2] - q[0]);
-      const Point dq = is_rosette ? Point(0, 0) : weight_gradient(element, q);
       const Tensor g = gradient(element, p);
       const Tensor strain = 0.5 * (g + g.transpose()) - constant_strain_;
       const Tensor stress_offset = offset(p.x) - offset_at_tip_;
@@ -117,9 +124,14 @@ class Integral {
       const double factor = place.weight * p.jacobian;
       for (std::size_t f = 0; f < fields.size(); ++f) {
         const AuxiliaryPoint a = auxiliary_point(fields[f], rock_, x.norm(), std::atan2(x.y(), x.x()));
-        const double flux = (stress * dq).dot(a.displacement_along) + (a.stress * dq).dot(along) -
-                            a.stress.cwiseProduct(strain).sum() * dq.x();
-        sum_[f] += factor * (flux + q_here * stress_offset.cwiseProduct(a.strain_along).sum());
+        const Point flux =
+            stress * a.displacement_along + a.stress * along - Point(a.stress.cwiseProduct(strain).sum(), 0);
+        const double source = stress_offset.cwiseProduct(a.strain_along).sum();
+        for (int d = 0; d < domains; ++d) {
+          const double q_here =
+              is_rosette ? 1 : q[d][0] + place.xi * (q[d][1] - q[d][0]) + place.eta * (q[d][2] - q[d][0]);
+          sums_[d][f] += factor * (flux.dot(dq[d]) + q_here * source);
+        }
       }
     }
   }
@@ -133,20 +145,27 @@ class Integral {
   }
 
   void add_wall(const FineMesh::WallEdge& edge) {
-    const double q_from = weight(edge.nodes[0][0]), q_to = weight(edge.nodes[0][1]);
-    if (q_from == 0 && q_to == 0) return;
+    std::array<double, domains> q_from, q_to;
+    for (int d = 0; d < domains; ++d) {
+      q_from[d] = weight(edge.nodes[0][0], d);
+      q_to[d] = weight(edge.nodes[0][1], d);
+    }
+    if (q_from[0] == 0 && q_to[0] == 0) return;
     const Point normal = frame_.transpose() * edge.normal;
     const double upper = normal.y() < 0 ? 1 : -1;  // plus is above when the normal, towards minus, points down
     constexpr int points = 5;
     for (const LinePoint& place : wall_rule(mesh_, edge, points)) {
       const EdgePoint p = edge_point(mesh_, edge.nodes[0], place.t);
-      const double q = edge.tip != none ? 1 : q_from + place.t * (q_to - q_from);
       const Point t = traction_here(edge, p.x, place.t, normal) - constant_ * normal;
       const double r = (p.x - tip_.room.position).norm();
       for (std::size_t f = 0; f < fields.size(); ++f) {
         const auto plus = auxiliary_point(fields[f], rock_, r, upper * std::numbers::pi);
         const auto minus = auxiliary_point(fields[f], rock_, r, -upper * std::numbers::pi);
-        sum_[f] -= place.weight * p.jacobian * q * t.dot(plus.displacement_along - minus.displacement_along);
+        const double work = t.dot(plus.displacement_along - minus.displacement_along);
+        for (int d = 0; d < domains; ++d) {
+          const double q = edge.tip != none ? 1 : q_from[d] + place.t * (q_to[d] - q_from[d]);
+          sums_[d][f] -= place.weight * p.jacobian * q * work;
+        }
       }
     }
   }
@@ -180,18 +199,20 @@ class Integral {
   const FineLoads& loads_;
   const Vector& displacement_;
   const FineMesh::Tip& tip_;
-  double radius_;
+  std::array<double, domains> radii_;
   Tensor frame_;  ///< columns x1, x2
   Tensor offset_at_tip_, constant_, constant_strain_;
   std::array<Point, 2> fitted_traction_{Point(0, 0), Point(0, 0)};  ///< at the tip, and its change with r
-  std::array<double, 3> sum_{};
+  std::array<std::array<double, 3>, domains> sums_{};
 };
 
 }  // namespace
 
-InteractionResult interaction_integral(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
-                                       const Vector& displacement, const FineMesh::Tip& tip, double radius) {
-  return Integral(mesh, rock, loads, displacement, tip, radius).result();
+std::array<InteractionResult, 2> interaction_integrals(const FineMesh& mesh, const Elasticity& rock,
+                                                       const FineLoads& loads, const Vector& displacement,
+                                                       const FineMesh::Tip& tip, const std::array<double, 2>& radii) {
+  const Integral integral(mesh, rock, loads, displacement, tip, radii);
+  return {integral.result(0), integral.result(1)};
 }
 
 }  // namespace sprekk::fine_fracture

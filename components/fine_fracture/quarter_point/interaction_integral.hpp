@@ -1,6 +1,8 @@
 // The interaction integral in domain form.
 #pragma once
 
+#include <array>
+
 #include "components/fine_fracture/quarter_point/elasticity.hpp"
 #include "components/fine_fracture/quarter_point/fine_mesh.hpp"
 #include "components/fine_fracture/quarter_point/loads.hpp"
@@ -21,8 +23,10 @@ struct InteractionResult {
 /// has been integrated by parts: only values of s occur. Before, the constant state that the walls' traction and s have
 /// at the tip is subtracted, so that integrals converge at the tip. K = E' I / 2, sigma_11 = E' I for a unit force.
 /// Exact for walls that are straight within the radius. On walls of kind jump, t is the mean of both elements'
-/// stress, in the rosette a line fitted to it from behind.
-InteractionResult interaction_integral(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
-                                       const Vector& displacement, const FineMesh::Tip& tip, double radius);
+/// stress, in the rosette a line fitted to it from behind. For two radii, the first one the larger, together: they
+/// share all but q.
+std::array<InteractionResult, 2> interaction_integrals(const FineMesh& mesh, const Elasticity& rock,
+                                                       const FineLoads& loads, const Vector& displacement,
+                                                       const FineMesh::Tip& tip, const std::array<double, 2>& radii);
 
 }  // namespace sprekk::fine_fracture

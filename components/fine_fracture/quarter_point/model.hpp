@@ -28,8 +28,9 @@ class FineModel {
   const FineMesh& mesh() const { return *mesh_; }
   const Elasticity& rock() const { return rock_; }
 
-  /// Throws std::runtime_error when the result is not finite.
-  FineSolution solve(const FineLoads& loads) const;
+  /// With the factors of all tips, or of the one that is wanted. Throws std::runtime_error when the result is not
+  /// finite.
+  FineSolution solve(const FineLoads& loads, const std::optional<TipPlace>& wanted = {}) const;
 
  private:
   using ElementMatrix = Eigen::Matrix<double, 12, 12>;

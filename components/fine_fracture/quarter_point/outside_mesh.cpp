@@ -8,9 +8,11 @@
 #include <stdexcept>
 
 #include "components/fine_fracture/quarter_point/outline.hpp"
+#include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/gmsh_drawing.hpp"
 #include "framework/mesh/gmsh_model.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "framework/mesh/smooth_triangles.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
@@ -151,14 +153,17 @@ class Reader {
     number_.resize(tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()) + 1);
     for (std::size_t i = 0; i < tags.size(); ++i) {
       number_[tags[i]] = static_cast<int>(i);
-      raw.nodes.push_back(canonical.outward({coordinates[3 * i], coordinates[3 * i + 1]}));
+      raw.nodes.emplace_back(coordinates[3 * i], coordinates[3 * i + 1]);
     }
     tags.clear();
     constexpr int three_node_triangle = 2;
     gmsh::model::mesh::getElementsByType(three_node_triangle, elements, tags);
     for (std::size_t i = 0; i + 2 < tags.size(); i += 3) {
       raw.cells.push_back({number_[tags[i]], number_[tags[i + 1]], number_[tags[i + 2]]});
+      if (signed_area(raw.nodes, raw.cells.back()) < 0) raw.cells.back().turn();
     }
+    smooth(raw);
+    for (Point& x : raw.nodes) x = canonical.outward(x);
     for (std::size_t i = 0; i < drawing.points.size(); ++i) {
       tags.clear(), coordinates.clear(), parameters.clear();
       gmsh::model::mesh::getNodes(tags, coordinates, parameters, 0, canonical.point_number[i] + 1, false, false);
@@ -191,6 +196,17 @@ class Reader {
   }
 
  private:
+  /// In gmsh's frame, so that images of one another stay so.
+  void smooth(RawMesh& raw) const {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, parameters;
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters, 2, -1, false, false);
+    std::vector<char> is_free(raw.nodes.size(), false);
+    for (const std::size_t tag : tags) is_free[number_[tag]] = true;
+    constexpr int rounds = 2;
+    smooth_triangles(raw.nodes, raw.cells, is_free, rounds);
+  }
+
   const Drawing& drawing_;
   const CanonicalDrawing& canonical_;
   std::vector<int> number_;  ///< by gmsh's number
@@ -246,6 +262,12 @@ OutsideMesh mesh_outside(const FineGeometry& geometry, const std::vector<TipRoom
   OutsideMesh mesh;
   const GmshModel model;
   model.run("mesh the fine level", [&] {
+    // Together a third of the price of gmsh's own choices. Shapes are smoothed afterwards, and lengths along a line are
+    // needed for a number of edges.
+    constexpr int delaunay = 5;
+    gmsh::option::setNumber("Mesh.Algorithm", delaunay);
+    gmsh::option::setNumber("Mesh.Smoothing", 0);
+    gmsh::option::setNumber("Mesh.LcIntegrationPrecision", 1e-3);
     enter(drawing, canonical);
     // Without the last digits, in which images of one another differ.
     gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) {

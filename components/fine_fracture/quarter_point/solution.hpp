@@ -13,7 +13,7 @@ struct FineSolution {
   std::shared_ptr<const FineMesh> mesh;
   Elasticity rock;
   Vector displacement;               ///< (x, y) per node, m
-  std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips
+  std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips, or the one that was wanted
   double strain_energy;              ///< of C eps(u), J/m
 
   /// Places come from an ElementLocator.

@@ -165,7 +165,8 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
     tip.domain = std::move(domain);
     if (options_.tolerance) {
-      Adapted adapted = adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance}, profile_);
+      Adapted adapted =
+          adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance}, profile_);
       tip.model.emplace(std::move(adapted.model));
       meshes_ += adapted.meshes;
       solves_ += adapted.meshes;
@@ -177,7 +178,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
     tip.domain = std::move(domain);
   }
   ++solves_;
-  return factors_of(tip, tip.model->solve(loads_of(tip)));
+  return factors_of(tip, tip.model->solve(loads_of(tip), TipPlace{tip.domain.crack, tip.domain.is_last}));
 }
 
 FineLoads Tips::loads_of(const Tip& tip) const {

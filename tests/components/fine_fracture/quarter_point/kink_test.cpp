@@ -76,6 +76,22 @@ TEST(Kink, ParallelCracksNearEachOtherShareTheRoom) {
   EXPECT_DOUBLE_EQ(model.mesh().tips[1].room.radius, 0.01 / 3);
 }
 
+TEST(Kink, TheFactorsOfOneTipAreThoseAmongAll) {
+  FineGeometry geometry{rectangle(-0.25, -0.25, 0.25, 0.25),
+                        {inner_crack({-0.05, 0}, {0.05, 0}), inner_crack({0.03, 0.01}, {0.12, 0.01})}};
+  const FineModel model(geometry, paper_mesh(), table_1_rock);
+  const FineLoads loads = exact_outline(paper_crack(1e6, 0.3e6));
+  const FineSolution all = model.solve(loads);
+  for (const TipIntensities& tip : all.tips) {
+    const FineSolution one = model.solve(loads, TipPlace{tip.crack, tip.is_last});
+    ASSERT_EQ(one.tips.size(), 1u);
+    EXPECT_EQ(one.tips[0].position, tip.position);
+    EXPECT_EQ(one.tips[0].K, tip.K);
+    EXPECT_EQ(one.tips[0].T, tip.T);
+    EXPECT_EQ(one.tips[0].error, tip.error);
+  }
+}
+
 TEST(Kink, GeometryThatCannotBeMeshedIsRefused) {
   const auto refuse = [](const FineGeometry& geometry) {
     EXPECT_THROW(make_fine_mesh(geometry, paper_mesh()), std::invalid_argument);
