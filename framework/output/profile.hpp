@@ -14,11 +14,11 @@ namespace sprekk {
 class Profile {
  public:
   struct Entry {
-    std::string name;    ///< of the object: "pore: discretization", "rock+pore: factorization"
-    long calls = 0;      ///< how often it did its work
-    long reuses = 0;     ///< how often a kept result was used instead
-    long skips = 0;      ///< how often nothing was needed at all
-    double seconds = 0;  ///< own time, without that of objects timed inside: the shares add up
+    std::string name;        ///< of the object: "pore: discretization", "rock+pore: factorization"
+    long calls = 0;          ///< how often it did its work
+    long reuses = 0;         ///< how often a kept result was used instead
+    long skips = 0;          ///< how often nothing was needed at all
+    double seconds = 0;      ///< own time, without that of objects timed inside: the shares add up
     bool is_solver = false;  ///< a factorization (with its ordering) or back-solves of a linear system
   };
 

@@ -77,7 +77,7 @@ class Run {
   void retire_counts(const Model& model);  ///< adds what the model has counted to the totals
   void split_steps();                      ///< takes what others have timed inside of steps out of their time
   void count_settling();
-  bool follows_growth();                   ///< false when the mesh could not
+  bool follows_growth();  ///< false when the mesh could not
   bool fails_with_growth();
   bool stays_as_it_is(const StepTime& step) const;  ///< of the state that is about to be accepted
   ExitCode loop();

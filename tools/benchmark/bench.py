@@ -18,6 +18,7 @@ from run_results import ROOT
 # What prints a table of its own, from programs in the build folder.
 TABLES = {
     "discretization": "seconds of TPFA, MPFA, MPSA on unstructured triangles, beside PorePy's",
+    "growth_steps": "where the seconds of section 5.2 go, by kind of step and by part, and those of section 5.1",
     "skip": "what scenes from flow alone to the full model have, and seconds beside dedicated minimal programs",
     "step": "where the seconds of a step of section 5.1 go, on uniform meshes",
 }
@@ -88,6 +89,7 @@ def main():
         list_cases(names, options, program)
         return
 
+    import growth_steps
     import page  # draws with matplotlib, which takes a while to load
     import skip
     import two_level_page
@@ -97,6 +99,8 @@ def main():
     two_level.run_cases([name for name in names if name in two_level.PROBLEMS], program, options.out, options.limit, options.again)
     if "discretization" in names:
         subprocess.run([options.build / "bench_discretization"], check=True)
+    if "growth_steps" in names:
+        growth_steps.measure(program, options.out, options.again)
     if "skip" in names:
         skip.measure(program, options.build / "bench_minimal", options.out, options.again)
     if "step" in names:

@@ -163,6 +163,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   const LameParameters lame = surroundings_->stiffness(center);
   const Elasticity rock{lame.lambda, lame.shear};
   if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
+    tip.answer.reset();
     tip.domain = std::move(domain);
     if (options_.tolerance) {
       Adapted adapted =
@@ -170,15 +171,21 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
       tip.model.emplace(std::move(adapted.model));
       meshes_ += adapted.meshes;
       solves_ += adapted.meshes;
-      return factors_of(tip, adapted.solution);
+      return noted(tip, adapted.solution);
     }
     tip.model.emplace(tip.domain.geometry, mesh, rock, profile_);
     ++meshes_;
   } else {
     tip.domain = std::move(domain);
   }
+  // Paths of others change nothing where they are out of its domain, and a search begins where the tip was examined.
+  if (tip.answer && tip.answer->version == surroundings_->version()) {
+    ++kept_;
+    tip.now.sif_error = tip.answer->error;
+    return tip.answer->sifs;
+  }
   ++solves_;
-  return factors_of(tip, tip.model->solve(loads_of(tip), TipPlace{tip.domain.crack, tip.domain.is_last}));
+  return noted(tip, tip.model->solve(loads_of(tip), TipPlace{tip.domain.crack, tip.domain.is_last}));
 }
 
 FineLoads Tips::loads_of(const Tip& tip) const {
@@ -214,6 +221,12 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s));
   };
   return loads;
+}
+
+Sifs Tips::noted(Tip& tip, const FineSolution& solution) const {
+  const Sifs sifs = factors_of(tip, solution);
+  tip.answer = {surroundings_->version(), sifs, tip.now.sif_error};
+  return sifs;
 }
 
 Sifs Tips::factors_of(Tip& tip, const FineSolution& solution) const {
@@ -361,6 +374,7 @@ void Tips::rewound() {
   for (Tip& tip : tips_) {
     tip.now = tip.accepted;
     tip.answered_for = 0;
+    tip.answer.reset();
   }
 }
 

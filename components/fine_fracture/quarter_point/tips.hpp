@@ -67,9 +67,16 @@ class Tips : public Component, public FractureTips, public Growing {
     std::string name;
     double coarse_size;  ///< m, Delta H: the length of the original cell at this end
     State now, accepted;
+    /// For `model`, `domain` and one state of the coarse level.
+    struct Answer {
+      std::uint64_t version;  ///< of the surroundings
+      Sifs sifs;
+      double error;  ///< Pa m^0.5, estimated
+    };
     // A factorization is reused while geometry and rock are what they were, and an answer while the coarse level is.
     std::optional<FineModel> model;
     FineDomain domain;
+    std::optional<Answer> answer;
     std::uint64_t answered_for = 0;
   };
 
@@ -81,6 +88,8 @@ class Tips : public Component, public FractureTips, public Growing {
   FineLoads loads_of(const Tip& tip) const;
   /// The factors in a solution for this tip. Notes their estimated error.
   Sifs factors_of(Tip& tip, const FineSolution& solution) const;
+  /// The same, and keeps them as the tip's answer.
+  Sifs noted(Tip& tip, const FineSolution& solution) const;
   bool is_safe(const Tip& tip) const;
   double load(const Sifs& sifs) const;
   /// How far a tip may be from what the coarse level knows of, m.
