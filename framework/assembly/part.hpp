@@ -40,6 +40,12 @@ struct Dependence {
 /// start).
 using Stabilization = std::map<const Field*, Vector>;
 
+/// freely: at first. In pieces: the discrete state tells all pieces of piecewise linear terms from one another, and
+/// derivatives are those of the piece that the values are in, not of one where the update is expected. In linear
+/// pieces: as well, and coefficients that make terms nonlinear within a piece stay what they are at the moment of the
+/// call.
+enum class Look { freely, in_pieces, in_linear_pieces };
+
 /// A component or a coupler. Repeating a step after a rewind must give the same bits: whatever a part keeps between
 /// calls is in fields, or follows from the mesh, the parameters and the step's time.
 class Part {
@@ -77,9 +83,8 @@ class Part {
 
   /// Changes whenever the discrete state (which cells stick, slip, are open) does; the cycle detector reads it.
   virtual std::uint64_t discrete_state() const { return 0; }
-  /// From now on the discrete state tells all pieces of piecewise linear terms from one another, and derivatives are
-  /// those of the piece that the values are in, not of one where the update is expected. Off at first.
-  virtual void follow_pieces(bool /*exactly*/) {}
+  /// How Newton's method looks for a solution from now on.
+  virtual void look_for_solution(Look) {}
   /// The names of the stabilizations that it offers to split schemes.
   virtual std::vector<std::string> stabilizations() const { return {}; }
   /// Adds the diagonals of a named stabilization to the fields that it knows how to stabilize.

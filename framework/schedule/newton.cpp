@@ -166,18 +166,22 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
     status.iterations += before;
   }
   if (status.converged || !state_has_changed_ || options_.pieces == 0) return status;
-  restart();
-  follow_pieces(true);
-  const StepStatus path = follow_path(step);
-  follow_pieces(false);
-  status.iterations += path.iterations;
-  status.converged = path.converged;
-  status.reason += "; then " + path.reason;
+  constexpr double much_shorter = 1.0 / 8;
+  const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
+  if (has_failed && step.dt > much_shorter * last_failed_path_.dt) return status;
+  for (const Look look : {Look::in_linear_pieces, Look::in_pieces}) {
+    restart();
+    StepStatus path = follow_path(step, look);
+    status.iterations += path.iterations;
+    if (path.converged && look == Look::in_linear_pieces) {  // and now with the coefficients that belong to it
+      path = attempt(step, options_.undamped);
+      status.iterations += path.iterations;
+    }
+    if (path.converged) return {true, "", status.iterations};
+    status.reason += "; then " + path.reason;
+  }
+  last_failed_path_ = step;
   return status;
-}
-
-void Newton::follow_pieces(bool exactly) {
-  for (Part* part : parts_) part->follow_pieces(exactly);
 }
 
 StepStatus Newton::attempt(const StepTime& step, int undamped) {

@@ -31,9 +31,11 @@ struct NewtonOptions {
 /// linear, so residual(x) = s residual(x0) is a line that bends where the state changes. It is followed from s = 1 down
 /// to 0, each piece with its own derivatives, up to the place where the piece ends. Where the next piece has a
 /// determinant of the other sign, s grows until the path turns again. Full steps and descent can cycle or end in a
-/// minimum; the path ends at a solution or shows none (Katzenelson 1965; Ralph 1994, "path search"; the turns are those
-/// of Lemke's method, with which Klarbring (1986) solved frictional contact). Where terms are not linear within a piece
-/// (the cubic law), it is a guess.
+/// minimum; the path can only run to a solution, to infinity, or back to where it was (Katzenelson 1965 for monotone
+/// functions; Ralph 1994, "path search"; the turns are those of Lemke's method, with which Klarbring (1986) solved
+/// frictional contact). Coefficients that are not constant within a piece (the cubic law) are held, and ordinary
+/// iterations from the end of the path correct them; when that does not converge, the path is followed with all
+/// derivatives, as far as it goes.
 ///
 /// Repeating a call from the same fields gives the same bits.
 class Newton {
@@ -66,8 +68,10 @@ class Newton {
   /// Without a line search for the first `undamped` iterations.
   StepStatus attempt(const StepTime& step, int undamped);
   /// The third attempt (path_search.cpp).
-  StepStatus follow_path(const StepTime& step);
-  void follow_pieces(bool exactly);
+  StepStatus follow_path(const StepTime& step, Look look);
+  void step_off_kinks(const LinearSystem& system, const Vector& update);
+  /// Whether the next update is as small as it has to be, too.
+  bool is_solution(const ResidualCheck& check);
   ResidualCheck take_step(const StepTime& step, const Vector& update, bool ask_for_descent, double& length);
 
   std::vector<Field*> unknowns_;
@@ -82,6 +86,7 @@ class Newton {
   int assemblies_ = 0;
   std::vector<ResidualCheck> recent_;  ///< the last states
   bool state_has_changed_ = false;     ///< the discrete one, in this solve
+  StepTime last_failed_path_;          ///< its step; a path is not followed again for one that is hardly shorter
   const Stabilization* stabilization_ = nullptr;
   std::map<const Field*, Vector> start_;
 };

@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <optional>
+#include <set>
 
 #include "framework/schedule/newton.hpp"
 
@@ -20,39 +21,84 @@ struct Crossing {
 /// convex, so that one end in it has all between in it.
 template <class IsSame>
 std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
-  constexpr double sharpness = 1e-13;
+  constexpr double sharpness = 1e-13, shortest = 1e-16;
   Crossing crossing{0, std::min(1.0, limit)};
   while (is_same(crossing.behind)) {
     if (crossing.behind >= limit) return std::nullopt;
     crossing = {crossing.behind, 2 * crossing.behind};
   }
-  while (crossing.behind - crossing.before > sharpness * crossing.behind) {
+  while (crossing.behind - crossing.before > sharpness * crossing.behind + shortest) {
     const double middle = 0.5 * (crossing.before + crossing.behind);
-    if (middle <= crossing.before || middle >= crossing.behind) break;
     (is_same(middle) ? crossing.before : crossing.behind) = middle;
   }
   return crossing;
 }
 
+/// Parts look for a solution so as long as it lives.
+class LookingSo {
+ public:
+  LookingSo(Look look, const std::vector<Part*>& parts) : parts_(parts) {
+    for (Part* part : parts_) part->look_for_solution(look);
+  }
+  ~LookingSo() {
+    for (Part* part : parts_) part->look_for_solution(Look::freely);
+  }
+  LookingSo(const LookingSo&) = delete;
+  LookingSo& operator=(const LookingSo&) = delete;
+
+ private:
+  const std::vector<Part*>& parts_;
+};
+
 }  // namespace
 
-StepStatus Newton::follow_path(const StepTime& step) {
-  constexpr double far = 1e9;       // lengths of the update: a ray that has met no other piece meets none
-  constexpr double at_once = 1e-7;  // a piece that is left so soon has only been touched
-  constexpr int visits = 2;         // of one piece: more is going round in circles
-  std::map<std::uint64_t, int> entered;
+/// Cells that slipped last lie on a kink, and those that have felt nothing yet on several: which piece the path starts
+/// in, and which comes after it, would be round-off. It may start anywhere, so it starts beside them.
+void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
+  constexpr double aside = 1e-5, golden_ratio = 0.6180339887498949;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    if (system.blocks[u].kind != UnknownBlock::Kind::local || unknowns_[u]->size() == 0) continue;
+    const int size = unknowns_[u]->size();
+    const double largest = update.segment(system_.first(static_cast<int>(u)), size).lpNorm<Eigen::Infinity>();
+    Vector values = unknowns_[u]->now();
+    for (int i = 0; i < size; ++i) {
+      const double turns = (i + 1) * golden_ratio;
+      values[i] += aside * largest * (2 * (turns - std::floor(turns)) - 1);
+    }
+    unknowns_[u]->set(std::move(values));
+  }
+}
+
+bool Newton::is_solution(const ResidualCheck& check) {
+  if (!check.converged) return false;
+  Vector next;
+  const LinearReport report = linear_->solve(right_hand_side(check), next);
+  return report.solved && relative_size(next, check) <= options_.update;
+}
+
+StepStatus Newton::follow_path(const StepTime& step, Look how) {
+  constexpr double far = 1e9;  // lengths of the update: a ray that has met no other piece meets none
+  const LookingSo looking(how, parts_);
+  std::set<std::uint64_t> entered;
   std::uint64_t left = 0;    // the piece that was left last
   bool has_crossed = false;  // since the last whole step
   int whole_steps = 0;
   ResidualCheck check = look(step);
   for (int iteration = 0; iteration < options_.pieces; ++iteration) {
-    const auto fails = [iteration](const std::string& reason) { return StepStatus{false, reason, iteration}; };
+    const auto fails = [iteration](const std::string& reason) { return StepStatus{false, reason, iteration + 1}; };
     if (!check.finite) return fails("the residual of " + check.equation + " is not finite");
-    const LinearReport factoring = linear_->factor(system_.matrix(*assembly_));
+    const LinearSystem& system = system_.matrix(*assembly_);
+    const LinearReport factoring = linear_->factor(system);
     if (!factoring.solved) return fails("singular system: " + factoring.reason);
     Vector update;
     const LinearReport report = linear_->solve(right_hand_side(check), update);
     if (!report.solved) return fails("linear solver: " + report.reason);
+    if (iteration == 0) {
+      step_off_kinks(system, update);
+      check = look(step);
+      entered.insert(discrete_state());
+      continue;
+    }
 
     const std::vector<Vector> from = values();
     const std::uint64_t piece = discrete_state();
@@ -62,7 +108,7 @@ StepStatus Newton::follow_path(const StepTime& step) {
     };
     std::optional<Crossing> crossing = first_crossing(is_same, 1);
     bool is_reversed = false;
-    if (crossing && has_crossed && crossing->behind < at_once) {
+    if (crossing && has_crossed) {
       move(from, update, crossing->behind);
       is_reversed = discrete_state() == left;
     }
@@ -70,27 +116,24 @@ StepStatus Newton::follow_path(const StepTime& step) {
       // The determinant has changed its sign: from here the path leads away from the solution before it comes back.
       update = -update;
       crossing = first_crossing(is_same, far);
-      if (!crossing) return fails("the path leads to no solution (a ray)");
+      if (!crossing) return fails("the path leads to infinity");
     }
     const double length = crossing ? crossing->behind : 1;
     move(from, update, length);
     check = look(step);
     if (log_)
-      log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check),
+      log_({step, name_, iteration, check.largest, check.equation, relative_size(update, check),
             is_reversed ? -length : length});
+    if (is_solution(check)) return {true, "", iteration + 1};
     has_crossed = crossing.has_value();
     if (has_crossed) {
       left = piece;
       whole_steps = 0;
-      if (++entered[discrete_state()] > visits) return fails("the path goes round in circles");
-      continue;
+      // A line enters a convex region once.
+      if (!entered.insert(discrete_state()).second) return fails("the path comes back to where it was");
+    } else if (++whole_steps == options_.at_most) {
+      return fails("no convergence in the last piece of the path");
     }
-    if (check.converged) {
-      Vector next;
-      const LinearReport last = linear_->solve(right_hand_side(check), next);
-      if (last.solved && relative_size(next, check) <= options_.update) return {true, "", iteration + 1};
-    }
-    if (++whole_steps == options_.at_most) return fails("no convergence in the last piece of the path");
   }
   return {false, fmt::format("the path has more than {} pieces", options_.pieces), options_.pieces};
 }

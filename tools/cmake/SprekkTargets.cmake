@@ -52,5 +52,7 @@ function(sprekk_tests folder)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARGN} GTest::gtest_main GTest::gmock)
   target_compile_definitions(${name} PRIVATE SPREKK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  # What tests spend their time in is in the libraries; -O3 of their own code is a third of a build from nothing.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(${name} TEST_PREFIX "${folder}: " DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

@@ -136,14 +136,19 @@ State Coulomb::state(int i) const {
   return t.sticks() ? State::stick : State::slip;
 }
 
+int Coulomb::piece(int i) const {
+  const Trial t = trial(i);
+  const State now = state(i);
+  const int piece = 2 * static_cast<int>(now) + (now == State::slip && t.tangential > 0);
+  if (!follows_pieces_) return piece;
+  if (is_bonded(i)) return 0;
+  const bool has_kink = dilation_[i] > 0 && now != State::open;
+  return 2 * piece + (has_kink && t.slip_sign > 0);
+}
+
 std::uint64_t Coulomb::discrete_state() const {
   std::uint64_t hash = 0;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    const State now = state(i);
-    const Trial t = trial(i);
-    hash = hash * 1000003 + static_cast<std::uint64_t>(now) * 2 + (now == State::slip && t.tangential > 0);
-    if (follows_pieces_) hash = hash * 2 + (now == State::slip && t.slip_sign > 0);
-  }
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) hash = hash * 1000003 + piece(i);
   return hash;
 }
 

@@ -48,7 +48,7 @@ class Coulomb : public Component, public FractureContact {
   void settled(const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   std::uint64_t discrete_state() const override;
-  void follow_pieces(bool exactly) override { follows_pieces_ = exactly; }
+  void look_for_solution(Look look) override { follows_pieces_ = look != Look::freely; }
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
@@ -73,6 +73,8 @@ class Coulomb : public Component, public FractureContact {
     bool slides_back() const { return !is_open() && !sticks() && tangential * slip_sign < 0; }
   };
   Trial trial(int cell) const;
+  /// A number for the state of a cell, and when pieces are followed for the piece of |[u]_t| too.
+  int piece(int cell) const;
 
   /// Slip of a cell against the slip that it has, as Newton's method has tried it in this step.
   struct BackSlip {

@@ -196,15 +196,22 @@ void FractureFlow::prescribe(const StepTime& step) {
 }
 
 double FractureFlow::hydraulic_aperture(int cell) const {
-  return std::max(aperture_.now()[cell], options_.aperture_floor);
+  return std::max(is_held() ? held_aperture_[cell] : aperture_.now()[cell], options_.aperture_floor);
+}
+
+bool FractureFlow::conducts_by_aperture(int cell) const {
+  return !is_held() && aperture_.now()[cell] >= options_.aperture_floor;
+}
+
+void FractureFlow::look_for_solution(Look look) {
+  held_aperture_ = look == Look::in_linear_pieces ? aperture_.now() : Vector();
 }
 
 FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
   const double viscosity = viscosity_[cell];
   if (options_.transmissivity == "constant") return {given_transmissivity_[cell] / viscosity, 0};
   const double a = hydraulic_aperture(cell);
-  const bool floored = aperture_.now()[cell] < options_.aperture_floor;
-  return {a * a * a / (12 * viscosity), floored ? 0 : a * a / (4 * viscosity)};
+  return {a * a * a / (12 * viscosity), conducts_by_aperture(cell) ? a * a / (4 * viscosity) : 0};
 }
 
 FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
@@ -218,8 +225,7 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
     const double a = hydraulic_aperture(i);
     const Transmissivity t = transmissivity(i);
     kappa.value[i] = 2 * t.value / (a * a);
-    if (aperture_.now()[i] >= options_.aperture_floor)
-      kappa.by_aperture[i] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a);
+    if (conducts_by_aperture(i)) kappa.by_aperture[i] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a);
   }
   return kappa;
 }

@@ -28,6 +28,7 @@ class FractureFlow : public Component, public FractureFluid {
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime& step) const override;
+  void look_for_solution(Look look) override;
   void constrain(Assembly& assembly) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
@@ -47,6 +48,9 @@ class FractureFlow : public Component, public FractureFluid {
   };
   Transmissivity transmissivity(int cell) const;
   double hydraulic_aperture(int cell) const;  ///< the aperture, not below the floor
+  /// Whether the cubic law changes with the aperture.
+  bool conducts_by_aperture(int cell) const;
+  bool is_held() const { return held_aperture_.size() > 0; }
   /// A point through which fluid can flow.
   struct Link {
     int point;
@@ -73,6 +77,7 @@ class FractureFlow : public Component, public FractureFluid {
   Field& aperture_;
   Field& books_;  ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_aperture_;
+  Vector held_aperture_;  ///< for the cubic law, or empty for the present one
   Property viscosity_, compressibility_, given_transmissivity_, given_normal_permeability_;
   std::vector<Link> links_;
   Vector source_;  ///< m^2/s, one a cell
