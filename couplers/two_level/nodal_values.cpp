@@ -59,12 +59,11 @@ NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from
 
 void NodalValues::set(int components, const Vector& cells, const Vector& faces) {
   using Table = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-  components_ = components;
   values_ = from_cells_ * Table(cells.data(), mesh_->cell_count(), components);
   if (from_ == From::cells_and_faces) values_ += from_faces_ * Table(faces.data(), mesh_->face_count(), components);
 }
 
-Vector NodalValues::at(int cell, const Point& x) const {
+NodalValues::Weights NodalValues::weights(int cell, const Point& x) const {
   const Ring& corners = mesh_->cell_nodes[cell];
   std::array<int, 3> n{corners[0], corners[1], corners[2]};
   if (corners.size() == 4) {
@@ -76,7 +75,7 @@ Vector NodalValues::at(int cell, const Point& x) const {
   const auto cross = [](const Point& u, const Point& v) { return u[0] * v[1] - u[1] * v[0]; };
   const double area = cross(b - a, c - a);
   const double l0 = cross(b - x, c - x) / area, l1 = cross(c - x, a - x) / area;
-  return l0 * values_.row(n[0]) + l1 * values_.row(n[1]) + (1 - l0 - l1) * values_.row(n[2]);
+  return {n, {l0, l1, 1 - l0 - l1}};
 }
 
 }  // namespace sprekk::couplers

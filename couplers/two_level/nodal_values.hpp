@@ -1,6 +1,8 @@
 // From values of cells and outer faces to values of nodes, and between nodes (Eqs. 18, 19).
 #pragma once
 
+#include <array>
+
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/point_location.hpp"
 
@@ -20,13 +22,27 @@ class NodalValues {
   NodalValues(const Mesh& mesh, From from);
   /// `cells`: `components` values a cell; `faces`: as many a face, or empty.
   void set(int components, const Vector& cells, const Vector& faces);
-  /// The values in cell `cell` at x.
-  Vector at(int cell, const Point& x) const;
+  /// The values in cell `cell` at x; `components` is what was set.
+  template <int components>
+  Eigen::Vector<double, components> at(int cell, const Point& x) const {
+    const Weights w = weights(cell, x);
+    return w.share[0] * row<components>(w.nodes[0]) + w.share[1] * row<components>(w.nodes[1]) +
+           w.share[2] * row<components>(w.nodes[2]);
+  }
 
  private:
+  struct Weights {
+    std::array<int, 3> nodes;
+    std::array<double, 3> share;
+  };
+  Weights weights(int cell, const Point& x) const;
+  template <int components>
+  Eigen::Vector<double, components> row(int node) const {
+    return values_.row(node).template head<components>();
+  }
+
   const Mesh* mesh_;
   From from_;
-  int components_ = 0;
   SparseMatrix from_cells_, from_faces_;  ///< nodes × entities
   Eigen::MatrixXd values_;                ///< nodes × components
 };

@@ -79,12 +79,12 @@ class TwoLevel : public Coupler, public TipSurroundings {
   }
 
   Point displacement(const Point& x, const Point& inside) const override {
-    return displacement_.at(cell_at(inside), x);
+    return displacement_.at<2>(cell_at(inside), x);
   }
 
   Eigen::Vector3d stress_offset(const Point& x, const Point& inside) const override {
     const int cell = cell_at(inside);
-    const double pore = pore_stress_.at(cell, x)[0];
+    const double pore = pore_stress_.at<1>(cell, x)[0];
     return rock_.initial_stress(cell, x) + Eigen::Vector3d(pore, pore, 0);
   }
 
@@ -112,7 +112,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   }
 
   int cell_at(const Point& x) const {
-    const int cell = location_.cell_at(x);
+    const int cell = last_cell_ = location_.cell_at(x, last_cell_);
     if (cell == none) throw std::runtime_error(fmt::format("({:.6g} m, {:.6g} m) is outside of the rock", x[0], x[1]));
     return cell;
   }
@@ -123,7 +123,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
       const FractureCell& cell = mesh_.fracture_cells[i];
       Point side[2];
-      for (int k = 0; k < 2; ++k) side[k] = displacement_.at(mesh_.face_cells[cell.faces[k]][0], cell.center);
+      for (int k = 0; k < 2; ++k) side[k] = displacement_.at<2>(mesh_.face_cells[cell.faces[k]][0], cell.center);
       const Point difference = side[1] - side[0];
       jump.segment<2>(2 * i) = Point(difference.dot(cell.normal), difference.dot(cell.tangent));
     }
@@ -136,6 +136,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   RockWalls& walls_;
   FractureFluid* fluid_;
   PointLocation location_;
+  mutable int last_cell_ = none;  ///< where a place was looked for last: the next one is often in the same cell
   NodalValues displacement_, pore_stress_;
   std::vector<AlongFracture> along_;
   Vector traction_, jump_;

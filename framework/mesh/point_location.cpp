@@ -76,6 +76,27 @@ int PointLocation::cell_at(const Point& x) const {
   return none;
 }
 
+int PointLocation::cell_at(const Point& x, int guess) const {
+  // From cell to cell across the first face that has the point on its other side, until the point is so far inside that
+  // no other cell counts it as its own.
+  constexpr int most_steps = 12;
+  int cell = guess;
+  for (int step = 0; step < most_steps && cell != none; ++step) {
+    const Ring& corners = mesh_->cell_nodes[cell];
+    int next = cell;
+    for (int k = 0; k < corners.size() && next == cell; ++k) {
+      const Point &a = mesh_->nodes[corners[k]], &b = mesh_->nodes[corners.after(k)];
+      const double above = cross(b - a, x - a);
+      if (above > 0 && above * above > 4 * slack_ * slack_ * (b - a).squaredNorm()) continue;
+      const auto& [one, other] = mesh_->face_cells[mesh_->cell_faces[cell][k]];
+      next = one == cell ? other : one;
+    }
+    if (next == cell) return cell;
+    cell = next;
+  }
+  return cell_at(x);
+}
+
 int find_fracture(const Mesh& mesh, const std::string& name) {
   for (std::size_t i = 0; i < mesh.fractures.size(); ++i) {
     if (mesh.fractures[i].name == name) return static_cast<int>(i);

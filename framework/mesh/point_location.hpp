@@ -15,6 +15,8 @@ class PointLocation {
   /// The cell that holds the point, or none outside of the mesh. A point on a face gives the adjacent cell with the
   /// smallest index; points outside by less than 1e-10 of the mesh's extent still count as inside.
   int cell_at(const Point& x) const;
+  /// The same, faster where a guess (a cell, or none) is near: for places that follow one another closely.
+  int cell_at(const Point& x, int guess) const;
 
  private:
   int bucket(int axis, double coordinate) const;

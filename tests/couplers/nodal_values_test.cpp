@@ -54,7 +54,7 @@ double largest_error(const NodalValues& values, const Mesh& mesh, const Function
       const Point &b = mesh.nodes[corners[k]], &c = mesh.nodes[corners[k + 1]];
       const double s = part(random), t = (1 - s) * part(random);
       for (const Point& x : {a, b, c, Point(a + s * (b - a) + t * (c - a))})
-        error = std::max(error, (Point(values.at(i, x)) - function(x, i)).norm());
+        error = std::max(error, (Point(values.at<2>(i, x)) - function(x, i)).norm());
     }
   }
   return error;
@@ -139,7 +139,7 @@ TEST(NodalValues, MeansOfCellsAreOffAtWallsByTheStrainTimesTheDistance) {
         const double into_rock = mesh.cell_center[rock][1] > 0.5 ? 1 : -1;
         const double away = mesh.node_cells[node].size() == 4 ? h / 2 : h / 3;
         (mesh.node_cells[node].size() == 4 ? halves : thirds) += 1;
-        EXPECT_LT((Point(values.at(rock, x)) - linear(x) - into_rock * away * strain).norm(), rounding);
+        EXPECT_LT((Point(values.at<2>(rock, x)) - linear(x) - into_rock * away * strain).norm(), rounding);
       }
     }
   EXPECT_GT(halves, 0);
@@ -159,7 +159,7 @@ TEST(NodalValues, MeansOfCellsWeighByArea) {
         centroid += mesh.cell_area[cell] * mesh.cell_center[cell];
         area += mesh.cell_area[cell];
       }
-      EXPECT_LT((Point(values.at(i, mesh.nodes[node])) - linear(centroid / area)).norm(), rounding);
+      EXPECT_LT((Point(values.at<2>(i, mesh.nodes[node])) - linear(centroid / area)).norm(), rounding);
     }
 }
 

@@ -34,9 +34,9 @@ def run(program, folder, scene, settings=()):
 
 def kinds_of_steps(history):
     """What each accepted step was. The cells of fractures are counted before the mesh changes at the end of a step."""
-    lengths = np.array([values for name, values in history.items() if name.split("[")[0].endswith(".length")])
-    cells = sum(values for name, values in history.items() if name.startswith("contact.cells_"))
     steps = history["step[s]"]
+    lengths = np.array([values for name, values in history.items() if name.split("[")[0].endswith(".length")]).reshape(-1, len(steps))
+    cells = sum(values for name, values in history.items() if name.startswith("contact.cells_"))
     kinds = []
     for i in range(len(steps)):
         grew = i > 0 and np.any(lengths[:, i] > lengths[:, i - 1] + 1e-9)

@@ -1,6 +1,8 @@
 // Exact fields near a tip of a straight crack whose walls are free, in the frame of the tip.
 #pragma once
 
+#include <array>
+
 #include "components/fine_fracture/quarter_point/elasticity.hpp"
 
 namespace sprekk::fine_fracture {
@@ -18,5 +20,7 @@ enum class Auxiliary { opening, sliding, force };
 
 /// At distance r from the tip and angle theta from its direction, -pi to pi: the ends are the lower and the upper wall.
 AuxiliaryPoint auxiliary_point(Auxiliary field, const Elasticity& rock, double r, double theta);
+/// All three, in the order of Auxiliary, at a place off the walls.
+std::array<AuxiliaryPoint, 3> auxiliary_points(const Elasticity& rock, const Point& x);
 
 }  // namespace sprekk::fine_fracture

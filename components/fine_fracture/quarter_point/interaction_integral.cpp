@@ -122,8 +122,9 @@ class Integral {
       const Point along = g.col(0) - constant_strain_.col(0);
       const Point x = frame_.transpose() * (p.x - tip_.room.position);
       const double factor = place.weight * p.jacobian;
+      const std::array<AuxiliaryPoint, 3> auxiliary = auxiliary_points(rock_, x);
       for (std::size_t f = 0; f < fields.size(); ++f) {
-        const AuxiliaryPoint a = auxiliary_point(fields[f], rock_, x.norm(), std::atan2(x.y(), x.x()));
+        const AuxiliaryPoint& a = auxiliary[f];
         const Point flux =
             stress * a.displacement_along + a.stress * along - Point(a.stress.cwiseProduct(strain).sum(), 0);
         const double source = stress_offset.cwiseProduct(a.strain_along).sum();

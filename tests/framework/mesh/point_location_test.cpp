@@ -34,6 +34,26 @@ TEST(PointLocation, FindsRandomPointsAndNothingOutside) {
   EXPECT_EQ(location.cell_at({std::nan(""), 1}), none);
 }
 
+TEST(PointLocation, AGuessChangesNoAnswer) {
+  const Mesh mesh = generate_mesh(paper_geometry(), {.size = 0.15, .fracture_size = 0.01});
+  const PointLocation location(mesh);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> part(-0.1, 1.1);
+  const auto compare = [&](const Point& x, int near) {
+    const int cell = location.cell_at(x);
+    ASSERT_EQ(location.cell_at(x, near), cell);
+    ASSERT_EQ(location.cell_at(x, none), cell);
+    ASSERT_EQ(location.cell_at(x, cell), cell);
+  };
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const Ring& corners = mesh.cell_nodes[c];
+    const Point &a = mesh.nodes[corners[0]], &b = mesh.nodes[corners[1]], &d = mesh.nodes[corners[2]];
+    compare(a, c);
+    compare(0.5 * (a + b), c);
+    for (int i = 0; i < 5; ++i) compare(a + part(random) * (b - a) + part(random) * (d - a), c);
+  }
+}
+
 TEST(PointLocation, CornersOfTheBoxAreInside) {
   const Mesh mesh = generate_mesh(box(-3, 5, 100, 104), {.size = 1});
   const PointLocation location(mesh);
