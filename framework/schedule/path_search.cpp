@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -53,17 +54,25 @@ class LookingSo {
 }  // namespace
 
 /// Cells that slipped last lie on a kink, and those that have felt nothing yet on several: which piece the path starts
-/// in, and which comes after it, would be round-off. It may start anywhere, so it starts beside them.
+/// in, and which comes after it, would be round-off. It may start anywhere, so it starts beside them. Fields of one
+/// unit share a scale: jumps that are zero while everything sticks are compared with displacements.
 void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
   constexpr double aside = 1e-5, golden_ratio = 0.6180339887498949;
+  const auto change = [&](std::size_t u) {
+    return update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size());
+  };
+  std::map<std::string, double> scale;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    if (unknowns_[u]->size() > 0) {
+      double& largest = scale[unknowns_[u]->spec().unit];
+      largest = std::max(largest, change(u).lpNorm<Eigen::Infinity>());
+    }
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    if (system.blocks[u].kind != UnknownBlock::Kind::local || unknowns_[u]->size() == 0) continue;
-    const int size = unknowns_[u]->size();
-    const double largest = update.segment(system_.first(static_cast<int>(u)), size).lpNorm<Eigen::Infinity>();
+    if (system.blocks[u].kind != UnknownBlock::Kind::local) continue;
     Vector values = unknowns_[u]->now();
-    for (int i = 0; i < size; ++i) {
+    for (int i = 0; i < values.size(); ++i) {
       const double turns = (i + 1) * golden_ratio;
-      values[i] += aside * largest * (2 * (turns - std::floor(turns)) - 1);
+      values[i] += aside * scale[unknowns_[u]->spec().unit] * (2 * (turns - std::floor(turns)) - 1);
     }
     unknowns_[u]->set(std::move(values));
   }
