@@ -10,49 +10,6 @@
 
 namespace sprekk::fine_fracture {
 
-Spec TipsOptions::spec() {
-  Spec spec("fine_fracture/quarter_point",
-            "Tips of fractures: stress-intensity factors from a fine level around each, and growth (secs. 2.5, 4.3).");
-  spec.ignore("type");
-  spec.quantity("size", size,
-                {.unit = "m",
-                 .range = positive(),
-                 .doc = "Side of the square around a tip; what reaches out of the rock is cut off.",
-                 .source = "l of sec. 3.1",
-                 .required = true});
-  spec.quantity("mesh_ratio", mesh_ratio,
-                {.range = {.low = 0, .high = 1, .low_allowed = false},
-                 .doc = "Edge length at the tip over that of the coarse level.",
-                 .source = "epsilon_m of sec. 4.1"});
-  spec.integer("sectors", sectors, {.range = between(8, 64), .doc = "Quarter-point elements around a tip."});
-  spec.quantity(
-      "tolerance", tolerance,
-      {.range = strictly_between(0, 1),
-       .doc = "Meshes of the fine level are refined until the estimated error of the stress is below this part "
-              "of it (energy norm, Zienkiewicz and Zhu 1992); without it sizes are what is given.",
-       .source = "sec. 4.1"});
-  spec.quantity("toughness", toughness,
-                {.unit = "Pa*m^0.5",
-                 .range = positive(),
-                 .doc = "K_IC; without it tips do not grow.",
-                 .source = "sec. 2.5",
-                 .material = true});
-  spec.choice("factors", factors,
-              {{"interaction_integral", "over a domain around the tip, with the tractions of the walls"},
-               {"displacement_correlation", "from the nodes of the quarter-point elements (the paper)"}},
-              {.doc = "How stress-intensity factors follow from the displacement.", .source = "sec. 4.3"});
-  spec.quantity("cavity", cavity,
-                {.range = positive(),
-                 .doc = "The coarse mesh changes within this many of its edge lengths around a path it takes over.",
-                 .source = "sec. 4.1"});
-  spec.quantity("skip_below", skip_below,
-                {.range = between(0, 1),
-                 .doc = "The fine level of a tip is not solved while twice the K_eq that the jump behind it stands for "
-                        "is below this part of the toughness; 0: always solved."});
-  spec.section("growth", growth.spec(), {.doc = "How tips grow."});
-  return spec;
-}
-
 namespace {
 
 bool is_tip(const Mesh& mesh, const TipEnd& end) {
@@ -188,41 +145,6 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   return noted(tip, tip.model->solve(loads_of(tip), TipPlace{tip.domain.crack, tip.domain.is_last}));
 }
 
-FineLoads Tips::loads_of(const Tip& tip) const {
-  std::vector<double> lengths;
-  for (const Fracture& fracture : mesh_.fractures) {
-    double length = 0;
-    for (int i = 0; i < fracture.cell_count; ++i) length += mesh_.fracture_cells[fracture.first_cell + i].length;
-    lengths.push_back(length);
-  }
-  const FineDomain& domain = tip.domain;
-  const auto arc = [&domain](int crack, int segment, double s) {
-    const std::vector<double>& along = domain.sources[crack].arc;
-    return along[segment] + s * (along[segment + 1] - along[segment]);
-  };
-  FineLoads loads;
-  loads.boundary_displacement = [this](const Point& x, const Point& inside) {
-    return surroundings_->displacement(x, inside);
-  };
-  loads.stress_offset = [this](const Point& x) { return surroundings_->stress_offset(x, x); };
-  loads.wall_traction = [this, &domain, arc, lengths](int crack, int segment, double s) -> Point {
-    const int fracture = domain.sources[crack].fracture;
-    const double at = arc(crack, segment, s);
-    // What has grown on the fine level is open and feels the fluid (design: the walls that grow carry its pressure).
-    const std::vector<Point>& points = domain.geometry.cracks[crack].points;
-    const Point along = (points[segment + 1] - points[segment]).normalized();
-    const Point normal(along[1], -along[0]);
-    const double middle = arc(crack, segment, 0.5);
-    if (middle < 0) return -surroundings_->fluid_pressure(fracture, false) * normal;
-    if (middle > lengths[fracture]) return -surroundings_->fluid_pressure(fracture, true) * normal;
-    return surroundings_->wall_traction(fracture, at);
-  };
-  loads.wall_jump = [this, &domain, arc](int crack, int segment, double s) {
-    return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s));
-  };
-  return loads;
-}
-
 Sifs Tips::noted(Tip& tip, const FineSolution& solution) const {
   const Sifs sifs = factors_of(tip, solution);
   tip.answer = {surroundings_->version(), sifs, tip.now.sif_error};
@@ -313,11 +235,7 @@ Growing::Growth Tips::grow(const StepTime&) {
   if (!growth.longest)
     for (const Tip& tip : tips_) growth.longest = std::max(growth.longest.value_or(0), longest_path(tip));
   const std::vector<TipOutcome> outcomes = grow_tips(
-      growing, growth,
-      [this](int tip, const std::vector<TipPath>& paths) {
-        const Sifs sifs = evaluate(tip, paths);
-        return sifs;
-      },
+      growing, growth, [this](int tip, const std::vector<TipPath>& paths) { return evaluate(tip, paths); },
       [this](int tip, const TipPath& path, const Point& to) {
         return tips_[tip].now.is_stopped ? 0 : free_way(tips_[tip], path, to);
       },

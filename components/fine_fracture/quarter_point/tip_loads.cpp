@@ -1,0 +1,41 @@
+// What the coarse level tells the fine one: displacements of its boundary, stress, and what the walls carry.
+#include "components/fine_fracture/quarter_point/tips.hpp"
+
+namespace sprekk::fine_fracture {
+
+FineLoads Tips::loads_of(const Tip& tip) const {
+  std::vector<double> lengths;
+  for (const Fracture& fracture : mesh_.fractures) {
+    double length = 0;
+    for (int i = 0; i < fracture.cell_count; ++i) length += mesh_.fracture_cells[fracture.first_cell + i].length;
+    lengths.push_back(length);
+  }
+  const FineDomain& domain = tip.domain;
+  const auto arc = [&domain](int crack, int segment, double s) {
+    const std::vector<double>& along = domain.sources[crack].arc;
+    return along[segment] + s * (along[segment + 1] - along[segment]);
+  };
+  FineLoads loads;
+  loads.boundary_displacement = [this](const Point& x, const Point& inside) {
+    return surroundings_->displacement(x, inside);
+  };
+  loads.stress_offset = [this](const Point& x) { return surroundings_->stress_offset(x, x); };
+  loads.wall_traction = [this, &domain, arc, lengths](int crack, int segment, double s) -> Point {
+    const int fracture = domain.sources[crack].fracture;
+    const double at = arc(crack, segment, s);
+    // What has grown on the fine level is open and feels the fluid (design: the walls that grow carry its pressure).
+    const std::vector<Point>& points = domain.geometry.cracks[crack].points;
+    const Point along = (points[segment + 1] - points[segment]).normalized();
+    const Point normal(along[1], -along[0]);
+    const double middle = arc(crack, segment, 0.5);
+    if (middle < 0) return -surroundings_->fluid_pressure(fracture, false) * normal;
+    if (middle > lengths[fracture]) return -surroundings_->fluid_pressure(fracture, true) * normal;
+    return surroundings_->wall_traction(fracture, at);
+  };
+  loads.wall_jump = [this, &domain, arc](int crack, int segment, double s) {
+    return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s));
+  };
+  return loads;
+}
+
+}  // namespace sprekk::fine_fracture
