@@ -20,19 +20,18 @@ P = {"young": 2.5e9, "poisson": 0.25, "alpha": 0.0, "permeability": 1e-15, "visc
      "compressibility": 1e-9, "friction": 0.5, "dilation": 10.0, "aperture": 1e-3, "width": 4.0, "height": 4.0,
      "length": 0.5, "sides": "stress", "stress": 1e7, "ratio": 2.0, "history": "constant", "initial": 1e6,
      "boundary": "none", "boundary_pressure": 0.0, "well": "none", "volume": 0.1, "relative_step": 1.0, "steps": 1}
-N = 8  # squares along a side
 
 
-def grids():
-    """A square of 4 m in triangles, and a fracture of 4 cells on its middle line."""
-    points = np.array([[4 * i / N, 4 * j / N, 0] for j in range(N + 1) for i in range(N + 1)])
+def grids(n=8, columns=(2, 3, 4, 5)):
+    """A square of 4 m in triangles, n squares along a side, and a fracture on its middle line, in some columns."""
+    points = np.array([[4 * i / n, 4 * j / n, 0] for j in range(n + 1) for i in range(n + 1)])
     triangles = []
-    for j in range(N):
-        for i in range(N):
-            a, b = j * (N + 1) + i, (j + 1) * (N + 1) + i
+    for j in range(n):
+        for i in range(n):
+            a, b = j * (n + 1) + i, (j + 1) * (n + 1) + i
             triangles += [[a, a + 1, b + 1], [a, b + 1, b]]
-    row = N // 2 * (N + 1)
-    lines = [[row + i, row + i + 1] for i in range(2, 6)]
+    row = n // 2 * (n + 1)
+    lines = [[row + i, row + i + 1] for i in columns]
     return results.Grid(points, np.array(triangles)), results.Grid(points, np.array(lines))
 
 
@@ -107,6 +106,24 @@ class Checks(unittest.TestCase):
         self.found(check_pressure.failures(P, change("matrix", "pore.pressure[Pa]", 3, 1e8)), "above")
         board = change("matrix", "pore.pressure[Pa]", slice(None, None, 2), 1e5)
         self.found(check_pressure.failures(P, board), "peaks")
+
+    def test_a_ring_around_a_fracture_is_no_alternation(self):
+        """The fracture has fallen below the rock, and with it the cells beside it; those that touch it with a corner are
+        peaks. A checkerboard of a tenth on top of it is one."""
+        matrix, lines = grids(6, [1, 2, 3, 4])
+        cells, fracture = len(matrix.cells), np.full(4, -5e5)
+        instant = written.Instant(0.0, matrix, lines, follows=True)
+        pairs, walls = check_pressure.neighbours(instant), check_pressure.at_walls(instant)
+        pressure = np.zeros(cells)
+        pressure[np.isin(matrix.cells, np.unique(lines.cells)).any(1)] = 1e5
+        pressure[walls[:, 0]] = -1e5
+        lower = [all(pressure[cell] > pressure[pair].min() for pair in pairs[(pairs == cell).any(1)])
+                 for cell in range(cells)]
+        inner = np.bincount(pairs.ravel()) == 3
+        self.assertGreater(np.mean(np.array(lower)[inner]), check_pressure.SHARE)
+        self.assertEqual(check_pressure.alternating(pressure, fracture, pairs, walls), 0)
+        pressure[::2] += 2e4
+        self.assertGreater(check_pressure.alternating(pressure, fracture, pairs, walls), check_pressure.SHARE)
 
     def test_not_finite(self):
         bad = change("matrix", "pore.pressure[Pa]", 3, np.nan)

@@ -8,8 +8,10 @@ Bounds: a pressure lies between those that were given, widened by what loads and
   sides of the box.
 - A fracture that has opened, and closes: at most the stress that closes it.
 - Opening by slip, and extraction, lower the pressure without a bound of their own where the rock gives no fluid.
-Alternating: a cell is a peak when its pressure is above (or below) that of all its neighbours by more than 2 % of all
-differences there are. Smooth pressures have few of them, a checkerboard has half.
+Alternating: a cell is a peak (a trough) when its pressure is above (below) that of all its neighbours by more than 2 %
+of all differences there are; the neighbour of a cell at a fracture is the fluid in it. In a checkerboard all cells are
+one or the other, side by side. Smooth pressures may have a ring of peaks, around a fracture whose load falls, but from
+there they fall to the fracture and away from it, with no trough in between.
 """
 
 import math
@@ -26,34 +28,46 @@ SCATTER = 0.05
 IN_A_ROW = 5
 
 
+def cells_of_edges(instant):
+    """({edge: its cells}, the edges of the fracture cells)."""
+    def edge(grid, a, b):
+        return tuple(sorted(tuple(np.round(grid.points[corner], 12)) for corner in (a, b)))
+    edges = {}
+    for cell, corners in enumerate(instant.matrix.cells):
+        for i in range(3):
+            edges.setdefault(edge(instant.matrix, corners[i], corners[(i + 1) % 3]), []).append(cell)
+    return edges, [edge(instant.fractures, a, b) for a, b in instant.fractures.cells]
+
+
 def neighbours(instant):
     """Pairs of cells that share an edge which is not on a fracture."""
-    def key(point):
-        return tuple(np.round(point, 12))
-    grid = instant.matrix
-    edges = {}
-    for cell, corners in enumerate(grid.cells):
-        for i in range(3):
-            a, b = key(grid.points[corners[i]]), key(grid.points[corners[(i + 1) % 3]])
-            edges.setdefault((min(a, b), max(a, b)), []).append(cell)
-    lines = instant.fractures
-    for a, b in lines.cells:
-        a, b = key(lines.points[a]), key(lines.points[b])
-        edges.pop((min(a, b), max(a, b)), None)
-    return np.array([cells for cells in edges.values() if len(cells) == 2])
+    edges, on_fractures = cells_of_edges(instant)
+    excluded = set(on_fractures)
+    return np.array([cells for edge, cells in edges.items() if len(cells) == 2 and edge not in excluded])
 
 
-def peaks(pressure, pairs):
-    """Share of the cells with three neighbours that are peaks."""
-    below, above = np.zeros(len(pressure)), np.zeros(len(pressure))
+def at_walls(instant):
+    """Pairs of a cell and a fracture cell that is one of its edges."""
+    edges, on_fractures = cells_of_edges(instant)
+    return np.array([(cell, line) for line, edge in enumerate(on_fractures) for cell in edges[edge]])
+
+
+def alternating(pressure, fracture, pairs, walls):
+    """Share of the cells with three neighbours that are peaks beside a trough, or troughs beside a peak."""
+    below, above, degree = (np.zeros(len(pressure), int) for _ in range(3))
     margin = PEAK * (pressure.max() - pressure.min())
     difference = pressure[pairs[:, 0]] - pressure[pairs[:, 1]]
-    for column, sign in ((0, 1), (1, -1)):
-        np.add.at(above, pairs[:, column], sign * difference > margin)
-        np.add.at(below, pairs[:, column], sign * difference < -margin)
-    degree = np.bincount(pairs.ravel(), minlength=len(pressure))
+    for cells, more in ((pairs[:, 0], difference), (pairs[:, 1], -difference),
+                        (walls[:, 0], pressure[walls[:, 0]] - fracture[walls[:, 1]])):
+        np.add.at(above, cells, more > margin)
+        np.add.at(below, cells, more < -margin)
+        np.add.at(degree, cells, 1)
+    peak, trough = (above == degree) & (degree >= 2), (below == degree) & (degree >= 2)
+    opposite = (peak[pairs[:, 0]] & trough[pairs[:, 1]]) | (trough[pairs[:, 0]] & peak[pairs[:, 1]])
+    beside = np.zeros(len(pressure), bool)
+    beside[pairs[opposite].ravel()] = True
     inner = degree == 3
-    return ((above == 3) | (below == 3))[inner].mean() if inner.any() else 0.0
+    return beside[inner].mean() if inner.any() else 0.0
 
 
 def alternating_along(pressure, margin):
@@ -108,11 +122,12 @@ def failures(p, instants):
         may_fall = p["well"] in ("extract", "inject_extract") or has_opened
         if not may_fall and min(pressure.min(), fracture.min()) < low - slack:
             found.append(f"pressure: {min(pressure.min(), fracture.min()):.6g} Pa below {low:.6g} at t = {instant.time:.6g} s")
-        pairs = neighbours(instant) if pairs is None else pairs
+        if pairs is None:
+            pairs, walls = neighbours(instant), at_walls(instant)
         if pressure.max() - pressure.min() > 1e-8 * size:
-            share = peaks(pressure, pairs)
+            share = alternating(pressure, fracture, pairs, walls)
             if share > SHARE:
-                found.append(f"alternating: {100 * share:.0f} % of the cells are peaks at t = {instant.time:.6g} s")
+                found.append(f"alternating: {100 * share:.0f} % of the cells are peaks beside troughs at t = {instant.time:.6g} s")
         numbers = instant.fractures.cell_data["fracture"]
         for number in np.unique(numbers):
             own = fracture[numbers == number]
