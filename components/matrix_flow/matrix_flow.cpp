@@ -199,7 +199,13 @@ void MatrixFlow::use_operators() {
   boundary_applied_ = false;
   fluxes_.is_valid = false;
   const int rank = parallel::rank();
-  outflow_of_pressure_ = Operator(cell_sums(mesh_, operators_.flux_cell, 1, rank));
+  // What flows through inner faces enters one cell as it leaves another.
+  std::vector<char> is_outer(mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) is_outer[f] = mesh_.face_cells[f][1] == none;
+  const auto outflow_of = [&](const SparseMatrix& fluxes) {
+    return Operator(cell_sums(mesh_, fluxes, 1, rank), cell_sums(mesh_, keep_rows(fluxes, is_outer), 1, rank));
+  };
+  outflow_of_pressure_ = outflow_of(operators_.flux_cell);
   largest_conductance_ = 0;
   const SparseMatrix& outflow = outflow_of_pressure_.entries();
   for (int row = 0; row < outflow.rows(); ++row)
@@ -213,7 +219,7 @@ void MatrixFlow::use_operators() {
   SparseMatrix boundary_of_wall_flux(mesh_.face_count(), mesh_.wall_count());
   boundary_of_wall_flux.setFromTriplets(entries.begin(), entries.end());
   flux_of_wall_flux_ = operators_.flux_boundary * boundary_of_wall_flux;
-  outflow_of_wall_flux_ = Operator(cell_sums(mesh_, flux_of_wall_flux_, 1, rank));
+  outflow_of_wall_flux_ = outflow_of(flux_of_wall_flux_);
 
   entries.clear();
   for (int w = 0; w < mesh_.wall_count(); ++w)
@@ -275,6 +281,10 @@ void MatrixFlow::apply_boundary() {
   boundary_applied_ = true;
   boundary_fluxes_ = operators_.flux_boundary * boundary_values_;
   outflow_constant_ = cell_sums(mesh_, boundary_fluxes_, 1) - outflow_of_pressure_.entries() * gravity_potential_cell_;
+  Vector outer_fluxes = boundary_fluxes_;
+  for (int f = 0; f < mesh_.face_count(); ++f)
+    if (mesh_.face_cells[f][1] != none) outer_fluxes[f] = 0;
+  leaving_constant_ = cell_sums(mesh_, outer_fluxes, 1) - outflow_of_pressure_.leaving() * gravity_potential_cell_;
   if (!wall_flux_) return;
   const Vector trace = operators_.trace_boundary * boundary_values_ - operators_.trace_cell * gravity_potential_cell_ +
                        gravity_potential_face_;
@@ -307,14 +317,17 @@ void MatrixFlow::begin_step(const StepTime& step) {
 
 void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(pressure_)) return;
+  assembly.conserve(pressure_, "fluid");
   assembly.add(pressure_, capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()));
   assembly.compare_round_off(pressure_, capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, pressure_, capacity_of_pressure_);
   // What flows depends on differences of pressure only, so its terms are added together, and compared with what flows
   // through faces: terms of the pressure itself would hide it where the level is high.
-  assembly.add(pressure_, step.dt * (assembly.product(outflow_of_pressure_, pressure_) + outflow_constant_));
+  assembly.exchange(pressure_, step.dt * (assembly.product(outflow_of_pressure_, pressure_) + outflow_constant_),
+                    step.dt * (outflow_of_pressure_.leaving() * pressure_.now() + leaving_constant_));
   assembly.derivative(pressure_, pressure_, outflow_of_pressure_, step.dt);
-  assembly.compare_round_off(pressure_, step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
+  assembly.compare_round_off_of_exchange(pressure_,
+                                         step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
   // Where all terms vanish the residual is small against the flow before the step.

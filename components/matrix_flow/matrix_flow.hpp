@@ -125,12 +125,13 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   std::map<std::string, std::vector<std::pair<int, double>>> well_cells_;  ///< cells and weights by well
   Vector capacity_;                                                        ///< storage times area, m^2/Pa
   Operator capacity_of_pressure_;                                          ///< the same as a diagonal
-  Operator outflow_of_pressure_;    ///< cells × cells: sum of fluxes out of each cell
+  Operator outflow_of_pressure_;    ///< cells × cells: sum of fluxes out of each cell, an exchange
   double largest_conductance_ = 0;  ///< largest sum of absolute entries of a row of it, m^2/(Pa s)
   SparseMatrix flux_of_wall_flux_;  ///< faces × walls
-  Operator outflow_of_wall_flux_;   ///< cells × walls
+  Operator outflow_of_wall_flux_;   ///< cells × walls, an exchange
   Vector boundary_values_;          ///< one a face, see FluxOperators
   Vector outflow_constant_;         ///< m^2/s, one a cell
+  Vector leaving_constant_;         ///< of it, what leaves the rock
   Vector boundary_fluxes_;          ///< what the boundary values alone make flow through each face, m^2/s
   LinearExpression wall_pressure_;
   Vector source_;  ///< m^2/s, one a cell

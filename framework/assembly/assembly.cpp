@@ -14,9 +14,32 @@ Assembly::Assembly(std::vector<const Field*> unknowns, Want want, Products* prod
   }
   magnitudes_.assign(unknowns_.size(), 0);
   round_off_bases_.assign(unknowns_.size(), 0);
+  sums_.resize(unknowns_.size());
 }
 
-void Assembly::add(const Field& row, const Vector& values) {
+void Assembly::InSum::add(const Vector& values) {
+  residual += values;
+  const double size = values.lpNorm<1>();
+  magnitude = std::max(magnitude, size);
+  round_off_base = std::max(round_off_base, size);
+}
+
+void Assembly::conserve(const Field& row, const std::string& quantity) {
+  const auto found = index_.find(&row);
+  if (found == index_.end()) return;
+  const int i = found->second;
+  if (sums_[i].residual.size() > 0) throw std::logic_error(row.name() + " is conserved: this was said twice");
+  sums_[i].residual = Vector::Zero(row.size());
+  sums_[i].add(residuals_[i]);
+  auto conserved = std::find_if(conserved_.begin(), conserved_.end(),
+                                [&](const Conserved& one) { return one.quantity == quantity; });
+  if (conserved == conserved_.end()) conserved = conserved_.insert(conserved_.end(), {quantity, {}});
+  conserved->rows.push_back(i);
+}
+
+void Assembly::add(const Field& row, const Vector& values) { exchange(row, values, values); }
+
+void Assembly::exchange(const Field& row, const Vector& values, const Vector& leaving) {
   const auto found = index_.find(&row);
   if (found == index_.end()) return;
   const int i = found->second;
@@ -26,6 +49,7 @@ void Assembly::add(const Field& row, const Vector& values) {
   const double largest = values.lpNorm<Eigen::Infinity>();
   magnitudes_[i] = std::max(magnitudes_[i], largest);
   round_off_bases_[i] = std::max(round_off_bases_[i], largest);
+  if (sums_[i].residual.size() > 0) sums_[i].add(leaving);
 }
 
 void Assembly::compare_with(const Field& row, double magnitude) {
@@ -36,6 +60,14 @@ void Assembly::compare_with(const Field& row, double magnitude) {
 }
 
 void Assembly::compare_round_off(const Field& row, double largest) {
+  compare_round_off_of_exchange(row, largest);
+  const auto found = index_.find(&row);
+  if (found == index_.end()) return;
+  InSum& sum = sums_[found->second];
+  sum.round_off_base = std::max(sum.round_off_base, row.size() * largest);
+}
+
+void Assembly::compare_round_off_of_exchange(const Field& row, double largest) {
   const auto found = index_.find(&row);
   if (found != index_.end()) round_off_bases_[found->second] = std::max(round_off_bases_[found->second], largest);
 }
@@ -49,29 +81,30 @@ void Assembly::fix(const Field& row, int i, double target, double scale) {
 }
 
 void Assembly::keep_block(const Field& row, const Field& column, const SparseMatrix& block, double factor,
-                          const Vector* weights, std::uint64_t number) {
+                          const Vector* weights, const Operator* kept) {
   if (!wants_derivatives()) return;
   const auto i = index_.find(&row), j = index_.find(&column);
   if (i == index_.end() || j == index_.end()) return;
   if (block.rows() != row.size() || block.cols() != column.size())
     throw std::logic_error("derivative of " + row.name() + " by " + column.name() + ": wrong shape");
-  blocks_.push_back({i->second, j->second, &block, factor, weights, number});
+  blocks_.push_back({i->second, j->second, &block, factor, weights, kept ? kept->number() : 0,
+                     kept ? &kept->leaving() : &block, kept ? kept->largest_exchange() : 0});
 }
 
 void Assembly::derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor,
                           const Vector* weights) {
-  keep_block(row, column, block, factor, weights, 0);
+  keep_block(row, column, block, factor, weights, nullptr);
 }
 
 void Assembly::derivative(const Field& row, const Field& column, const Operator& block, double factor,
                           const Vector* weights) {
-  keep_block(row, column, block.entries(), factor, weights, block.number());
+  keep_block(row, column, block.entries(), factor, weights, &block);
 }
 
 void Assembly::derivative(const Field& row, const Field& column, SparseMatrix&& block) {
   if (!wants_derivatives()) return;
   owned_.push_back(std::move(block));
-  keep_block(row, column, owned_.back(), 1, nullptr, 0);
+  keep_block(row, column, owned_.back(), 1, nullptr, nullptr);
 }
 
 void Assembly::diagonal(const Field& row, const Field& column, const Vector& entries) {
@@ -89,13 +122,25 @@ void Assembly::linear(const Field& row, const Operator& matrix, const Field& col
     throw std::logic_error("term of " + row.name() + " in " + column.name() + ": wrong shape");
   const int i = found->second;
   const FieldProduct& product = products_->now(matrix, column);
-  double largest = 0, largest_absolute = 0;
+  const bool is_conserved = sums_[i].residual.size() > 0;
+  Vector scaled(is_conserved ? row.size() : 0);
+  double largest = 0, largest_absolute = 0, sum_of_absolute = 0;
   for (int r = 0; r < row.size(); ++r) {
     const double scale = weights ? factor * (*weights)[r] : factor;
     const double value = scale * product.value[r];
     residuals_[i][r] += value;
     largest = std::max(largest, std::abs(value));
-    largest_absolute = std::max(largest_absolute, std::abs(scale) * product.size[r]);
+    const double absolute = std::abs(scale) * product.size[r];
+    largest_absolute = std::max(largest_absolute, absolute);
+    sum_of_absolute += absolute;
+    if (is_conserved) scaled[r] = matrix.is_exchange() ? scale : value;
+  }
+  if (is_conserved) {
+    if (matrix.is_exchange())
+      scaled = scaled.cwiseProduct(matrix.leaving() * column.now()).eval();
+    else
+      sums_[i].round_off_base = std::max(sums_[i].round_off_base, sum_of_absolute);
+    sums_[i].add(scaled);
   }
   magnitudes_[i] = std::max(magnitudes_[i], largest);
   round_off_bases_[i] = std::max(round_off_bases_[i], largest_absolute);

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "framework/assembly/linear_expression.hpp"
@@ -26,10 +27,17 @@ class Assembly {
 
   /// residual(row) += values.
   void add(const Field& row, const Vector& values);
+  /// The same for what rows exchange: `leaving` adds up to what `values` would without round-off (Operator).
+  void exchange(const Field& row, const Vector& values, const Vector& leaving);
+  /// The rows are balances of a quantity. With those of other fields that say the same, in the same unit, they may be
+  /// added up; then only what leaves all of them stays of exchanges.
+  void conserve(const Field& row, const std::string& quantity);
   /// Something else that the residual is to be small against, in the units of the equation.
   void compare_with(const Field& row, double magnitude);
   /// A bound of the numbers whose differences make up the residual: they leave round-off of their own size in it.
   void compare_round_off(const Field& row, double largest);
+  /// The same for what rows exchange, whose round-off is absent in their sum.
+  void compare_round_off_of_exchange(const Field& row, double largest);
   /// d residual(row) / d column += factor · diag(weights) · block; ignored unless both are unknowns here. `block` and
   /// `weights` must outlive the assembly.
   void derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor = 1,
@@ -49,7 +57,7 @@ class Assembly {
   /// residual(row) += factor · diag(weights) · expression, with its derivatives.
   void linear(const Field& row, const LinearExpression& expression, double factor = 1, const Vector* weights = nullptr);
 
-  /// For terms that a part puts together itself.
+  /// For terms that a part puts together itself. Those of exchanges with `exchange`.
   const Vector& product(const Operator& matrix, const Field& column) { return products_->value_now(matrix, column); }
   const Vector& accepted_product(const Operator& matrix, const Field& column) {
     return products_->value_accepted(matrix, column);
@@ -71,7 +79,14 @@ class Assembly {
     const SparseMatrix* matrix;
     double factor;
     const Vector* weights;
-    std::uint64_t number;  ///< of the operator, or 0 for entries that may be others in the next assembly
+    std::uint64_t number;        ///< of the operator, or 0 for entries that may be others in the next assembly
+    const SparseMatrix* in_sum;  ///< what counts in a sum of rows
+    double largest_exchange;     ///< largest absolute entry of an exchange, 0 if it is none
+  };
+  /// Balances of one quantity.
+  struct Conserved {
+    std::string quantity;
+    std::vector<int> rows;  ///< indices into unknowns()
   };
   const std::vector<const Field*>& unknowns() const { return unknowns_; }
   const Vector& residual(int unknown) const { return residuals_[unknown]; }
@@ -80,10 +95,22 @@ class Assembly {
   /// The largest sum of absolute products in a row: round-off is a small multiple of machine epsilon times this.
   double round_off_base(int unknown) const { return round_off_bases_[unknown]; }
   const std::vector<Block>& blocks() const { return blocks_; }
+  const std::vector<Conserved>& conserved() const { return conserved_; }
+  /// Of rows that are conserved: the residual without what they exchange, to be added up. Then the same figures as
+  /// above, for the sum: the largest sum over all rows of absolute values of a term, and of the numbers whose
+  /// differences it is.
+  const Vector& in_sum(int unknown) const { return sums_[unknown].residual; }
+  double magnitude_of_sum(int unknown) const { return sums_[unknown].magnitude; }
+  double round_off_base_of_sum(int unknown) const { return sums_[unknown].round_off_base; }
 
  private:
+  struct InSum {
+    Vector residual;  ///< empty where nothing is conserved
+    double magnitude = 0, round_off_base = 0;
+    void add(const Vector& values);
+  };
   void keep_block(const Field& row, const Field& column, const SparseMatrix& block, double factor,
-                  const Vector* weights, std::uint64_t number);
+                  const Vector* weights, const Operator* kept);
 
   std::vector<const Field*> unknowns_;
   Want want_;
@@ -92,6 +119,8 @@ class Assembly {
   std::map<const Field*, int> index_;
   std::vector<Vector> residuals_;
   std::vector<double> magnitudes_, round_off_bases_;
+  std::vector<InSum> sums_;
+  std::vector<Conserved> conserved_;
   std::vector<Block> blocks_;
   std::vector<Fixed> fixed_;
   std::deque<SparseMatrix> owned_;  ///< blocks that were moved in

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 
 #include "framework/field/ownership.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -160,7 +161,7 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
   if (same_pattern && system_.number != 0 && has_same_fixed(assembly) &&
       std::equal(known_.begin(), known_.end(), blocks.begin(), blocks.end(),
                  [](const Known& known, const Assembly::Block& block) { return known.has_values_of(block); }))
-    return system_;
+    return summed_.empty() ? system_ : with_sums_;
   if (!same_pattern) {
     build_pattern(assembly);
     system_.pattern_number = new_system_number();
@@ -178,7 +179,51 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
         values[destinations_[k++]] += scale * entry.value();
     }
   apply_fixed(assembly);
-  return system_;
+  sum_balances(assembly);
+  return summed_.empty() ? system_ : with_sums_;
+}
+
+void BlockSystem::sum_balances(const Assembly& assembly) {
+  summed_.clear();
+  if (!uses_sums_) return;
+  std::map<int, SumRow> rows;  // by their place
+  std::vector<int> sums;
+  for (const Assembly::Conserved& conserved : assembly.conserved()) {
+    if (!is_weak(assembly, conserved)) continue;
+    SumRow sum = sum_of_rows(assembly, conserved, owned_, first_);
+    if (sum.columns.empty()) continue;  // a level that nothing holds, as the solver will find
+    const int row = first_[sum.unknown] + sum.row;
+    sums.push_back(row);
+    const auto place = std::lower_bound(system_.rows.begin(), system_.rows.end(), row);
+    const bool is_mine = place != system_.rows.end() && *place == row;
+    summed_.push_back({conserved, is_mine ? static_cast<int>(place - system_.rows.begin()) : -1});
+    if (is_mine) rows[summed_.back().place] = std::move(sum);
+  }
+  if (summed_.empty()) return;
+  with_sums_.rows = system_.rows;
+  with_sums_.blocks = system_.blocks;
+  with_sums_.sums = std::move(sums);
+  with_sums_.pattern_number = 0;
+  with_sums_.number = new_system_number();
+  const SparseMatrix& plain = system_.local;
+  std::vector<int> outer{0}, inner;
+  std::vector<double> values;
+  for (int row = 0; row < plain.rows(); ++row) {
+    const auto sum = rows.find(row);
+    const int start = plain.outerIndexPtr()[row], end = plain.outerIndexPtr()[row + 1];
+    inner.insert(
+        inner.end(), sum == rows.end() ? plain.innerIndexPtr() + start : sum->second.columns.data(),
+        sum == rows.end() ? plain.innerIndexPtr() + end : sum->second.columns.data() + sum->second.columns.size());
+    values.insert(values.end(), sum == rows.end() ? plain.valuePtr() + start : sum->second.values.data(),
+                  sum == rows.end() ? plain.valuePtr() + end : sum->second.values.data() + sum->second.values.size());
+    outer.push_back(static_cast<int>(inner.size()));
+  }
+  SparseMatrix& local = with_sums_.local;
+  local.resize(plain.rows(), plain.cols());
+  local.resizeNonZeros(inner.size());
+  std::copy(outer.begin(), outer.end(), local.outerIndexPtr());
+  std::copy(inner.begin(), inner.end(), local.innerIndexPtr());
+  std::copy(values.begin(), values.end(), local.valuePtr());
 }
 
 void BlockSystem::apply_fixed(const Assembly& assembly) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/assembly/assembly.hpp"
+#include "framework/assembly/weak_sums.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/mesh/mesh.hpp"
 
@@ -24,6 +25,21 @@ class BlockSystem {
   const LinearSystem& matrix(const Assembly& assembly);
   /// The residual of the owned rows.
   Vector residual(const Assembly& assembly) const;
+  /// Whether sums of balances take the place of one of them where the rows alone lose the level of what they exchange
+  /// (is_weak). Direct solvers only: the row of a sum is no elliptic one.
+  void use_sums(bool wanted) { uses_sums_ = wanted; }
+  bool uses_sums() const { return uses_sums_; }
+  /// Of all processes: what Assembly::Conserved leaves over, without round-off of what is exchanged.
+  double residual_of_sum(const Assembly& assembly, const Assembly::Conserved& conserved) const {
+    return sum_of_residuals(assembly, conserved, owned_);
+  }
+  /// The balances of which one row of the last matrix is the sum, and its place among the owned rows, -1 where another
+  /// process has it.
+  struct Summed {
+    Assembly::Conserved conserved;
+    int place;
+  };
+  const std::vector<Summed>& summed() const { return summed_; }
   /// The preconditioner's diagonal of a block (see UnknownBlock::stabilization).
   void set_stabilization(const Field& field, const Vector& diagonal);
 
@@ -44,12 +60,17 @@ class BlockSystem {
   bool has_same_fixed(const Assembly& assembly) const;
   void build_pattern(const Assembly& assembly);
   void apply_fixed(const Assembly& assembly);
+  /// Puts sums of balances in the place of one of them, or leaves none.
+  void sum_balances(const Assembly& assembly);
 
   std::vector<const Field*> unknowns_;
   std::vector<int> first_;
   int size_ = 0;
   std::vector<std::vector<char>> owned_;  ///< [unknown][row of the field]
   LinearSystem system_;
+  bool uses_sums_ = false;
+  std::vector<Summed> summed_;
+  LinearSystem with_sums_;         ///< instead of system_, where there are any
   std::vector<int> destinations_;  ///< of every kept entry of every block, in order
   std::vector<Known> known_;
   std::vector<std::pair<int, double>> fixed_;  ///< unknowns and scales

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 
 namespace sprekk {
@@ -11,6 +12,13 @@ Operator::Operator(SparseMatrix entries) {
   entries.makeCompressed();
   entries_ = std::make_shared<const SparseMatrix>(std::move(entries));
   number_ = ++made;
+}
+
+Operator::Operator(SparseMatrix entries, SparseMatrix leaving) : Operator(std::move(entries)) {
+  leaving.makeCompressed();
+  leaving_ = std::make_shared<const SparseMatrix>(std::move(leaving));
+  for (int k = 0; k < entries_->nonZeros(); ++k)
+    largest_exchange_ = std::max(largest_exchange_, std::abs(entries_->valuePtr()[k]));
 }
 
 SparseMatrix diagonal_matrix(const Vector& entries) {

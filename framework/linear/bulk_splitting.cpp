@@ -121,10 +121,18 @@ Vector BulkSplitting::joined(const Vector& bulk, const Vector& local) const {
   return whole;
 }
 
-LinearSystem BulkSplitting::bulk_system() const { return system_of(bb.matrix, bulk_blocks_); }
+LinearSystem BulkSplitting::bulk_system() const {
+  LinearSystem system = system_of(bb.matrix, bulk_blocks_);
+  for (const int sum : sums_)
+    if (!is_local_[sum]) system.sums.push_back(place_[sum]);
+  return system;
+}
 
 LinearSystem BulkSplitting::local_system(SparseMatrix matrix) const {
-  return system_of(std::move(matrix), local_blocks_);
+  LinearSystem system = system_of(std::move(matrix), local_blocks_);
+  for (const int sum : sums_)
+    if (is_local_[sum]) system.sums.push_back(place_[sum]);
+  return system;
 }
 
 LinearSystem BulkSplitting::whole_system() const {
@@ -135,7 +143,9 @@ LinearSystem BulkSplitting::whole_system() const {
   std::copy(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
   for (const SubMatrix* sub : {&bb, &bf, &fb, &ff})
     for (std::size_t k = 0; k < sub->source.size(); ++k) matrix.valuePtr()[sub->source[k]] = sub->matrix.valuePtr()[k];
-  return system_of(std::move(matrix), blocks_);
+  LinearSystem system = system_of(std::move(matrix), blocks_);
+  system.sums = sums_;
+  return system;
 }
 
 double BulkSplitting::backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk,

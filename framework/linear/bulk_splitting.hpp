@@ -36,6 +36,8 @@ class BulkSplitting {
   LinearSystem bulk_system() const;
   LinearSystem local_system(SparseMatrix matrix) const;
   LinearSystem whole_system() const;
+  /// Which rows are sums of balances (LinearSystem::sums); belongs to the values, not to the pattern.
+  void take_sums(const std::vector<int>& sums) { sums_ = sums; }
   /// The largest over the blocks of max |b − A x| / max (|A| |x| + |b|), the maxima taken over a block's rows.
   double backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk, const Vector& b_local) const;
 
@@ -50,6 +52,7 @@ class BulkSplitting {
   std::vector<char> is_local_;  ///< of every unknown
   std::vector<int> place_;      ///< of every unknown: its number among those of its kind
   std::vector<UnknownBlock> blocks_, bulk_blocks_, local_blocks_;
+  std::vector<int> sums_;
 };
 
 }  // namespace sprekk

@@ -94,6 +94,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
     number_ = reduced_number_ = 0;
   }
   BulkSplitting& split = *splitting_;
+  split.take_sums(system.sums);
   if (static_cast<double>(split.bulk_size()) * split.felt.size() > largest_response)
     return LinearReport::failure("too many unknowns on fractures to condense the bulk");
   if (!is_same(system.number, number_)) {

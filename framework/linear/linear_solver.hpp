@@ -34,8 +34,10 @@ struct LinearSystem {
   std::vector<int> rows;
   SparseMatrix local;
   std::vector<UnknownBlock> blocks;
+  /// Rows that are sums of balances, of all processes: what is small in them is no round-off of what is large.
+  std::vector<int> sums;
   /// What spares solvers a comparison of all entries: with equal numbers that are not 0, the rows, the blocks (without
-  /// stabilizations) and the sparsity of this process are the same, or everything is.
+  /// stabilizations), the sums and the sparsity of this process are the same, or everything is.
   std::uint64_t pattern_number = 0, number = 0;
 };
 
@@ -123,6 +125,8 @@ struct LinearOptions {
 /// block preconditioner above a size.
 /// Throws std::invalid_argument for an unknown type, and for umfpack on several processes.
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
+/// Whether that is, for a system of this size, a direct solver.
+bool is_direct(const LinearOptions& options, int unknowns);
 /// The same for Newton's method, in one process: parts that do not feel one another apart (SeparatedSolver), and bulks
 /// condensed if the options say so (CondensedSolver). Belos and several processes get the solver itself.
 std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options);

@@ -12,6 +12,8 @@
 namespace sprekk {
 namespace {
 
+constexpr int largest_for_direct = 600'000;
+
 /// Chooses when it sees the first system, and again when a system crosses the size. A direct solver answers to rounding
 /// error, and in two dimensions is quicker up to some hundred thousand unknowns; above, its memory decides.
 class AutomaticSolver final : public LinearSolver {
@@ -19,7 +21,6 @@ class AutomaticSolver final : public LinearSolver {
   explicit AutomaticSolver(const LinearOptions& options) : options_(options) {}
 
   LinearReport factor(const LinearSystem& system) override {
-    constexpr int largest_for_direct = 600'000;
     // MUMPS factorizes 1.4 to 2.8 times faster than UMFPACK, but it starts MPI, which takes as long as a small run.
     constexpr int smallest_for_mumps = 10'000;
     const auto unknowns = system.local.cols();
@@ -60,6 +61,10 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options) {
     return std::make_unique<SummedBalances>(std::make_unique<UmfpackSolver>());
   }
   throw std::invalid_argument("unknown linear solver '" + options.type + "' (there are: auto, umfpack, mumps, belos)");
+}
+
+bool is_direct(const LinearOptions& options, int unknowns) {
+  return options.type == "auto" ? unknowns <= largest_for_direct : options.type != "belos";
 }
 
 std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options) {

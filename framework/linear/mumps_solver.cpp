@@ -75,6 +75,7 @@ LinearReport MumpsSolver::factor(const LinearSystem& system) {
   }
   system_.rows = system.rows;
   system_.blocks = system.blocks;
+  system_.sums = system.sums;
   {
     const Stopwatch watch(counts_.seconds_factor);
     scaled_ = equilibrate(system);
@@ -115,6 +116,8 @@ LinearReport MumpsSolver::order() {
 LinearReport MumpsSolver::factor_values() {
   const Stopwatch watch(counts_.seconds_factor);
   mumps_->data.a_loc = scaled_.matrix.valuePtr();
+  // What is a zero pivot: the default, round-off of the largest entry; where sums of balances hold by less, zero.
+  mumps_->data.cntl[2] = system_.sums.empty() ? 0 : -1e-200;
   const int spare = mumps_->icntl(14);
   // Pivoting may need more room than the analysis foresaw (-9: the main array, -8, -17, -20: buffers).
   for (int attempt = 0; attempt < 6; ++attempt) {

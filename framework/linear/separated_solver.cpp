@@ -117,6 +117,12 @@ LinearReport SeparatedSolver::factor(const LinearSystem& system) {
   for (Group& group : groups_) {
     if (!is_same && take_values(group.system.local, system.local.valuePtr(), group.source))
       group.system.number = new_system_number();
+    group.system.sums.clear();
+    for (const int sum : system.sums) {
+      const auto place = std::lower_bound(group.unknowns.begin(), group.unknowns.end(), sum);
+      if (place != group.unknowns.end() && *place == sum)
+        group.system.sums.push_back(static_cast<int>(place - group.unknowns.begin()));
+    }
     const LinearReport report = group.solver->factor(group.system);
     if (!report.solved) return report;
   }

@@ -140,6 +140,8 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
   LinearSystem summed;
   summed.rows = system.rows;
   summed.blocks = system.blocks;
+  summed.sums = system.sums;
+  for (const Sum& sum : sums_) summed.sums.push_back(sum.rows.front());
   std::vector<Triplet> entries;
   entries.reserve(system.local.nonZeros());
   for (int row = 0; row < system.local.rows(); ++row) {

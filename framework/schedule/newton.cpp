@@ -21,7 +21,9 @@ Newton::Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*
       name_(std::move(name)),
       log_(std::move(log)),
       system_(mesh, {unknowns_.begin(), unknowns_.end()}),
-      linear_(make_condensing_solver(linear)) {}
+      linear_(make_condensing_solver(linear)) {
+  system_.use_sums(is_direct(linear, system_.size()));
+}
 
 Newton::~Newton() = default;
 
@@ -79,19 +81,39 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
     const auto begin = std::lower_bound(rows.begin(), rows.end(), first);
     right.segment(begin - rows.begin(), std::lower_bound(begin, rows.end(), end) - begin).setZero();
   }
+  for (const BlockSystem::Summed& summed : system_.summed()) {
+    const double total = system_.residual_of_sum(*assembly_, summed.conserved);
+    if (summed.place < 0) continue;
+    const std::vector<Assembly::Conserved>& all = assembly_->conserved();
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Assembly::Conserved& one) {
+      return one.quantity == summed.conserved.quantity;
+    });
+    right[summed.place] = check.is_round_off_in_sum[same - all.begin()] ? 0 : -total;
+  }
   return right;
+}
+
+std::vector<char> Newton::is_settled(const ResidualCheck& check) const {
+  std::vector<char> settled(unknowns_.size(), 0);
+  if (!check.finite) return settled;
+  settled = check.is_round_off;
+  for (std::size_t q = 0; q < check.is_round_off_in_sum.size(); ++q)
+    if (!check.is_round_off_in_sum[q])
+      for (const int unknown : assembly_->conserved()[q].rows) settled[unknown] = 0;
+  return settled;
 }
 
 double Newton::relative_size(const Vector& update, const ResidualCheck& check) const {
   // Fields of one unit share a scale: a jump that is zero while everything sticks is compared with the displacements.
   std::map<std::string, double> scale, change;
+  const std::vector<char> settled = is_settled(check);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const Field& field = *unknowns_[u];
     if (field.size() == 0) continue;
     double& s = scale[field.spec().unit];
     // A field may vanish: its change is then small against what it was.
     s = std::max({s, field.now().lpNorm<Eigen::Infinity>(), field.accepted().lpNorm<Eigen::Infinity>()});
-    if (check.finite && check.is_round_off[u]) continue;
+    if (settled[u]) continue;
     double& c = change[field.spec().unit];
     c = std::max(c, update.segment(system_.first(static_cast<int>(u)), field.size()).lpNorm<Eigen::Infinity>());
   }
@@ -195,7 +217,8 @@ StepStatus Newton::attempt(const StepTime& step, int undamped) {
   for (int iteration = 0;; ++iteration) {
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
     if (check.converged) {
-      const bool is_exact = std::all_of(check.is_round_off.begin(), check.is_round_off.end(), [](char c) { return c; });
+      const std::vector<char> settled = is_settled(check);
+      const bool is_exact = std::all_of(settled.begin(), settled.end(), [](char c) { return c; });
       if (!factored || is_exact) return {true, "", iteration};
       // The simplified update: what one more iteration would change, for the price of a back-solve.
       Vector update;

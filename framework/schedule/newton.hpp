@@ -59,12 +59,14 @@ class Newton {
   std::uint64_t discrete_state() const;
   std::vector<Vector> values() const;
   void move(const std::vector<Vector>& from, const Vector& update, double length);
-  /// Minus the residual of the owned rows; zero for equations that hold to round-off. So the bulk, whose
-  /// equations are linear, is solved for once a step by a solver that condenses it.
+  /// Minus the residual of the owned rows, of the last matrix; zero for equations that hold to round-off. So the bulk,
+  /// whose equations are linear, is solved for once a step by a solver that condenses it.
   Vector right_hand_side(const ResidualCheck& check) const;
   /// The largest change of a field over its largest value. Fields whose equation holds to round-off already are left
   /// out: where nothing flows, a flux is nothing but round-off.
   double relative_size(const Vector& update, const ResidualCheck& check) const;
+  /// Of each unknown: whether it is to stay, as far as its equation and the sums that it is in can tell.
+  std::vector<char> is_settled(const ResidualCheck& check) const;
   /// Without a line search for the first `undamped` iterations.
   StepStatus attempt(const StepTime& step, int undamped);
   /// The third attempt (path_search.cpp).

@@ -58,6 +58,27 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
       check.equation = assembly.unknowns()[u]->name();
     }
   }
+  for (const Assembly::Conserved& conserved : assembly.conserved()) {
+    const bool counts = system.uses_sums() && is_weak(assembly, conserved);
+    double value = 0, magnitude = 0, noise = 0;
+    if (counts) {
+      value = std::abs(system.residual_of_sum(assembly, conserved));
+      for (const int unknown : conserved.rows) {
+        magnitude = std::max(magnitude, parallel::max(assembly.magnitude_of_sum(unknown)));
+        noise += round_off * parallel::max(assembly.round_off_base_of_sum(unknown));
+      }
+    }
+    const bool is_round_off = value <= noise;
+    if (value > tolerance * magnitude + noise) check.converged = false;
+    check.is_round_off_in_sum.push_back(is_round_off);
+    check.mean_squares.push_back(is_round_off ? 0 : value * value);
+    check.magnitudes.push_back(magnitude);
+    check.fixed_errors.push_back(0);
+    if (!is_round_off && value / magnitude > check.largest) {
+      check.largest = value / magnitude;
+      check.equation = "the sum of all " + conserved.quantity;
+    }
+  }
   return check;
 }
 

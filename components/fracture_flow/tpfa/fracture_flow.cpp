@@ -250,6 +250,7 @@ double FractureFlow::pressure_drop(const Link& link) const {
 void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assemble_fluxes(assembly, step);
   if (!assembly.has_row(pressure_)) return;
+  assembly.conserve(pressure_, "fluid");
   const int count = mesh_.fracture_cell_count();
   Vector stored(count), capacity(count), stored_by_aperture(count);
   for (int i = 0; i < count; ++i) {
@@ -271,15 +272,19 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.add(pressure_, -step.dt * source_);
 
   std::vector<Triplet> outflow;
+  Vector leaving = Vector::Zero(count);
   for (const Link& link : links_) {
     outflow.emplace_back(link.first, link.point, step.dt);
-    if (link.second != none) outflow.emplace_back(link.second, link.point, -step.dt);
+    if (link.second != none)
+      outflow.emplace_back(link.second, link.point, -step.dt);
+    else
+      leaving[link.first] += step.dt * flux_.now()[link.point];
   }
   SparseMatrix divergence(count, flux_.size());
   divergence.setFromTriplets(outflow.begin(), outflow.end());
-  assembly.add(pressure_, divergence * flux_.now());
+  assembly.exchange(pressure_, divergence * flux_.now(), leaving);
   // In a steady flow nothing else is left than what fluxes leave of one another.
-  assembly.compare_round_off(pressure_, step.dt * flux_.now().lpNorm<Eigen::Infinity>());
+  assembly.compare_round_off_of_exchange(pressure_, step.dt * flux_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, flux_, std::move(divergence));
 }
 

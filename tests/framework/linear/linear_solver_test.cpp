@@ -191,6 +191,47 @@ TEST_P(EveryDirectSolver, RefusesAFloatingProblem) {
   EXPECT_FALSE(make()->solve(Vector::Ones(3600), x).solved);
 }
 
+// A sum of balances holds the level by what is, in other units, far below another entry of its row. Nothing is wrong
+// with that; what else moves freely is still found.
+TEST_P(EveryDirectSolver, TakesWhatIsSmallInASumForWhatItIs) {
+  const int n = 8, cells = n * n;
+  for (const bool something_floats : {false, true}) {
+    LinearSystem system = test::poisson(n, true);
+    const LinearSystem other = test::poisson(12, true);
+    std::vector<Triplet> entries;
+    for (int row = 1; row < cells; ++row)
+      for (SparseMatrix::InnerIterator entry(system.local, row); entry; ++entry)
+        entries.emplace_back(row, static_cast<int>(entry.col()), entry.value());
+    for (int column = 0; column < cells; ++column) entries.emplace_back(0, column, 1e-19);
+    entries.emplace_back(0, cells, 1);
+    entries.emplace_back(cells, cells, 1);
+    for (int row = 0; row < other.local.rows(); ++row)
+      for (SparseMatrix::InnerIterator entry(other.local, row); entry; ++entry)
+        entries.emplace_back(cells + 1 + row, cells + 1 + static_cast<int>(entry.col()), entry.value());
+    if (!something_floats) entries.emplace_back(cells + 1, cells + 1, 1);
+    UnknownBlock rest = other.blocks[0];
+    rest.name = "rock.displacement";
+    rest.first = cells + 1;
+    const int size = cells + 1 + rest.entities;
+    system = test::make_system(
+        size, entries, {system.blocks[0], {"conduit.aperture", cells, 1, 1, UnknownBlock::Kind::local, {}, {}}, rest});
+    Vector exact = test::random_vector(size, 3);
+    exact[cells] = 0;
+    Vector x;
+    EXPECT_FALSE(make()->factor(system).solved);
+    system.sums = {0};
+    const auto solver = make();
+    const LinearReport factored = solver->factor(system);
+    EXPECT_EQ(factored.solved, !something_floats) << factored.reason;
+    if (something_floats) {
+      EXPECT_THAT(factored.reason, HasSubstr("rock.displacement"));
+      continue;
+    }
+    ASSERT_TRUE(solver->solve(system.local * exact, x).solved);
+    EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-10);
+  }
+}
+
 // A rock half without support moves freely: its displacement is named, not the pressure's or the other half's.
 TEST_P(EveryDirectSolver, NamesTheBlockThatFloats) {
   LinearSystem system = test::poisson(20);

@@ -1,0 +1,32 @@
+// Sums of balances that hold a level which their rows, rounded, do not.
+#pragma once
+
+#include <vector>
+
+#include "framework/assembly/assembly.hpp"
+
+namespace sprekk {
+
+/// Whether little holds the level of what balances exchange: less than 1e-6 of the exchange itself. Their rows, whose
+/// entries are rounded, then have lost it, and their sum has not. Not where other unknowns of a bulk answer to the
+/// level: how much they hold is known with the solution only; nor where values are fixed in place of balances.
+/// Collective; needs the derivatives.
+bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved);
+
+/// A row of the sum.
+struct SumRow {
+  int unknown = 0, row = 0;  ///< the balance that it may replace: the one that exchanges most
+  std::vector<int> columns;  ///< ascending, counted over all unknowns of the assembly; no entry is zero
+  std::vector<double> values;
+};
+
+/// `owned`: of every row of every unknown, whether it is this process's. `first`: of every unknown, its first column.
+/// Collective; every process gets the same.
+SumRow sum_of_rows(const Assembly& assembly, const Assembly::Conserved& conserved,
+                   const std::vector<std::vector<char>>& owned, const std::vector<int>& first);
+
+/// The sum of the residuals. Collective.
+double sum_of_residuals(const Assembly& assembly, const Assembly::Conserved& conserved,
+                        const std::vector<std::vector<char>>& owned);
+
+}  // namespace sprekk
