@@ -322,16 +322,18 @@ std::vector<double> Rock::switch_times() const {
 
 void Rock::output(std::vector<OutputField>& fields) const {
   // Mean stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when
-  // constant.
+  // constant, and near tips of cracks with the moments of the singular tractions about the centres of the faces.
   if (discretizations_ == 0) return;
-  const Vector forces = face_forces();
+  const Vector forces = face_forces(), moments = operators_.moment_displacement * displacement_.now();
   Vector stress = Vector::Zero(3 * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {
-      const Point force = (mesh_.face_cells[face][0] == c ? 1.0 : -1.0) * forces.segment<2>(2 * face);
+      const double sign = mesh_.face_cells[face][0] == c ? 1 : -1;
+      const Point force = sign * forces.segment<2>(2 * face);
       const Point arm = (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_area[c];
       stress.segment<3>(3 * c) +=
-          Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0]));
+          Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0])) +
+          sign / mesh_.cell_area[c] * moments.segment<3>(3 * face);
     }
   replicate(mesh_, Location::cell, 3, stress);
   fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, 3, std::move(stress)});

@@ -52,6 +52,7 @@ void expect_same(const StressOperators& a, const StressOperators& b) {
   EXPECT_TRUE(same_bits(a.volume_displacement, b.volume_displacement));
   EXPECT_TRUE(same_bits(a.volume_stress, b.volume_stress));
   EXPECT_TRUE(same_bits(a.volume_boundary, b.volume_boundary));
+  EXPECT_TRUE(same_bits(a.moment_displacement, b.moment_displacement));
 }
 
 /// Coefficients and conditions that follow from places only, so that they are the same on all meshes.

@@ -113,12 +113,20 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
   InteractionRegion region;
   LocalStresses local;
   TipFields fields(mesh, stiffness, tips);
+  std::vector<Triplet> moments;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
     local.solve(mesh, region, node_cells[node], stiffness, conditions);
-    if (const TipField* tip = fields.at(node))
-      local.correct(region, TipCorrection(*tip, mesh, region, node, node_cells[node], stiffness));
+    if (const TipField* tip = fields.at(node)) {
+      const TipCorrection correction(*tip, mesh, region, node, node_cells[node], stiffness);
+      local.correct(region, correction);
+      // The moments of both halves about the centre of a face belong together: one alone is mostly that of its middle.
+      for (int f = 0; f < region.subface_count(); ++f) {
+        const auto& ends = mesh.face_nodes[region.faces[f]];
+        if (region.is_inner(f) && fields.at(ends[ends[0] == node ? 1 : 0]) == tip) correction.add_moment(moments, f);
+      }
+    }
     int outer_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {
       const int face = region.faces[f];
@@ -141,9 +149,11 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
       volume.add(cell, 0, local.volume_change(k), local, 1);
     }
   }
-  return {force.displacement.take(),  force.stress.take(),  force.boundary.take(),
-          trace.displacement.take(),  trace.stress.take(),  trace.boundary.take(),
-          volume.displacement.take(), volume.stress.take(), volume.boundary.take()};
+  SparseMatrix moment(3 * mesh.face_count(), 2 * mesh.cell_count());
+  moment.setFromTriplets(moments.begin(), moments.end());
+  return {force.displacement.take(), force.stress.take(),   force.boundary.take(),      trace.displacement.take(),
+          trace.stress.take(),       trace.boundary.take(), volume.displacement.take(), volume.stress.take(),
+          volume.boundary.take(),    std::move(moment)};
 }
 
 }  // namespace sprekk::poromechanics

@@ -25,10 +25,14 @@ Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus);
 ///   force_boundary b displacement at the centre of boundary and wall faces (m):               trace_displacement u +
 ///   trace_stress s + trace_boundary b volume change, div u integrated over every cell (m^2): volume_displacement u +
 ///   volume_stress s + volume_boundary b
+/// Near the tip of a crack the traction on a face is no constant one, and acts beside its centre x_f; with 3 f + k the
+/// index of component k (xx, yy, xy) of face f:
+///   moment on inner faces, the symmetric part of sigma·n (x − x_f) integrated (N): moment_displacement u
 struct StressOperators {
   SparseMatrix force_displacement, force_stress, force_boundary;     ///< 2 faces × (2 cells, cells, 2 faces)
   SparseMatrix trace_displacement, trace_stress, trace_boundary;     ///< 2 faces × …; rows of inner faces are empty
   SparseMatrix volume_displacement, volume_stress, volume_boundary;  ///< cells × …
+  SparseMatrix moment_displacement;                                  ///< 3 faces × 2 cells; mostly empty
 };
 
 /// `conditions`: [f][direction]. `nodes` as for MPFA. Exact for linear displacements with constant s, and for layers

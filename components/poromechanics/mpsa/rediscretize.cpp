@@ -32,6 +32,7 @@ Rediscretized rediscretize_mpsa(const StressInputs& before, const StressOperator
   take_kept(&StressOperators::volume_displacement, cell, cell);
   take_kept(&StressOperators::volume_stress, cell, cell);
   take_kept(&StressOperators::volume_boundary, cell, face);
+  take_kept(&StressOperators::moment_displacement, face, cell);
   return {std::move(result), kept.nodes_computed(), kept.cells_computed()};
 }
 

@@ -34,11 +34,31 @@ TipCorrection::TipCorrection(const TipField& field, const Mesh& mesh, const Inte
 
 void TipCorrection::of_force(double* coefficients, int subface, int component) const {
   const int face = region_.faces[subface];
+  const TipField::Modes force = field_.force(mesh_.face_center[face], side_) - field_.force(node_, side_);
+  add_missing(coefficients, sign_of(face) * shear_ratio_ * force.row(component));
+}
+
+double TipCorrection::sign_of(int face) const {
+  const Point along = mesh_.face_center[face] - node_;
+  return Point(-along.y(), along.x()).dot(mesh_.face_normal[face]) > 0 ? 1 : -1;
+}
+
+void TipCorrection::add_moment(std::vector<Triplet>& moments, int subface) const {
+  const int face = region_.faces[subface];
   const Point& center = mesh_.face_center[face];
-  const Point along = center - node_;
-  const double sign = Point(-along.y(), along.x()).dot(mesh_.face_normal[face]) > 0 ? 1 : -1;
-  const TipField::Modes force = field_.force(center, side_) - field_.force(node_, side_);
-  add_missing(coefficients, sign * shear_ratio_ * force.row(component));
+  const Point along = (center - node_).normalized();
+  // The integral of dF (x - center), by parts.
+  const TipField::Modes at_node = field_.force(node_, side_), mean = field_.integrated_force(node_, center, side_);
+  const auto moment = [&](int component, int direction) -> Eigen::RowVector2d {
+    return at_node.row(component) * (center - node_)[direction] - mean.row(component) * along[direction];
+  };
+  const Eigen::RowVector2d of_modes[3] = {moment(0, 0), moment(1, 1), 0.5 * (moment(0, 1) + moment(1, 0))};
+  for (int k = 0; k < 3; ++k)
+    for (std::size_t cell = 0; cell < field_.cells().size(); ++cell)
+      for (int c = 0; c < 2; ++c)
+        moments.emplace_back(
+            3 * face + k, 2 * field_.cells()[cell] + c,
+            sign_of(face) * shear_ratio_ * of_modes[k].dot(field_.share().col(2 * static_cast<int>(cell) + c)));
 }
 
 void TipCorrection::of_displacement(double* coefficients, int subface, int component) const {

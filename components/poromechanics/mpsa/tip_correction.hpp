@@ -27,7 +27,11 @@ class TipCorrection {
   void of_displacement(double* coefficients, int subface, int component) const;  ///< on walls
   void of_volume_change(double* coefficients, int subcell) const;
 
+  /// Adds the moment of the field's traction on an inner subface (StressOperators::moment_displacement).
+  void add_moment(std::vector<Triplet>& moments, int subface) const;
+
  private:
+  double sign_of(int face) const;  ///< of forces of the left of lines from the node, seen as those on the face
   void add_missing(double* coefficients, const Eigen::RowVector2d& exact) const;
 
   const TipField& field_;

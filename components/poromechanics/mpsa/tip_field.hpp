@@ -37,6 +37,8 @@ class TipField {
   Modes displacement(const Point& x, int side) const;
   /// What the left of any line from the tip to x exerts on its right, N/m.
   Modes force(const Point& x, int side) const;
+  /// That force integrated over the line from a to b, N.
+  Modes integrated_force(const Point& a, const Point& b, int side) const;
   /// div u integrated over a quadrilateral, m^2.
   Eigen::RowVector2d volume_change(const std::array<Point, 4>& corners, int side) const;
 

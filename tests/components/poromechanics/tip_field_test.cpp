@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -178,6 +179,45 @@ TEST(TipField, VolumeChangesNearATipAreExactForBothModes) {
       }
       EXPECT_NEAR(answer.volume[cell], exact, 1e-7) << cell << " at " << node;
     }
+  }
+}
+
+// Mean stresses of the cells whose nodes are all near the tip, from forces on faces and their moments: V sigma = sum of
+// force (x_face - x_cell) + moment. The error is that of Gauss's rule.
+TEST(TipField, MeanStressesNearATipAreExactForBothModes) {
+  const TipCase tip = slanted();
+  const Mesh& mesh = tip.mesh;
+  const StressOperators operators = discretize_mpsa(mesh, even(mesh), tip.conditions);
+  const auto is_near = [&](int node) { return std::ranges::find(tip.nearby, node) != tip.nearby.end(); };
+  for (const Complex K : {Complex(1, 0), Complex(0, 1)}) {
+    const Singular field{tip.tip, tip.angle, K};
+    const Vector u = in_cells(mesh, [&](const Point& x) { return field.displacement(x); });
+    const Vector forces = operators.force_displacement * u, moments = operators.moment_displacement * u;
+    int cells = 0, at_tip = 0;
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      if (!std::ranges::all_of(mesh.cell_nodes[c], is_near)) continue;
+      Eigen::Vector3d stress = Eigen::Vector3d::Zero(), exact = stress;
+      for (const int face : mesh.cell_faces[c]) {
+        if (test::is_outer(mesh, face)) continue;  // a wall without traction
+        const double sign = mesh.face_cells[face][0] == c ? 1 : -1;
+        const Point force = sign * forces.segment<2>(2 * face), arm = mesh.face_center[face] - mesh.cell_center[c];
+        stress += Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0])) +
+                  sign * moments.segment<3>(3 * face);
+        const auto [a, b] = mesh.face_nodes[face];
+        const auto with_arm = [&](int direction) {
+          return integral(mesh.nodes[a], mesh.nodes[b], [&](const Point& x) -> Point {
+            return sign * (x - mesh.cell_center[c])[direction] * field.traction(x, mesh.face_normal[face]);
+          });
+        };
+        const Point x = with_arm(0), y = with_arm(1);
+        exact += Eigen::Vector3d(x[0], y[1], 0.5 * (x[1] + y[0]));
+      }
+      EXPECT_LT((stress - exact).norm(), 1e-5 * exact.norm()) << c;
+      ++cells;
+      at_tip += std::ranges::find(mesh.cell_nodes[c], tip.node) != mesh.cell_nodes[c].end();
+    }
+    EXPECT_GT(cells, 30);
+    EXPECT_GE(at_tip, 5);
   }
 }
 
