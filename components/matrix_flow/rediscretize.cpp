@@ -2,14 +2,39 @@
 
 #include <cstring>
 
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
 #include "framework/mesh/kept_regions.hpp"
+#include "framework/mesh/tips_nearby.hpp"
 
 namespace sprekk::matrix_flow {
+namespace {
+
+/// The cells whose geometry and mobility the local problem of each node may read: its own, and near a tip those that
+/// tell the flow around it.
+Adjacency cells_read(const Mesh& mesh) {
+  const std::vector<int> tips = tips_nearby(mesh);
+  const auto around = cells_around_tips(mesh, tips);
+  Adjacency cells;
+  cells.offsets.reserve(mesh.node_count() + 1);
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    cells.items.insert(cells.items.end(), mesh.node_cells[node].begin(), mesh.node_cells[node].end());
+    if (tips[node] != none)
+      cells.items.insert(cells.items.end(), around.at(tips[node]).begin(), around.at(tips[node]).end());
+    const auto first = cells.items.begin() + cells.offsets.back();
+    std::sort(first, cells.items.end());
+    cells.items.erase(std::unique(first, cells.items.end()), cells.items.end());
+    cells.offsets.push_back(static_cast<int>(cells.items.size()));
+  }
+  return cells;
+}
+
+}  // namespace
 
 Rediscretized rediscretize(Discretize discretize, const FlowInputs& before, const FluxOperators& operators,
                            const FlowInputs& after, const MeshChange& change) {
+  const Adjacency cells_before = cells_read(before.mesh), cells_after = cells_read(after.mesh);
   const KeptRegions kept(
-      {before.mesh, before.mesh.node_cells}, {after.mesh, after.mesh.node_cells}, change,
+      {before.mesh, cells_before}, {after.mesh, cells_after}, change,
       [&](int cell, int was) {
         return std::memcmp(after.mobility[cell].data(), before.mobility[was].data(), sizeof(Tensor)) == 0;
       },

@@ -27,10 +27,11 @@ using Function2 = double (*)(double, double);
 void define_functions(mu::Parser& parser) {
   parser.ClearFun();
   const std::pair<const char*, Function1> of_one[] = {
-      {"sin", std::sin},   {"cos", std::cos},     {"tan", std::tan},     {"asin", std::asin}, {"acos", std::acos},
-      {"atan", std::atan}, {"sinh", std::sinh},   {"cosh", std::cosh},   {"tanh", std::tanh}, {"exp", std::exp},
-      {"log", std::log},   {"log10", std::log10}, {"sqrt", std::sqrt},   {"abs", std::fabs},  {"erf", std::erf},
-      {"erfc", std::erfc}, {"sign", sign},        {"floor", std::floor}, {"ceil", std::ceil}};
+      {"sin", std::sin},     {"cos", std::cos},     {"tan", std::tan},   {"asin", std::asin}, {"acos", std::acos},
+      {"atan", std::atan},   {"sinh", std::sinh},   {"cosh", std::cosh}, {"tanh", std::tanh}, {"asinh", std::asinh},
+      {"acosh", std::acosh}, {"atanh", std::atanh}, {"exp", std::exp},   {"log", std::log},   {"log10", std::log10},
+      {"sqrt", std::sqrt},   {"abs", std::fabs},    {"erf", std::erf},   {"erfc", std::erfc}, {"sign", sign},
+      {"floor", std::floor}, {"ceil", std::ceil}};
   for (const auto& [name, function] : of_one) parser.DefineFun(name, function);
   parser.DefineFun("atan2", static_cast<Function2>(std::atan2));
   parser.DefineFun("pow", static_cast<Function2>(std::pow));

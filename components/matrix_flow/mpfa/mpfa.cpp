@@ -1,11 +1,87 @@
 #include "components/matrix_flow/mpfa/mpfa.hpp"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <span>
+
 #include "components/matrix_flow/check_conditions.hpp"
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
+#include "components/matrix_flow/mpfa/tip_correction.hpp"
 #include "framework/mesh/interaction_region.hpp"
 #include "framework/mesh/node_stencil.hpp"
+#include "framework/mesh/tips_nearby.hpp"
 
 namespace sprekk::matrix_flow {
+namespace {
+
+/// The flows around all tips, for the nodes near them.
+class TipFlows {
+ public:
+  TipFlows(const Mesh& mesh, const std::vector<Tensor>& mobility) : of_node_(mesh.node_count()) {
+    const std::vector<int> tips = tips_nearby(mesh);
+    for (const auto& [tip, cells] : cells_around_tips(mesh, tips))
+      if (const auto flow = TipFlow::find(mesh, tip, cells, mobility)) flows_.emplace(tip, *flow);
+    for (int node = 0; node < mesh.node_count(); ++node) {
+      const auto found = flows_.find(tips[node]);
+      if (found == flows_.end()) continue;
+      const auto& cells = mesh.node_cells[node];
+      if (std::all_of(cells.begin(), cells.end(),
+                      [&](int cell) { return resembles(mobility[cell], found->second.mobility()); }))
+        of_node_[node] = &found->second;
+    }
+  }
+
+  const TipFlow* at(int node) const { return of_node_[node]; }  ///< null where there is none
+
+  /// The cells whose pressures count at each node, ascending: its own, and those that tell the flow around its tip.
+  Adjacency cells_of_nodes(const Mesh& mesh) const {
+    Adjacency all;
+    all.offsets.reserve(mesh.node_count() + 1);
+    for (int node = 0; node < mesh.node_count(); ++node) {
+      all.items.insert(all.items.end(), mesh.node_cells[node].begin(), mesh.node_cells[node].end());
+      if (at(node)) all.items.insert(all.items.end(), at(node)->cells().begin(), at(node)->cells().end());
+      const auto first = all.items.begin() + all.offsets.back();
+      std::sort(first, all.items.end());
+      all.items.erase(std::unique(first, all.items.end()), all.items.end());
+      all.offsets.push_back(static_cast<int>(all.items.size()));
+    }
+    return all;
+  }
+
+ private:
+  std::map<int, TipFlow> flows_;  ///< by tip
+  std::vector<const TipFlow*> of_node_;
+};
+
+/// Coefficients with respect to the pressures of the cells that count at one node.
+class CellColumns {
+ public:
+  CellColumns(std::span<const int> own, std::span<const int> cells, const TipFlow* flow)
+      : flow_(flow), values_(cells.size()) {
+    const auto place = [&](int cell) {
+      return static_cast<int>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin());
+    };
+    for (const int cell : own) own_.push_back(place(cell));
+    if (flow)
+      for (const int cell : flow->cells()) at_tip_.push_back(place(cell));
+  }
+
+  /// `own`: of the node's cells; `modes`: with respect to the amounts of the flow around the tip.
+  const double* with(const double* own, const TipFlow::Modes& modes) {
+    std::fill(values_.begin(), values_.end(), 0);
+    for (std::size_t i = 0; i < own_.size(); ++i) values_[own_[i]] = own[i];
+    for (std::size_t i = 0; i < at_tip_.size(); ++i) values_[at_tip_[i]] += modes.dot(flow_->share().col(i));
+    return values_.data();
+  }
+
+ private:
+  const TipFlow* flow_;
+  std::vector<int> own_, at_tip_;
+  std::vector<double> values_;
+};
+
+}  // namespace
 
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
                               const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
@@ -14,9 +90,11 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   const Adjacency all = contributing_nodes(mesh.face_nodes, [&](int, int node) { return is_wanted(node); });
   const Adjacency outer = contributing_nodes(
       mesh.face_nodes, [&](int face, int node) { return mesh.face_cells[face][1] == none && is_wanted(node); });
+  const TipFlows flows(mesh, mobility);
+  const Adjacency node_cells = flows.cells_of_nodes(mesh);
   const Adjacency outer_faces = outer_faces_of_nodes(mesh);
-  const NodeStencil face_cells(all, mesh.node_cells), face_outer(all, outer_faces);
-  const NodeStencil outer_cells(outer, mesh.node_cells), outer_outer(outer, outer_faces);
+  const NodeStencil face_cells(all, node_cells), face_outer(all, outer_faces);
+  const NodeStencil outer_cells(outer, node_cells), outer_outer(outer, outer_faces);
   StencilMatrix flux_cell(face_cells, 1, mesh.cell_count(), 1), flux_boundary(face_outer, 1, mesh.face_count(), 1);
   StencilMatrix trace_cell(outer_cells, 1, mesh.cell_count(), 1), trace_boundary(outer_outer, 1, mesh.face_count(), 1);
 
@@ -27,6 +105,11 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
     local.solve(region, mobility, conditions);
+    const TipFlow* flow = flows.at(node);
+    std::optional<TipCorrection> tip;
+    if (flow) tip.emplace(*flow, mesh, region, node, mobility);
+    CellColumns columns(mesh.node_cells[node], node_cells[node], flow);
+    const TipFlow::Modes nothing = TipFlow::Modes::Zero();
     int outer_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {
       const int face = region.faces[f];
@@ -35,14 +118,15 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
         flux_boundary.add(face, 0, outer_slots[outer_index], 0, 0.5);
       } else {
         face_cells.find_slots(face, node, cell_slots);
-        flux_cell.add(face, 0, cell_slots, local.flux(f), 1);
+        flux_cell.add(face, 0, cell_slots, columns.with(local.flux(f), tip ? tip->of_flux(local, f) : nothing), 1);
         flux_boundary.add(face, 0, outer_slots, local.flux(f) + region.subcell_count(), 1);
       }
       if (region.is_inner(f)) continue;
       ++outer_index;
       outer_cells.find_slots(face, node, cell_slots);
       outer_outer.find_slots(face, node, outer_slots);
-      trace_cell.add(face, 0, cell_slots, local.pressure(f), 0.5);
+      trace_cell.add(face, 0, cell_slots, columns.with(local.pressure(f), tip ? tip->of_pressure(local, f) : nothing),
+                     0.5);
       trace_boundary.add(face, 0, outer_slots, local.pressure(f) + region.subcell_count(), 0.5);
     }
   }

@@ -7,9 +7,9 @@
 
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 #include "components/poromechanics/mpsa/tip_correction.hpp"
-#include "components/poromechanics/mpsa/tips_nearby.hpp"
 #include "framework/mesh/interaction_region.hpp"
 #include "framework/mesh/node_stencil.hpp"
+#include "framework/mesh/tips_nearby.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "components/poromechanics/mpsa/tips_nearby.hpp"
 #include "framework/mesh/kept_regions.hpp"
+#include "framework/mesh/tips_nearby.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -19,7 +19,7 @@ TipCorrection::TipCorrection(const TipField& field, const Mesh& mesh, const Inte
     : field_(field), mesh_(mesh), region_(region), node_(mesh.nodes[node]) {
   const bool is_tip = std::ranges::equal(mesh.node_cells[node], field.cells());
   const int wall = wall_of(region);
-  if (!is_tip) side_ = wall == none ? field.side_of(node_) : field.side_of_wall(mesh, wall);
+  if (!is_tip) side_ = wall == none ? field.frame().side_of(node_) : field.frame().side_of_wall(mesh, wall);
   for (const Subcell& subcell : region.subcells)
     shear_ratio_ += stiffness[subcell.cell](2, 2) / field.rock()(2, 2) / region.subcell_count();
   const auto column = [&](int cell) {
@@ -63,7 +63,7 @@ void TipCorrection::add_moment(std::vector<Triplet>& moments, int subface) const
 
 void TipCorrection::of_displacement(double* coefficients, int subface, int component) const {
   const int face = region_.faces[subface];
-  const int side = field_.side_of_wall(mesh_, face);
+  const int side = field_.frame().side_of_wall(mesh_, face);
   add_missing(coefficients, field_.displacement(mesh_.face_center[face], side).row(component));
 }
 
@@ -71,7 +71,7 @@ void TipCorrection::of_volume_change(double* coefficients, int subcell) const {
   const Subcell& part = region_.subcells[subcell];
   const auto face_center = [&](int i) { return mesh_.face_center[region_.faces[part.subfaces[i]]]; };
   const Point& center = mesh_.cell_center[part.cell];
-  const int side = side_ == 0 ? field_.side_of(center) : side_;  // a cell at the tip may have a wall as a face
+  const int side = side_ == 0 ? field_.frame().side_of(center) : side_;  // a cell at the tip may have a wall as a face
   add_missing(coefficients, field_.volume_change({node_, face_center(0), center, face_center(1)}, side));
 }
 

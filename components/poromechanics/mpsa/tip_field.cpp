@@ -2,7 +2,7 @@
 
 #include <Eigen/SVD>
 #include <cmath>
-#include <numbers>
+#include <complex>
 
 namespace sprekk::poromechanics {
 namespace {
@@ -41,59 +41,36 @@ TipField::TipField(const Mesh& mesh, int tip, const Stiffness& rock)
       rock_(rock),
       shear_(rock(2, 2)),
       poisson_(0.5 * rock(0, 1) / (rock(0, 1) + rock(2, 2))),
-      tip_(mesh.nodes[tip]) {
-  for (const int face : mesh.node_faces[tip]) {
-    if (mesh.face_fracture_cell[face] == none) continue;
-    const Point ahead = (tip_ - mesh.face_center[face]).normalized();
-    axes_ << ahead.x(), -ahead.y(), ahead.y(), ahead.x();
-    size_ = mesh.face_length[face];
-  }
-}
+      frame_(mesh, tip) {}
 
 bool TipField::fit(const Mesh& mesh) {
   const int count = static_cast<int>(cells_.size());
+  const double size = frame_.size();
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(2 * count, terms);
   for (int k = 0; k < count; ++k) {
     const Point& center = mesh.cell_center[cells_[k]];
-    const Eigen::RowVector3d linear(1, (center.x() - tip_.x()) / size_, (center.y() - tip_.y()) / size_);
+    const Eigen::RowVector3d linear(1, (center.x() - frame_.tip().x()) / size, (center.y() - frame_.tip().y()) / size);
     basis.block<1, 3>(2 * k, 0) = basis.block<1, 3>(2 * k + 1, 3) = linear;
-    basis.block<2, 2>(2 * k, linear_terms) = displacement(center, 0) / std::sqrt(size_);
+    basis.block<2, 2>(2 * k, linear_terms) = displacement(center, 0) / std::sqrt(size);
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
   if (svd.singularValues()[terms - 1] < well_posed * svd.singularValues()[0]) return false;
   const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd::Identity(2 * count, 2 * count));
-  share_ = inverse.bottomRows<2>() / std::sqrt(size_);
+  share_ = inverse.bottomRows<2>() / std::sqrt(size);
   return true;
 }
 
-int TipField::side_of(const Point& x) const { return axes_.col(1).dot(x - tip_) < 0 ? -1 : 1; }
-
-int TipField::side_of_wall(const Mesh& mesh, int face) const {
-  const FractureCell& cell = mesh.fracture_cells[mesh.face_fracture_cell[face]];
-  const bool normal_points_left = axes_.col(1).dot(cell.normal) > 0;
-  const bool is_plus = cell.faces[static_cast<int>(Wall::plus)] == face;
-  return is_plus == normal_points_left ? -1 : 1;  // the normal points out of the plus wall's rock
-}
-
-TipField::Polar TipField::polar(const Point& x, int side) const {
-  const Point local = axes_.transpose() * (x - tip_);
-  const double angle = std::atan2(local.y(), local.x());
-  // A crack that bends a little leaves its line: behind the tip the side decides.
-  const bool is_beyond = angle * side < 0 && std::abs(local.y()) < -0.5 * local.x();
-  return {local.norm(), is_beyond ? angle + 2 * std::numbers::pi * side : angle};
-}
-
 TipField::Modes TipField::displacement(const Point& x, int side) const {
-  const auto [radius, angle] = polar(x, side);
+  const auto [radius, angle] = frame_.polar(x, side);
   const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle), kolosov = 3 - 4 * poisson_;
   Modes modes;
   modes << c * (kolosov - 1 + 2 * s * s), s * (kolosov + 1 + 2 * c * c),  //
       s * (kolosov + 1 - 2 * c * c), -c * (kolosov - 1 - 2 * s * s);
-  return std::sqrt(radius) * (axes_ * modes);
+  return std::sqrt(radius) * (frame_.axes() * modes);
 }
 
 TipField::Modes TipField::force(const Point& x, int side) const {
-  const auto [radius, angle] = polar(x, side);
+  const auto [radius, angle] = frame_.polar(x, side);
   const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle);
   const double c3 = std::cos(1.5 * angle), s3 = std::sin(1.5 * angle);
   const Point n(-std::sin(angle), std::cos(angle));
@@ -102,7 +79,7 @@ TipField::Modes TipField::force(const Point& x, int side) const {
   modes.col(0) = Point(c * (1 - s * s3) * n.x() + c * s * c3 * n.y(), c * s * c3 * n.x() + c * (1 + s * s3) * n.y());
   modes.col(1) =
       Point(-s * (2 + c * c3) * n.x() + c * (1 - s * s3) * n.y(), c * (1 - s * s3) * n.x() + s * c * c3 * n.y());
-  return 4 * shear_ * std::sqrt(radius) * (axes_ * modes);
+  return 4 * shear_ * std::sqrt(radius) * (frame_.axes() * modes);
 }
 
 TipField::Modes TipField::integrated_force(const Point& a, const Point& b, int side) const {
@@ -124,14 +101,14 @@ Eigen::RowVector2d TipField::volume_change(const std::array<Point, 4>& corners, 
   // z.
   using Complex = std::complex<double>;
   const auto primitive = [&](const Point& x) {  // of sqrt(z)
-    const auto [radius, angle] = polar(x, side);
+    const auto [radius, angle] = frame_.polar(x, side);
     return std::polar(2.0 / 3 * std::pow(radius, 1.5), 1.5 * angle);
   };
   Complex integral = 0;
   double area = 0;
   for (int i = 0; i < 4; ++i) {
     const Point &a = corners[i], &b = corners[(i + 1) % 4];
-    const Point edge = axes_.transpose() * (b - a);
+    const Point edge = frame_.axes().transpose() * (b - a);
     const Complex step(edge.x(), edge.y());
     integral += Complex(0, 1) * std::conj(step) / step * (primitive(b) - primitive(a));
     area += a.x() * b.y() - a.y() * b.x();

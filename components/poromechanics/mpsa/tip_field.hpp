@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
+#include "framework/mesh/tip_frame.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -18,9 +18,7 @@ bool resembles(const Stiffness& rock, const Stiffness& other);
 /// under plane strain: Williams' terms of order sqrt(r) (Anderson, Fracture Mechanics, Tables 2.1 and 2.2), for
 /// stress-intensity factors of 2 G sqrt(2 pi). How much of them there is, the displacements of the cells at the tip
 /// tell: by least squares, beside linear displacements.
-///
-/// `side` says from where a point near the crack is seen: +1 from the left of the direction in which the crack points,
-/// -1 from its right, 0 where the point itself tells.
+/// `side`: see TipFrame.
 class TipField {
  public:
   /// Of both modes, a column each.
@@ -30,9 +28,7 @@ class TipField {
   /// enough to tell the fields from linear displacements.
   static std::optional<TipField> find(const Mesh& mesh, int tip, const std::vector<Stiffness>& stiffness);
 
-  int side_of(const Point& x) const;                   ///< +1 or -1: of the line through the last wall
-  int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1: of the crack, which may bend
-
+  const TipFrame& frame() const { return frame_; }
   /// The displacement, m.
   Modes displacement(const Point& x, int side) const;
   /// What the left of any line from the tip to x exerts on its right, N/m.
@@ -50,18 +46,11 @@ class TipField {
  private:
   TipField(const Mesh& mesh, int tip, const Stiffness& rock);
   bool fit(const Mesh& mesh);
-  /// In the frame of the tip, with its angle continued beyond +-pi.
-  struct Polar {
-    double radius, angle;
-  };
-  Polar polar(const Point& x, int side) const;
 
   std::span<const int> cells_;
   Stiffness rock_;
   double shear_, poisson_;  ///< Pa, 1
-  Point tip_;               ///< m
-  double size_ = 1;         ///< m, of the wall at the tip
-  Eigen::Matrix2d axes_;    ///< columns: ahead of the tip, and that turned by +90 degrees
+  TipFrame frame_;
   Eigen::Matrix2Xd share_;
 };
 

@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-#include "components/poromechanics/mpsa/tips_nearby.hpp"
+#include "framework/mesh/tips_nearby.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::poromechanics {

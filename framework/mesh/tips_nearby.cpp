@@ -1,4 +1,4 @@
-#include "components/poromechanics/mpsa/tips_nearby.hpp"
+#include "framework/mesh/tips_nearby.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
-namespace sprekk::poromechanics {
+namespace sprekk {
 namespace {
 
-/// Edges from the tip to where linear displacements do: what they miss falls with the square of the distance.
+/// Edges from the tip to where linear functions do: what they miss falls with the square of the distance.
 constexpr int layers = 3;
 /// Halfway between two tips both fields count, and a symmetric mesh must have a symmetric answer: neither is taken.
 constexpr double clearly = 0.9;
@@ -83,4 +83,4 @@ std::vector<int> tips_nearby(const Mesh& mesh) {
   return nearby;
 }
 
-}  // namespace sprekk::poromechanics
+}  // namespace sprekk

@@ -1,0 +1,38 @@
+// What a local problem misses of the flow around the tip of a fracture.
+#pragma once
+
+#include <vector>
+
+#include "components/matrix_flow/mpfa/local_fluxes.hpp"
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
+#include "framework/mesh/interaction_region.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// With linear pressures around a tip a fracture drains its surroundings, or feeds them, like one that is longer or
+/// shorter by a part of an edge, whatever flows elsewhere. So to what a local problem returns is added what it misses
+/// of TipFlow. Linear pressures contain none of it and stay exact.
+class TipCorrection {
+ public:
+  TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, int node,
+                const std::vector<Tensor>& mobility);
+
+  /// What a flux through an inner subface (m^2/s), and the pressure at a wall (Pa), lack for amounts of 1.
+  TipFlow::Modes of_flux(const LocalFluxes& local, int subface) const;
+  TipFlow::Modes of_pressure(const LocalFluxes& local, int subface) const;
+
+ private:
+  /// The flux through a line (m^2/s) to the side that the normal points to.
+  TipFlow::Modes out_of_first(const Point& from, const Point& to, int side, const Point& normal) const;
+  TipFlow::Modes missing(const double* coefficients, TipFlow::Modes exact) const;
+
+  const TipFlow& flow_;
+  const Mesh& mesh_;
+  const InteractionRegion& region_;
+  Point node_;
+  int side_ = 0;                        ///< of the region; 0 at the tip itself
+  double mobility_ = 0;                 ///< of the region, m^2/(Pa s)
+  std::vector<TipFlow::Modes> inputs_;  ///< pressures of the region's subcells, and what flows out through its walls
+};
+
+}  // namespace sprekk::matrix_flow

@@ -1,0 +1,77 @@
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+namespace sprekk::matrix_flow {
+namespace {
+
+constexpr int linear_terms = 3, terms = linear_terms + 2;
+/// Of the fit's smallest singular value to its largest; below, flows and linear pressures are too alike.
+constexpr double well_posed = 1e-2;
+
+}  // namespace
+
+bool resembles(const Tensor& mobility, const Tensor& other) {
+  return (mobility - other).lpNorm<Eigen::Infinity>() <= 0.2 * other.lpNorm<Eigen::Infinity>();
+}
+
+std::map<int, std::vector<int>> cells_around_tips(const Mesh& mesh, const std::vector<int>& tips) {
+  std::map<int, std::vector<int>> around;
+  for (int tip = 0; tip < mesh.node_count(); ++tip) {
+    if (tips[tip] != tip) continue;
+    std::vector<int>& cells = around[tip];
+    for (const int cell : mesh.node_cells[tip])
+      for (const int node : mesh.cell_nodes[cell])
+        if (tips[node] == tip) cells.insert(cells.end(), mesh.node_cells[node].begin(), mesh.node_cells[node].end());
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  }
+  return around;
+}
+
+std::optional<TipFlow> TipFlow::find(const Mesh& mesh, int tip, const std::vector<int>& cells,
+                                     const std::vector<Tensor>& mobility) {
+  if (static_cast<int>(cells.size()) < 2 * terms) return std::nullopt;
+  const auto at_tip = mesh.node_cells[tip];
+  Tensor mean = Tensor::Zero();
+  for (const int cell : at_tip) mean += mobility[cell] / static_cast<double>(at_tip.size());
+  for (const int cell : cells)
+    if (!resembles(mobility[cell], mean)) return std::nullopt;
+  const Tensor deviator = mean - 0.5 * mean.trace() * Tensor::Identity();
+  if (!(mean.trace() > 0) || deviator.lpNorm<Eigen::Infinity>() > 1e-9 * mean.trace()) return std::nullopt;
+  TipFlow flow(mesh, tip, cells, mean);
+  if (!flow.fit(mesh)) return std::nullopt;
+  return flow;
+}
+
+TipFlow::TipFlow(const Mesh& mesh, int tip, const std::vector<int>& cells, const Tensor& mobility)
+    : frame_(mesh, tip), mobility_(mobility), cells_(cells) {}
+
+bool TipFlow::fit(const Mesh& mesh) {
+  const int count = static_cast<int>(cells_.size());
+  const double size = frame_.size();
+  Eigen::MatrixXd basis(count, terms);
+  for (int k = 0; k < count; ++k) {
+    const Point x = mesh.cell_center[cells_[k]], local = (x - frame_.tip()) / size;
+    basis.row(k) << 1, local.x(), local.y(), pressure(x, 0) / std::sqrt(size);
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  if (svd.singularValues()[terms - 1] < well_posed * svd.singularValues()[0]) return false;
+  const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd::Identity(count, count));
+  share_ = inverse.bottomRows<2>() / std::sqrt(size);
+  return true;
+}
+
+TipFlow::Modes TipFlow::pressure(const Point& x, int side) const {
+  const auto [radius, angle] = frame_.polar(x, side);
+  return std::sqrt(radius) * Modes(std::cos(0.5 * angle), std::sin(0.5 * angle));
+}
+
+TipFlow::Modes TipFlow::stream(const Point& x, int side) const {
+  const auto [radius, angle] = frame_.polar(x, side);
+  return std::sqrt(radius) * Modes(std::sin(0.5 * angle), -std::cos(0.5 * angle));
+}
+
+}  // namespace sprekk::matrix_flow

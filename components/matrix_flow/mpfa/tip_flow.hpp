@@ -1,0 +1,56 @@
+// The singular flow around the tip of a fracture.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "components/matrix_flow/flux_operators.hpp"
+#include "framework/mesh/adjacency.hpp"
+#include "framework/mesh/tip_frame.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// Steady flow around the end of a straight fracture, with conjugate functions of z from the tip (Muskat, The Flow of
+/// Homogeneous Fluids through Porous Media, 1937, ch. IV), two modes:
+///   to a fracture along which the pressure is constant: p = Re sqrt(z), with a flux through its walls like 1/sqrt(r);
+///   around a fracture that nothing flows through: p = Im sqrt(z), with a jump like sqrt(r).
+/// How much of them there is, the pressures of the cells around the tip tell: by least squares, beside linear ones.
+class TipFlow {
+ public:
+  /// Of both modes.
+  using Modes = Eigen::RowVector2d;
+
+  /// None unless the rock at the tip (a node) is isotropic and nearly the same all around (resembles), with cells
+  /// enough to tell the flows from linear pressures. `cells`: of the fit (cells_around_tips).
+  static std::optional<TipFlow> find(const Mesh& mesh, int tip, const std::vector<int>& cells,
+                                     const std::vector<Tensor>& mobility);
+
+  const TipFrame& frame() const { return frame_; }
+  Modes pressure(const Point& x, int side) const;  ///< Pa, for amounts of 1 Pa/m^0.5
+  /// What flows through any line from the tip to x to its left, for a mobility of 1 m^2/(Pa s), m^2/s.
+  Modes stream(const Point& x, int side) const;
+
+  const Tensor& mobility() const { return mobility_; }      ///< the mean of the tip's cells
+  const std::vector<int>& cells() const { return cells_; }  ///< of the fit, ascending
+  const Eigen::Matrix2Xd& share() const { return share_; }  ///< of the modes in their pressures, 1/m^0.5
+
+ private:
+  TipFlow(const Mesh& mesh, int tip, const std::vector<int>& cells, const Tensor& mobility);
+  bool fit(const Mesh& mesh);
+
+  TipFrame frame_;
+  Tensor mobility_;
+  std::vector<int> cells_;
+  Eigen::Matrix2Xd share_;
+};
+
+/// Whether the entries of a mobility are those of the other to 20 % of its largest.
+bool resembles(const Tensor& mobility, const Tensor& other);
+
+/// For every tip the cells whose pressures tell the flow around it, ascending: those at its node and at the corners of
+/// these that are near the tip, too. `tips`: see tips_nearby.
+std::map<int, std::vector<int>> cells_around_tips(const Mesh& mesh, const std::vector<int>& tips);
+
+}  // namespace sprekk::matrix_flow
