@@ -2,37 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdlib>
 #include <fstream>
-#include <utility>
 
 #include "framework/config/input_error.hpp"
 #include "framework/output/atomic_file.hpp"
+#include "framework/output/xml_escape.hpp"
 
 namespace sprekk {
 namespace {
-
-constexpr std::array<std::pair<const char*, char>, 4> xml_entities{
-    {{"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&amp;", '&'}}};
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    const char* entity = nullptr;
-    for (const auto& [name, character] : xml_entities)
-      if (c == character) entity = name;
-    entity ? result += entity : result += c;
-  }
-  return result;
-}
-
-std::string unescaped(std::string text) {
-  for (const auto& [name, character] : xml_entities)
-    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; ++at)
-      text.replace(at, std::string(name).size(), 1, character);
-  return text;
-}
 
 /// The value of attribute `name` in an element that we wrote, false if it is not there.
 bool attribute(const std::string& line, const std::string& name, std::string& value) {
@@ -42,7 +20,7 @@ bool attribute(const std::string& line, const std::string& name, std::string& va
   const std::size_t first = begin + opening.size();
   const std::size_t last = line.find('"', first);
   if (last == std::string::npos) return false;
-  value = unescaped(line.substr(first, last - first));
+  value = xml_unescaped(line.substr(first, last - first));
   return true;
 }
 
@@ -75,7 +53,7 @@ void TimeSeries::add(double time, const std::string& file) {
       "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
   for (const Entry& entry : entries_)
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time, escaped(entry.file));
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time, xml_escaped(entry.file));
   text +=
       "  </Collection>\n"
       "</VTKFile>\n";

@@ -1,118 +1,119 @@
 #include "framework/output/vtu_writer.hpp"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkIdTypeArray.h>
-#include <vtkIntArray.h>
-#include <vtkNew.h>
-#include <vtkObject.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridWriter.h>
+#include <fmt/format.h>
 
+#include <bit>
+#include <cstdint>
 #include <stdexcept>
 
 #include "framework/output/atomic_file.hpp"
+#include "framework/output/xml_escape.hpp"
 
 namespace sprekk {
 namespace {
 
+template <class T>
+constexpr const char* type_name = nullptr;
+template <>
+constexpr const char* type_name<double> = "Float64";
+template <>
+constexpr const char* type_name<std::int32_t> = "Int32";
+template <>
+constexpr const char* type_name<std::int64_t> = "Int64";
+template <>
+constexpr const char* type_name<std::uint8_t> = "UInt8";
+
+/// VTK's XML format of unstructured grids (the VTK user's guide, "VTK file formats"): arrays are described by section,
+/// and their values follow raw, each with its number of bytes before it. Their library writes the same in hundreds of
+/// small pieces, with threads that find the range of each array.
+struct Grid {
+  int point_count = 0, cell_count = 0;
+  std::string point_data, cell_data, points, cells;
+  std::string values;
+
+  template <class T>
+  void add(std::string& section, const std::string& name, int components, const std::vector<T>& array) {
+    section += fmt::format(
+        "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+        type_name<T>, xml_escaped(name), components, values.size());
+    const std::uint64_t bytes = array.size() * sizeof(T);
+    values.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+    values.append(reinterpret_cast<const char*>(array.data()), bytes);
+  }
+
+  void write(const std::filesystem::path& file) const {
+    write_atomically(
+        file,
+        fmt::format("<?xml version=\"1.0\"?>\n"
+                    "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n"
+                    "  <UnstructuredGrid>\n"
+                    "    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+                    "      <PointData>\n{}      </PointData>\n"
+                    "      <CellData>\n{}      </CellData>\n"
+                    "      <Points>\n{}      </Points>\n"
+                    "      <Cells>\n{}      </Cells>\n"
+                    "    </Piece>\n"
+                    "  </UnstructuredGrid>\n"
+                    "  <AppendedData encoding=\"raw\">\n   _{}\n"
+                    "  </AppendedData>\n"
+                    "</VTKFile>\n",
+                    std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", point_count, cell_count,
+                    point_data, cell_data, points, cells, values));
+  }
+};
+
 /// Every `stride`-th entity from `first` on; fields on walls interleave the two sides.
-vtkSmartPointer<vtkDoubleArray> make_array(const OutputField& field, const std::string& name, int first = 0,
-                                           int stride = 1) {
+void add_field(Grid& grid, std::string& section, const OutputField& field, const std::string& name, int first = 0,
+               int stride = 1) {
   const int components = field.components;
   const int written = components == dimension ? 3 : components;
   const int count = static_cast<int>(field.values.size()) / components / stride;
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(labelled(name, field.unit).c_str());
-  array->SetNumberOfComponents(written);
-  array->SetNumberOfTuples(count);
-  double* out = array->GetPointer(0);
+  std::vector<double> array;
+  array.reserve(static_cast<std::size_t>(count) * written);
   for (int i = 0; i < count; ++i) {
     const double* in = field.values.data() + (i * stride + first) * components;
-    for (int c = 0; c < written; ++c) *out++ = c < components ? in[c] : 0.0;
+    for (int c = 0; c < written; ++c) array.push_back(c < components ? in[c] : 0.0);
   }
-  return array;
-}
-
-vtkSmartPointer<vtkIntArray> make_array(const std::string& name, int count) {
-  auto array = vtkSmartPointer<vtkIntArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfValues(count);
-  return array;
+  grid.add(section, labelled(name, field.unit), written, array);
 }
 
 /// Two points make a line, three a triangle, four a quadrilateral.
 template <class PointsOfCell>
-void set_cells(vtkUnstructuredGrid& grid, int count, const PointsOfCell& points_of_cell) {
-  vtkNew<vtkUnsignedCharArray> types;
-  vtkNew<vtkIdTypeArray> connectivity, offsets;
-  types->SetNumberOfValues(count);
-  offsets->SetNumberOfValues(count + 1);
-  vtkIdType next = 0;
+void set_cells(Grid& grid, int count, const PointsOfCell& points_of_cell) {
+  constexpr std::uint8_t line = 3, triangle = 5, quadrilateral = 9;
+  std::vector<std::int64_t> connectivity, ends;
+  std::vector<std::uint8_t> types;
   for (int i = 0; i < count; ++i) {
-    offsets->SetValue(i, next);
     const auto& points = points_of_cell(i);
-    types->SetValue(i, points.size() == 2 ? VTK_LINE : points.size() == 3 ? VTK_TRIANGLE : VTK_QUAD);
-    next += static_cast<vtkIdType>(points.size());
+    connectivity.insert(connectivity.end(), points.begin(), points.end());
+    ends.push_back(static_cast<std::int64_t>(connectivity.size()));
+    types.push_back(points.size() == 2 ? line : points.size() == 3 ? triangle : quadrilateral);
   }
-  offsets->SetValue(count, next);
-  connectivity->SetNumberOfValues(next);
-  next = 0;
-  for (int i = 0; i < count; ++i)
-    for (const int point : points_of_cell(i)) connectivity->SetValue(next++, point);
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, connectivity);
-  grid.SetCells(types, cells);
+  grid.cell_count = count;
+  grid.add(grid.cells, "connectivity", 1, connectivity);
+  grid.add(grid.cells, "offsets", 1, ends);
+  grid.add(grid.cells, "types", 1, types);
 }
 
 template <class Position>
-void set_points(vtkUnstructuredGrid& grid, int count, const Position& position) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
-  for (int i = 0; i < count; ++i) points->SetPoint(i, position(i).x(), position(i).y(), 0);
-  grid.SetPoints(points);
+void set_points(Grid& grid, int count, const Position& position) {
+  std::vector<double> coordinates;
+  for (int i = 0; i < count; ++i) coordinates.insert(coordinates.end(), {position(i).x(), position(i).y(), 0});
+  grid.point_count = count;
+  grid.add(grid.points, "Points", 3, coordinates);
 }
 
-void add_on_fracture_cells(vtkUnstructuredGrid& grid, const OutputField& field) {
-  if (field.components != dimension) {
-    grid.GetCellData()->AddArray(make_array(field, field.name));
-    return;
-  }
+void add_on_fracture_cells(Grid& grid, const OutputField& field) {
+  if (field.components != dimension) return add_field(grid, grid.cell_data, field, field.name);
   OutputField numbers = field;  // as two numbers a cell instead of a pair
   numbers.components = 1;
-  grid.GetCellData()->AddArray(make_array(numbers, field.name + ".normal", 0, dimension));
-  grid.GetCellData()->AddArray(make_array(numbers, field.name + ".tangential", 1, dimension));
+  add_field(grid, grid.cell_data, numbers, field.name + ".normal", 0, dimension);
+  add_field(grid, grid.cell_data, numbers, field.name + ".tangential", 1, dimension);
 }
 
 void require_size(const OutputField& field, const Mesh& mesh) {
   if (field.values.size() != static_cast<Eigen::Index>(entity_count(mesh, field.location)) * field.components)
     throw std::logic_error("output of " + field.name + ": wrong number of values");
-}
-
-void write(const std::filesystem::path& file, vtkUnstructuredGrid& grid) {
-  vtkObject::GlobalWarningDisplayOff();  // failures are thrown below, not printed
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(partial_name(file).c_str());
-  writer->SetInputData(&grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();  // zlib takes forty times as long as writing
-  writer->SetHeaderTypeToUInt64();
-  if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError) {
-    std::error_code ignored;
-    std::filesystem::remove(partial_name(file), ignored);
-    throw std::runtime_error("cannot write " + file.string() + " (" +
-                             vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()) + ")");
-  }
-  finish_partial(file);
 }
 
 }  // namespace
@@ -126,38 +127,36 @@ std::string labelled(const std::string& quantity, const std::string& unit) {
 }
 
 void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields) {
-  vtkNew<vtkUnstructuredGrid> grid;
-  set_points(*grid, mesh.node_count(), [&](int i) { return mesh.nodes[i]; });
-  set_cells(*grid, mesh.cell_count(), [&](int i) -> const Ring& { return mesh.cell_nodes[i]; });
-  const auto region = make_array("region", mesh.cell_count());
-  for (int i = 0; i < mesh.cell_count(); ++i) region->SetValue(i, mesh.cell_region[i]);
-  grid->GetCellData()->AddArray(region);
+  Grid grid;
+  set_points(grid, mesh.node_count(), [&](int i) { return mesh.nodes[i]; });
+  set_cells(grid, mesh.cell_count(), [&](int i) -> const Ring& { return mesh.cell_nodes[i]; });
+  grid.add(grid.cell_data, "region", 1, std::vector<std::int32_t>(mesh.cell_region.begin(), mesh.cell_region.end()));
   for (const OutputField& field : fields) {
     require_size(field, mesh);
-    if (field.location == Location::cell) grid->GetCellData()->AddArray(make_array(field, field.name));
-    if (field.location == Location::node) grid->GetPointData()->AddArray(make_array(field, field.name));
+    if (field.location == Location::cell) add_field(grid, grid.cell_data, field, field.name);
+    if (field.location == Location::node) add_field(grid, grid.point_data, field, field.name);
   }
-  write(file, *grid);
+  grid.write(file);
 }
 
 void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields) {
-  vtkNew<vtkUnstructuredGrid> grid;
+  Grid grid;
   const int cell_count = mesh.fracture_cell_count();
-  set_points(*grid, static_cast<int>(mesh.fracture_points.size()),
+  set_points(grid, static_cast<int>(mesh.fracture_points.size()),
              [&](int i) { return mesh.fracture_points[i].position; });
-  set_cells(*grid, cell_count, [&](int i) -> const std::array<int, 2>& { return mesh.fracture_cells[i].points; });
-  const auto fracture = make_array("fracture", cell_count);
-  for (int i = 0; i < cell_count; ++i) fracture->SetValue(i, mesh.fracture_cells[i].fracture);
-  grid->GetCellData()->AddArray(fracture);
+  set_cells(grid, cell_count, [&](int i) -> const std::array<int, 2>& { return mesh.fracture_cells[i].points; });
+  std::vector<std::int32_t> fracture;
+  for (const FractureCell& cell : mesh.fracture_cells) fracture.push_back(cell.fracture);
+  grid.add(grid.cell_data, "fracture", 1, fracture);
   for (const OutputField& field : fields) {
     require_size(field, mesh);
-    if (field.location == Location::fracture_cell) add_on_fracture_cells(*grid, field);
+    if (field.location == Location::fracture_cell) add_on_fracture_cells(grid, field);
     if (field.location == Location::wall) {
-      grid->GetCellData()->AddArray(make_array(field, field.name + ".plus", static_cast<int>(Wall::plus), 2));
-      grid->GetCellData()->AddArray(make_array(field, field.name + ".minus", static_cast<int>(Wall::minus), 2));
+      add_field(grid, grid.cell_data, field, field.name + ".plus", static_cast<int>(Wall::plus), 2);
+      add_field(grid, grid.cell_data, field, field.name + ".minus", static_cast<int>(Wall::minus), 2);
     }
   }
-  write(file, *grid);
+  grid.write(file);
 }
 
 }  // namespace sprekk

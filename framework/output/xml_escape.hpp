@@ -1,0 +1,12 @@
+// Text within the quotes of an XML attribute.
+#pragma once
+
+#include <string>
+
+namespace sprekk {
+
+std::string xml_escaped(const std::string& text);
+/// The inverse.
+std::string xml_unescaped(std::string text);
+
+}  // namespace sprekk
