@@ -49,6 +49,7 @@ BlockSystem::BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns) :
   const bool alone = parallel::size() == 1;
   for (const Field* field : unknowns_) {
     first_.push_back(size_);
+    first_row_.push_back(static_cast<int>(system_.rows.size()));
     system_.blocks.push_back(describe(mesh, *field, size_));
     const int components = field->spec().components;
     std::vector<char> owned(field->size(), 1);
@@ -61,6 +62,7 @@ BlockSystem::BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns) :
     owned_.push_back(std::move(owned));
     size_ += field->size();
   }
+  first_row_.push_back(static_cast<int>(system_.rows.size()));
 }
 
 bool BlockSystem::Known::has_pattern_of(const Assembly::Block& block) const {
@@ -105,7 +107,9 @@ void BlockSystem::build_pattern(const Assembly& assembly) {
   };
   std::vector<std::vector<Source>> by_row(unknowns_.size());
   std::size_t entries = 0;
+  first_destinations_.clear();
   for (const Assembly::Block& block : assembly.blocks()) {
+    first_destinations_.push_back(entries);
     by_row[block.row].push_back({&block, entries});
     for (int r = 0; r < block.matrix->outerSize(); ++r)
       if (owned_[block.row][r]) entries += block.matrix->outerIndexPtr()[r + 1] - block.matrix->outerIndexPtr()[r];
@@ -152,32 +156,45 @@ void BlockSystem::build_pattern(const Assembly& assembly) {
   std::copy(inner.begin(), inner.end(), local.innerIndexPtr());
 }
 
+std::vector<char> BlockSystem::known_rows(const Assembly& assembly) const {
+  std::vector<char> known(unknowns_.size(), has_same_fixed(assembly));
+  for (std::size_t i = 0; i < known_.size(); ++i)
+    if (!known_[i].has_values_of(assembly.blocks()[i])) known[known_[i].row] = false;
+  return known;
+}
+
 const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
   const std::vector<Assembly::Block>& blocks = assembly.blocks();
   const bool same_pattern =
       patterns_built_ > 0 &&
       std::equal(known_.begin(), known_.end(), blocks.begin(), blocks.end(),
                  [](const Known& known, const Assembly::Block& block) { return known.has_pattern_of(block); });
-  if (same_pattern && system_.number != 0 && has_same_fixed(assembly) &&
-      std::equal(known_.begin(), known_.end(), blocks.begin(), blocks.end(),
-                 [](const Known& known, const Assembly::Block& block) { return known.has_values_of(block); }))
-    return summed_.empty() ? system_ : with_sums_;
-  if (!same_pattern) {
+  std::vector<char> stays(unknowns_.size(), false);
+  if (same_pattern) {
+    stays = known_rows(assembly);
+    const bool all_stay = std::all_of(stays.begin(), stays.end(), [](char stay) { return stay; });
+    if (all_stay && system_.number != 0) return summed_.empty() ? system_ : with_sums_;
+  } else {
     build_pattern(assembly);
     system_.pattern_number = new_system_number();
   }
   remember(assembly);
   system_.number = new_system_number();
   double* values = system_.local.valuePtr();
-  std::fill(values, values + system_.local.nonZeros(), 0.0);
-  std::size_t k = 0;
-  for (const Assembly::Block& block : assembly.blocks())
+  const int* outer = system_.local.outerIndexPtr();
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    if (!stays[u]) std::fill(values + outer[first_row_[u]], values + outer[first_row_[u + 1]], 0.0);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Assembly::Block& block = blocks[b];
+    if (stays[block.row]) continue;
+    std::size_t k = first_destinations_[b];
     for (int r = 0; r < block.matrix->outerSize(); ++r) {
       if (!owned_[block.row][r]) continue;
       const double scale = block.weights ? block.factor * (*block.weights)[r] : block.factor;
       for (SparseMatrix::InnerIterator entry(*block.matrix, r); entry; ++entry)
         values[destinations_[k++]] += scale * entry.value();
     }
+  }
   apply_fixed(assembly);
   sum_balances(assembly);
   return summed_.empty() ? system_ : with_sums_;

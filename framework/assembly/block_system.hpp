@@ -12,7 +12,8 @@
 namespace sprekk {
 
 /// Numbers the unknowns of a solve one field after the other. Keeps the sparsity pattern from one assembly to the next,
-/// so that only values are copied when nothing but values has changed, and the values where nothing has.
+/// so that only values are copied when nothing but values has changed, and the values of the equations where nothing
+/// has.
 class BlockSystem {
  public:
   BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns);
@@ -58,6 +59,8 @@ class BlockSystem {
   };
   void remember(const Assembly& assembly);
   bool has_same_fixed(const Assembly& assembly) const;
+  /// By unknown: whether its rows have the values that they are to have.
+  std::vector<char> known_rows(const Assembly& assembly) const;
   void build_pattern(const Assembly& assembly);
   void apply_fixed(const Assembly& assembly);
   /// Puts sums of balances in the place of one of them, or leaves none.
@@ -65,13 +68,15 @@ class BlockSystem {
 
   std::vector<const Field*> unknowns_;
   std::vector<int> first_;
+  std::vector<int> first_row_;  ///< of each unknown's owned rows in the system, and their number
   int size_ = 0;
   std::vector<std::vector<char>> owned_;  ///< [unknown][row of the field]
   LinearSystem system_;
   bool uses_sums_ = false;
   std::vector<Summed> summed_;
-  LinearSystem with_sums_;         ///< instead of system_, where there are any
-  std::vector<int> destinations_;  ///< of every kept entry of every block, in order
+  LinearSystem with_sums_;                       ///< instead of system_, where there are any
+  std::vector<int> destinations_;                ///< of every kept entry of every block, in order
+  std::vector<std::size_t> first_destinations_;  ///< by block
   std::vector<Known> known_;
   std::vector<std::pair<int, double>> fixed_;  ///< unknowns and scales
   int patterns_built_ = 0;
