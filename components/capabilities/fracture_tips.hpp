@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <vector>
 
 #include "components/capabilities/rock_state.hpp"
 #include "framework/types.hpp"
@@ -22,8 +24,10 @@ class TipSurroundings {
   virtual LameParameters stiffness(const Point& x) const = 0;
   /// m; `inside`, a point near x in the part of the rock that asks, tells the side of a fracture.
   virtual Point displacement(const Point& x, const Point& inside) const = 0;
-  /// Pa, (xx, yy, xy): stress without strain, of the pore pressure and the initial stress.
-  virtual Eigen::Vector3d stress_offset(const Point& x, const Point& inside) const = 0;
+  /// Stress without strain, of the pore pressure and the initial stress, at places that are looked for once: gives
+  /// those of the last update, (xx, yy, xy) in Pa, a column a place. Not to be asked when this object is gone.
+  using StressOffsets = std::function<Eigen::Matrix3Xd()>;
+  virtual StressOffsets stress_offsets(const std::vector<Point>& places) const = 0;
   /// Whether the walls are held by their jump (Eq. 15) or by their traction.
   virtual bool gives_jumps() const = 0;
   virtual Point wall_traction(int fracture, double s) const = 0;  ///< Pa, n·sigma of the plus wall, fluid included

@@ -63,7 +63,7 @@ void NodalValues::set(int components, const Vector& cells, const Vector& faces) 
   if (from_ == From::cells_and_faces) values_ += from_faces_ * Table(faces.data(), mesh_->face_count(), components);
 }
 
-NodalValues::Weights NodalValues::weights(int cell, const Point& x) const {
+NodalValues::Place NodalValues::place(int cell, const Point& x) const {
   const Ring& corners = mesh_->cell_nodes[cell];
   std::array<int, 3> n{corners[0], corners[1], corners[2]};
   if (corners.size() == 4) {

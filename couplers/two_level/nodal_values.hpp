@@ -22,20 +22,24 @@ class NodalValues {
   NodalValues(const Mesh& mesh, From from);
   /// `cells`: `components` values a cell; `faces`: as many a face, or empty.
   void set(int components, const Vector& cells, const Vector& faces);
-  /// The values in cell `cell` at x; `components` is what was set.
-  template <int components>
-  Eigen::Vector<double, components> at(int cell, const Point& x) const {
-    const Weights w = weights(cell, x);
-    return w.share[0] * row<components>(w.nodes[0]) + w.share[1] * row<components>(w.nodes[1]) +
-           w.share[2] * row<components>(w.nodes[2]);
-  }
-
- private:
-  struct Weights {
+  /// A place in a cell.
+  struct Place {
     std::array<int, 3> nodes;
     std::array<double, 3> share;
   };
-  Weights weights(int cell, const Point& x) const;
+  Place place(int cell, const Point& x) const;
+  /// The values there; `components` is what was set.
+  template <int components>
+  Eigen::Vector<double, components> at(const Place& place) const {
+    return place.share[0] * row<components>(place.nodes[0]) + place.share[1] * row<components>(place.nodes[1]) +
+           place.share[2] * row<components>(place.nodes[2]);
+  }
+  template <int components>
+  Eigen::Vector<double, components> at(int cell, const Point& x) const {
+    return at<components>(place(cell, x));
+  }
+
+ private:
   template <int components>
   Eigen::Vector<double, components> row(int node) const {
     return values_.row(node).template head<components>();

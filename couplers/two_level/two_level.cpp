@@ -82,10 +82,21 @@ class TwoLevel : public Coupler, public TipSurroundings {
     return displacement_.at<2>(cell_at(inside), x);
   }
 
-  Eigen::Vector3d stress_offset(const Point& x, const Point& inside) const override {
-    const int cell = cell_at(inside);
-    const double pore = pore_stress_.at<1>(cell, x)[0];
-    return rock_.initial_stress(cell, x) + Eigen::Vector3d(pore, pore, 0);
+  StressOffsets stress_offsets(const std::vector<Point>& places) const override {
+    std::vector<NodalValues::Place> found;
+    found.reserve(places.size());
+    Eigen::Matrix3Xd initial(3, places.size());
+    for (const Point& x : places) {
+      const int cell = cell_at(x);
+      initial.col(found.size()) = rock_.initial_stress(cell, x);
+      found.push_back(pore_stress_.place(cell, x));
+    }
+    return [this, found = std::move(found), initial = std::move(initial)] {
+      Eigen::Matrix3Xd offsets = initial;
+      for (std::size_t i = 0; i < found.size(); ++i)
+        offsets.col(i).head<2>().array() += pore_stress_.at<1>(found[i])[0];
+      return offsets;
+    };
   }
 
   bool gives_jumps() const override { return options_.reconstruction != "wall_traction"; }

@@ -50,9 +50,9 @@ Adapted adapt(const FineGeometry& geometry, const FineMeshOptions& options, cons
               const FineLoads& loads, const AdaptOptions& adapt_options, const std::shared_ptr<Profile>& profile) {
   FineMeshOptions sizes = options;
   for (int meshes = 1;; ++meshes) {
-    FineModel model(geometry, sizes, rock, profile);
+    FineModel model(geometry, sizes, rock, {}, profile);
     FineSolution solution = model.solve(loads);
-    ErrorEstimate estimate = estimate_error(solution);
+    ErrorEstimate estimate = estimate_error(model, solution);
     const bool is_converged = estimate.relative <= adapt_options.tolerance;
     const auto wanted =
         is_converged ? nullptr : std::make_shared<WantedSizes>(solution, estimate, adapt_options.tolerance);

@@ -121,7 +121,7 @@ class Recovery {
 
 }  // namespace
 
-ErrorEstimate estimate_error(const FineSolution& solution) {
+ErrorEstimate estimate_error(const FineModel& model, const FineSolution& solution) {
   const FineMesh& mesh = *solution.mesh;
   const Recovery recovery(solution);
   ErrorEstimate estimate{{}, 0, 0};
@@ -139,7 +139,7 @@ ErrorEstimate estimate_error(const FineSolution& solution) {
     estimate.total += squared;
   }
   estimate.total = std::sqrt(estimate.total);
-  const double scale = std::sqrt(2 * solution.strain_energy);
+  const double scale = std::sqrt(2 * model.strain_energy(solution));
   estimate.relative = scale > 0 ? estimate.total / scale : 0;
   return estimate;
 }

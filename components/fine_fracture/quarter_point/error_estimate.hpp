@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "components/fine_fracture/quarter_point/solution.hpp"
+#include "components/fine_fracture/quarter_point/model.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -16,6 +16,7 @@ struct ErrorEstimate {
 /// Zienkiewicz and Zhu 1992: the error is the distance from a smoother stress, which comes from quadratic polynomials
 /// fitted to the stress around every corner node. Near a tip the fit is of what the singular fields with the computed
 /// K leave over. In rosettes the fit outside is continued.
-ErrorEstimate estimate_error(const FineSolution& solution);
+/// `solution` has the factors of all tips.
+ErrorEstimate estimate_error(const FineModel& model, const FineSolution& solution);
 
 }  // namespace sprekk::fine_fracture

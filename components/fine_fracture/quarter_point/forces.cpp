@@ -41,25 +41,32 @@ void add_wall_tractions(const FineMesh& mesh, const FineLoads& loads, Vector& f)
   }
 }
 
-void subtract_offset(const FineMesh& mesh, const FineLoads& loads, Vector& f) {
+}  // namespace
+
+Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const FineLoads& loads) {
+  Vector f = Vector::Zero(2 * mesh.node_count());
+  if (loads.boundary_traction) add_outline_tractions(geometry, mesh, loads, f);
+  if (loads.wall_traction) add_wall_tractions(mesh, loads, f);
+  return f;
+}
+
+OffsetForces::OffsetForces(const FineMesh& mesh) {
   constexpr int degree = 4, along_rays = 3, across = 4;
   for (const FineMesh::Element& element : mesh.elements) {
     for (const TrianglePoint& place : element.tip == none ? triangle_rule(degree) : polar_rule(along_rays, across)) {
       const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
-      const Tensor s = place.weight * p.jacobian * symmetric(loads.stress_offset(p.x));
-      for (int k = 0; k < 6; ++k) f.segment<2>(2 * element.nodes[k]) -= s * p.gradient.row(k).transpose();
+      places_.push_back(p.x);
+      shares_.push_back({element.nodes, place.weight * p.jacobian * p.gradient});
     }
   }
 }
 
-}  // namespace
-
-Vector external_forces(const FineGeometry& geometry, const FineMesh& mesh, const FineLoads& loads) {
-  Vector f = Vector::Zero(2 * mesh.node_count());
-  if (loads.boundary_traction) add_outline_tractions(geometry, mesh, loads, f);
-  if (loads.wall_traction) add_wall_tractions(mesh, loads, f);
-  if (loads.stress_offset) subtract_offset(mesh, loads, f);
-  return f;
+void OffsetForces::subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const {
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    const Tensor s = symmetric(offsets.col(i));
+    for (int k = 0; k < 6; ++k)
+      forces.segment<2>(2 * shares_[i].nodes[k]) -= s * shares_[i].gradient.row(k).transpose();
+  }
 }
 
 }  // namespace sprekk::fine_fracture

@@ -6,8 +6,25 @@
 
 namespace sprekk::fine_fracture {
 
-/// The integrals of t . v over the outline and the walls, minus that of s : eps(v) over the domain; (x, y) per node,
-/// N/m.
-Vector external_forces(const FineGeometry& geometry, const FineMesh& mesh, const FineLoads& loads);
+/// The integrals of t . v over the outline and the walls; (x, y) per node, N/m.
+Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const FineLoads& loads);
+
+/// The integral of s : eps(v) over the domain, where s is the stress offset. What follows from the mesh is computed
+/// once.
+class OffsetForces {
+ public:
+  explicit OffsetForces(const FineMesh& mesh);
+  const std::vector<Point>& places() const { return places_; }
+  /// From the offset there, (xx, yy, xy) in Pa, a column a place.
+  void subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const;
+
+ private:
+  struct Share {
+    std::array<int, 6> nodes;
+    Eigen::Matrix<double, 6, 2> gradient;  ///< of their shape functions, times the area that the place stands for, m
+  };
+  std::vector<Point> places_;
+  std::vector<Share> shares_;  ///< by place
+};
 
 }  // namespace sprekk::fine_fracture

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/fine_fracture/quarter_point/interaction_integral.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -34,36 +33,37 @@ bool has_jump_at(const FineMesh& mesh, const FineMesh::Tip& tip) {
   });
 }
 
+double domain_radius(const TipRoom& room) {
+  return std::min(domain_in_radii * room.radius,
+                  std::max(2 * room.radius, share_of_room * std::min(room.same_walls, room.clearance)));
+}
+
 }  // namespace
 
-std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
-                                            const Vector& displacement, const std::optional<TipPlace>& wanted) {
-  std::vector<TipIntensities> results;
-  for (const FineMesh::Tip& tip : mesh.tips) {
-    const TipRoom& room = tip.room;
-    if (wanted && (room.crack != wanted->crack || room.is_last != wanted->is_last)) continue;
-    TipIntensities result{};
-    result.crack = room.crack;
-    result.is_last = room.is_last;
-    result.position = room.position;
-    result.direction = room.direction;
-    result.domain_radius =
-        std::min(domain_in_radii * room.radius,
-                 std::max(2 * room.radius, share_of_room * std::min(room.same_walls, room.clearance)));
-    const double inner_radius = 0.5 * (result.domain_radius + room.radius);
-    const auto [outer, inner] =
-        interaction_integrals(mesh, rock, loads, displacement, tip, {result.domain_radius, inner_radius});
-    result.K_interaction = outer.K;
-    result.T = outer.T;
-    result.K_inner = inner.K;
-    correlate(tip, rock, displacement, result);
-    const bool is_given = has_jump_at(mesh, tip);
-    result.K = is_given ? result.K_extrapolated : result.K_interaction;
-    result.error = (result.K - (is_given ? result.K_correlation : result.K_inner)).cwiseAbs();
-    result.energy_release_rate = result.K.squaredNorm() / rock.plane_modulus();
-    results.push_back(result);
-  }
-  return results;
+TipEvaluation::TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip)
+    : tip_(tip),
+      rock_(rock),
+      domain_radius_(domain_radius(tip.room)),
+      has_jump_(has_jump_at(mesh, tip)),
+      integrals_(mesh, rock, tip, {domain_radius_, 0.5 * (domain_radius_ + tip.room.radius)}) {}
+
+TipIntensities TipEvaluation::of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
+                                 const Vector& displacement) const {
+  TipIntensities result{};
+  result.crack = tip_.room.crack;
+  result.is_last = tip_.room.is_last;
+  result.position = tip_.room.position;
+  result.direction = tip_.room.direction;
+  result.domain_radius = domain_radius_;
+  const auto [outer, inner] = integrals_.of(loads, offsets, displacement);
+  result.K_interaction = outer.K;
+  result.T = outer.T;
+  result.K_inner = inner.K;
+  correlate(tip_, rock_, displacement, result);
+  result.K = has_jump_ ? result.K_extrapolated : result.K_interaction;
+  result.error = (result.K - (has_jump_ ? result.K_correlation : result.K_inner)).cwiseAbs();
+  result.energy_release_rate = result.K.squaredNorm() / rock_.plane_modulus();
+  return result;
 }
 
 }  // namespace sprekk::fine_fracture

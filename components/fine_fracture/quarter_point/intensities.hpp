@@ -1,11 +1,11 @@
 // Stress-intensity factors of a finite-element solution.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "components/fine_fracture/quarter_point/elasticity.hpp"
 #include "components/fine_fracture/quarter_point/fine_mesh.hpp"
+#include "components/fine_fracture/quarter_point/interaction_integral.hpp"
 #include "components/fine_fracture/quarter_point/loads.hpp"
 
 namespace sprekk::fine_fracture {
@@ -38,9 +38,24 @@ struct TipPlace {
   bool is_last;
 };
 
-/// Of all tips, or of the one that is wanted. `displacement` holds (x, y) per node. The loads are those of the
-/// solution.
-std::vector<TipIntensities> tip_intensities(const FineMesh& mesh, const Elasticity& rock, const FineLoads& loads,
-                                            const Vector& displacement, const std::optional<TipPlace>& wanted = {});
+/// How to find them at one tip, in any solution on its mesh.
+class TipEvaluation {
+ public:
+  /// Keeps references to the mesh and to its tip.
+  TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip);
+  /// Where the stress offset is asked for.
+  const std::vector<Point>& offset_places() const { return integrals_.offset_places(); }
+  /// `loads` are those of the solution, `offsets` a column (xx, yy, xy) a place, or none; `displacement` holds (x, y)
+  /// per node.
+  TipIntensities of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
+                    const Vector& displacement) const;
+
+ private:
+  const FineMesh::Tip& tip_;
+  Elasticity rock_;
+  double domain_radius_;
+  bool has_jump_;  ///< prescribed up to the tip
+  InteractionIntegrals integrals_;
+};
 
 }  // namespace sprekk::fine_fracture

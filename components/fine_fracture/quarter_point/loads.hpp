@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "framework/types.hpp"
 
@@ -20,9 +22,19 @@ struct FineLoads {
   std::function<Point(int crack, int segment, double s)> wall_traction = {};
   /// u(minus) - u(plus), in global components. At a tip it is not asked for: the walls meet.
   std::function<Point(int crack, int segment, double s)> wall_jump = {};
-  /// (xx, yy, xy) of the part of the total stress that is not elastic: total = C eps(u) + offset. For example
-  /// -alpha (p - p0) I + initial stress. Only values are used, so it may jump.
-  std::function<Eigen::Vector3d(const Point& x)> stress_offset = {};
+  /// (xx, yy, xy), a column a place, of the part of the total stress that is not elastic: total = C eps(u) + offset.
+  /// For example -alpha (p - p0) I + initial stress. Only values are used, so it may jump. A model asks for its
+  /// `offset_places` in each solve.
+  std::function<Eigen::Matrix3Xd(const std::vector<Point>& places)> stress_offset = {};
 };
+
+/// A stress offset from a function of one place.
+inline auto at_each_place(std::function<Eigen::Vector3d(const Point& x)> offset) {
+  return [offset = std::move(offset)](const std::vector<Point>& places) {
+    Eigen::Matrix3Xd offsets(3, places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) offsets.col(i) = offset(places[i]);
+    return offsets;
+  };
+}
 
 }  // namespace sprekk::fine_fracture

@@ -3,7 +3,6 @@
 #include <Eigen/SparseCholesky>
 #include <stdexcept>
 
-#include "components/fine_fracture/quarter_point/forces.hpp"
 #include "components/fine_fracture/quarter_point/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/shapes.hpp"
 #include "framework/mesh/mesh.hpp"
@@ -37,10 +36,9 @@ ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& e
   return stiffness;
 }
 
-std::shared_ptr<const FineMesh> timed_mesh(const FineGeometry& geometry, const FineMeshOptions& options,
-                                           Profile& profile) {
-  const ScopedTimer timer(profile, "mesh");
-  return std::make_shared<const FineMesh>(make_fine_mesh(geometry, options));
+auto timed(Profile& profile, const char* name, const auto& work) {
+  const ScopedTimer timer(profile, name);
+  return work();
 }
 
 ElementVector gather(const FineMesh::Element& element, const Vector& values) {
@@ -148,12 +146,14 @@ class FineModel::Factors {
 };
 
 FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
-                     std::shared_ptr<Profile> profile)
+                     const std::optional<TipPlace>& wanted, std::shared_ptr<Profile> profile)
     : profile_(std::move(profile)),
       geometry_(std::move(geometry)),
       rock_(rock),
-      mesh_(timed_mesh(geometry_, options, *profile_)),
-      unknowns_(geometry_, *mesh_) {
+      mesh_(timed(*profile_, "mesh",
+                  [&] { return std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options)); })),
+      unknowns_(geometry_, *mesh_),
+      offset_forces_(timed(*profile_, "loads", [&] { return OffsetForces(*mesh_); })) {
   for (const char* name : {"ordering", "factorization", "back-solves"}) profile_->at(name).is_solver = true;
   {
     const ScopedTimer timer(*profile_, "assembly");
@@ -161,14 +161,22 @@ FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, cons
     for (const auto& element : mesh_->elements) stiffness_.push_back(element_stiffness(*mesh_, element, rock_));
   }
   factors_ = std::make_unique<Factors>(*mesh_, unknowns_, stiffness_, *profile_);
+  const ScopedTimer timer(*profile_, "factors");
+  offset_places_ = offset_forces_.places();
+  for (const FineMesh::Tip& tip : mesh_->tips) {
+    if (wanted && (tip.room.crack != wanted->crack || tip.room.is_last != wanted->is_last)) continue;
+    const std::vector<Point>& places = tips_.emplace_back(*mesh_, rock_, tip).offset_places();
+    offset_places_.insert(offset_places_.end(), places.begin(), places.end());
+  }
 }
 
 FineModel::~FineModel() = default;
 FineModel::FineModel(FineModel&&) noexcept = default;
 FineModel& FineModel::operator=(FineModel&&) noexcept = default;
 
-Vector FineModel::right_hand_side(const FineLoads& loads, const Vector& u) const {
-  Vector f = external_forces(geometry_, *mesh_, loads);
+Vector FineModel::right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const {
+  Vector f = traction_forces(geometry_, *mesh_, loads);
+  if (offsets.cols() > 0) offset_forces_.subtract_from(f, offsets);
   for (std::size_t e = 0; e < stiffness_.size(); ++e) {
     const auto& element = mesh_->elements[e];
     const ElementVector local = gather(element, u);
@@ -190,26 +198,38 @@ Vector FineModel::back_solve(const Vector& b) const {
   return x;
 }
 
-FineSolution FineModel::solve(const FineLoads& loads, const std::optional<TipPlace>& wanted) const {
-  FineSolution solution{mesh_, rock_, {}, {}, 0};
+FineSolution FineModel::solve(const FineLoads& loads) const {
+  FineSolution solution{mesh_, rock_, {}, {}};
   Vector& u = solution.displacement;
   Vector b;
+  Eigen::Matrix3Xd offsets;
   {
     const ScopedTimer timer(*profile_, "loads");
+    if (loads.stress_offset) offsets = loads.stress_offset(offset_places_);
     u = unknowns_.prescribed_values(*mesh_, loads);
-    b = right_hand_side(loads, u);
+    b = right_hand_side(loads, offsets, u);
   }
   const Vector x = back_solve(b);
   const ScopedTimer timer(*profile_, "factors");
   for (int i = 0; i < u.size(); ++i) {
     if (unknowns_.of(i) != none) u[i] += x[unknowns_.of(i)];
   }
-  for (std::size_t e = 0; e < stiffness_.size(); ++e) {
-    const ElementVector local = gather(mesh_->elements[e], u);
-    solution.strain_energy += 0.5 * local.dot(stiffness_[e] * local);
+  Eigen::Index first = static_cast<Eigen::Index>(offset_forces_.places().size());
+  for (const TipEvaluation& tip : tips_) {
+    const Eigen::Index count = offsets.cols() > 0 ? static_cast<Eigen::Index>(tip.offset_places().size()) : 0;
+    solution.tips.push_back(tip.of(loads, offsets.middleCols(offsets.cols() > 0 ? first : 0, count), u));
+    first += count;
   }
-  solution.tips = tip_intensities(*mesh_, rock_, loads, u, wanted);
   return solution;
+}
+
+double FineModel::strain_energy(const FineSolution& solution) const {
+  double energy = 0;
+  for (std::size_t e = 0; e < stiffness_.size(); ++e) {
+    const ElementVector local = gather(mesh_->elements[e], solution.displacement);
+    energy += 0.5 * local.dot(stiffness_[e] * local);
+  }
+  return energy;
 }
 
 }  // namespace sprekk::fine_fracture

@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "components/fine_fracture/quarter_point/forces.hpp"
 #include "components/fine_fracture/quarter_point/solution.hpp"
 #include "components/fine_fracture/quarter_point/unknowns.hpp"
 #include "framework/output/profile.hpp"
@@ -12,14 +14,15 @@
 namespace sprekk::fine_fracture {
 
 /// Plane-strain elasticity on quadratic triangles with quarter-point rosettes:
-/// div (C eps(u) + s) = 0 with the loads of FineLoads. The matrix is factorized once; every further solve is a
-/// back-substitution.
+/// div (C eps(u) + s) = 0 with the loads of FineLoads. The matrix is factorized once, and what loads and factors take
+/// from the mesh is computed once; every further solve is a back-substitution.
 class FineModel {
  public:
-  /// Times its work in `profile`: mesh, assembly, ordering, factorization, loads, back-solves, factors. Throws what
-  /// make_fine_mesh throws, and std::runtime_error when the matrix is singular.
+  /// Finds the factors of all tips, or of the one that is wanted. Times its work in `profile`: mesh, assembly,
+  /// ordering, factorization, loads, back-solves, factors. Throws what make_fine_mesh throws, and std::runtime_error
+  /// when the matrix is singular.
   FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
-            std::shared_ptr<Profile> profile = std::make_shared<Profile>());
+            const std::optional<TipPlace>& wanted = {}, std::shared_ptr<Profile> profile = std::make_shared<Profile>());
   ~FineModel();
   FineModel(FineModel&&) noexcept;
   FineModel& operator=(FineModel&&) noexcept;
@@ -28,16 +31,20 @@ class FineModel {
   const FineMesh& mesh() const { return *mesh_; }
   const Elasticity& rock() const { return rock_; }
 
-  /// With the factors of all tips, or of the one that is wanted. Throws std::runtime_error when the result is not
-  /// finite.
-  FineSolution solve(const FineLoads& loads, const std::optional<TipPlace>& wanted = {}) const;
+  /// Where each solve asks for the stress offset.
+  const std::vector<Point>& offset_places() const { return offset_places_; }
+
+  /// Throws std::runtime_error when the result is not finite.
+  FineSolution solve(const FineLoads& loads) const;
+  /// Of C eps(u), J/m.
+  double strain_energy(const FineSolution& solution) const;
 
  private:
   using ElementMatrix = Eigen::Matrix<double, 12, 12>;
   class Factors;
 
   /// For the unknowns, with u of all that is prescribed and 0 elsewhere.
-  Vector right_hand_side(const FineLoads& loads, const Vector& u) const;
+  Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const;
   Vector back_solve(const Vector& b) const;
 
   std::shared_ptr<Profile> profile_;
@@ -47,6 +54,9 @@ class FineModel {
   Unknowns unknowns_;
   std::vector<ElementMatrix> stiffness_;
   std::unique_ptr<Factors> factors_;
+  OffsetForces offset_forces_;
+  std::vector<TipEvaluation> tips_;
+  std::vector<Point> offset_places_;  ///< of offset_forces_, then those of tips_
 };
 
 }  // namespace sprekk::fine_fracture

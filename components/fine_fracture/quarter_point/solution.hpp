@@ -13,8 +13,7 @@ struct FineSolution {
   std::shared_ptr<const FineMesh> mesh;
   Elasticity rock;
   Vector displacement;               ///< (x, y) per node, m
-  std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips, or the one that was wanted
-  double strain_energy;              ///< of C eps(u), J/m
+  std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips, or the one that is wanted
 
   /// Places come from an ElementLocator.
   Point displacement_at(const ElementPlace& place) const;

@@ -19,7 +19,7 @@ FineLoads Tips::loads_of(const Tip& tip) const {
   loads.boundary_displacement = [this](const Point& x, const Point& inside) {
     return surroundings_->displacement(x, inside);
   };
-  loads.stress_offset = [this](const Point& x) { return surroundings_->stress_offset(x, x); };
+  loads.stress_offset = [this](const std::vector<Point>& places) { return surroundings_->stress_offsets(places)(); };
   loads.wall_traction = [this, &domain, arc, lengths](int crack, int segment, double s) -> Point {
     const int fracture = domain.sources[crack].fracture;
     const double at = arc(crack, segment, s);

@@ -121,6 +121,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   const Elasticity rock{lame.lambda, lame.shear};
   if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
     tip.answer.reset();
+    tip.offsets = nullptr;
     tip.domain = std::move(domain);
     if (options_.tolerance) {
       Adapted adapted =
@@ -130,7 +131,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
       solves_ += adapted.meshes;
       return noted(tip, adapted.solution);
     }
-    tip.model.emplace(tip.domain.geometry, mesh, rock, profile_);
+    tip.model.emplace(tip.domain.geometry, mesh, rock, TipPlace{tip.domain.crack, tip.domain.is_last}, profile_);
     ++meshes_;
   } else {
     tip.domain = std::move(domain);
@@ -142,7 +143,10 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
     return tip.answer->sifs;
   }
   ++solves_;
-  return noted(tip, tip.model->solve(loads_of(tip), TipPlace{tip.domain.crack, tip.domain.is_last}));
+  FineLoads loads = loads_of(tip);
+  if (!tip.offsets) tip.offsets = surroundings_->stress_offsets(tip.model->offset_places());
+  loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
+  return noted(tip, tip.model->solve(loads));
 }
 
 Sifs Tips::noted(Tip& tip, const FineSolution& solution) const {

@@ -75,6 +75,7 @@ class Tips : public Component, public FractureTips, public Growing {
     };
     // A factorization is reused while geometry and rock are what they were, and an answer while the coarse level is.
     std::optional<FineModel> model;
+    TipSurroundings::StressOffsets offsets;  ///< at the places of the model, found when they are first asked for
     FineDomain domain;
     std::optional<Answer> answer;
     std::uint64_t answered_for = 0;

@@ -96,6 +96,10 @@ TEST_F(Blocks, ChangeTheirNumberWithEveryValue) {
   expect_new("a value that is prescribed");
   scale_of_fixed = 7;
   expect_new("its scale");
+  dt = 0.25;
+  expect_new("another equation than the one with the value that is prescribed");
+  entry = 4;
+  expect_new("the equation with the value that is prescribed");
   scale_of_fixed = 0;
   expect_new("a value that is not prescribed any more");
   system.set_stabilization(p, Vector::Ones(n));

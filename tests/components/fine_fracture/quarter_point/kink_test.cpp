@@ -79,11 +79,11 @@ TEST(Kink, ParallelCracksNearEachOtherShareTheRoom) {
 TEST(Kink, TheFactorsOfOneTipAreThoseAmongAll) {
   FineGeometry geometry{rectangle(-0.25, -0.25, 0.25, 0.25),
                         {inner_crack({-0.05, 0}, {0.05, 0}), inner_crack({0.03, 0.01}, {0.12, 0.01})}};
-  const FineModel model(geometry, paper_mesh(), table_1_rock);
   const FineLoads loads = exact_outline(paper_crack(1e6, 0.3e6));
-  const FineSolution all = model.solve(loads);
+  const FineSolution all = FineModel(geometry, paper_mesh(), table_1_rock).solve(loads);
   for (const TipIntensities& tip : all.tips) {
-    const FineSolution one = model.solve(loads, TipPlace{tip.crack, tip.is_last});
+    const TipPlace place{tip.crack, tip.is_last};
+    const FineSolution one = FineModel(geometry, paper_mesh(), table_1_rock, place).solve(loads);
     ASSERT_EQ(one.tips.size(), 1u);
     EXPECT_EQ(one.tips[0].position, tip.position);
     EXPECT_EQ(one.tips[0].K, tip.K);

@@ -45,7 +45,8 @@ TEST(Patch, LinearDisplacementWithItsWallTractionsIsExact) {
   };
   const FineSolution solution = model.solve(loads);
   EXPECT_LT(largest_deviation(solution, [&](const Point& x) -> Point { return gradient * x; }), 1e-12);
-  EXPECT_NEAR(solution.strain_energy, 0.5 * stress.cwiseProduct(gradient).sum(), 1e-10 * solution.strain_energy);
+  const double energy = model.strain_energy(solution);
+  EXPECT_NEAR(energy, 0.5 * stress.cwiseProduct(gradient).sum(), 1e-10 * energy);
   ASSERT_EQ(solution.tips.size(), 3u);
   for (const TipIntensities& tip : solution.tips) {
     const double scale = stress.norm() * std::sqrt(0.1);

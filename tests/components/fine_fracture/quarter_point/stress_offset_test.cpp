@@ -24,9 +24,8 @@ FineSolution solve_with(const PoreSolution& pore, const Griffith& exact, const F
   loads.boundary_displacement = [&](const Point& x, const Point& inside) -> Point {
     return exact.displacement(x, inside) + pore.displacement(x);
   };
-  loads.stress_offset = [&](const Point& x) -> Eigen::Vector3d {
-    return -alpha * pore.pressure(x) * Eigen::Vector3d(1, 1, 0);
-  };
+  loads.stress_offset = at_each_place(
+      [&](const Point& x) -> Eigen::Vector3d { return -alpha * pore.pressure(x) * Eigen::Vector3d(1, 1, 0); });
   loads.wall_traction = [&](int, int segment, double s) -> Point {
     const Point x = path[segment] + s * (path[segment + 1] - path[segment]);
     const Tensor total = table_1_rock.stress(pore.gradient(x)) - alpha * pore.pressure(x) * Tensor::Identity();
@@ -46,7 +45,7 @@ TEST(StressOffset, UniformOffsetIsATractionOnTheOutline) {
   geometry.sides.assign(4, Side::traction);
   const FineModel model(geometry, paper_mesh(), table_1_rock);
   const FineSolution solution =
-      model.solve({.stress_offset = [](const Point&) { return Eigen::Vector3d(-4e6, -1e6, 2e6); }});
+      model.solve({.stress_offset = at_each_place([](const Point&) { return Eigen::Vector3d(-4e6, -1e6, 2e6); })});
   for (const TipIntensities& tip : solution.tips) {
     EXPECT_LT(tip.K.norm(), 1e-9 * 4e6);
     EXPECT_NEAR(tip.T, 0, 1e-8 * 4e6);
