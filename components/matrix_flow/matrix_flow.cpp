@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/assembly/products.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -144,10 +145,12 @@ void MatrixFlow::place_wells() {
 
 void MatrixFlow::find_conditions() {
   conditions_.assign(mesh_.face_count(), FlowCondition::none);
+  outer_faces_.clear();
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) continue;
     conditions_[f] = FlowCondition::flux;
     if (mesh_.face_side[f] == none) continue;
+    outer_faces_.emplace_back(f, mesh_.face_cells[f][0]);
     const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
     if (condition != options_.boundary.end() && condition->second.pressure) conditions_[f] = FlowCondition::pressure;
   }
@@ -197,7 +200,7 @@ void MatrixFlow::use_operators() {
   mobility_of_operators_.clear();
   if (properties_change_ && !is_sealed_ && parallel::size() == 1) mobility_of_operators_ = mobility_;
   boundary_applied_ = false;
-  fluxes_.is_valid = false;
+  forget_flow();
   const int rank = parallel::rank();
   // What flows through inner faces enters one cell as it leaves another.
   std::vector<char> is_outer(mesh_.face_count());
@@ -262,7 +265,7 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
   data_evaluated_ = true;
   evaluated_for_ = step;
   boundary_applied_ = false;
-  fluxes_.is_valid = false;
+  forget_flow();
   evaluate_sources(step);
   boundary_values_ = Vector::Zero(mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
@@ -280,11 +283,6 @@ void MatrixFlow::apply_boundary() {
   if (boundary_applied_) return;
   boundary_applied_ = true;
   boundary_fluxes_ = operators_.flux_boundary * boundary_values_;
-  outflow_constant_ = cell_sums(mesh_, boundary_fluxes_, 1) - outflow_of_pressure_.entries() * gravity_potential_cell_;
-  Vector outer_fluxes = boundary_fluxes_;
-  for (int f = 0; f < mesh_.face_count(); ++f)
-    if (mesh_.face_cells[f][1] != none) outer_fluxes[f] = 0;
-  leaving_constant_ = cell_sums(mesh_, outer_fluxes, 1) - outflow_of_pressure_.leaving() * gravity_potential_cell_;
   if (!wall_flux_) return;
   const Vector trace = operators_.trace_boundary * boundary_values_ - operators_.trace_cell * gravity_potential_cell_ +
                        gravity_potential_face_;
@@ -322,30 +320,50 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.compare_round_off(pressure_, capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, pressure_, capacity_of_pressure_);
   // What flows depends on differences of pressure only, so its terms are added together, and compared with what flows
-  // through faces: terms of the pressure itself would hide it where the level is high.
-  assembly.exchange(pressure_, step.dt * (assembly.product(outflow_of_pressure_, pressure_) + outflow_constant_),
-                    step.dt * (outflow_of_pressure_.leaving() * pressure_.now() + leaving_constant_));
+  // through faces: terms of the pressure itself would hide it where the level is high. Where all terms vanish the
+  // residual is small against the flow before the step.
+  const double largest_before = flow(pressure_.accepted(), pressure_.accepted_version()).largest_outflow;
+  const Flow& flows = flow(pressure_.now(), pressure_.version());
+  assembly.exchange(pressure_, step.dt * flows.outflow, step.dt * flows.leaving);
   assembly.derivative(pressure_, pressure_, outflow_of_pressure_, step.dt);
   assembly.compare_round_off_of_exchange(pressure_,
                                          step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
+  assembly.compare_with(pressure_, step.dt * largest_before);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
-  // Where all terms vanish the residual is small against the flow before the step.
-  assembly.compare_with(
-      pressure_,
-      step.dt *
-          (assembly.accepted_product(outflow_of_pressure_, pressure_) + outflow_constant_).lpNorm<Eigen::Infinity>());
-  assembly.add(pressure_, -step.dt * source_);
+  if (!source_.isZero(0)) assembly.add(pressure_, -step.dt * source_);
+}
+
+void MatrixFlow::forget_flow() {
+  flows_ = {};
+  with_walls_ = {};
+}
+
+const MatrixFlow::Flow& MatrixFlow::flow(const Vector& pressure, std::uint64_t version) const {
+  for (Flow& kept : flows_)
+    if (kept.used > 0 && kept.pressure == version) {
+      kept.used = ++flow_uses_;
+      return kept;
+    }
+  Flow& flow = flows_[flows_[0].used <= flows_[1].used ? 0 : 1];
+  flow.pressure = version;
+  flow.used = ++flow_uses_;
+  flow.fluxes = multiply(operators_.flux_cell, pressure - gravity_potential_cell_, false).value;
+  flow.fluxes += boundary_fluxes_;
+  flow.outflow = cell_sums(mesh_, flow.fluxes, 1);
+  flow.leaving = Vector::Zero(mesh_.cell_count());
+  for (const auto& [face, cell] : outer_faces_) flow.leaving[cell] += flow.fluxes[face];
+  flow.largest_outflow = flow.outflow.lpNorm<Eigen::Infinity>();
+  return flow;
 }
 
 const Vector& MatrixFlow::face_fluxes() const {
-  const std::uint64_t wall_flux = wall_flux_ ? wall_flux_->version() : 0;
-  if (fluxes_.is_valid && fluxes_.pressure == pressure_.version() && fluxes_.wall_flux == wall_flux)
-    return fluxes_.values;
-  fluxes_ = {true, pressure_.version(), wall_flux, boundary_fluxes_};
-  fluxes_.values += operators_.flux_cell * (pressure_.now() - gravity_potential_cell_);
-  if (wall_flux_) fluxes_.values += flux_of_wall_flux_ * wall_flux_->now();
-  return fluxes_.values;
+  const Flow& flow = this->flow(pressure_.now(), pressure_.version());
+  if (!wall_flux_) return flow.fluxes;
+  if (with_walls_.fluxes.size() == 0 || with_walls_.pressure != flow.pressure ||
+      with_walls_.wall_flux != wall_flux_->version())
+    with_walls_ = {flow.pressure, wall_flux_->version(), flow.fluxes + flux_of_wall_flux_ * wall_flux_->now()};
+  return with_walls_.fluxes;
 }
 
 void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
@@ -355,9 +373,8 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     books[3 * c] += storage_[c] * mesh_.cell_area[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
     books[3 * c + 1] += step.dt * source_[c];
-    for (const int face : mesh_.cell_faces[c])
-      if (mesh_.face_side[face] != none) books[3 * c + 2] += step.dt * fluxes[face];
   }
+  for (const auto& [face, cell] : outer_faces_) books[3 * cell + 2] += step.dt * fluxes[face];
   replicate(mesh_, Location::cell, 3, books);
   books_.set(std::move(books));
 }

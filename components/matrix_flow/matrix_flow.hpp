@@ -122,6 +122,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   long discretizations_ = 0, discretized_cells_ = 0, discretized_regions_ = 0;
   FluxOperators operators_;
   std::vector<FlowCondition> conditions_;
+  std::vector<std::pair<int, int>> outer_faces_;                           ///< with their cells
   std::map<std::string, std::vector<std::pair<int, double>>> well_cells_;  ///< cells and weights by well
   Vector capacity_;                                                        ///< storage times area, m^2/Pa
   Operator capacity_of_pressure_;                                          ///< the same as a diagonal
@@ -130,19 +131,29 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   SparseMatrix flux_of_wall_flux_;  ///< faces × walls
   Operator outflow_of_wall_flux_;   ///< cells × walls, an exchange
   Vector boundary_values_;          ///< one a face, see FluxOperators
-  Vector outflow_constant_;         ///< m^2/s, one a cell
-  Vector leaving_constant_;         ///< of it, what leaves the rock
   Vector boundary_fluxes_;          ///< what the boundary values alone make flow through each face, m^2/s
   LinearExpression wall_pressure_;
   Vector source_;  ///< m^2/s, one a cell
 
-  /// Fluxes are asked for several times in the same state.
-  struct KeptFluxes {
-    bool is_valid = false;
-    std::uint64_t pressure = 0, wall_flux = 0;  ///< versions of the fields
-    Vector values;
+  /// What flows at one state of the pressure, without what the walls exchange.
+  struct Flow {
+    std::uint64_t pressure = 0;  ///< the version of the field
+    std::uint64_t used = 0;      ///< when; 0 for never
+    Vector fluxes;               ///< m^2/s, one a face
+    Vector outflow;              ///< m^2/s, one a cell: their sums
+    Vector leaving;              ///< of it, what leaves the rock
+    double largest_outflow = 0;
   };
-  mutable KeptFluxes fluxes_;
+  const Flow& flow(const Vector& pressure, std::uint64_t version) const;
+  void forget_flow();
+  /// A step looks at the accepted state and at that of now several times.
+  mutable std::array<Flow, 2> flows_;
+  mutable std::uint64_t flow_uses_ = 0;
+  struct WithWalls {
+    std::uint64_t pressure = 0, wall_flux = 0;  ///< versions of the fields
+    Vector fluxes;                              ///< empty for none
+  };
+  mutable WithWalls with_walls_;
 };
 
 }  // namespace sprekk::matrix_flow

@@ -10,7 +10,9 @@ namespace sprekk {
 Operator::Operator(SparseMatrix entries) {
   static std::atomic<std::uint64_t> made{0};
   entries.makeCompressed();
-  entries_ = std::make_shared<const SparseMatrix>(std::move(entries));
+  const auto kept = std::make_shared<SparseMatrix>();
+  kept->swap(entries);  // to move it would copy it
+  entries_ = kept;
   number_ = ++made;
 }
 

@@ -52,10 +52,12 @@ SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int componen
 
 Vector cell_sums(const Mesh& mesh, const Vector& faces, int components) {
   Vector result = Vector::Zero(mesh.cell_count() * components);
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    for (const int face : mesh.cell_faces[c]) {
-      const double sign = mesh.face_cells[face][0] == c ? 1.0 : -1.0;
-      result.segment(c * components, components) += sign * faces.segment(face * components, components);
+  const double* value = faces.data();
+  double* sums = result.data();
+  for (const auto& [from, to] : mesh.face_cells)
+    for (int k = 0; k < components; ++k, ++value) {
+      sums[from * components + k] += *value;
+      if (to != none) sums[to * components + k] -= *value;
     }
   return result;
 }

@@ -1,5 +1,6 @@
 #include "framework/schedule/residual_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -26,13 +27,23 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
       fixed.insert(system.first(row.unknown) + row.row);
       fixed_error = std::max(fixed_error, row.error);
     }
-    for (; next < rows.size() && rows[next] < end; ++next) {
-      if (!fixed.empty() && fixed.count(rows[next]) > 0) continue;
-      const double value = std::abs(owned[next]);
-      finite = finite && std::isfinite(value);
-      largest = std::max(largest, value);
-      squares += value * value;
-      count += 1;
+    const std::size_t first = next;
+    next = std::lower_bound(rows.begin() + first, rows.end(), end) - rows.begin();
+    if (fixed.empty()) {
+      const auto part = owned.segment(first, next - first);
+      squares = part.squaredNorm();
+      count = static_cast<double>(part.size());
+      if (part.size() > 0) largest = part.lpNorm<Eigen::Infinity>();
+      finite = std::isfinite(squares) || part.allFinite();
+    } else {
+      for (std::size_t row = first; row < next; ++row) {
+        if (fixed.count(rows[row]) > 0) continue;
+        const double value = std::abs(owned[row]);
+        finite = finite && std::isfinite(value);
+        largest = std::max(largest, value);
+        squares += value * value;
+        count += 1;
+      }
     }
     largest = parallel::max(finite ? largest : std::numeric_limits<double>::infinity());
     const double magnitude = parallel::max(assembly.magnitude(static_cast<int>(u)));
