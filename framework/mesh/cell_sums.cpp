@@ -52,13 +52,15 @@ SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int componen
 
 Vector cell_sums(const Mesh& mesh, const Vector& faces, int components) {
   Vector result = Vector::Zero(mesh.cell_count() * components);
-  const double* value = faces.data();
-  double* sums = result.data();
-  for (const auto& [from, to] : mesh.face_cells)
-    for (int k = 0; k < components; ++k, ++value) {
-      sums[from * components + k] += *value;
-      if (to != none) sums[to * components + k] -= *value;
+  for (int k = 0; k < components; ++k) {
+    const double* value = faces.data() + k;
+    double* sums = result.data() + k;
+    for (const auto& [from, to] : mesh.face_cells) {
+      sums[from * components] += *value;
+      if (to != none) sums[to * components] -= *value;
+      value += components;
     }
+  }
   return result;
 }
 
