@@ -19,6 +19,7 @@ def draw(record, path):
     cuts[0] = record["scenes"] - record["scenes with cuts"]
     right.bar(list(cuts), list(cuts.values()), color="#b0562c", width=0.9)
     right.set_yscale("log")
+    right.set_xlim(-0.7, 10.7)
     right.set_xlabel("cuts of a scene (10: or more)")
     right.set_ylabel("scenes")
     figure.suptitle(f"{record['scenes']} scenes, {record['steps accepted']} steps, {record['steps cut']} cut", fontsize=10)
