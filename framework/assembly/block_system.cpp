@@ -209,7 +209,7 @@ void BlockSystem::sum_balances(const Assembly& assembly) {
     if (!is_weak(assembly, conserved)) continue;
     SumRow sum = sum_of_rows(assembly, conserved, owned_, first_);
     if (sum.columns.empty()) continue;  // a level that nothing holds, as the solver will find
-    const int row = first_[sum.unknown] + sum.row;
+    const int row = row_to_replace(assembly, conserved, owned_, first_);
     sums.push_back(row);
     const auto place = std::lower_bound(system_.rows.begin(), system_.rows.end(), row);
     const bool is_mine = place != system_.rows.end() && *place == row;

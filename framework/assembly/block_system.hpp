@@ -30,9 +30,9 @@ class BlockSystem {
   /// (is_weak). Direct solvers only: the row of a sum is no elliptic one.
   void use_sums(bool wanted) { uses_sums_ = wanted; }
   bool uses_sums() const { return uses_sums_; }
-  /// Of all processes: what Assembly::Conserved leaves over, without round-off of what is exchanged.
-  double residual_of_sum(const Assembly& assembly, const Assembly::Conserved& conserved) const {
-    return sum_of_residuals(assembly, conserved, owned_);
+  /// Of all processes: the sum of the residuals of conserved rows, without round-off of what is exchanged.
+  double residual_of_sum(const Assembly& assembly, int unknown) const {
+    return sum_of_residuals(assembly, unknown, owned_[unknown]);
   }
   /// The balances of which one row of the last matrix is the sum, and its place among the owned rows, -1 where another
   /// process has it.

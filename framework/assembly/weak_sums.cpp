@@ -62,32 +62,17 @@ SumRow sum_of_rows(const Assembly& assembly, const Assembly::Conserved& conserve
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
   std::vector<int> columns;
   std::vector<double> values;
-  double strongest = 0;
-  int mine = -1;
-  for (const Assembly::Block& block : assembly.blocks()) {
-    if (!has(conserved, block.row)) continue;
-    for_entries(block, *block.in_sum, owned[block.row], [&](int, int column, double value) {
-      columns.push_back(first[block.column] + column);
-      values.push_back(value);
-    });
-    if (block.row != block.column || block.largest_exchange == 0) continue;
-    for_entries(block, *block.matrix, owned[block.row], [&](int row, int column, double value) {
-      if (row != column || std::abs(value) <= strongest) return;
-      strongest = std::abs(value);
-      mine = first[block.row] + row;
-    });
-  }
-  SumRow sum;
-  const bool is_mine = mine >= 0 && strongest == parallel::max(strongest);
-  const int replaced = static_cast<int>(parallel::max(is_mine ? mine : -1.0));
-  for (const int unknown : conserved.rows)
-    if (first[unknown] <= replaced) sum.unknown = std::max(sum.unknown, unknown);
-  sum.row = replaced - first[sum.unknown];
-
+  for (const Assembly::Block& block : assembly.blocks())
+    if (has(conserved, block.row))
+      for_entries(block, *block.in_sum, owned[block.row], [&](int, int column, double value) {
+        columns.push_back(first[block.column] + column);
+        values.push_back(value);
+      });
   columns = parallel::gather(columns);
   values = parallel::gather(values);
   std::map<int, double> total;
   for (std::size_t k = 0; k < columns.size(); ++k) total[columns[k]] += values[k];
+  SumRow sum;
   for (const auto& [column, value] : total) {
     if (value == 0) continue;
     sum.columns.push_back(column);
@@ -96,14 +81,27 @@ SumRow sum_of_rows(const Assembly& assembly, const Assembly::Conserved& conserve
   return sum;
 }
 
-double sum_of_residuals(const Assembly& assembly, const Assembly::Conserved& conserved,
-                        const std::vector<std::vector<char>>& owned) {
-  double sum = 0;
-  for (const int unknown : conserved.rows) {
-    const Vector& residual = assembly.in_sum(unknown);
-    for (int row = 0; row < residual.size(); ++row)
-      if (owned[unknown][row]) sum += residual[row];
+int row_to_replace(const Assembly& assembly, const Assembly::Conserved& conserved,
+                   const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
+  double strongest = 0;
+  int mine = -1;
+  for (const Assembly::Block& block : assembly.blocks()) {
+    if (!has(conserved, block.row) || block.row != block.column || block.largest_exchange == 0) continue;
+    for_entries(block, *block.matrix, owned[block.row], [&](int row, int column, double value) {
+      if (row != column || std::abs(value) <= strongest) return;
+      strongest = std::abs(value);
+      mine = first[block.row] + row;
+    });
   }
+  const bool is_mine = mine >= 0 && strongest == parallel::max(strongest);
+  return static_cast<int>(parallel::max(is_mine ? mine : -1.0));
+}
+
+double sum_of_residuals(const Assembly& assembly, int unknown, const std::vector<char>& owned) {
+  double sum = 0;
+  const Vector& residual = assembly.in_sum(unknown);
+  for (int row = 0; row < residual.size(); ++row)
+    if (owned[row]) sum += residual[row];
   return parallel::sum(sum);
 }
 

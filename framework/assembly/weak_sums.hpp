@@ -13,20 +13,23 @@ namespace sprekk {
 /// Collective; needs the derivatives.
 bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved);
 
-/// A row of the sum.
+/// The sum of all rows of the derivatives.
 struct SumRow {
-  int unknown = 0, row = 0;  ///< the balance that it may replace: the one that exchanges most
   std::vector<int> columns;  ///< ascending, counted over all unknowns of the assembly; no entry is zero
   std::vector<double> values;
 };
 
-/// `owned`: of every row of every unknown, whether it is this process's. `first`: of every unknown, its first column.
-/// Collective; every process gets the same.
+// `owned`: of every row of every unknown, whether it is this process's. `first`: of every unknown, its first row and
+// column among those of all. Collective; every process gets the same.
+
 SumRow sum_of_rows(const Assembly& assembly, const Assembly::Conserved& conserved,
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first);
 
-/// The sum of the residuals. Collective.
-double sum_of_residuals(const Assembly& assembly, const Assembly::Conserved& conserved,
-                        const std::vector<std::vector<char>>& owned);
+/// The row that exchanges most, counted over all unknowns: the one that the sum may replace.
+int row_to_replace(const Assembly& assembly, const Assembly::Conserved& conserved,
+                   const std::vector<std::vector<char>>& owned, const std::vector<int>& first);
+
+/// The sum of the residuals of the balances of one unknown, without what is exchanged. Collective.
+double sum_of_residuals(const Assembly& assembly, int unknown, const std::vector<char>& owned);
 
 }  // namespace sprekk

@@ -82,13 +82,10 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
     right.segment(begin - rows.begin(), std::lower_bound(begin, rows.end(), end) - begin).setZero();
   }
   for (const BlockSystem::Summed& summed : system_.summed()) {
-    const double total = system_.residual_of_sum(*assembly_, summed.conserved);
-    if (summed.place < 0) continue;
-    const std::vector<Assembly::Conserved>& all = assembly_->conserved();
-    const auto same = std::find_if(all.begin(), all.end(), [&](const Assembly::Conserved& one) {
-      return one.quantity == summed.conserved.quantity;
-    });
-    right[summed.place] = check.is_round_off_in_sum[same - all.begin()] ? 0 : -total;
+    double total = 0;
+    for (const int u : summed.conserved.rows)
+      if (!check.is_round_off[u] || !check.is_round_off_in_sum[u]) total += system_.residual_of_sum(*assembly_, u);
+    if (summed.place >= 0) right[summed.place] = -total;
   }
   return right;
 }
@@ -97,9 +94,10 @@ std::vector<char> Newton::is_settled(const ResidualCheck& check) const {
   std::vector<char> settled(unknowns_.size(), 0);
   if (!check.finite) return settled;
   settled = check.is_round_off;
-  for (std::size_t q = 0; q < check.is_round_off_in_sum.size(); ++q)
-    if (!check.is_round_off_in_sum[q])
-      for (const int unknown : assembly_->conserved()[q].rows) settled[unknown] = 0;
+  for (const Assembly::Conserved& conserved : assembly_->conserved()) {
+    const bool holds = std::ranges::all_of(conserved.rows, [&](int u) { return check.is_round_off_in_sum[u]; });
+    for (const int unknown : conserved.rows) settled[unknown] = settled[unknown] && holds;
+  }
   return settled;
 }
 

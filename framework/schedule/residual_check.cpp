@@ -9,8 +9,38 @@
 
 namespace sprekk {
 
+namespace {
+
+constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+
+/// The balances of each field in a sum add up to zero as well, and to more digits than any one of them has.
+void check_sums(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
+  const std::size_t unknowns = assembly.unknowns().size();
+  check.is_round_off_in_sum.assign(unknowns, 1);
+  check.mean_squares.resize(2 * unknowns, 0);
+  check.magnitudes.resize(2 * unknowns, 0);
+  check.fixed_errors.resize(2 * unknowns, 0);
+  for (const Assembly::Conserved& conserved : assembly.conserved()) {
+    if (!system.uses_sums() || !is_weak(assembly, conserved)) continue;
+    for (const int u : conserved.rows) {
+      const double value = std::abs(system.residual_of_sum(assembly, u));
+      const double magnitude = parallel::max(assembly.magnitude_of_sum(u));
+      const double noise = round_off * parallel::max(assembly.round_off_base_of_sum(u));
+      if (value > tolerance * magnitude + noise) check.converged = false;
+      check.magnitudes[unknowns + u] = magnitude;
+      if (value <= noise) continue;
+      check.is_round_off_in_sum[u] = 0;
+      check.mean_squares[unknowns + u] = value * value;
+      if (value / magnitude <= check.largest) continue;
+      check.largest = value / magnitude;
+      check.equation = "the sum of " + assembly.unknowns()[u]->name();
+    }
+  }
+}
+
+}  // namespace
+
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance) {
-  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
   ResidualCheck check;
   check.converged = true;
   const Vector owned = system.residual(assembly);
@@ -69,27 +99,7 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
       check.equation = assembly.unknowns()[u]->name();
     }
   }
-  for (const Assembly::Conserved& conserved : assembly.conserved()) {
-    const bool counts = system.uses_sums() && is_weak(assembly, conserved);
-    double value = 0, magnitude = 0, noise = 0;
-    if (counts) {
-      value = std::abs(system.residual_of_sum(assembly, conserved));
-      for (const int unknown : conserved.rows) {
-        magnitude = std::max(magnitude, parallel::max(assembly.magnitude_of_sum(unknown)));
-        noise += round_off * parallel::max(assembly.round_off_base_of_sum(unknown));
-      }
-    }
-    const bool is_round_off = value <= noise;
-    if (value > tolerance * magnitude + noise) check.converged = false;
-    check.is_round_off_in_sum.push_back(is_round_off);
-    check.mean_squares.push_back(is_round_off ? 0 : value * value);
-    check.magnitudes.push_back(magnitude);
-    check.fixed_errors.push_back(0);
-    if (!is_round_off && value / magnitude > check.largest) {
-      check.largest = value / magnitude;
-      check.equation = "the sum of all " + conserved.quantity;
-    }
-  }
+  check_sums(assembly, system, tolerance, check);
   return check;
 }
 
