@@ -15,15 +15,11 @@ Adjacency cells_read(const Mesh& mesh) {
   const std::vector<int> tips = tips_nearby(mesh);
   const auto around = cells_around_tips(mesh, tips);
   Adjacency cells;
-  cells.offsets.reserve(mesh.node_count() + 1);
+  std::vector<int> of_node;
   for (int node = 0; node < mesh.node_count(); ++node) {
-    cells.items.insert(cells.items.end(), mesh.node_cells[node].begin(), mesh.node_cells[node].end());
-    if (tips[node] != none)
-      cells.items.insert(cells.items.end(), around.at(tips[node]).begin(), around.at(tips[node]).end());
-    const auto first = cells.items.begin() + cells.offsets.back();
-    std::sort(first, cells.items.end());
-    cells.items.erase(std::unique(first, cells.items.end()), cells.items.end());
-    cells.offsets.push_back(static_cast<int>(cells.items.size()));
+    of_node.assign(mesh.node_cells[node].begin(), mesh.node_cells[node].end());
+    if (tips[node] != none) of_node.insert(of_node.end(), around.at(tips[node]).begin(), around.at(tips[node]).end());
+    cells.append_set(of_node);
   }
   return cells;
 }

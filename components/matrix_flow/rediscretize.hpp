@@ -24,7 +24,7 @@ struct Rediscretized {
 
 /// What `discretize` gives for `after`, to the bit, from the operators that it gave for `before`: local problems are
 /// solved only around nodes where an input differs (KeptRegions). In one process. The discretization reads, for a row,
-/// nothing but what lies around the nodes of its face (cells_read).
+/// nothing but what lies around the nodes of its face, and near a tip around that (cells_around_tips).
 Rediscretized rediscretize(Discretize discretize, const FlowInputs& before, const FluxOperators& operators,
                            const FlowInputs& after, const MeshChange& change);
 

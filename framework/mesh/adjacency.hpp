@@ -1,6 +1,7 @@
 // A list of lists in two arrays: the items of entity i are items[offsets[i]] … items[offsets[i+1]-1].
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,13 @@ struct Adjacency {
   int size() const { return static_cast<int>(offsets.size()) - 1; }
   std::span<const int> operator[](int i) const {
     return {items.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
+  }
+
+  /// Adds a list for a new entity: of these items, in any order, each once and ascending.
+  void append_set(std::vector<int>& some) {
+    std::sort(some.begin(), some.end());
+    items.insert(items.end(), some.begin(), std::unique(some.begin(), some.end()));
+    offsets.push_back(static_cast<int>(items.size()));
   }
 };
 

@@ -44,8 +44,7 @@ class Comparison {
       const int was = change.cell[cell];
       is_same_cell_[cell] = was != none && same_bits(after.mesh.cell_center[cell], before.mesh.cell_center[was]) &&
                             same_bits(after.mesh.cell_area[cell], before.mesh.cell_area[was]) &&
-                            maps(after.mesh.cell_faces[cell], before.mesh.cell_faces[was], change.face) &&
-                            same_cell(cell, was);
+                            has_same_faces(cell, was) && same_cell(cell, was);
     }
   }
 
@@ -73,13 +72,27 @@ class Comparison {
     }
   }
 
+  /// Those of a cell, whatever is on their other sides.
+  bool has_same_faces(int cell, int was) const {
+    const auto faces = after_.mesh.cell_faces[cell], old_faces = before_.mesh.cell_faces[was];
+    if (!maps(faces, old_faces, change_.face)) return false;
+    for (int k = 0; k < faces.size(); ++k)
+      if (!has_same_shape(faces[k], old_faces[k])) return false;
+    return true;
+  }
+
   bool has_same_geometry(int face, int was) const {
-    const Mesh &after = after_.mesh, &before = before_.mesh;
     for (int k = 0; k < 2; ++k) {
-      const int cell = after.face_cells[face][k], old_cell = before.face_cells[was][k];
+      const int cell = after_.mesh.face_cells[face][k], old_cell = before_.mesh.face_cells[was][k];
       if ((cell == none) != (old_cell == none) || (cell != none && change_.cell[cell] != old_cell)) return false;
-      if (!same_bits(after.nodes[after.face_nodes[face][k]], before.nodes[before.face_nodes[was][k]])) return false;
     }
+    return has_same_shape(face, was);
+  }
+
+  bool has_same_shape(int face, int was) const {
+    const Mesh &after = after_.mesh, &before = before_.mesh;
+    for (int k = 0; k < 2; ++k)
+      if (!same_bits(after.nodes[after.face_nodes[face][k]], before.nodes[before.face_nodes[was][k]])) return false;
     const int wall = after.face_fracture_cell[face], old_wall = before.face_fracture_cell[was];
     if ((wall == none) != (old_wall == none) || (wall != none && change_.fracture_cell[wall] != old_wall)) return false;
     return same_bits(after.face_center[face], before.face_center[was]) &&

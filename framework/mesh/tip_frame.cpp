@@ -23,6 +23,12 @@ int TipFrame::side_of_wall(const Mesh& mesh, int face) const {
   return is_plus == normal_points_left ? -1 : 1;  // the normal points out of the plus wall's rock
 }
 
+int TipFrame::side_of_cell(const Mesh& mesh, int cell) const {
+  for (const int face : mesh.cell_faces[cell])
+    if (mesh.face_fracture_cell[face] != none) return side_of_wall(mesh, face);
+  return 0;
+}
+
 TipFrame::Polar TipFrame::polar(const Point& x, int side) const {
   const Point local = axes_.transpose() * (x - tip_);
   const double angle = std::atan2(local.y(), local.x());

@@ -18,6 +18,7 @@ class TipFrame {
 
   int side_of(const Point& x) const;                   ///< +1 or -1: of the line through the last wall
   int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1: of the fracture, which may bend
+  int side_of_cell(const Mesh& mesh, int cell) const;  ///< of its wall, 0 without one
 
   struct Polar {
     double radius;  ///< m

@@ -37,14 +37,11 @@ class TipFlows {
   /// The cells whose pressures count at each node, ascending: its own, and those that tell the flow around its tip.
   Adjacency cells_of_nodes(const Mesh& mesh) const {
     Adjacency all;
-    all.offsets.reserve(mesh.node_count() + 1);
+    std::vector<int> of_node;
     for (int node = 0; node < mesh.node_count(); ++node) {
-      all.items.insert(all.items.end(), mesh.node_cells[node].begin(), mesh.node_cells[node].end());
-      if (at(node)) all.items.insert(all.items.end(), at(node)->cells().begin(), at(node)->cells().end());
-      const auto first = all.items.begin() + all.offsets.back();
-      std::sort(first, all.items.end());
-      all.items.erase(std::unique(first, all.items.end()), all.items.end());
-      all.offsets.push_back(static_cast<int>(all.items.size()));
+      of_node.assign(mesh.node_cells[node].begin(), mesh.node_cells[node].end());
+      if (at(node)) of_node.insert(of_node.end(), at(node)->cells().begin(), at(node)->cells().end());
+      all.append_set(of_node);
     }
     return all;
   }
@@ -57,27 +54,31 @@ class TipFlows {
 /// Coefficients with respect to the pressures of the cells that count at one node.
 class CellColumns {
  public:
-  CellColumns(std::span<const int> own, std::span<const int> cells, const TipFlow* flow)
-      : flow_(flow), values_(cells.size()) {
-    const auto place = [&](int cell) {
-      return static_cast<int>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin());
+  void assign(std::span<const int> own, std::span<const int> cells, const TipFlow* flow) {
+    flow_ = flow;
+    if (!flow) return;
+    const auto places = [&](std::span<const int> some, std::vector<int>& places) {
+      places.clear();
+      for (const int cell : some)
+        places.push_back(static_cast<int>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin()));
     };
-    for (const int cell : own) own_.push_back(place(cell));
-    if (flow)
-      for (const int cell : flow->cells()) at_tip_.push_back(place(cell));
+    places(own, own_);
+    places(flow->cells(), of_flow_);
+    values_.resize(cells.size());
   }
 
-  /// `own`: of the node's cells; `modes`: with respect to the amounts of the flow around the tip.
+  /// `own`: of the node's cells; `modes`: with respect to the amounts of the flow around the tip, if there is one.
   const double* with(const double* own, const TipFlow::Modes& modes) {
+    if (!flow_) return own;
     std::fill(values_.begin(), values_.end(), 0);
     for (std::size_t i = 0; i < own_.size(); ++i) values_[own_[i]] = own[i];
-    for (std::size_t i = 0; i < at_tip_.size(); ++i) values_[at_tip_[i]] += modes.dot(flow_->share().col(i));
+    for (std::size_t i = 0; i < of_flow_.size(); ++i) values_[of_flow_[i]] += modes.dot(flow_->share().col(i));
     return values_.data();
   }
 
  private:
-  const TipFlow* flow_;
-  std::vector<int> own_, at_tip_;
+  const TipFlow* flow_ = nullptr;
+  std::vector<int> own_, of_flow_;
   std::vector<double> values_;
 };
 
@@ -100,6 +101,7 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
 
   InteractionRegion region;
   LocalFluxes local;
+  CellColumns columns;
   std::vector<int> cell_slots, outer_slots;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
@@ -107,8 +109,8 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     local.solve(region, mobility, conditions);
     const TipFlow* flow = flows.at(node);
     std::optional<TipCorrection> tip;
-    if (flow) tip.emplace(*flow, mesh, region, node, mobility);
-    CellColumns columns(mesh.node_cells[node], node_cells[node], flow);
+    if (flow) tip.emplace(*flow, mesh, region, node, mobility, conditions);
+    columns.assign(mesh.node_cells[node], node_cells[node], flow);
     const TipFlow::Modes nothing = TipFlow::Modes::Zero();
     int outer_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {

@@ -3,35 +3,41 @@
 namespace sprekk::matrix_flow {
 
 TipCorrection::TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, int node,
-                             const std::vector<Tensor>& mobility)
-    : flow_(flow), mesh_(mesh), region_(region), node_(mesh.nodes[node]) {
+                             const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions)
+    : flow_(flow), mesh_(mesh), region_(region), mobility_(mobility), node_(mesh.nodes[node]) {
   const TipFrame& frame = flow.frame();
   if (node_ != frame.tip()) {
     side_ = frame.side_of(node_);
     for (int f = 0; f < region.subface_count(); ++f)
       if (!region.is_inner(f)) side_ = frame.side_of_wall(mesh, region.faces[f]);
   }
-  for (const Subcell& subcell : region.subcells) {
+  for (const Subcell& subcell : region.subcells)
     inputs_.push_back(flow.pressure(mesh.cell_center[subcell.cell], side_));
-    mobility_ += 0.5 * mobility[subcell.cell].trace() / region.subcell_count();
-  }
   for (int f = 0; f < region.subface_count(); ++f) {
     if (region.is_inner(f)) continue;
     const int face = region.faces[f], side = frame.side_of_wall(mesh, face);
-    const Point &a = mesh.nodes[mesh.face_nodes[face][0]], &b = mesh.nodes[mesh.face_nodes[face][1]];
-    inputs_.push_back(out_of_first(a, b, side, mesh.face_normal[face]));
+    const auto& [a, b] = mesh.face_nodes[face];
+    inputs_.push_back(conditions[face] == FlowCondition::pressure ? flow.pressure(mesh.face_center[face], side)
+                                                                  : flux(face, mesh.nodes[a], mesh.nodes[b], side));
   }
 }
 
-TipFlow::Modes TipCorrection::out_of_first(const Point& from, const Point& to, int side, const Point& normal) const {
-  const TipFlow::Modes to_left = mobility_ * (flow_.stream(to, side) - flow_.stream(from, side));
+TipFlow::Modes TipCorrection::flux(int face, const Point& from, const Point& to, int side) const {
+  double mobility = 0;
+  int cells = 0;
+  for (const int cell : mesh_.face_cells[face])
+    if (cell != none) {
+      mobility += 0.5 * mobility_[cell].trace();
+      ++cells;
+    }
+  const TipFlow::Modes to_left = mobility / cells * (flow_.stream(to, side) - flow_.stream(from, side));
   const Point along = to - from;
-  return Point(-along.y(), along.x()).dot(normal) > 0 ? to_left : TipFlow::Modes(-to_left);
+  return Point(-along.y(), along.x()).dot(mesh_.face_normal[face]) > 0 ? to_left : TipFlow::Modes(-to_left);
 }
 
 TipFlow::Modes TipCorrection::of_flux(const LocalFluxes& local, int subface) const {
   const int face = region_.faces[subface];
-  return missing(local.flux(subface), out_of_first(node_, mesh_.face_center[face], side_, mesh_.face_normal[face]));
+  return missing(local.flux(subface), flux(face, node_, mesh_.face_center[face], side_));
 }
 
 TipFlow::Modes TipCorrection::of_pressure(const LocalFluxes& local, int subface) const {

@@ -15,24 +15,25 @@ namespace sprekk::matrix_flow {
 class TipCorrection {
  public:
   TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, int node,
-                const std::vector<Tensor>& mobility);
+                const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
 
   /// What a flux through an inner subface (m^2/s), and the pressure at a wall (Pa), lack for amounts of 1.
   TipFlow::Modes of_flux(const LocalFluxes& local, int subface) const;
   TipFlow::Modes of_pressure(const LocalFluxes& local, int subface) const;
 
  private:
-  /// The flux through a line (m^2/s) to the side that the normal points to.
-  TipFlow::Modes out_of_first(const Point& from, const Point& to, int side, const Point& normal) const;
+  /// The flux through a part of a face out of its first cell, m^2/s. The mobility is the mean of its cells.
+  TipFlow::Modes flux(int face, const Point& from, const Point& to, int side) const;
   TipFlow::Modes missing(const double* coefficients, TipFlow::Modes exact) const;
 
   const TipFlow& flow_;
   const Mesh& mesh_;
   const InteractionRegion& region_;
+  const std::vector<Tensor>& mobility_;
   Point node_;
-  int side_ = 0;                        ///< of the region; 0 at the tip itself
-  double mobility_ = 0;                 ///< of the region, m^2/(Pa s)
-  std::vector<TipFlow::Modes> inputs_;  ///< pressures of the region's subcells, and what flows out through its walls
+  int side_ = 0;  ///< of the region; 0 at the tip itself
+  /// Of the local problem: pressures of the subcells, and boundary values of the walls.
+  std::vector<TipFlow::Modes> inputs_;
 };
 
 }  // namespace sprekk::matrix_flow

@@ -35,19 +35,16 @@ void add_cells_across(const Mesh& mesh, int cell, int node, std::vector<int>& ce
 
 Adjacency local_cells(const Mesh& mesh, const std::vector<int>& tips) {
   Adjacency cells;
-  cells.offsets.reserve(mesh.node_count() + 1);
+  std::vector<int> of_node;
   for (int node = 0; node < mesh.node_count(); ++node) {
     const auto at_node = mesh.node_cells[node];
-    cells.items.insert(cells.items.end(), at_node.begin(), at_node.end());
-    if (at_node.size() == 1) add_cells_across(mesh, at_node[0], node, cells.items);
+    of_node.assign(at_node.begin(), at_node.end());
+    if (at_node.size() == 1) add_cells_across(mesh, at_node[0], node, of_node);
     if (tips[node] != none) {
       const auto at_tip = mesh.node_cells[tips[node]];
-      cells.items.insert(cells.items.end(), at_tip.begin(), at_tip.end());
+      of_node.insert(of_node.end(), at_tip.begin(), at_tip.end());
     }
-    const auto first = cells.items.begin() + cells.offsets.back();
-    std::sort(first, cells.items.end());
-    cells.items.erase(std::unique(first, cells.items.end()), cells.items.end());
-    cells.offsets.push_back(static_cast<int>(cells.items.size()));
+    cells.append_set(of_node);
   }
   return cells;
 }
