@@ -111,7 +111,7 @@ TEST(TipFlow, NeedsEvenIsotropicRockAndEnoughCells) {
   const std::vector<int> cells = cells_around_tips(tip.mesh, tips_nearby(tip.mesh)).at(tip.node);
   std::vector<Tensor> rock(tip.mesh.cell_count(), mobility * Tensor::Identity());
   EXPECT_TRUE(TipFlow::find(tip.mesh, tip.node, cells, rock));
-  EXPECT_FALSE(TipFlow::find(tip.mesh, tip.node, {cells.begin(), cells.begin() + 9}, rock));
+  EXPECT_FALSE(TipFlow::find(tip.mesh, tip.node, {cells.begin(), cells.begin() + 5}, rock));
   rock[cells[0]] *= 2;
   EXPECT_FALSE(TipFlow::find(tip.mesh, tip.node, cells, rock));
   Tensor layered = mobility * Tensor::Identity();
