@@ -132,6 +132,6 @@ PROBLEMS = {
         has_contact=True),
     "onset": Problem(
         "Section 5.1, closed form with back stress, 21 steps", "paper/onset_coarse.yaml",
-        [(f"{s} mm", {"mesh.fracture_size": f"{s} mm", "mesh.size": f"{20 * s} mm"}) for s in (20, 10, 5, 2.5, 1.25, 0.5)],
+        [(f"{s} mm", {"mesh.fracture_size": f"{s} mm", "mesh.size": f"{20 * s} mm"}) for s in (20, 10, 5, 2.5, 1.25, 0.625)],
         onset_errors, FLOWS, {"time.end": "21 h"}, has_contact=True),
 }
