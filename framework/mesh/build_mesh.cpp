@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <numeric>
 #include <string>
 
@@ -65,7 +66,8 @@ class MeshBuilder {
         edge_side_(edges_.size(), none),
         edge_fracture_cell_(edges_.size(), none),
         outer_edges_at_node_(raw.nodes.size(), 0),
-        fracture_of_node_(raw.nodes.size(), none) {}
+        fracture_of_node_(raw.nodes.size(), none),
+        is_junction_(raw.nodes.size(), false) {}
 
   Mesh build() {
     name_sides_and_regions();
@@ -142,6 +144,12 @@ class MeshBuilder {
         if (edges_.is_outer(edge)) {
           throw InputError("fracture '" + name + "' runs along the outer boundary at " + middle(edge));
         }
+        if (edge_fracture_cell_[edge] != none) {
+          const int other = mesh_.fracture_cells[edge_fracture_cell_[edge]].fracture;
+          throw InputError("fractures '" + raw_.fractures[other].name + "' and '" + name +
+                           "' run along the same edge at " + middle(edge) +
+                           " (fractures may touch and cross, but not overlap) end one where they meet");
+        }
         edge_fracture_cell_[edge] = mesh_.fracture_cell_count();
         mesh_.fracture_cells.push_back({fracture, {}, {}, Point::Zero(), 0, Point::Zero(), Point::Zero()});
       }
@@ -160,8 +168,11 @@ class MeshBuilder {
                        " (loops and branches are not supported) leave a gap or make it two fractures");
     }
     if (fracture_of_node_[node] != none) {
-      throw InputError("fractures '" + raw_.fractures[fracture_of_node_[node]].name + "' and '" + name + "' meet" +
-                       where + " (crossing and touching fractures are not supported) leave a gap between them");
+      if (outer_edges_at_node_[node] > 0) {
+        throw InputError("fractures '" + raw_.fractures[fracture_of_node_[node]].name + "' and '" + name + "' meet" +
+                         where + " (fractures may not meet on the outer boundary) let them meet inside of the rock");
+      }
+      is_junction_[node] = true;
     }
     const bool is_end = i == 0 || i + 1 == chain.size();
     if (!is_end && outer_edges_at_node_[node] > 0) {
@@ -193,6 +204,7 @@ class MeshBuilder {
     std::vector<std::vector<int>> cells_at;
     for (const auto& [name, chain] : raw_.fractures) {
       for (const int node : chain) {
+        if (place[node] != none) continue;
         place[node] = static_cast<int>(cells_at.size());
         cells_at.emplace_back();
       }
@@ -204,7 +216,11 @@ class MeshBuilder {
       }
     }
     for (const auto& [name, chain] : raw_.fractures) {
-      for (const int node : chain) split_node(node, cells_at[place[node]]);
+      for (const int node : chain) {
+        if (place[node] == none) continue;
+        split_node(node, cells_at[place[node]]);
+        place[node] = none;
+      }
     }
   }
 
@@ -265,28 +281,49 @@ class MeshBuilder {
   }
 
   void place_fracture_cells() {
-    for (const auto& [name, chain] : raw_.fractures) {
-      const int first_cell = mesh_.fractures[fracture_of_node_[chain[0]]].first_cell;
-      const int first_point = static_cast<int>(mesh_.fracture_points.size());
+    std::map<int, std::vector<CellEnd>> ends_at;  // by the raw node of a junction
+    for (int fracture = 0; fracture < static_cast<int>(raw_.fractures.size()); ++fracture) {
+      const auto& chain = raw_.fractures[fracture].nodes;
+      const int first_cell = mesh_.fractures[fracture].first_cell;
       const int last = static_cast<int>(chain.size()) - 1;
-      for (int i = 0; i <= last; ++i) mesh_.fracture_points.push_back(fracture_point(chain[i], first_cell, i, last));
-      for (int i = 0; i < last; ++i) {
-        FractureCell& cell = mesh_.fracture_cells[first_cell + i];
-        const Point &from = raw_.nodes[chain[i]], &to = raw_.nodes[chain[i + 1]];
-        cell.points = {first_point + i, first_point + i + 1};
-        cell.center = 0.5 * (from + to);
-        cell.length = (to - from).norm();
-        cell.tangent = (to - from) / cell.length;
-        cell.normal = {cell.tangent.y(), -cell.tangent.x()};
-        const int edge = edges_.find(chain[i], chain[i + 1]);
-        for (const int side : edges_.cells(edge)) {
-          for (int k = 0; k < cells_[side].size(); ++k) {
-            if (edges_.of_cell(side)[k] != edge) continue;
-            // The cell that runs along the edge in the chain's direction lies to its left: the plus side.
-            const Wall wall = cells_[side][k] == chain[i] ? Wall::plus : Wall::minus;
-            cell.faces[static_cast<int>(wall)] = mesh_.cell_faces[side][k];
-          }
+      for (int i = 0; i <= last; ++i) {
+        const int point = static_cast<int>(mesh_.fracture_points.size());
+        if (i > 0) mesh_.fracture_cells[first_cell + i - 1].points[1] = point;
+        if (i < last) mesh_.fracture_cells[first_cell + i].points[0] = point;
+        const bool is_end = i == 0 || i == last;
+        if (is_junction_[chain[i]]) {
+          if (i > 0) ends_at[chain[i]].push_back({first_cell + i - 1, 1});
+          if (i < last) ends_at[chain[i]].push_back({first_cell + i, 0});
+          if (is_end) continue;
         }
+        mesh_.fracture_points.push_back(fracture_point(chain[i], first_cell, i, last));
+      }
+      for (int i = 0; i < last; ++i) place_fracture_cell(mesh_.fracture_cells[first_cell + i], chain[i], chain[i + 1]);
+    }
+    // In the order of fractures, not of nodes: images of a mesh whose nodes are numbered otherwise are alike.
+    for (const auto& [name, chain] : raw_.fractures) {
+      for (const int node : chain) {
+        const auto found = ends_at.find(node);
+        if (found == ends_at.end()) continue;
+        add_junction(raw_.nodes[node], found->second);
+        ends_at.erase(found);
+      }
+    }
+  }
+
+  void place_fracture_cell(FractureCell& cell, int first, int second) {
+    const Point &from = raw_.nodes[first], &to = raw_.nodes[second];
+    cell.center = 0.5 * (from + to);
+    cell.length = (to - from).norm();
+    cell.tangent = (to - from) / cell.length;
+    cell.normal = {cell.tangent.y(), -cell.tangent.x()};
+    const int edge = edges_.find(first, second);
+    for (const int side : edges_.cells(edge)) {
+      for (int k = 0; k < cells_[side].size(); ++k) {
+        if (edges_.of_cell(side)[k] != edge) continue;
+        // The cell that runs along the edge in the chain's direction lies to its left: the plus side.
+        const Wall wall = cells_[side][k] == first ? Wall::plus : Wall::minus;
+        cell.faces[static_cast<int>(wall)] = mesh_.cell_faces[side][k];
       }
     }
   }
@@ -295,10 +332,48 @@ class MeshBuilder {
     FracturePoint point{raw_.nodes[node], {}, FracturePoint::Kind::inside, none};
     if (i > 0) point.cells.push_back(first_cell + i - 1);
     if (i < last) point.cells.push_back(first_cell + i);
-    if (point.cells.size() == 2) return point;
+    if (is_junction_[node]) point.kind = FracturePoint::Kind::junction;
+    if (is_junction_[node] || point.cells.size() == 2) return point;
     point.kind = outer_edges_at_node_[node] > 0 ? FracturePoint::Kind::on_boundary : FracturePoint::Kind::tip;
     if (point.kind == FracturePoint::Kind::on_boundary) point.side = side_at(node);
     return point;
+  }
+
+  /// One end of a fracture cell: 0 or 1, as in FractureCell::points.
+  struct CellEnd {
+    int cell, end;
+  };
+
+  /// The points between neighbours in a fracture are there already. `ends` are in ascending order of their cells.
+  void add_junction(const Point& position, const std::vector<CellEnd>& ends) {
+    const auto fracture_of = [&](const CellEnd& end) { return mesh_.fracture_cells[end.cell].fracture; };
+    const auto are_neighbours = [&](std::size_t i, std::size_t j) {
+      return ends[j].cell == ends[i].cell + 1 && fracture_of(ends[i]) == fracture_of(ends[j]);
+    };
+    Junction junction;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      junction.cells.push_back(ends[i].cell);
+      const bool has_neighbour =
+          (i > 0 && are_neighbours(i - 1, i)) || (i + 1 < ends.size() && are_neighbours(i, i + 1));
+      int& own_point = mesh_.fracture_cells[ends[i].cell].points[ends[i].end];
+      if (!has_neighbour) own_point = none;
+    }
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      int& own_point = mesh_.fracture_cells[ends[i].cell].points[ends[i].end];
+      for (std::size_t j = i + 1; j < ends.size(); ++j) {
+        int& other_point = mesh_.fracture_cells[ends[j].cell].points[ends[j].end];
+        int point = own_point;
+        if (!are_neighbours(i, j)) {
+          point = static_cast<int>(mesh_.fracture_points.size());
+          mesh_.fracture_points.push_back(
+              {position, {ends[i].cell, ends[j].cell}, FracturePoint::Kind::junction, none});
+        }
+        junction.points.push_back(point);
+        if (own_point == none) own_point = point;
+        if (other_point == none) other_point = point;
+      }
+    }
+    mesh_.junctions.push_back(std::move(junction));
   }
 
   /// At a corner between two sides: the one with the smaller index.
@@ -360,7 +435,8 @@ class MeshBuilder {
   std::vector<int> edge_side_;
   std::vector<int> edge_fracture_cell_;
   std::vector<int> outer_edges_at_node_;
-  std::vector<int> fracture_of_node_;
+  std::vector<int> fracture_of_node_;  ///< the last one that claimed it
+  std::vector<bool> is_junction_;
   Mesh mesh_;
 };
 

@@ -168,6 +168,23 @@ class Growth {
         }
       }
     }
+    if (!mesh.junctions.empty()) map_junctions(mesh, change);
+  }
+
+  /// A point of a junction is an old one if its cells met before.
+  void map_junctions(const Mesh& mesh, MeshChange& change) const {
+    std::map<std::array<int, 2>, int> old_point;  // by the old cells
+    for (std::size_t point = 0; point < mesh_.fracture_points.size(); ++point) {
+      const auto& cells = mesh_.fracture_points[point].cells;
+      if (cells.size() == 2) old_point[{cells[0], cells[1]}] = static_cast<int>(point);
+    }
+    for (const Junction& junction : mesh.junctions) {
+      for (const int point : junction.points) {
+        const auto& cells = mesh.fracture_points[point].cells;
+        const auto found = old_point.find({change.fracture_cell[cells[0]], change.fracture_cell[cells[1]]});
+        change.fracture_point[point] = found == old_point.end() ? none : found->second;
+      }
+    }
   }
 
   void map_faces(const RawMesh& raw, GrownMesh& grown) const {

@@ -33,9 +33,10 @@ struct GrownMesh {
 /// may be divided near a path. Cells outside of the cavity keep their corners; they keep their numbers, too, unless
 /// there are fewer cells than before: then the last ones move to the lowest free numbers. What is made anew is
 /// triangles, whatever was there. An end within a hundredth of `size` of the outer boundary is put onto it and becomes
-/// on_boundary. When an angle falls below 25 degrees, further cavities are tried and the best is taken. Throws
-/// ExtensionError, before any work, for paths that are refused (see check_extensions), std::invalid_argument for
-/// options that are not positive, and std::runtime_error when the cavity cannot be meshed.
+/// on_boundary. One as near to a point of another fracture joins it there, in a junction. When an angle falls below 25
+/// degrees, further cavities are tried and the best is taken. Throws ExtensionError, before any work, for paths that
+/// are refused (see check_extensions), std::invalid_argument for options that are not positive, and std::runtime_error
+/// when the cavity cannot be meshed.
 GrownMesh extend_fractures(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                            const CavityOptions& options);
 

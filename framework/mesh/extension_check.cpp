@@ -118,7 +118,9 @@ class Check {
       }
       check_end();
       check_form();
-      bool ends_on_boundary = snap(points.back());
+      is_joined_.assign(mesh_.fractures.size(), false);
+      const bool ends_on_boundary = snap(points.back());
+      if (!ends_on_boundary) join(points.back());
       paths_.push_back(path());
       check_boundary(ends_on_boundary);
       check_fractures();
@@ -141,7 +143,8 @@ class Check {
     const auto& [fracture, at_end, points] = extensions_[index_];
     const OwnEnd end = own_end(mesh_, fracture, at_end);
     if (end.kind != FracturePoint::Kind::tip) {
-      refuse(Reason::no_tip, end.position, "already ends", "on the outer boundary");
+      refuse(Reason::no_tip, end.position, "already ends",
+             end.kind == FracturePoint::Kind::junction ? "at another fracture" : "on the outer boundary");
     }
     for (int i = 0; i < index_; ++i) {
       if (extensions_[i].fracture == fracture && extensions_[i].at_end == at_end) {
@@ -188,6 +191,31 @@ class Check {
     const bool is_near = least < boundary_snap * size_;
     if (is_near) end = nearest;
     return is_near;
+  }
+
+  /// Puts an end onto a point of other fractures that is meant to be there, and notes these.
+  void join(Point& end) {
+    double least = joint_snap * size_;
+    for (const FracturePoint& point : mesh_.fracture_points) {
+      if (mesh_.fracture_cells[point.cells[0]].fracture == extensions_[index_].fracture) continue;
+      if (point.kind == FracturePoint::Kind::on_boundary || (point.position - end).norm() >= least) continue;
+      least = (point.position - end).norm();
+      end = point.position;
+    }
+    if (least == joint_snap * size_) return;
+    for (const FracturePoint& point : mesh_.fracture_points) {
+      if (point.position != end) continue;
+      for (const int cell : point.cells) is_joined_[mesh_.fracture_cells[cell].fracture] = true;
+    }
+  }
+
+  /// Whether a fracture cell begins where the path ends. Then the angle between both must not be small.
+  bool is_joint(const Segment& path, const Segment& cell, const std::string& name) const {
+    if (path.to != cell.from && path.to != cell.to) return false;
+    const Point back = path.from - path.to, along = cell.from + cell.to - 2 * path.to;
+    if (std::atan2(std::abs(cross(back, along)), back.dot(along)) < least_incidence)
+      refuse(Reason::too_near, path.to, "runs along " + name, "it would meet it at less than 15 degrees");
+    return true;
   }
 
   std::vector<Segment> path() const {
@@ -259,7 +287,7 @@ class Check {
       refuse(Reason::too_near, where, "passes too near to " + name, why.str());
     }
     if (reason == Reason::leaves_mesh) refuse(reason, where, "leaves the mesh", "a path may end on the outer boundary");
-    refuse(reason, where, "meets " + name, "crossing and touching fractures are not supported");
+    refuse(reason, where, "meets " + name, "a path may end at a point of its mesh, and not cross it");
   }
 
   std::string name_of(int fracture) const { return "fracture '" + mesh_.fractures[fracture].name + "'"; }
@@ -277,7 +305,10 @@ class Check {
           // From the end that grows backwards, so that the way along the fracture adds up.
           const int cell = at_end ? first + count - 1 - n : first + n;
           const Segment other = segment_of(mesh_, cell);
-          if (f != fracture) {
+          const bool is_ending = is_joined_[f] && i + 1 == segments.size();
+          if (is_ending) {
+            if (!is_joint(segments[i], other, name_of(f))) note(i, other, 0, Reason::crosses_fracture, name_of(f));
+          } else if (f != fracture) {
             if (distance(segments[i], other) < allowed(distance(tip, other)) &&
                 leads_away(segments[i], tip, straight_part(mesh_, cell)))
               continue;
@@ -318,7 +349,8 @@ class Check {
   const double touch_;  ///< m; nearer is in contact
   std::vector<PathExtension> extensions_;
   std::vector<std::vector<Segment>> paths_;
-  int index_ = 0;  ///< of the extension that is looked at
+  std::vector<bool> is_joined_;  ///< per fracture: whether the path ends on it
+  int index_ = 0;                ///< of the extension that is looked at
   std::optional<Obstacle> obstacle_;
 };
 

@@ -20,11 +20,11 @@ struct PathExtension {
 class ExtensionError : public std::runtime_error {
  public:
   enum class Reason {
-    no_tip,            ///< the end lies on the outer boundary already, or grows twice
+    no_tip,            ///< the end lies on the outer boundary or on another fracture already, or grows twice
     no_path,           ///< no points, points that are not finite, or segments without length
     turns_back,        ///< by more than 90 degrees
     leaves_mesh,       ///< crosses the outer boundary
-    crosses_fracture,  ///< or touches one: another, itself, or another extension
+    crosses_fracture,  ///< or touches one (another, itself, or another extension) other than with its end at a point
     too_near           ///< passes a fracture or the outer boundary at less than least_gap sizes
   };
   ExtensionError(Reason reason, int extension, const Point& where, const std::string& what)
@@ -43,12 +43,16 @@ class ExtensionError : public std::runtime_error {
 inline constexpr double least_gap = 0.5;
 /// An end nearer than this to the outer boundary, in edge lengths, is meant to lie on it.
 inline constexpr double boundary_snap = 0.01;
-/// A path that meets the outer boundary at less than this angle passes too near to it, rad (15 degrees).
+/// An end nearer than this to a fracture point of another fracture, in edge lengths, is meant to join it there.
+inline constexpr double joint_snap = 0.01;
+/// A path that meets the outer boundary or another fracture at less than this angle passes too near to it, rad (15
+/// degrees).
 inline constexpr double least_incidence = 0.2617993877991494;
 
 /// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). What is nearer to the
 /// old tip than the least gap may be passed at nine tenths of that distance, and left at 15 degrees or more. Returns
-/// the extensions with ends near the outer boundary put onto it.
+/// the extensions with ends near the outer boundary, or near a point of another fracture inside of the rock, put onto
+/// it.
 std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                             double size);
 

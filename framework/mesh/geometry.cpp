@@ -115,19 +115,33 @@ void validate_fracture(const Box& box, const FractureGeometry& fracture) {
   }
 }
 
-void validate_pair(const FractureGeometry& a, const FractureGeometry& b, double tolerance) {
+/// The ends of two segments that lie on both, and where they cross.
+std::vector<Point> common_points(const Segment& one, const Segment& other, double tolerance) {
+  std::vector<Point> common;
+  for (const Point& end : {one.from, one.to, other.from, other.to}) {
+    if (std::max(distance(end, one), distance(end, other)) < tolerance) common.push_back(end);
+  }
+  Point crossing;
+  if (common.empty() && cross_inside(one, other, crossing)) common.push_back(crossing);
+  return common;
+}
+
+void validate_pair(const Box& box, const FractureGeometry& a, const FractureGeometry& b) {
+  const double tolerance = point_tolerance(box);
+  const auto refuse = [&](const std::string& how, const Point& where, const std::string& why, const std::string& hint) {
+    throw InputError(b.origin, "fracture '" + b.name + "' " + how + " fracture '" + a.name + "' at " + to_text(where),
+                     why + "; '" + a.name + "' is at " + a.origin.text(), hint);
+  };
   for (const Segment& one : segments_of(a.points)) {
     for (const Segment& other : segments_of(b.points)) {
-      if (distance(one, other) >= tolerance) continue;
-      Point where = other.from;
-      if (!cross_inside(one, other, where)) {
-        for (const Point& end : {one.from, one.to, other.to}) {
-          if (std::max(distance(end, one), distance(end, other)) < tolerance) where = end;
-        }
+      const std::vector<Point> common = common_points(one, other, tolerance);
+      for (const Point& where : common) {
+        if ((where - common.front()).norm() > tolerance)
+          refuse("overlaps", where, "fractures may cross and touch, but not share a line", "end one where they meet");
+        if (depth(box, where) < tolerance)
+          refuse("meets", where, "that is on the outer boundary, where fractures may not meet",
+                 "let them meet inside of the box or leave a gap");
       }
-      throw InputError(b.origin, "fracture '" + b.name + "' meets fracture '" + a.name + "' at " + to_text(where),
-                       "fractures that cross or touch are not supported; '" + a.name + "' is at " + a.origin.text(),
-                       "leave a gap between them");
     }
   }
 }
@@ -258,7 +272,7 @@ void validate_geometry(const Geometry& geometry, const MeshOptions& options) {
     const FractureGeometry& fracture = geometry.fractures[i];
     validate_size("size", fracture.size, fracture.origin);
     validate_fracture(geometry.box, fracture);
-    for (std::size_t j = 0; j < i; ++j) validate_pair(geometry.fractures[j], fracture, point_tolerance(geometry.box));
+    for (std::size_t j = 0; j < i; ++j) validate_pair(geometry.box, geometry.fractures[j], fracture);
   }
   for (const RegionGeometry& region : geometry.regions) validate_region(geometry.box, region);
   validate_cell_count(geometry, options);

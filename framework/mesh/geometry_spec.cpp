@@ -100,7 +100,7 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                           geometry.fractures.push_back(std::move(f));
                         });
                       },
-                      {.doc = "The fractures, by name; they may neither cross nor touch."});
+                      {.doc = "The fractures, by name; they may cross and touch one another inside of the rock."});
   spec.named_sections(
       "regions", region_spec("", {}, [](RegionGeometry) {}),
       [&geometry](const std::string& name, const Origin& origin) {

@@ -20,9 +20,11 @@ enum class Wall { plus = 0, minus = 1 };
 
 /// One cell of a fracture grid. The matrix is split along it: it has two matrix faces with equal end points.
 struct FractureCell {
-  int fracture;               ///< index into Mesh::fractures
-  std::array<int, 2> faces;   ///< the matrix faces that are its walls, by Wall; each has one cell, face_cells[f][0]
-  std::array<int, 2> points;  ///< its ends, indices into Mesh::fracture_points, along the polyline's direction
+  int fracture;              ///< index into Mesh::fractures
+  std::array<int, 2> faces;  ///< the matrix faces that are its walls, by Wall; each has one cell, face_cells[f][0]
+  /// Its ends, indices into Mesh::fracture_points, along the polyline's direction. At a junction: the point between it
+  /// and the next cell of its fracture, or else the first one that it has a part in.
+  std::array<int, 2> points;
   Point center;
   double length;
   Point normal;        ///< unit, from the plus to the minus side
@@ -30,13 +32,22 @@ struct FractureCell {
   bool grown = false;  ///< whether it came into being during the run
 };
 
-/// A point between fracture cells, or an end of a fracture.
+/// A point between two fracture cells, or an end of a fracture.
 struct FracturePoint {
-  enum class Kind { inside, tip, on_boundary };
+  /// inside: between neighbours in a fracture; tip: ends in the rock; on_boundary: ends on the outer boundary;
+  /// junction: between two of the cells that meet where fractures touch or cross
+  enum class Kind { inside, tip, on_boundary, junction };
   Point position;
-  std::vector<int> cells;  ///< the fracture cells that meet here, one or two
-  Kind kind;               ///< inside: two cells; tip: ends in the rock; on_boundary: ends on the outer boundary
-  int side;                ///< the boundary side (index into Mesh::side_names) for on_boundary, else none
+  std::vector<int> cells;  ///< one for tip and on_boundary, else two, in ascending order
+  Kind kind;
+  int side;  ///< the boundary side (index into Mesh::side_names) for on_boundary, else none
+};
+
+/// A place where fractures touch or cross. It has a fracture point for each pair of its cells, so that all that passes
+/// between cells passes a point between two of them.
+struct Junction {
+  std::vector<int> cells;   ///< the fracture cells that meet here, in ascending order; at least two
+  std::vector<int> points;  ///< indices into Mesh::fracture_points
 };
 
 struct Fracture {
@@ -70,6 +81,7 @@ struct Mesh {
   std::vector<Fracture> fractures;
   std::vector<FractureCell> fracture_cells;
   std::vector<FracturePoint> fracture_points;
+  std::vector<Junction> junctions;
   std::vector<int> face_fracture_cell;  ///< the fracture cell whose wall the face is, or none
 
   // Distribution: the rank that owns (assembles the rows of) each cell. All 0 in a single process.

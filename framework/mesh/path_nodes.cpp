@@ -34,9 +34,9 @@ class Placement {
       const auto& chain = raw.fractures[fracture].nodes;
       std::vector<int> path{at_end ? chain.back() : chain.front()};
       for (const Point& x : points) path.push_back(add(x));
-      const bool ends_on_boundary = put_end_on_boundary(path.back());
+      const bool is_end_fixed = put_end_on_boundary(path.back()) || put_end_on_fracture(path.back());
       if (!interfaces_.empty()) {
-        meet_interfaces(path, ends_on_boundary);
+        meet_interfaces(path, is_end_fixed);
         pass_interface_nodes(path);
         cross_interfaces(path);
       }
@@ -72,9 +72,19 @@ class Placement {
     return false;
   }
 
-  /// Points of the path near an interface move onto it. An old tip and an end on the outer boundary stay.
-  void meet_interfaces(std::vector<int>& path, bool ends_on_boundary) {
-    for (std::size_t i = 1; i < path.size() - (ends_on_boundary ? 1 : 0); ++i) {
+  bool put_end_on_fracture(int& end) {
+    for (std::size_t node = 0; node < is_on_fracture_.size(); ++node) {
+      if (!is_on_fracture_[node] || (at(static_cast<int>(node)) - at(end)).norm() > contact * size_) continue;
+      end = static_cast<int>(node);
+      return true;
+    }
+    return false;
+  }
+
+  /// Points of the path near an interface move onto it. An old tip and an end on the outer boundary or on a fracture
+  /// stay.
+  void meet_interfaces(std::vector<int>& path, bool is_end_fixed) {
+    for (std::size_t i = 1; i < path.size() - (is_end_fixed ? 1 : 0); ++i) {
       int nearest = none;
       double least = std::numeric_limits<double>::infinity();
       for (const int face : interfaces_) {
@@ -142,7 +152,7 @@ class Placement {
            std::find(found->second.begin(), found->second.end(), node) != found->second.end();
   }
 
-  /// What a path may be near to. A side on which it ends meets it at an angle and leaves no gap.
+  /// What a path may be near to. A side or a fracture on which it ends meets it at an angle and leaves no gap.
   struct Obstacle {
     Segment segment;
     double least;  ///< m, the length of edges beside it that cannot change
@@ -168,8 +178,13 @@ class Placement {
     for (int face = 0; face < mesh_.face_count(); ++face) {
       if (mesh_.face_side[face] != none && mesh_.face_side[face] != side) add(segment(face), least_gap_part * size_);
     }
+    std::vector<char> is_joined(mesh_.fractures.size(), false);
     for (const FractureCell& cell : mesh_.fracture_cells) {
-      if (cell.fracture != fracture) add(segment(cell.faces[0]), cell.length);
+      const auto nodes = ends(cell.faces[0]);
+      if (nodes[0] == path.back() || nodes[1] == path.back()) is_joined[cell.fracture] = true;
+    }
+    for (const FractureCell& cell : mesh_.fracture_cells) {
+      if (cell.fracture != fracture && !is_joined[cell.fracture]) add(segment(cell.faces[0]), cell.length);
     }
     return near;
   }

@@ -31,8 +31,8 @@ inline constexpr double interface_snap = 0.1;
 /// fracture is nearer than `gap_edges` times that, into shorter ones that fit between (no shorter than the cells of the
 /// other fracture, which stay). Where a path crosses an interface between regions both get a node. A path bends by up
 /// to interface_snap to pass through a node of an interface, and a point of the path this near to an interface moves
-/// onto it; interfaces stay as they are. An end on the outer boundary becomes a node of that. `merged` is that of
-/// to_raw_mesh. The extensions have been checked.
+/// onto it; interfaces stay as they are. An end on the outer boundary becomes a node of that, one at a point of another
+/// fracture is its node. `merged` is that of to_raw_mesh. The extensions have been checked.
 PathNodes place_path_nodes(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
                            const std::vector<PathExtension>& extensions, double size, double gap_edges);
 

@@ -16,7 +16,8 @@ struct RawMesh {
     std::array<int, 2> nodes;
     int side;  ///< index into side_names
   };
-  /// A fracture is a path of edges that joins its nodes one after the other. Neither end may be repeated (no loops).
+  /// A fracture is a path of edges that joins its nodes one after the other, none of them twice (no loops). It may
+  /// share nodes inside of the rock, but no edges, with other fractures.
   struct Chain {
     std::string name;
     std::vector<int> nodes;

@@ -51,6 +51,11 @@ void write_adjacency(Hdf5Writer& file, const std::string& path, const Adjacency&
   file.integers(path + "/items", adjacency.items);
 }
 
+void append(Adjacency& adjacency, const std::vector<int>& items) {
+  adjacency.items.insert(adjacency.items.end(), items.begin(), items.end());
+  adjacency.offsets.push_back(static_cast<int>(adjacency.items.size()));
+}
+
 Adjacency read_adjacency(const Hdf5Reader& file, const std::string& path) {
   Adjacency adjacency{file.integers(path + "/offsets"), file.integers(path + "/items")};
   if (adjacency.offsets.empty() || adjacency.offsets.front() != 0 ||
@@ -110,12 +115,19 @@ void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
   for (const FracturePoint& point : mesh.fracture_points) {
     positions.insert(positions.end(), {point.position.x(), point.position.y()});
     kinds.insert(kinds.end(), {static_cast<int>(point.kind), point.side});
-    cells.items.insert(cells.items.end(), point.cells.begin(), point.cells.end());
-    cells.offsets.push_back(static_cast<int>(cells.items.size()));
+    append(cells, point.cells);
   }
   file.doubles("mesh/fracture_points/positions", positions);
   file.integers("mesh/fracture_points/kinds", kinds);
   write_adjacency(file, "mesh/fracture_points/cells", cells);
+
+  Adjacency junction_cells, junction_points;
+  for (const Junction& junction : mesh.junctions) {
+    append(junction_cells, junction.cells);
+    append(junction_points, junction.points);
+  }
+  write_adjacency(file, "mesh/junctions/cells", junction_cells);
+  write_adjacency(file, "mesh/junctions/points", junction_points);
 }
 
 void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
@@ -151,6 +163,14 @@ void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
   for (int i = 0; i < cells.size(); ++i)
     mesh.fracture_points.push_back(
         {positions[i], {cells[i].begin(), cells[i].end()}, static_cast<FracturePoint::Kind>(kinds[i][0]), kinds[i][1]});
+
+  const Adjacency junction_cells = read_adjacency(file, "mesh/junctions/cells");
+  const Adjacency junction_points = read_adjacency(file, "mesh/junctions/points");
+  if (junction_cells.size() != junction_points.size())
+    throw Hdf5Error("array mesh/junctions/points has a wrong length");
+  for (int i = 0; i < junction_cells.size(); ++i)
+    mesh.junctions.push_back(
+        {{junction_cells[i].begin(), junction_cells[i].end()}, {junction_points[i].begin(), junction_points[i].end()}});
 }
 
 void require_consistent(const Mesh& mesh) {

@@ -84,7 +84,7 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
       if (known[i]) continue;
       for (const int point : mesh_.fracture_cells[i].points)
         for (const int other : mesh_.fracture_points[point].cells)
-          if (known[other] && !known[i]) {
+          if (known[other] && !known[i] && mesh_.fracture_cells[other].fracture == mesh_.fracture_cells[i].fracture) {
             pressure[i] = pressure[other];
             known[i] = 1;
             goes_on = true;
@@ -146,9 +146,13 @@ void FractureFlow::check_names() const {
 
 void FractureFlow::make_links(const StepTime& step) {
   links_.clear();
+  std::vector<std::pair<int, int>> place_of(mesh_.fracture_points.size(), {none, none});
+  for (std::size_t j = 0; j < mesh_.junctions.size(); ++j)
+    for (std::size_t k = 0; k < mesh_.junctions[j].points.size(); ++k)
+      place_of[mesh_.junctions[j].points[k]] = {static_cast<int>(j), static_cast<int>(k)};
   for (int i = 0; i < static_cast<int>(mesh_.fracture_points.size()); ++i) {
     const FracturePoint& point = mesh_.fracture_points[i];
-    Link link{i, point.cells[0], none};
+    Link link{i, point.cells[0], none, place_of[i].first, place_of[i].second};
     const int region = region_of(mesh_, link.first);
     Point other = point.position;
     if (point.cells.size() == 2) {
@@ -230,16 +234,31 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
   return kappa;
 }
 
-FractureFlow::Conductance FractureFlow::conductance(const Link& link) const {
+Conductance FractureFlow::conductance(const Link& link) const {
   const Transmissivity first = transmissivity(link.first);
   const double half = 0.5 * mesh_.fracture_cells[link.first].length;
-  if (link.second == none) return {first.value / half, first.by_aperture / half, 0};
+  if (link.second == none) return {first.value / half, {{link.first, first.by_aperture / half}}};
   const Transmissivity second = transmissivity(link.second);
   const double other_half = 0.5 * mesh_.fracture_cells[link.second].length;
-  if (first.value == 0 || second.value == 0) return {0, 0, 0};
+  if (first.value == 0 || second.value == 0) return {0, {}};
   const double value = 1 / (half / first.value + other_half / second.value);
-  return {value, value * value * half / (first.value * first.value) * first.by_aperture,
-          value * value * other_half / (second.value * second.value) * second.by_aperture};
+  return {value,
+          {{link.first, value * value * half / (first.value * first.value) * first.by_aperture},
+           {link.second, value * value * other_half / (second.value * second.value) * second.by_aperture}}};
+}
+
+std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
+  std::vector<JunctionFluxes> fluxes;
+  for (const Junction& junction : mesh_.junctions) {
+    std::vector<JunctionFluxes::Half> halves;
+    for (const int cell : junction.cells) {
+      const Transmissivity t = transmissivity(cell);
+      const double half = 0.5 * mesh_.fracture_cells[cell].length;
+      halves.push_back({t.value / half, t.by_aperture / half});
+    }
+    fluxes.emplace_back(junction, std::move(halves));
+  }
+  return fluxes;
 }
 
 double FractureFlow::pressure_drop(const Link& link) const {
@@ -288,43 +307,75 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.derivative(pressure_, flux_, std::move(divergence));
 }
 
+struct FractureFlow::FluxRows {
+  double dt;
+  Vector of_flux, drop;
+  std::vector<Triplet> by_flux, by_pressure, by_aperture;  ///< by_flux: beside of_flux, which is the diagonal
+  double largest_pressure = 0;
+};
+
 void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(flux_)) return;
   const int points = flux_.size(), count = mesh_.fracture_cell_count();
-  // Each row is divided by its conductance plus that of a cell's storage, and so is well scaled from sealed to wide
-  // open.
-  const auto storage_conductance = [&](int cell) {
-    return mesh_.fracture_cells[cell].length * initial_aperture_[cell] * compressibility_[cell] / step.dt;
-  };
-  Vector of_flux = Vector::Ones(points), drop = Vector::Zero(points);
-  std::vector<Triplet> by_pressure, by_aperture;
-  double largest_pressure = 0;
+  FluxRows rows{step.dt, Vector::Ones(points), Vector::Zero(points), {}, {}, {}};
+  const std::vector<JunctionFluxes> at_junctions = junction_fluxes();
   for (const Link& link : links_) {
-    const Conductance c = conductance(link);
-    const double reference = storage_conductance(link.first);
-    const double scale = c.value + reference > 0 ? 1 / (c.value + reference) : 1;
-    const double dp = pressure_drop(link), q = flux_.now()[link.point];
-    of_flux[link.point] = scale;
-    drop[link.point] = -scale * c.value * dp;
-    largest_pressure = std::max(largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
-    by_pressure.emplace_back(link.point, link.first, -scale * c.value);
-    // d/da of scale (q − C dp), with the scale's own derivative −scale^2 C'.
-    const auto by = [&](double c_by) { return -scale * c_by * dp - scale * scale * c_by * (q - c.value * dp); };
-    by_aperture.emplace_back(link.point, link.first, by(c.by_first));
-    if (link.second == none) continue;
-    by_pressure.emplace_back(link.point, link.second, scale * c.value);
-    by_aperture.emplace_back(link.point, link.second, by(c.by_second));
+    if (link.junction == none) {
+      add_row(link, conductance(link), rows);
+      continue;
+    }
+    const JunctionFluxes::Flux flux = at_junctions[link.junction].flux(link.place);
+    flux.parts.empty() ? add_row(link, flux.conductance, rows) : add_row(link, flux, rows);
   }
-  assembly.add(flux_, of_flux.cwiseProduct(flux_.now()));
-  assembly.add(flux_, drop);
-  assembly.compare_round_off(flux_, largest_pressure);
-  assembly.diagonal(flux_, flux_, of_flux);
+  assembly.add(flux_, rows.of_flux.cwiseProduct(flux_.now()));
+  assembly.add(flux_, rows.drop);
+  assembly.compare_round_off(flux_, rows.largest_pressure);
+  assembly.diagonal(flux_, flux_, rows.of_flux);
   if (!assembly.wants_derivatives()) return;
   SparseMatrix pressures(points, count), apertures(points, count);
-  pressures.setFromTriplets(by_pressure.begin(), by_pressure.end());
-  apertures.setFromTriplets(by_aperture.begin(), by_aperture.end());
+  pressures.setFromTriplets(rows.by_pressure.begin(), rows.by_pressure.end());
+  apertures.setFromTriplets(rows.by_aperture.begin(), rows.by_aperture.end());
   assembly.derivative(flux_, pressure_, std::move(pressures));
   assembly.derivative(flux_, aperture_, std::move(apertures));
+  if (rows.by_flux.empty()) return;
+  SparseMatrix fluxes(points, points);
+  fluxes.setFromTriplets(rows.by_flux.begin(), rows.by_flux.end());
+  assembly.derivative(flux_, flux_, std::move(fluxes));
+}
+
+/// Divided by its conductance plus that of a cell's storage, a row is well scaled from sealed to wide open.
+double FractureFlow::scale_of_row(const Link& link, double conductance, double dt) const {
+  const FractureCell& first = mesh_.fracture_cells[link.first];
+  const double reference = first.length * initial_aperture_[link.first] * compressibility_[link.first] / dt;
+  return conductance + reference > 0 ? 1 / (conductance + reference) : 1;
+}
+
+void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& rows) const {
+  const double scale = scale_of_row(link, c.value, rows.dt);
+  const double dp = pressure_drop(link), q = flux_.now()[link.point];
+  rows.of_flux[link.point] = scale;
+  rows.drop[link.point] = -scale * c.value * dp;
+  rows.largest_pressure = std::max(rows.largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
+  rows.by_pressure.emplace_back(link.point, link.first, -scale * c.value);
+  if (link.second != none) rows.by_pressure.emplace_back(link.point, link.second, scale * c.value);
+  // d/da of scale (q − C dp), with the scale's own derivative −scale^2 C'.
+  for (const auto& [cell, by] : c.by_aperture)
+    rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
+}
+
+void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const {
+  const double scale = scale_of_row(link, flux.conductance.value, rows.dt);
+  double rest = flux_.now()[link.point];
+  rows.of_flux[link.point] = scale;
+  for (const auto& [point, share] : flux.parts) {
+    const double q = flux_.now()[point];
+    rest -= share.value * q;
+    rows.drop[link.point] -= scale * share.value * q;
+    rows.by_flux.emplace_back(link.point, point, -scale * share.value);
+    for (const auto& [cell, by] : share.by_aperture) rows.by_aperture.emplace_back(link.point, cell, -scale * by * q);
+  }
+  for (const auto& [cell, by] : flux.conductance.by_aperture)
+    rows.by_aperture.emplace_back(link.point, cell, -scale * scale * by * rest);
 }
 
 void FractureFlow::constrain(Assembly& assembly) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/capabilities/fracture_fluid.hpp"
+#include "components/fracture_flow/tpfa/junction_fluxes.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
@@ -55,15 +56,19 @@ class FractureFlow : public Component, public FractureFluid {
   struct Link {
     int point;
     int first, second;             ///< cells; second is none at an open end with a prescribed pressure
+    int junction;                  ///< index into Mesh::junctions where fractures meet, else none
+    int place;                     ///< among the points of the junction
     double boundary_pressure = 0;  ///< Pa, of an open end
     double gravity = 0;            ///< rho g·(x_first − x_second), Pa
   };
-  struct Conductance {
-    double value, by_first, by_second;  ///< m^2/(Pa s), and its derivatives by the apertures
-  };
   Conductance conductance(const Link& link) const;
+  std::vector<JunctionFluxes> junction_fluxes() const;
   double pressure_drop(const Link& link) const;
+  struct FluxRows;
   void assemble_fluxes(Assembly& assembly, const StepTime& step) const;
+  void add_row(const Link& link, const Conductance& conductance, FluxRows& rows) const;
+  void add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const;
+  double scale_of_row(const Link& link, double conductance, double dt) const;
   void check_names() const;
   std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);

@@ -1,5 +1,7 @@
 #include "framework/mesh/build_mesh.hpp"
 
+#include <algorithm>
+
 #include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/structured_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
@@ -134,15 +136,83 @@ TEST(BuildMesh, RawMeshClosesTheWallsAgain) {
   EXPECT_EQ(again.face_side, mesh.face_side);
 }
 
-TEST(BuildMesh, RefusesFracturesThatCrossOrTouch) {
+int junction_points(const Mesh& mesh) {
+  int count = 0;
+  for (const FracturePoint& point : mesh.fracture_points) count += point.kind == Kind::junction;
+  return count;
+}
+
+TEST(BuildMesh, SplitsACrossingIntoFour) {
+  const Mesh mesh = build_mesh(squares({fracture("a", {{2, 4}, {6, 4}}), fracture("b", {{4, 2}, {4, 6}})}));
+  expect_consistent(mesh);
+  EXPECT_EQ(mesh.node_count(), unsplit_nodes + 4 + 3);
+  EXPECT_EQ(mesh.face_count(), unsplit_faces + 8);
+  EXPECT_EQ(euler_characteristic(mesh), 0);  // one hole in the shape of a cross
+  ASSERT_EQ(mesh.junctions.size(), 1u);
+  EXPECT_EQ(mesh.junctions[0].cells, (std::vector{1, 2, 5, 6}));
+  EXPECT_EQ(mesh.junctions[0].points.size(), 6u);  // pairs of four
+  EXPECT_EQ(junction_points(mesh), 6);
+  EXPECT_EQ(mesh.fracture_points.size(), 2 * 4u + 6u);
+  // Between neighbours in a fracture lies their own point.
+  EXPECT_EQ(mesh.fracture_cells[1].points[1], mesh.fracture_cells[2].points[0]);
+  EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[6].points[0]].cells, (std::vector{5, 6}));
+}
+
+TEST(BuildMesh, FracturesThatCrossFromSideToSidePartTheRock) {
+  const Mesh mesh = build_mesh(squares({fracture("a", {{0, 4}, {8, 4}}), fracture("b", {{4, 0}, {4, 8}})}));
+  expect_consistent(mesh);
+  EXPECT_EQ(component_count(mesh), 4);
+  EXPECT_EQ(euler_characteristic(mesh), 4);
+}
+
+TEST(BuildMesh, AFractureMayEndAtAnother) {
+  const Mesh mesh = build_mesh(squares({fracture("b", {{4, 4}, {4, 6}}), fracture("a", {{2, 4}, {6, 4}})}));
+  expect_consistent(mesh);
+  EXPECT_EQ(mesh.node_count(), unsplit_nodes + 3 + 2);
+  ASSERT_EQ(mesh.junctions.size(), 1u);
+  EXPECT_EQ(mesh.junctions[0].cells, (std::vector{0, 3, 4}));
+  EXPECT_EQ(junction_points(mesh), 3);
+  const FracturePoint& end = mesh.fracture_points[mesh.fracture_cells[0].points[0]];
+  EXPECT_EQ(end.kind, Kind::junction);
+  EXPECT_EQ(end.position, Point(4, 4));
+  EXPECT_EQ(end.cells, (std::vector{0, 3}));
+  EXPECT_EQ(std::count_if(mesh.fracture_points.begin(), mesh.fracture_points.end(),
+                          [](const FracturePoint& point) { return point.kind == Kind::tip; }),
+            3);
+}
+
+TEST(BuildMesh, FracturesEndToEndAreSplitLikeOne) {
+  const Mesh mesh = build_mesh(squares({fracture("a", {{2, 4}, {4, 4}}), fracture("b", {{4, 4}, {6, 4}})}));
+  expect_consistent(mesh);
+  EXPECT_EQ(mesh.node_count(), unsplit_nodes + 3);
+  ASSERT_EQ(mesh.junctions.size(), 1u);
+  EXPECT_EQ(mesh.junctions[0].points.size(), 1u);
+  EXPECT_EQ(mesh.fracture_cells[1].points[1], mesh.fracture_cells[2].points[0]);
+}
+
+TEST(BuildMesh, AFractureOfOneCellMayJoinTwo) {
+  const Mesh mesh = build_mesh(
+      squares({fracture("a", {{2, 4}, {6, 4}}), fracture("b", {{2, 5}, {6, 5}}), fracture("c", {{4, 5}, {4, 4}})}));
+  expect_consistent(mesh);
+  ASSERT_EQ(mesh.junctions.size(), 2u);
+  EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[8].points[0]].position, Point(4, 5));
+  EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[8].points[1]].position, Point(4, 4));
+}
+
+TEST(BuildMesh, RefusesFracturesThatOverlap) {
   EXPECT_THAT(input_error([] {
-                build_mesh(squares({fracture("a", {{2, 4}, {6, 4}}), fracture("b", {{4, 2}, {4, 6}})}));
+                build_mesh(squares({fracture("a", {{2, 4}, {6, 4}}), fracture("b", {{5, 4}, {7, 4}})}));
               }),
-              AllOf(HasSubstr("'a'"), HasSubstr("'b'"), HasSubstr("(4, 4)"), HasSubstr("not supported")));
-  EXPECT_THAT(input_error([] {
-                build_mesh(squares({fracture("a", {{2, 4}, {4, 4}}), fracture("b", {{4, 4}, {6, 4}})}));
-              }),
-              HasSubstr("'a' and 'b' meet at (4, 4)"));
+              AllOf(HasSubstr("'a' and 'b' run along the same edge"), HasSubstr("(5.5, 4)"), HasSubstr("not overlap")));
+}
+
+TEST(BuildMesh, RefusesFracturesThatMeetOnTheBoundary) {
+  RawMesh raw = squares({fracture("a", {{0, 4}, {6, 4}})});
+  const int on_side = raw.fractures[0].nodes[0], above = on_side + 9 + 1, below = on_side - 9 + 1;
+  const CellEdges edges(raw.nodes, raw.cells);
+  raw.fractures.push_back({"b", {on_side, edges.find(on_side, above) == none ? below : above}});
+  EXPECT_THAT(input_error([&] { build_mesh(raw); }),
+              AllOf(HasSubstr("'a' and 'b' meet at (0, 4)"), HasSubstr("on the outer boundary")));
 }
 
 TEST(BuildMesh, RefusesFracturesThatAreNoPaths) {

@@ -189,6 +189,44 @@ TEST(ExtendFractures, EndsOnTheOuterBoundary) {
   }
 }
 
+TEST(ExtendFractures, JoinsAnotherFracture) {
+  const Mesh mesh =
+      with_fractures({fracture("main", {{0.7, 1}, {1.2, 1}}), fracture("wall", {{1.3, 0.6}, {1.3, 1.4}})});
+  const auto& [name, first, count] = mesh.fractures[1];
+  for (int n = 0; n <= count; ++n) {
+    const FractureCell& cell = mesh.fracture_cells[first + std::min(n, count - 1)];
+    const Point place = mesh.fracture_points[cell.points[n < count ? 0 : 1]].position;
+    if (std::abs(place.y() - 1) > 0.25) continue;  // at less than 22 degrees
+    const GrownMesh grown = extend_fractures(mesh, {{0, true, {place}}}, usual);
+    expect_sound(mesh, grown);
+    EXPECT_EQ(euler_characteristic(grown.mesh), euler_characteristic(mesh) + 1);  // two holes become one
+    ASSERT_EQ(grown.mesh.junctions.size(), 1u);
+    EXPECT_EQ(grown.mesh.junctions[0].cells.size(), 3u);
+    // The corner between both holds two cells.
+    const double incidence = std::atan2(0.1, std::abs(place.y() - 1));
+    EXPECT_GE(grown.smallest_angle, std::min(20 * degree, 0.5 * incidence - 0.1 * degree)) << place.y();
+    const auto& [pair, end] = std::pair(grown.mesh.junctions[0].points.back(), grown.mesh.junctions[0].points.front());
+    EXPECT_NE(grown.change.fracture_point[pair], none);  // between the cells of the wall
+    EXPECT_EQ(grown.change.fracture_point[end], none);
+    EXPECT_THROW(extend_fractures(grown.mesh, {straight(grown.mesh, 0, true, size)}, usual), ExtensionError);
+
+    // The joint stays when others grow beside it.
+    const GrownMesh next = extend_fractures(grown.mesh, {straight(grown.mesh, 1, true, 2 * size, 0.5)}, usual);
+    expect_sound(grown.mesh, next);
+    ASSERT_EQ(next.mesh.junctions.size(), 1u);
+    for (const int point : next.mesh.junctions[0].points) EXPECT_NE(next.change.fracture_point[point], none);
+  }
+}
+
+TEST(ExtendFractures, JoinsTheTipOfAnother) {
+  const Mesh mesh =
+      with_fractures({fracture("main", {{0.7, 1}, {1.2, 1}}), fracture("next", {{1.3, 1.05}, {1.6, 1.2}})});
+  const GrownMesh grown = extend_fractures(mesh, {{0, true, {{1.3, 1.05}}}}, usual);
+  expect_sound(mesh, grown);
+  ASSERT_EQ(grown.mesh.junctions.size(), 1u);
+  EXPECT_EQ(grown.mesh.junctions[0].cells.size(), 2u);
+}
+
 TEST(ExtendFractures, ThroughTheBoxSeparatesIt) {
   Mesh mesh = with_fractures({fracture("main", {{0.1, 1}, {1.9, 1.05}})});
   const GrownMesh grown = extend_fractures(mesh, {{0, true, {{2, 1}}}, {0, false, {{0, 1.02}}}}, usual);

@@ -50,9 +50,23 @@ TEST(CheckExtensions, AcceptsFreePathsAndPutsEndsOntoTheBoundary) {
 
 TEST(CheckExtensions, RefusesOtherFractures) {
   expect_refused({{0, true, {{3, 1}}}}, Reason::crosses_fracture, {2.5, 1}, "meets fracture 'wall'");
-  expect_refused({{0, true, {{2.5, 1.2}}}}, Reason::crosses_fracture, {2.5, 1.2}, "meets fracture 'wall'");
+  // Between two points of the mesh of the other.
+  expect_refused({{0, true, {{2.5, 1.25}}}}, Reason::crosses_fracture, {2.5, 1.25}, "meets fracture 'wall'");
   expect_refused({{0, true, {{2.46, 1.2}}}}, Reason::too_near, {2.46, 1.2}, "too near to fracture 'wall'");
   expect_refused({{0, true, {{2, 1.3}, {2.48, 1.54}}}}, Reason::too_near, {2.48, 1.54}, "too near to fracture 'wall'");
+}
+
+TEST(CheckExtensions, PutsEndsOntoPointsOfOtherFractures) {
+  const Mesh mesh = sample();
+  const auto checked = check_extensions(mesh, {{0, true, {{1.8, 1.1}, {2.4995, 1.2005}}}}, size);
+  EXPECT_NEAR((checked[0].points[1] - Point(2.5, 1.2)).norm(), 0, 1e-12);
+  EXPECT_NO_THROW(check_extensions(mesh, {{0, true, {{2.5, 1.5}}}}, size));               // a tip
+  EXPECT_NO_THROW(check_extensions(mesh, {{0, true, {{2.4, 0.65}, {2.5, 0.9}}}}, size));  // at 22 degrees
+  expect_refused({{0, true, {{2.46, 0.8}, {2.5, 1}}}}, Reason::too_near, {2.46, 0.8}, "too near to fracture 'wall'");
+  expect_refused({{0, true, {{2.44, 1}, {2.5, 1.3}}}}, Reason::too_near, {2.5, 1.3}, "at less than 15 degrees");
+  // Both tips of one fracture may not end at the same place.
+  expect_refused({{0, true, {{2.5, 1.2}}}, {2, false, {{2.5, 1.2}}}}, Reason::crosses_fracture, {2.5, 1.2},
+                 "meets the extension of fracture 'main'");
 }
 
 TEST(CheckExtensions, RefusesItself) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -151,8 +152,26 @@ inline void expect_consistent(const Mesh& mesh) {
     }
   }
   for (const FracturePoint& point : mesh.fracture_points) {
-    ASSERT_EQ(point.cells.size(), point.kind == FracturePoint::Kind::inside ? 2u : 1u);
+    const bool is_between = point.kind == FracturePoint::Kind::inside || point.kind == FracturePoint::Kind::junction;
+    ASSERT_EQ(point.cells.size(), is_between ? 2u : 1u);
+    ASSERT_TRUE(std::is_sorted(point.cells.begin(), point.cells.end()));
     ASSERT_EQ(point.side != none, point.kind == FracturePoint::Kind::on_boundary);
+  }
+  for (const Junction& junction : mesh.junctions) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < junction.cells.size(); ++i) {
+      for (std::size_t j = i + 1; j < junction.cells.size(); ++j) {
+        const FracturePoint& point = mesh.fracture_points.at(junction.points.at(next++));
+        ASSERT_EQ(point.kind, FracturePoint::Kind::junction);
+        ASSERT_EQ(point.cells, (std::vector{junction.cells[i], junction.cells[j]}));
+        for (const int cell : point.cells) {
+          const auto& [a, b] = mesh.fracture_cells[cell].points;
+          ASSERT_TRUE(mesh.fracture_points[a].position == point.position ||
+                      mesh.fracture_points[b].position == point.position);
+        }
+      }
+    }
+    ASSERT_EQ(next, junction.points.size());
   }
 }
 

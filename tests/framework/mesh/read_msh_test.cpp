@@ -164,14 +164,24 @@ TEST(ReadMsh, RefusesFracturesThatAreNoSingleLine) {
   EXPECT_THAT(refusal(three_by_three({{11, 6, 16}})), HasSubstr("curve 'crack' leaves the edges of the cells"));
 }
 
-TEST(ReadMsh, FracturesThatMeetAreRefusedWithTheFilesName) {
-  const TemporaryFile file(three_by_three({{11, 5, 6}, {11, 6, 7}, {12, 2, 6}}));
+TEST(ReadMsh, FracturesMayMeet) {
+  const TemporaryFile file(three_by_three({{11, 5, 6}, {11, 6, 7}, {12, 6, 10}}));
+  Geometry geometry;
+  geometry.file = file.path();
+  const Mesh mesh = generate_mesh(geometry, {});
+  expect_consistent(mesh);
+  ASSERT_EQ(mesh.junctions.size(), 1u);
+  EXPECT_EQ(mesh.junctions[0].cells.size(), 3u);
+}
+
+TEST(ReadMsh, FracturesThatMeetOnTheBoundaryAreRefusedWithTheFilesName) {
+  const TemporaryFile file(three_by_three({{11, 5, 6}, {12, 5, 10}}));
   Geometry geometry;
   geometry.file = file.path();
   geometry.file_origin = {"scene.yaml", 3, 9};
   EXPECT_THAT(
       input_error([&] { generate_mesh(geometry, {}); }),
-      AllOf(HasSubstr("scene.yaml:3:9"), HasSubstr(file.path()), HasSubstr("'crack' and 'vein' meet at (1, 1)")));
+      AllOf(HasSubstr("scene.yaml:3:9"), HasSubstr(file.path()), HasSubstr("'crack' and 'vein' meet at (0, 1)")));
 }
 
 TEST(ReadMsh, ReadsTrianglesBesideQuadrilaterals) {

@@ -1,0 +1,47 @@
+#include "components/fracture_flow/tpfa/junction_fluxes.hpp"
+
+#include <algorithm>
+
+namespace sprekk::fracture_flow {
+
+JunctionFluxes::JunctionFluxes(const Junction& junction, std::vector<Half> halves)
+    : junction_(junction), halves_(std::move(halves)) {
+  const int count = static_cast<int>(junction_.cells.size());
+  for (int i = 0; i < count; ++i) {
+    sum_ += halves_[i].value;
+    if (halves_[i].value > halves_[hub_].value) hub_ = i;
+    for (int j = i + 1; j < count; ++j) ends_.emplace_back(i, j);  // the order of the points
+  }
+}
+
+int JunctionFluxes::point_between(int one, int other) const {
+  const auto found = std::find(ends_.begin(), ends_.end(), std::pair(std::min(one, other), std::max(one, other)));
+  return junction_.points[found - ends_.begin()];
+}
+
+/// What the flux from the hub to `to` brings to that from `from` to `to`.
+JunctionFluxes::Flux::Part JunctionFluxes::part(int from, int to, double sign) const {
+  if (hub_ > to) sign = -sign;
+  const Half &half = halves_[from], &hub = halves_[hub_];
+  const double share = sign * half.value / hub.value;
+  return {point_between(hub_, to),
+          {share,
+           {{junction_.cells[from], sign * half.by_aperture / hub.value},
+            {junction_.cells[hub_], -share * hub.by_aperture / hub.value}}}};
+}
+
+JunctionFluxes::Flux JunctionFluxes::flux(int place) const {
+  const auto [i, j] = ends_[place];
+  Flux flux{{0, {}}, {}};
+  if (sum_ == 0) return flux;
+  if (i != hub_ && j != hub_) flux.parts = {part(i, j, 1), part(j, i, -1)};
+  const double to_i = halves_[i].value / sum_, to_j = halves_[j].value / sum_;
+  flux.conductance.value = halves_[i].value * to_j;
+  for (int k = 0; k < static_cast<int>(halves_.size()); ++k) {
+    const double by = (k == i ? to_j : 0) + (k == j ? to_i : 0) - to_i * to_j;
+    flux.conductance.by_aperture.emplace_back(junction_.cells[k], by * halves_[k].by_aperture);
+  }
+  return flux;
+}
+
+}  // namespace sprekk::fracture_flow
