@@ -62,7 +62,7 @@ TEST(CheckExtensions, PutsEndsOntoPointsOfOtherFractures) {
   EXPECT_NEAR((checked[0].points[1] - Point(2.5, 1.2)).norm(), 0, 1e-12);
   EXPECT_NO_THROW(check_extensions(mesh, {{0, true, {{2.5, 1.5}}}}, size));               // a tip
   EXPECT_NO_THROW(check_extensions(mesh, {{0, true, {{2.4, 0.65}, {2.5, 0.9}}}}, size));  // at 22 degrees
-  expect_refused({{0, true, {{2.46, 0.8}, {2.5, 1}}}}, Reason::too_near, {2.46, 0.8}, "too near to fracture 'wall'");
+  expect_refused({{0, true, {{2.46, 1}, {2.5, 1.1}}}}, Reason::too_near, {2.46, 1}, "too near to fracture 'wall'");
   expect_refused({{0, true, {{2.44, 1}, {2.5, 1.3}}}}, Reason::too_near, {2.5, 1.3}, "at less than 15 degrees");
   // Both tips of one fracture may not end at the same place.
   expect_refused({{0, true, {{2.5, 1.2}}}, {2, false, {{2.5, 1.2}}}}, Reason::crosses_fracture, {2.5, 1.2},
