@@ -52,6 +52,21 @@ def injected(p, start, stop):
     return until(stop) - until(start)
 
 
+def networks(instant):
+    """For every fracture cell the number of the first fracture of those that it is joined with."""
+    grid, fracture = instant.fractures, instant.fractures.cell_data["fracture"].astype(int)
+    joined = fracture.copy()
+    at = {}
+    for cell, corners in enumerate(grid.cells):
+        for corner in corners:
+            at.setdefault(tuple(np.round(grid.points[corner], 12)), set()).add(fracture[cell])
+    for _ in np.unique(fracture):
+        for numbers in at.values():
+            those = np.isin(fracture, list(numbers))
+            joined[np.isin(joined, joined[those])] = joined[those].min()
+    return joined
+
+
 def fracture_mass(p, instants, main):
     """`main`: the number of the fracture that has the wells."""
     found = []
@@ -69,7 +84,7 @@ def fracture_mass(p, instants, main):
             out = plus + minus
             opened = length * (aperture - before[1])
             pressed = length * aperture * p["compressibility"] * (pressure - before[2])
-            fracture = walls["fracture"]
+            fracture = networks(instant)
             for number in np.unique(fracture):
                 own = fracture == number
                 source = injected(p, before[0], instant.time) if number == main else 0.0

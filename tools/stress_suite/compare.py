@@ -28,8 +28,8 @@ def differences(alone, together, fluid):
 
 
 def examine(program, chosen, number, folder):
-    report = one_process.examine(program, chosen.seed, number, folder, chosen.limit, keep=True)
-    p = ranges.draw(chosen.seed, number)
+    report = one_process.examine(program, chosen, number, folder, keep=True)
+    p = ranges.draw(chosen.seed, number, chosen.family)
     ended = run.run(program, scene.write(p, folder), folder / "together", 3 * chosen.limit, chosen.processes)
     bad = check_end.failures(ended)
     report["seconds"] += round(ended.seconds, 2)

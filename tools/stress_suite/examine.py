@@ -28,11 +28,11 @@ def check_fields(p, folder):
             check_pressure.failures(p, instants))
 
 
-def examine(program, seed, number, folder, limit, processes=1, keep=False):
+def examine(program, chosen, number, folder, keep=False):
     """{number, outcome, failures, iterations, accepted, rejected, seconds}; the folder is removed unless it is kept."""
-    p = ranges.draw(seed, number)
+    p = ranges.draw(chosen.seed, number, chosen.family)
     shutil.rmtree(folder, ignore_errors=True)
-    ended = run.run(program, scene.write(p, folder), folder / "results", limit, processes)
+    ended = run.run(program, scene.write(p, folder), folder / "results", chosen.limit)
     report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0,
               "balance": 0.0, "seconds": round(ended.seconds, 2), "scene": describe(p), "reason": "",
               "cuts": reasons_of_cuts(ended.stderr)}

@@ -46,10 +46,34 @@ def inside(p, ends):
     return all(margin < x < p["width"] - margin and margin < y < p["height"] - margin for x, y in ends)
 
 
+def meeting(p, ends):
+    """Those that meet the first one: their ends, each at the place where they meet or beyond it."""
+    (x0, y0), (x1, y1) = ends
+    at = 1.0 if p["fractures"] == "corner" else p["at"]
+    if p["fractures"] == "corner" and p["place"] == "on_side" and x1 == p["width"]:
+        at = 0.0  # the end that is in the rock
+    meet = [x0 + at * (x1 - x0), y0 + at * (y1 - y0)]
+
+    def arm(degrees, part):
+        tx, ty = along(math.degrees(math.atan2(y1 - y0, x1 - x0)) + degrees)
+        distance = part * physics.length(p)
+        return [meet[0] + distance * tx, meet[1] + distance * ty]
+    one, other, third = p["arms"]
+    across = [arm(p["cut"] + 180, other), arm(p["cut"], one)]
+    if p["fractures"] in ("touch", "corner"):
+        across[0] = meet
+    found = {"other": across}
+    if p["fractures"] == "star":
+        found["third"] = [meet, arm(p["cut"] + math.copysign(p["next_cut"], p["cut"]), third)]
+    return found
+
+
 def segments(p):
-    """{name: [[x, y], [x, y]]}; the second fracture is left out where the box has no room for it."""
+    """{name: [[x, y], [x, y]]}; others than the first one are left out where the box has no room for them."""
     found = {"main": first(p)}
-    if p["fractures"] != "one":
+    if p["family"] == "meeting":
+        found.update({name: ends for name, ends in meeting(p, found["main"]).items() if inside(p, ends)})
+    elif p["fractures"] != "one":
         other = second(p, found["main"])
         if inside(p, other):
             found["other"] = other

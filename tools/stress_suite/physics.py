@@ -70,3 +70,8 @@ def load_expression(p):
 def stresses(p, t):
     """Total normal stress on the right and on the top side at time t (Pa), where stresses are given."""
     return -p["stress"] * p["ratio"] * load_factor(p, t), -p["stress"]
+
+
+def family_option(p):
+    """Of tools/stress."""
+    return "" if p["family"] == "separate" else f" --family {p['family']}"

@@ -1,4 +1,4 @@
-"""Draws the parameters of a scene. A seed and a number give the same parameters on every machine."""
+"""Draws the parameters of a scene. A family, a seed and a number give the same parameters on every machine."""
 
 import math
 import random
@@ -83,6 +83,22 @@ def time(rng):
     return {"relative_step": log_uniform(rng, 1e-6, 1e6), "steps": rng.randint(3, 7)}
 
 
-def draw(seed, number):
-    rng = random.Random(f"{seed}:{number}")
-    return {"seed": seed, "number": number, **material(rng), **geometry(rng), **loading(rng), **fluid(rng), **time(rng)}
+def meeting(rng):
+    """Fractures that cross, touch, begin at one point, or meet in threes."""
+    return {
+        "fractures": choose(rng, cross=0.4, touch=0.25, corner=0.15, star=0.2),
+        "cut": rng.choice((-1, 1)) * rng.uniform(12, 90),  # degrees from the first to the second fracture
+        "next_cut": rng.uniform(20, 60),                   # and on to the third one
+        "at": rng.uniform(0.1, 0.9),                       # the place on the first one, of its length
+        "arms": [rng.uniform(0.1, 0.5) for _ in range(3)], # of the others, of the length of the first one
+    }
+
+
+FAMILIES = ("separate", "meeting")
+
+
+def draw(seed, number, family="separate"):
+    rng = random.Random(f"{seed}:{number}" if family == "separate" else f"{family}:{seed}:{number}")
+    p = {"seed": seed, "number": number, "family": family, **material(rng), **geometry(rng), **loading(rng), **fluid(rng),
+         **time(rng)}
+    return p if family == "separate" else {**p, **meeting(rng)}

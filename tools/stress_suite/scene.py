@@ -56,7 +56,7 @@ def write(p, folder):
     else:
         _, shape = box_and_mesh(p)
     step = physics.time_step(p)
-    lines = [f"# tools/stress --seed {p['seed']} --only {p['number']}", f"name: stress_{p['number']}", "", shape, "",
+    lines = [f"# tools/stress{physics.family_option(p)} --seed {p['seed']} --only {p['number']}", f"name: stress_{p['number']}", "", shape, "",
              "materials:", f"  young_modulus: {p['young']!r} Pa", f"  poisson_ratio: {p['poisson']!r}",
              f"  biot_coefficient: {p['alpha']!r}", f"  permeability: {p['permeability']!r} m^2",
              f"  viscosity: {p['viscosity']!r} Pa*s", f"  fluid_compressibility: {p['compressibility']!r} 1/Pa",

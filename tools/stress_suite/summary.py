@@ -5,12 +5,14 @@ import subprocess
 from collections import Counter
 from pathlib import Path
 
+from . import physics
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
 def repeats(chosen, number):
     extra = " --sanitize" if chosen.sanitize else f" --processes {chosen.processes}" if chosen.processes > 1 else ""
-    return f"tools/stress --seed {chosen.seed} --only {number}{extra}"
+    return f"tools/stress{physics.family_option(vars(chosen))} --seed {chosen.seed} --only {number}{extra}"
 
 
 def lines_of(report, chosen):

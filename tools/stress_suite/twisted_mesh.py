@@ -72,8 +72,7 @@ class Grid:
         y = clustered(0.5 * height - half, 0.5 * height + half, band, rng.randint(3, 6), rng.randint(3, 6), height)
         self.columns, self.rows = len(x), len(y)
         self.points = np.array([[a, b] for b in y for a in x])
-        self.triangles = np.array([t for j in range(self.rows - 1) for i in range(self.columns - 1)
-                                   for t in self.halves(i, j, rng)])
+        halves = [self.halves(i, j, rng) for j in range(self.rows - 1) for i in range(self.columns - 1)]
         i0 = int(np.argmin(abs(x - x0)))
         j0 = int(np.argmin(abs(y - 0.5 * height)))
         self.lines = {"main": self.row_of(j0, i0, i0 + n)}
@@ -81,13 +80,30 @@ class Grid:
             self.lines["other"] = self.row_of(j0 + 1, i0 + 1, i0 + n - 1)
         elif p["fractures"] == "in_line":
             self.lines = {"main": self.row_of(j0, i0, i0 + n // 2), "other": self.row_of(j0, i0 + n // 2 + 1, i0 + n)}
+        elif p["family"] == "meeting":
+            self.lines.update(self.meeting(p, i0, j0, n))
+            for a, b in zip(self.lines.get("third", []), self.lines.get("third", [])[1:]):
+                halves[a // self.columns * (self.columns - 1) + a % self.columns] = [[a, a + 1, b], [a, b, b - 1]]
         self.lines = {name: line for name, line in self.lines.items() if len(line) > 1}
+        self.triangles = np.array([t for pair in halves for t in pair])
         last = self.rows - 1
         self.sides = {"bottom": self.row_of(0, 0, self.columns - 1), "top": self.row_of(last, 0, self.columns - 1),
                       "left": [self.node(0, j) for j in range(self.rows)],
                       "right": [self.node(self.columns - 1, j) for j in range(self.rows)]}
         middle = np.array([x0 + 0.5 * length, 0.5 * height])
         self.turn(middle, 0.52 * length, 0.98 * min(middle[0], width - middle[0], 0.5 * height), p)
+
+    def meeting(self, p, i0, j0, n):
+        """Along a column, and from there to the upper right along diagonals: two rows of the flat band at most."""
+        up = 1 if p["cut"] > 0 else -1
+        i = i0 + (n if p["fractures"] == "corner" else min(n - 1, max(1, round(p["at"] * n))))
+        one, other, third = (1 + round(arm) for arm in (2 * a for a in p["arms"]))
+        found = {"other": [self.node(i, j0 + up * k) for k in range(-other, one + 1)]}
+        if p["fractures"] in ("touch", "corner"):
+            found["other"] = found["other"][other:]
+        if p["fractures"] == "star":
+            found["third"] = [self.node(i + k, j0 + k) for k in range(third + 1) if i + k < i0 + n]
+        return found
 
     def node(self, i, j):
         return j * self.columns + i
