@@ -84,17 +84,20 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
     std::iota(parent.begin(), parent.end(), 0);
     std::vector<double> weakest(size, HUGE_VAL), strongest(size, 0), outwards(size, 0);
     for (const auto& [at, column] : columns_outside(rows, first, first + size)) {
-      const bool joins = column.entries == 2 && column.sum == 0;
-      if (!joins && column.entries > 1) continue;
+      if (column.entries > 2 || (column.entries == 2 && column.sum != 0)) continue;
+      const auto conductance = [&](int row) {
+        return std::abs(column.value * rows.coeff(at, row) / rows.coeff(at, at));
+      };
+      const bool joins = column.entries == 2;
+      // An exchange that answers to other exchanges only, or to nothing, joins no contents by itself.
+      if (joins && conductance(column.first) == 0 && conductance(column.second) == 0) continue;
       for (const int row : {column.first, column.second}) {
-        if (row < 0) continue;
-        const double conductance = std::abs(column.value * rows.coeff(at, row) / rows.coeff(at, at));
-        if (std::isnan(conductance)) continue;
+        if (row < 0 || std::isnan(conductance(row))) continue;
         if (joins) {
-          weakest[row - first] = std::min(weakest[row - first], conductance);
-          strongest[row - first] = std::max(strongest[row - first], conductance);
+          weakest[row - first] = std::min(weakest[row - first], conductance(row));
+          strongest[row - first] = std::max(strongest[row - first], conductance(row));
         } else {
-          outwards[row - first] = std::max(outwards[row - first], conductance);
+          outwards[row - first] = std::max(outwards[row - first], conductance(row));
         }
       }
       if (joins) parent[root_of(parent, column.second - first)] = root_of(parent, column.first - first);

@@ -19,7 +19,7 @@ from stress_suite import (check_balance, check_contact, check_finite, check_pres
 P = {"young": 2.5e9, "poisson": 0.25, "alpha": 0.0, "permeability": 1e-15, "viscosity": 1e-3, "storage": 1e-10,
      "compressibility": 1e-9, "friction": 0.5, "dilation": 10.0, "aperture": 1e-3, "width": 4.0, "height": 4.0,
      "length": 0.5, "sides": "stress", "stress": 1e7, "ratio": 2.0, "history": "constant", "initial": 1e6,
-     "boundary": "none", "boundary_pressure": 0.0, "well": "none", "volume": 0.1, "relative_step": 1.0, "steps": 1}
+     "boundary": "none", "boundary_pressure": 0.0, "family": "separate", "well": "none", "volume": 0.1, "relative_step": 1.0, "steps": 1}
 
 
 def grids(n=8, columns=(2, 3, 4, 5)):
@@ -144,9 +144,10 @@ class Summary(unittest.TestCase):
 class Scenes(unittest.TestCase):
     def test_a_number_gives_the_same_scene(self):
         with tempfile.TemporaryDirectory() as temporary:
-            for number in range(8):
-                texts = [scene.write(ranges.draw(3, number), Path(temporary) / str(i)).read_text() for i in (0, 1)]
-                self.assertEqual(*texts)
+            for family in ranges.FAMILIES:
+                for number in range(8):
+                    texts = [scene.write(ranges.draw(3, number, family), Path(temporary) / str(i)).read_text() for i in (0, 1)]
+                    self.assertEqual(*texts)
 
     def test_ranges_are_those_of_the_task(self):
         drawn = [ranges.draw(1, number) for number in range(500)]
@@ -168,10 +169,41 @@ class Scenes(unittest.TestCase):
         self.assertLess(min(found), 6)
 
     def test_fractures_lie_in_the_box(self):
-        for p in (ranges.draw(2, number) for number in range(200)):
+        for p in (ranges.draw(2, number, family) for number in range(200) for family in ranges.FAMILIES):
             for a, b in fractures.segments(p).values():
                 for x, y in (a, b):
                     self.assertTrue(-1e-9 <= x <= p["width"] * (1 + 1e-9) and 0 <= y <= p["height"], p["number"])
+
+    def test_fractures_of_the_other_family_meet(self):
+        alone = 0
+        for p in (ranges.draw(1, number, "meeting") for number in range(200)):
+            lines = list(fractures.segments(p).values())
+            alone += len(lines) == 1
+            (x0, y0), (x1, y1) = lines[0]
+            for a, b in lines[1:]:
+                sides = [(x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) for x, y in (a, b)]
+                self.assertLess(min(sides) * max(sides), 1e-12 * max(map(abs, sides)) ** 2, p["number"])
+        self.assertLess(alone, 60)
+
+    def test_fractures_of_the_other_family_meet_in_twisted_meshes(self):
+        for p in (ranges.draw(1, number, "meeting") for number in range(100)):
+            grid = twisted_mesh.Grid(p)
+            self.assertGreater(twisted_mesh.areas(grid.points, grid.triangles).min(), 0)
+            edges = {frozenset(edge) for a, b, c in grid.triangles for edge in ((a, b), (b, c), (c, a))}
+            for line in grid.lines.values():
+                self.assertTrue(all(frozenset(edge) in edges for edge in zip(line, line[1:])), p["number"])
+                self.assertTrue(set(line) & set(grid.lines["main"]), p["number"])
+
+    def test_what_fractures_exchange_where_they_meet_is_no_loss(self):
+        instant = at_rest()
+        instant.fractures.cell_data["fracture"] = np.array([0, 0, 1, 1])
+        data = instant.fractures.cell_data
+        data["conduit.aperture[m]"] = data["conduit.aperture[m]"] + np.array([1e-6, 0, 0, -1e-6])
+        self.assertEqual(check_balance.fracture_mass(P, [instant], 0), [])
+        lines = instant.fractures
+        apart = results.Grid(np.vstack([lines.points, lines.points + [0, 1, 0]]),
+                             np.vstack([lines.cells[:2], lines.cells[2:] + len(lines.points)]), data)
+        self.assertEqual(len(check_balance.fracture_mass(P, [written.Instant(instant.time, instant.matrix, apart, True)], 0)), 2)
 
 
 if __name__ == "__main__":

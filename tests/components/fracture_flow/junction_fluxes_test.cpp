@@ -81,7 +81,8 @@ TEST(JunctionFluxes, HaveTheDerivativesOfTheirFactors) {
   const Junction junction = junction_of(4);
   const auto at = [&](std::vector<double> a) {
     std::vector<JunctionFluxes::Half> halves;
-    for (std::size_t i = 0; i < a.size(); ++i) halves.push_back({(i + 1) * a[i] * a[i] * a[i], 3 * (i + 1) * a[i] * a[i]});
+    for (std::size_t i = 0; i < a.size(); ++i)
+      halves.push_back({(i + 1) * a[i] * a[i] * a[i], 3 * (i + 1) * a[i] * a[i]});
     return JunctionFluxes(junction, halves);
   };
   constexpr double step = 1e-5;

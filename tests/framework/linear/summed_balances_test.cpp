@@ -63,5 +63,18 @@ TEST(ExchangingRows, DoNotLeadOut) {
   EXPECT_THAT(exchanging_rows(open.local, open.blocks), testing::IsEmpty());
 }
 
+// Where three meet, two exchanges answer to contents and the third one to the others.
+TEST(ExchangingRows, AreJoinedByWhatAnswersToContents) {
+  LinearSystem three = test::Exchange{3, 1e-12, 1}.build();
+  std::vector<Triplet> entries = {{1, 5, -3e7}, {2, 5, 3e7}, {5, 5, 1}, {5, 3, 0.5}, {5, 4, 0.5}};
+  for (int row = 0; row < three.local.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(three.local, row); entry; ++entry)
+      entries.emplace_back(row, static_cast<int>(entry.col()), entry.value());
+  three.local = SparseMatrix(6, 6);
+  three.local.setFromTriplets(entries.begin(), entries.end());
+  three.blocks[1].entities = 3;
+  EXPECT_THAT(exchanging_rows(three.local, three.blocks), testing::ElementsAre(testing::ElementsAre(0, 1, 2)));
+}
+
 }  // namespace
 }  // namespace sprekk
