@@ -2,9 +2,10 @@
 """agreement_test.py SPREKK MPIEXEC: two processes give the answer of one.
 
 Mandel's problem, on triangles and on a mesh of mostly quadrilaterals, and the scene of sec. 5.1, also with properties
-that change with time, run in one process, and on two with a distributed direct solver and with multigrid; a closed box,
-whose level a sum of balances of both processes holds, with the direct solver. Every figure of history.csv agrees to 1e-8
-of the largest of its column, and of its unit where the column is zero but for round-off.
+that change with time and with fractures that cross and touch, run in one process, and on two with a distributed direct
+solver and with multigrid; a closed box, whose level a sum of balances of both processes holds, with the direct solver.
+Every figure of history.csv agrees to 1e-8 of the largest of its column, and of its unit where the column is zero but for
+round-off.
 """
 
 import csv
@@ -19,9 +20,11 @@ small = ["--set", "mesh.size=0.2 m", "--set", "mesh.fracture_size=0.01 m", "--se
 in_time = [argument for value in ("young_modulus=(40e9*(1 - t/(100*h))) Pa", "permeability=(5e-20*(1 + t/h)) m^2",
                                   "biot_coefficient=0.8 - 0.005*t/h", "porosity=0.01*(1 + 0.02*t/h)",
                                   "friction=0.5 - 0.01*t/h") for argument in ("--set", "materials." + value)]
+meeting = ["--set", "geometry.fractures.crossing={points: [[0.96, 1.01], [1.03, 1.01]]}",
+           "--set", "geometry.fractures.touching={points: [[0.99, 0.99], [1.02, 0.97]]}"]
 scenes = (("verification/mandel.yaml", []), ("verification/mandel.yaml", ["--set", "mesh.shape=quadrilaterals"]),
           ("paper/onset_coarse.yaml", small), ("paper/onset_coarse.yaml", small + in_time),
-          ("verification/closed_box.yaml", []))
+          ("paper/onset_coarse.yaml", small + meeting), ("verification/closed_box.yaml", []))
 direct_only = ("verification/closed_box.yaml",)
 # Counts of iterations, and books that are differences of round-off, are not answers.
 left_out = ("iterations[1]", "fluid_balance_error[m^2]")

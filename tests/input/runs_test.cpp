@@ -77,6 +77,11 @@ TEST(Run, WithPropertiesThatChangeContinuedFromItsHalfHasTheSameBits) {
                               "--set", "materials.friction=0.6 - 0.1*t/day"});
 }
 
+TEST(Run, WithFracturesThatMeetContinuedFromItsHalfHasTheSameBits) {
+  expect_same_bits_in_halves({"--set", "geometry.fractures.crossing={points: [[4.2 m, 3.1 m], [5.6 m, 2.8 m]]}",
+                              "--set", "geometry.fractures.touching={points: [[5.5 m, 3.5 m], [6.3 m, 3.2 m]]}"});
+}
+
 TEST(Run, InterruptedAndContinuedHasTheSameBits) {
   const Folder folder;
   const std::string step = "10 min";  // 288 steps: long enough to be interrupted
