@@ -53,6 +53,11 @@ class Pass {
     int cured = 0;
     const int count = static_cast<int>(is_stale_.size());
     for (int triangle = 0; triangle < count; ++triangle) {
+      if (!is_stale_[triangle] && is_pocket(triangle)) {
+        divide(triangle);
+        ++cured;
+        continue;
+      }
       const int k = only_inner_edge(triangle);
       if (k == none || is_stale_[triangle]) continue;
       const auto [one, other] = edges_.cells(edges_.of_cell(triangle)[k]);
@@ -77,6 +82,13 @@ class Pass {
     int count = 0;
     for (const int edge : edges_.of_cell(triangle)) count += is_barrier_[edge] ? 1 : 0;
     return count;
+  }
+
+  /// Whether fractures, or they and sides, are all around a cell.
+  bool is_pocket(int cell) const {
+    const auto& edges = edges_.of_cell(cell);
+    return barrier_count(cell) == mesh_.cells[cell].size() &&
+           std::any_of(edges.begin(), edges.end(), [&](int edge) { return !edges_.is_outer(edge); });
   }
 
   int only_inner_edge(int triangle) const {
@@ -128,6 +140,15 @@ class Pass {
       }
       is_first = false;
     }
+  }
+
+  /// Into triangles with a node of their own in the middle.
+  void divide(int cell) {
+    const Ring nodes = mesh_.cells[cell];
+    const int middle = static_cast<int>(mesh_.nodes.size());
+    mesh_.nodes.push_back(centroid(mesh_.nodes, nodes));
+    mesh_.cells[cell] = {nodes[0], nodes.after(0), middle};
+    for (int k = 1; k < nodes.size(); ++k) add({nodes[k], nodes.after(k), middle}, mesh_.regions[cell]);
   }
 
   void add(const Ring& cell, int region) {

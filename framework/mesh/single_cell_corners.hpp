@@ -9,8 +9,9 @@ namespace sprekk {
 /// corner makes the local problems of multi-point schemes singular. (A quadrilateral alone in a corner has two
 /// neighbours whose displacements it can continue: those stay.) The triangle's inner edge is flipped; where that
 /// would divide a region, lay two such edges on another triangle or give a small angle, or where a quadrilateral
-/// lies behind the edge, the edge is halved instead, which adds one node and cuts both cells into triangles. Returns
-/// how many triangles were cured; one whose three edges are all outer ones or fractures stays.
+/// lies behind the edge, the edge is halved instead, which adds one node and cuts both cells into triangles. A cell
+/// with fractures all around, or fractures and sides, is cut into triangles around its centre. Returns how many cells
+/// were cured; one that is the whole mesh stays.
 int avoid_single_cell_corners(RawMesh& mesh);
 
 }  // namespace sprekk

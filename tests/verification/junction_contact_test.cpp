@@ -35,6 +35,16 @@ const std::string right =
     "{points: "
     "[[0.5, 0.5], [0.5, 0.75]]}}";
 
+/// A triangle of one cell between three fractures.
+const std::string pocket =
+    "{a: {points: [[-0.8, 0], [0.9, 0]]}, b: {points: [[-0.5, -0.5], [0.6, 0.6]]}, c: {points: [[0.1, -0.7], [0.1, "
+    "0.8]]}}";
+
+const std::string around =
+    "{a: {points: [[-0.5, 0], [0.75, 0]]}, b: {points: [[-0.5, 0.25], [0.75, 0.25]]}, c: {points: [[0, -0.5], [0, "
+    "0.75]]}, d: "
+    "{points: [[0.25, -0.5], [0.25, 0.75]]}}";
+
 struct Case {
   const char* name;
   std::string fractures, mesh;
@@ -46,6 +56,8 @@ INSTANTIATE_TEST_SUITE_P(
     Meshes, Holding,
     ::testing::Values(Case{"triangles", many, "{size: 0.15}", 3},
                       Case{"quadrilaterals", many, "{size: 0.15, shape: quadrilaterals}", 3},
+                      Case{"pocket", pocket, "{size: 0.15}", 3},
+                      Case{"square", around, "{kind: structured, shape: quadrilaterals, cells: [8, 8]}", 4},
                       Case{"squares", right, "{kind: structured, shape: quadrilaterals, cells: [8, 8]}", 3},
                       Case{"diagonals", right, "{kind: structured, cells: [8, 8]}", 3},
                       Case{"distorted", right, "{kind: structured, cells: [8, 8], distortion: 0.3}", 3}),

@@ -338,5 +338,51 @@ TEST(Junctions, HaveTheDerivativesOfTheirEquations) {
     }
 }
 
+/// Root mean square of the errors of mean pressures of squares, over the difference of the pressures there are.
+double network_error(bool is_blocking, const std::string& mesh_text) {
+  const auto reference =
+      read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/regular_network.csv");
+  const int squares = static_cast<int>(std::lround(std::sqrt(reference.size())));
+  std::vector<Override> overrides = {{"mesh", mesh_text}};
+  if (is_blocking) {
+    overrides.push_back({"components.conduit.transmissivity_value", "1e-8 m^3"});
+    overrides.push_back({"components.conduit.normal_permeability_value", "2 m/(Pa*s)"});
+  }
+  SceneRun run("verification/regular_network.yaml", overrides);
+  run.run();
+  EXPECT_EQ(run.mesh().junctions.size(), 9u);
+  const Mesh& mesh = run.mesh();
+  Vector mean = Vector::Zero(reference.size()), area = mean;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const Point place = squares * mesh.cell_center[c];
+    const int square = static_cast<int>(place.y()) * squares + static_cast<int>(place.x());
+    mean[square] += mesh.cell_area[c] * run.field("pore.pressure")[c];
+    area[square] += mesh.cell_area[c];
+  }
+  double sum = 0, least = 1, most = 1;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const double wanted = reference[i][is_blocking ? 3 : 2];
+    sum += std::pow(mean[i] / area[i] - wanted, 2);
+    least = std::min(least, wanted);
+    most = std::max(most, wanted);
+  }
+  return std::sqrt(sum / reference.size()) / (most - least);
+}
+
+TEST(RegularNetwork, HasThePressuresOfAnEquidimensionalSolution) {
+  for (const bool is_blocking : {false, true})
+    for (const std::string shape : {"quadrilaterals", "triangles"}) {
+      const auto error = [&](int cells) {
+        return network_error(is_blocking,
+                             fmt::format("{{kind: structured, shape: {0}, cells: [{1}, {1}]}}", shape, cells));
+      };
+      // Fractures without thickness: right to about their aperture, 1e-4.
+      const double coarse = error(24), fine = error(48);
+      EXPECT_LT(coarse, 1e-3) << shape;
+      EXPECT_LT(error(96), 1e-4) << shape;
+      EXPECT_GT(std::log2(coarse / fine), 1.5) << shape << ": " << coarse << " " << fine;
+    }
+}
+
 }  // namespace
 }  // namespace sprekk::testing

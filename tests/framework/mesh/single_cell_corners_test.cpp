@@ -92,5 +92,27 @@ TEST(SingleCellCorners, LeavesALonelyTriangle) {
   EXPECT_EQ(mesh.cells.size(), 1u);
 }
 
+TEST(SingleCellCorners, DividesCellsThatFracturesEnclose) {
+  // A triangle and, in a mesh with a quadrilateral, that.
+  RawMesh raw = rising(4, 4);
+  const auto node = [](int i, int j) { return j * 5 + i; };
+  raw.fractures = {
+      {"flat", {node(1, 1), node(2, 1)}}, {"up", {node(2, 1), node(2, 2)}}, {"across", {node(1, 1), node(2, 2)}}};
+  EXPECT_GT(avoid_single_cell_corners(raw), 0);
+  expect_cured(raw, 16);
+
+  RawMesh square = rising(4, 4);
+  const std::size_t first = 2 * (4 + 1);
+  ASSERT_EQ(square.cells[first][0], node(1, 1));
+  square.cells[first] = {node(1, 1), node(2, 1), node(2, 2), node(1, 2)};
+  square.cells.erase(square.cells.begin() + first + 1);
+  square.regions.pop_back();
+  square.fractures = {{"lower", {node(1, 1), node(2, 1), node(2, 2)}}, {"upper", {node(2, 2), node(1, 2), node(1, 1)}}};
+  const std::size_t before = square.cells.size();
+  EXPECT_GT(avoid_single_cell_corners(square), 0);
+  EXPECT_GE(square.cells.size(), before + 3);
+  expect_cured(square, 16);
+}
+
 }  // namespace
 }  // namespace sprekk::test
