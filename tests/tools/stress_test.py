@@ -183,7 +183,7 @@ class Scenes(unittest.TestCase):
             for a, b in lines[1:]:
                 sides = [(x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) for x, y in (a, b)]
                 self.assertLess(min(sides) * max(sides), 1e-12 * max(map(abs, sides)) ** 2, p["number"])
-        self.assertLess(alone, 60)
+        self.assertLess(alone, 10)
 
     def test_fractures_of_the_other_family_meet_in_twisted_meshes(self):
         for p in (ranges.draw(1, number, "meeting") for number in range(100)):

@@ -46,8 +46,8 @@ def inside(p, ends):
     return all(margin < x < p["width"] - margin and margin < y < p["height"] - margin for x, y in ends)
 
 
-def meeting(p, ends):
-    """Those that meet the first one: their ends, each at the place where they meet or beyond it."""
+def meeting(p, ends, scale=1.0):
+    """Those that meet the first one: their ends, each at the place where they meet or beyond it. `scale`: of arms."""
     (x0, y0), (x1, y1) = ends
     at = 1.0 if p["fractures"] == "corner" else p["at"]
     if p["fractures"] == "corner" and p["place"] == "on_side" and x1 == p["width"]:
@@ -56,7 +56,7 @@ def meeting(p, ends):
 
     def arm(degrees, part):
         tx, ty = along(math.degrees(math.atan2(y1 - y0, x1 - x0)) + degrees)
-        distance = part * physics.length(p)
+        distance = scale * part * physics.length(p)
         return [meet[0] + distance * tx, meet[1] + distance * ty]
     one, other, third = p["arms"]
     across = [arm(p["cut"] + 180, other), arm(p["cut"], one)]
@@ -69,10 +69,14 @@ def meeting(p, ends):
 
 
 def segments(p):
-    """{name: [[x, y], [x, y]]}; others than the first one are left out where the box has no room for them."""
+    """{name: [[x, y], [x, y]]}; others than the first one are left out where the box has no room for them at all."""
     found = {"main": first(p)}
     if p["family"] == "meeting":
-        found.update({name: ends for name, ends in meeting(p, found["main"]).items() if inside(p, ends)})
+        for scale in (1, 0.5, 0.25, 0.125):  # as long as the box has room for them
+            others = meeting(p, found["main"], scale)
+            if all(inside(p, ends) for ends in others.values()):
+                found.update(others)
+                break
     elif p["fractures"] != "one":
         other = second(p, found["main"])
         if inside(p, other):
