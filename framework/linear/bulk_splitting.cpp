@@ -78,6 +78,15 @@ BulkSplitting::BulkSplitting(const LinearSystem& system)
   for (int k = 0; k < bf.matrix.nonZeros(); ++k) is_felt[bf.matrix.innerIndexPtr()[k]] = 1;
   for (int i = 0; i < local; ++i)
     if (is_felt[i]) felt.push_back(i);
+  for (int i = 0; i < local; ++i)
+    if (fb.has_row(i)) feeling.push_back(i);
+  near_place.assign(bulk, -1);
+  for (int k = 0; k < fb.matrix.nonZeros(); ++k) near_place[fb.matrix.innerIndexPtr()[k]] = 0;
+  for (int i = 0; i < bulk; ++i) {
+    if (near_place[i] < 0) continue;
+    near_place[i] = static_cast<int>(near.size());
+    near.push_back(i);
+  }
 }
 
 SubMatrix BulkSplitting::extract(const SparseMatrix& matrix, bool local_rows, bool local_columns) const {

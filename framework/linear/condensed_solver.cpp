@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "framework/linear/bulk_response.hpp"
 #include "framework/linear/bulk_splitting.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -12,7 +13,6 @@ namespace sprekk {
 namespace {
 
 constexpr std::size_t kept_bulks = 2;
-constexpr double largest_response = 1.5e8;  // entries of X: 1.2 GB
 
 bool same_values(const SparseMatrix& a, const std::vector<double>& kept) {
   return a.nonZeros() == static_cast<Eigen::Index>(kept.size()) &&
@@ -42,16 +42,19 @@ SparseMatrix pattern_of_reduced(const BulkSplitting& split) {
   return pattern;
 }
 
-/// The price of the columns of X in factorizations: each reads the factors, n log n entries in two dimensions, where a
-/// factorization takes n^(3/2) operations. The factor was measured for 4,500 and 70,000 unknowns.
+/// For how many systems a bulk has to stay until condensing has paid for the columns of X, or infinity. In
+/// factorizations of the bulk, with their ordering, f columns cost C = f / 200, and a reduced system
+/// R = (f / (7 sqrt(n)))^3 for its dense part; measured from 4,000 to 250,000 unknowns, docs/performance.md. Then m
+/// systems cost 1 + C + m R instead of m.
 double price_of_columns(const BulkSplitting& split) {
-  const double n = split.bulk_size();
-  return split.felt.size() * std::log2(n) / (20 * std::sqrt(n));
+  const double f = split.felt.size(), reduced = std::pow(f / (7 * std::sqrt(split.bulk_size())), 3);
+  return reduced < 1 ? f / 200 / (1 - reduced) : HUGE_VAL;
 }
 
-/// A step of Newton's method takes about three systems, so what costs two factorizations pays at once; what costs more
-/// when the bulk has stayed for as many systems.
-constexpr double worth_at_once = 2;
+/// Nobody knows for how many systems a bulk will stay, at least for the three or so of one step. Against the best that
+/// could be done, condensing at once costs at most (1 + C) / 3 times as much, if it stays for no more; waiting for C
+/// systems first (1 + 2 C) / (1 + C) times, if it stays. They are equal at C = 2 + sqrt(6).
+constexpr double worth_at_once = 4.4;
 
 }  // namespace
 
@@ -62,7 +65,7 @@ struct CondensedSolver::Bulk {
   int systems = 0;                      ///< that it has had
   bool is_tried = false;                ///< whether it has been factorized, successfully or not
   LinearReport report;
-  Eigen::MatrixXd response;  ///< X; its columns are those of BulkSplitting::felt
+  BulkResponse response;
 };
 
 CondensedSolver::CondensedSolver(const LinearOptions& options) : options_(options) {}
@@ -90,13 +93,11 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
     for (const Bulk& bulk : bulks_) retired_ += bulk.solver->counts();
     bulks_.clear();
     splitting_ = std::make_unique<BulkSplitting>(system);
-    reduced_pattern_ = pattern_of_reduced(*splitting_);
+    reduced_pattern_ = SparseMatrix();
     number_ = reduced_number_ = 0;
   }
   BulkSplitting& split = *splitting_;
   split.take_sums(system.sums);
-  if (static_cast<double>(split.bulk_size()) * split.felt.size() > largest_response)
-    return LinearReport::failure("too many unknowns on fractures to condense the bulk");
   if (!is_same(system.number, number_)) {
     const double* values = system.local.valuePtr();
     const bool has_changed = split.bb.update(values) | split.bf.update(values);
@@ -118,6 +119,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   }
   if (!bulk.report.solved) return bulk.report;
   if (is_same(system.number, reduced_number_)) return reduced_report_;
+  if (reduced_pattern_.rows() == 0) reduced_pattern_ = pattern_of_reduced(split);
   reduced_number_ = system.number;
   return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix()));
 }
@@ -145,27 +147,20 @@ LinearReport CondensedSolver::respond(Bulk& bulk) const {
   const BulkSplitting& split = *splitting_;
   const LinearReport report = bulk.solver->factor(split.bulk_system());
   if (!report.solved) return report;
-  std::vector<int> column_of(split.local_size());
-  for (std::size_t c = 0; c < split.felt.size(); ++c) column_of[split.felt[c]] = static_cast<int>(c);
-  bulk.response.setZero(split.bulk_size(), split.felt.size());
-  for (int row = 0; row < split.bulk_size(); ++row)
-    for (SparseMatrix::InnerIterator entry(split.bf.matrix, row); entry; ++entry)
-      bulk.response(row, column_of[entry.col()]) = entry.value();
-  if (!bulk.solver->solve_columns(bulk.response))
+  if (!bulk.response.compute(split, *bulk.solver))
     return LinearReport::failure(bulk.solver->name() + " does not solve for columns");
   return report;
 }
 
-SparseMatrix CondensedSolver::reduced_matrix() const {
+SparseMatrix CondensedSolver::reduced_matrix() {
   const BulkSplitting& split = *splitting_;
+  const BulkResponse::RowMatrix& felt_rows = bulks_.front().response.felt_rows(split);
   SparseMatrix reduced = reduced_pattern_;
-  Vector dense(split.felt.size());
+  int feeling = 0;
   for (int row = 0; row < split.local_size(); ++row) {
     SparseMatrix::InnerIterator kept(split.ff.matrix, row);
     const bool feels = split.fb.has_row(row);
-    if (feels) dense.setZero();
-    for (SparseMatrix::InnerIterator entry(split.fb.matrix, row); entry; ++entry)
-      dense += entry.value() * bulks_.front().response.row(entry.col()).transpose();
+    const double* const by_bulk = feels ? felt_rows.row(feeling++).data() : nullptr;
     std::size_t c = 0;
     for (SparseMatrix::InnerIterator entry(reduced, row); entry; ++entry) {
       double value = 0;
@@ -175,7 +170,7 @@ SparseMatrix CondensedSolver::reduced_matrix() const {
       }
       if (feels) {
         while (c < split.felt.size() && split.felt[c] < entry.col()) ++c;
-        if (c < split.felt.size() && split.felt[c] == entry.col()) value -= dense[c];
+        if (c < split.felt.size() && split.felt[c] == entry.col()) value -= by_bulk[c];
       }
       entry.valueRef() = value;
     }
@@ -193,9 +188,7 @@ LinearReport CondensedSolver::solve_condensed(const Vector& b_bulk, const Vector
   }
   const LinearReport report = reduced_.solve(b_local - split.fb.matrix * bulk, local);
   if (!report.solved) return report;
-  Vector felt(split.felt.size());
-  for (std::size_t c = 0; c < split.felt.size(); ++c) felt[c] = local[split.felt[c]];
-  bulk.noalias() -= bulks_.front().response * felt;
+  bulks_.front().response.subtract(split, *bulks_.front().solver, local, bulk);
   return report;
 }
 

@@ -18,13 +18,13 @@ class BulkSplitting;
 ///   [A_FB A_FF] [x_F] = [b_F]      S x_F = b_F − A_FB A_BB^-1 b_B,  x_B = A_BB^-1 b_B − X x_F
 ///
 /// The equations of the bulk are linear, so A_BB and A_BF stay as long as the mesh and the time step do. A new system
-/// then costs the factorization of S, and a right-hand side one back-solve with A_BB, or none where b_B = 0. X has a
-/// column for each unknown of F that the bulk feels. The bulks of the last two time steps are kept.
+/// then costs the factorization of S, and a right-hand side one back-solve with A_BB, or none where b_B = 0, and one
+/// more where X is too large to be kept (BulkResponse). X has a column for each unknown of F that the bulk feels. The
+/// bulks of the last two time steps are kept.
 ///
-/// Goes to the solver of the whole system where there is nothing to condense, while X would cost more than it has saved
-/// so far, where the bulk alone is singular (a block
-/// of rock that only fractures hold), where X would be too large, and where the first
-/// solution with a bulk turns out to be inaccurate.
+/// Goes to the solver of the whole system where there is nothing to condense, where S costs more than the whole, while
+/// X would cost more than it could have saved so far, where the bulk alone is singular (a block of rock that only
+/// fractures hold), and where the first solution with a bulk turns out to be inaccurate.
 class CondensedSolver final : public LinearSolver {
  public:
   explicit CondensedSolver(const LinearOptions& options);
@@ -40,7 +40,7 @@ class CondensedSolver final : public LinearSolver {
   LinearReport condense(const LinearSystem& system);
   void choose_bulk();
   LinearReport respond(Bulk& bulk) const;
-  SparseMatrix reduced_matrix() const;
+  SparseMatrix reduced_matrix();
   LinearReport solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk, Vector& local);
   LinearReport factor_whole(const LinearSystem& system);
 

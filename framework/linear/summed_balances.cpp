@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "framework/parallel/parallel.hpp"
 
@@ -16,6 +17,21 @@ SparseMatrix local_rows(const LinearSystem& system) {
   for (const UnknownBlock& block : system.blocks)
     if (block.kind == UnknownBlock::Kind::local)
       std::fill_n(is_local.begin() + block.first, block.entities * block.components, 1);
+  SparseMatrix whole(system.local.cols(), system.local.cols());
+  if (parallel::size() == 1) {
+    int entries = 0;
+    for (int row = 0; row < system.local.rows(); ++row)
+      if (is_local[row]) entries += static_cast<int>(system.local.innerVector(row).nonZeros());
+    whole.reserve(entries);
+    for (int row = 0; row < system.local.rows(); ++row) {
+      whole.startVec(row);
+      if (!is_local[row]) continue;
+      for (SparseMatrix::InnerIterator entry(system.local, row); entry; ++entry)
+        whole.insertBackByOuterInnerUnordered(row, entry.col()) = entry.value();
+    }
+    whole.finalize();
+    return whole;
+  }
   std::vector<int> rows, columns;
   std::vector<double> values;
   for (int i = 0; i < system.local.rows(); ++i) {
@@ -32,7 +48,6 @@ SparseMatrix local_rows(const LinearSystem& system) {
   std::vector<Triplet> entries;
   entries.reserve(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) entries.emplace_back(rows[k], columns[k], values[k]);
-  SparseMatrix whole(system.local.cols(), system.local.cols());
   whole.setFromTriplets(entries.begin(), entries.end());
   return whole;
 }
@@ -43,8 +58,9 @@ struct Column {
   double value = 0, sum = 0;
 };
 
-std::map<int, Column> columns_outside(const SparseMatrix& a, int first, int end) {
-  std::map<int, Column> columns;
+/// The columns outside of [first, end) that those rows have entries in, ascending. Counts them in `columns`.
+std::vector<int> columns_outside(const SparseMatrix& a, int first, int end, std::vector<Column>& columns) {
+  std::vector<int> found;
   for (int row = first; row < end; ++row)
     for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
       const int at = static_cast<int>(entry.col());
@@ -52,10 +68,14 @@ std::map<int, Column> columns_outside(const SparseMatrix& a, int first, int end)
       Column& column = columns[at];
       ++column.entries;
       (column.entries == 1 ? column.first : column.second) = row;
-      if (column.entries == 1) column.value = entry.value();
+      if (column.entries == 1) {
+        column.value = entry.value();
+        found.push_back(at);
+      }
       column.sum += entry.value();
     }
-  return columns;
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 int root_of(std::vector<int>& parent, int row) {
@@ -77,13 +97,15 @@ std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows
 std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const std::vector<UnknownBlock>& blocks) {
   constexpr double weak = 1e-6, closed = 1e-3;
   std::vector<std::vector<int>> groups;
+  std::vector<Column> columns(rows.cols());
   for (const UnknownBlock& block : blocks) {
     if (block.kind != UnknownBlock::Kind::local) continue;
     const int first = block.first, size = block.entities * block.components;
     std::vector<int> parent(size);
     std::iota(parent.begin(), parent.end(), 0);
     std::vector<double> weakest(size, HUGE_VAL), strongest(size, 0), outwards(size, 0);
-    for (const auto& [at, column] : columns_outside(rows, first, first + size)) {
+    for (const int at : columns_outside(rows, first, first + size, columns)) {
+      const Column column = std::exchange(columns[at], Column{});
       if (column.entries > 2 || (column.entries == 2 && column.sum != 0)) continue;
       const auto conductance = [&](int row) {
         return std::abs(column.value * rows.coeff(at, row) / rows.coeff(at, at));

@@ -128,10 +128,10 @@ PROBLEMS = {
     "injection_fault": Problem(
         "Injection into a frictional fault", "verification/injection_fault.yaml",
         [(f"{s} m", {"mesh.fracture_size": f"{s} m", "mesh.growth": 5 * s, "time.step": f"{s / 5} s"})
-         for s in (0.4, 0.2, 0.1, 0.05, 0.025)], fault_errors, {"mpsa": {}}, {"time.end": "0.5 s"},
+         for s in (0.4, 0.2, 0.1, 0.05, 0.025, 0.016)], fault_errors, {"mpsa": {}}, {"time.end": "0.5 s"},
         has_contact=True),
     "onset": Problem(
         "Section 5.1, closed form with back stress, 21 steps", "paper/onset_coarse.yaml",
-        [(f"{s} mm", {"mesh.fracture_size": f"{s} mm", "mesh.size": f"{20 * s} mm"}) for s in (20, 10, 5, 2.5, 1.25, 0.625)],
+        [(f"{s} mm", {"mesh.fracture_size": f"{s} mm", "mesh.size": f"{20 * s} mm"}) for s in (20, 10, 5, 2.5, 1.25, 0.625, 0.55)],
         onset_errors, FLOWS, {"time.end": "21 h"}, has_contact=True),
 }
