@@ -115,6 +115,46 @@ TEST_P(Condensed, TakesTheWholeSystemWhereTheBulkAloneFloats) {
   EXPECT_EQ(solver.name(), GetParam());
 }
 
+// The Laplacian of n × n nodes, the first `count` of which each feel a local unknown and are felt by it.
+LinearSystem with_local_unknowns(int n, int count) {
+  const LinearSystem bulk = test::poisson(n);
+  std::vector<Triplet> entries;
+  for (int row = 0; row < n * n; ++row)
+    for (SparseMatrix::InnerIterator entry(bulk.local, row); entry; ++entry)
+      entries.emplace_back(row, entry.col(), entry.value());
+  for (int i = 0; i < count; ++i)
+    entries.insert(entries.end(), {{i, n * n + i, 1.0}, {n * n + i, n * n + i, 1.0}, {n * n + i, i, -2.0}});
+  std::vector<UnknownBlock> blocks = bulk.blocks;
+  blocks.push_back({"springs.force", n * n, count, 1, UnknownBlock::Kind::local, {}, {}});
+  return test::make_system(n * n + count, entries, blocks);
+}
+
+// 144 columns of 400 unknowns: more than 7 sqrt(400).
+TEST_P(Condensed, TakesTheWholeSystemWhereTheReducedOneWouldCostMore) {
+  const LinearSystem system = with_local_unknowns(20, 144);
+  const Vector exact = test::random_vector(system.local.cols(), 7);
+  for (int i = 0; i < 4; ++i) EXPECT_LT((solve(system, system.local * exact) - exact).norm(), 1e-9);
+  EXPECT_EQ(solver.name(), GetParam());
+  EXPECT_EQ(solver.counts().columns, 0);
+}
+
+// 420 columns cost 2.1 factorizations, and a system saves 1 - (420 / (7 * 70))^3 = 0.37 of one: 5.7 systems.
+TEST_P(Condensed, WaitsUntilTheBulkHasStayedForWhatItsColumnsCost) {
+  LinearSystem system = with_local_unknowns(70, 420);
+  const int last = static_cast<int>(system.local.cols()) - 1;
+  for (int i = 0; i < 5; ++i) {
+    system.local.coeffRef(last, last) += 1;
+    EXPECT_TRUE(solver.factor(system).solved);
+  }
+  EXPECT_EQ(solver.name(), GetParam());
+  EXPECT_EQ(solver.counts().columns, 0);
+  const Vector exact = test::random_vector(system.local.cols(), 8);
+  system.local.coeffRef(last, last) += 1;
+  EXPECT_LT((solve(system, system.local * exact) - exact).norm(), 1e-9);
+  EXPECT_EQ(solver.name(), std::string("condensed ") + GetParam());
+  EXPECT_EQ(solver.counts().columns, 420);
+}
+
 TEST_P(Condensed, PassesSystemsWithoutFracturesOn) {
   const LinearSystem system = test::poisson(20);
   const Vector exact = test::random_vector(400, 6);
