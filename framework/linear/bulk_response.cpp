@@ -6,7 +6,6 @@
 namespace sprekk {
 
 bool BulkResponse::compute(const BulkSplitting& split, LinearSolver& solver) {
-  constexpr int together = 32;  // what solvers take at a time; pieces of other sizes would round differently
   const int rows = split.bulk_size(), count = static_cast<int>(split.felt.size());
   std::vector<int> column_of(split.local_size(), -1);
   for (int c = 0; c < count; ++c) column_of[split.felt[c]] = c;
@@ -14,7 +13,7 @@ bool BulkResponse::compute(const BulkSplitting& split, LinearSolver& solver) {
   of_felt_rows_.clear();
   near_.resize(split.near.size(), count);
   is_whole_ = static_cast<double>(rows) * count <= largest_;
-  const int width = is_whole_ ? count : std::max(1, static_cast<int>(largest_ / rows) / together) * together;
+  const int width = is_whole_ ? count : piece_;
   for (int first = 0; first < count; first += width) {
     const int end = std::min(count, first + width);
     columns_.setZero(rows, end - first);

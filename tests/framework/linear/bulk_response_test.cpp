@@ -23,20 +23,18 @@ class ResponseOf : public testing::TestWithParam<const char*> {
     solver = make_linear_solver(options);
     EXPECT_TRUE(solver->factor(split.bulk_system()).solved);
   }
-  BulkResponse computed(double largest) {
-    BulkResponse response{largest};
+  BulkResponse computed(BulkResponse response) {
     EXPECT_TRUE(response.compute(split, *solver));
     return response;
   }
-  /// So that X (65 columns) comes in two pieces.
-  double too_small() const { return 33.0 * split.bulk_size(); }
+  const BulkResponse kept{1e9}, in_pieces{0, 32};  // X has 65 columns
 
   BulkSplitting split{fractured};
   std::unique_ptr<LinearSolver> solver;
 };
 
 TEST_P(ResponseOf, IsThatOfADenseElimination) {
-  BulkResponse response = computed(1e9);
+  BulkResponse response = computed(kept);
   const Eigen::MatrixXd dense =
       split.fb.matrix * Eigen::MatrixXd(split.bb.matrix).partialPivLu().solve(Eigen::MatrixXd(split.bf.matrix));
   ASSERT_EQ(response.felt_rows(split).rows(), static_cast<int>(split.feeling.size()));
@@ -48,23 +46,23 @@ TEST_P(ResponseOf, IsThatOfADenseElimination) {
 }
 
 TEST_P(ResponseOf, HasTheSameBitsInPieces) {
-  BulkResponse whole = computed(1e9), pieces = computed(too_small());
+  BulkResponse whole = computed(kept), pieces = computed(in_pieces);
   EXPECT_TRUE(whole.is_whole());
   EXPECT_FALSE(pieces.is_whole());
   EXPECT_EQ(whole.felt_rows(split), pieces.felt_rows(split));
 }
 
 TEST_P(ResponseOf, SubtractsByABackSolveWhereItIsNotKept) {
-  const BulkResponse whole = computed(1e9), pieces = computed(too_small());
+  const BulkResponse whole = computed(kept), pieces = computed(in_pieces);
   const Vector local = test::random_vector(split.local_size(), 3);
-  Vector kept = Vector::Zero(split.bulk_size()), solved = kept;
-  whole.subtract(split, *solver, local, kept);
+  Vector multiplied = Vector::Zero(split.bulk_size()), solved = multiplied;
+  whole.subtract(split, *solver, local, multiplied);
   pieces.subtract(split, *solver, local, solved);
-  EXPECT_LT(test::block_difference(split.bulk_system(), solved, kept), 1e-9);
+  EXPECT_LT(test::block_difference(split.bulk_system(), solved, multiplied), 1e-9);
 }
 
 TEST_P(ResponseOf, FollowsRowsThatChange) {
-  BulkResponse response = computed(1e9);
+  BulkResponse response = computed(kept);
   const BulkResponse::RowMatrix before = response.felt_rows(split);
   const std::size_t changed = split.feeling.size() / 2;
   split.fb.matrix.row(split.feeling[changed]) *= 2.0;
