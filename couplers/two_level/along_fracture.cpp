@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "couplers/two_level/straight_piece.hpp"
+
 namespace sprekk::couplers {
 
 AlongFracture::AlongFracture(const Mesh& mesh, int fracture) {
@@ -9,10 +11,17 @@ AlongFracture::AlongFracture(const Mesh& mesh, int fracture) {
   double length = 0;
   for (int i = all.first_cell; i < all.first_cell + all.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
-    if (!cells_.empty()) cells_.back().continues = cells_.back().tangent.dot(cell.tangent) > 1 - 1e-8;
-    cells_.push_back({i, length, length + cell.length, false, cell.normal, cell.tangent});
+    cells_.push_back({i, length, length + cell.length, is_straight_on(mesh, i), cell.normal, cell.tangent, {}});
     length += cell.length;
   }
+  for (const Junction& junction : mesh.junctions)
+    for (const int i : junction.cells) {
+      const FractureCell& cell = mesh.fracture_cells[i];
+      if (cell.fracture != fracture) continue;
+      const Point& position = mesh.fracture_points[junction.points[0]].position;
+      const int end = (position - cell.center).dot(cell.tangent) > 0 ? 1 : 0;
+      cells_[i - all.first_cell].at_junction[end].emplace(mesh, junction);
+    }
   const auto is_tip = [&](int point) { return mesh.fracture_points[point].kind == FracturePoint::Kind::tip; };
   tip_at_first_ = is_tip(mesh.fracture_cells[cells_.front().index].points[0]);
   tip_at_last_ = is_tip(mesh.fracture_cells[cells_.back().index].points[1]);
@@ -36,6 +45,17 @@ Point AlongFracture::at(double s, const Vector& values) const {
     local += part * (Point(values.segment<2>(2 * other.index)) - local);
   }
   return global(cell, local);
+}
+
+Point AlongFracture::jump(double s, const Vector& values) const {
+  const Cell& cell = cells_[cell_at(s)];
+  const double half = 0.5 * (cell.end - cell.begin), from_middle = s - cell.begin - half;
+  if (const auto& junction = cell.at_junction[from_middle > 0 ? 1 : 0]) {
+    const Point middle = global(cell, values.segment<2>(2 * cell.index));
+    const double part = std::min(1.0, std::abs(from_middle) / half);
+    return middle + part * (junction->of(cell.index, values) - middle);
+  }
+  return vanishing_at_tips(s, values);
 }
 
 Point AlongFracture::vanishing_at_tips(double s, const Vector& values) const {

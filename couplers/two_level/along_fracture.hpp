@@ -1,20 +1,25 @@
 // Values of fracture cells as a function of the length along the fracture.
 #pragma once
 
+#include <array>
+#include <optional>
+
+#include "couplers/two_level/jump_at_junction.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {
 
 /// Between the centres of cells on one straight piece of a fracture values are linear; beyond the outermost ones of a
-/// piece they are constant, so that nothing is mixed across a kink.
+/// piece they are constant, so that nothing is mixed across a kink or a junction with other fractures.
 class AlongFracture {
  public:
   AlongFracture(const Mesh& mesh, int fracture);
 
   /// The (normal, tangential) values of all fracture cells of the mesh, at s (m), in global components.
   Point at(double s, const Vector& values) const;
-  /// The same, for values that vanish at the ends that are tips: linear to 0 there, and 0 beyond.
-  Point vanishing_at_tips(double s, const Vector& values) const;
+  /// The same, for displacement jumps: they vanish at the ends that are tips, linearly, and are 0 beyond. Towards a
+  /// junction they are linear to what they have there, see JumpAtJunction.
+  Point jump(double s, const Vector& values) const;
 
  private:
   struct Cell {
@@ -22,7 +27,10 @@ class AlongFracture {
     double begin, end;  ///< m
     bool continues;     ///< whether the next cell has its direction
     Point normal, tangent;
+    /// At its beginning and its end, where that is a junction.
+    std::array<std::optional<JumpAtJunction>, 2> at_junction;
   };
+  Point vanishing_at_tips(double s, const Vector& values) const;
   Point global(const Cell& cell, const Point& local) const { return local[0] * cell.normal + local[1] * cell.tangent; }
   std::size_t cell_at(double s) const;
 

@@ -101,7 +101,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
 
   bool gives_jumps() const override { return options_.reconstruction != "wall_traction"; }
   Point wall_traction(int fracture, double s) const override { return along_[fracture].at(s, traction_); }
-  Point wall_jump(int fracture, double s) const override { return along_[fracture].vanishing_at_tips(s, jump_); }
+  Point wall_jump(int fracture, double s) const override { return along_[fracture].jump(s, jump_); }
 
   double fluid_pressure(int fracture, bool at_end) const override {
     return fluid_ ? fluid_->pressure().now()[end_cell(fracture, at_end)] : 0;

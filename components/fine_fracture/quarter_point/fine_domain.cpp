@@ -10,19 +10,21 @@ namespace sprekk::fine_fracture {
 FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last) {
   FracturePath path;
   const Fracture& cells = mesh.fractures[fracture];
-  const auto append = [&](const Point& x, double arc) {
+  std::vector<char> is_kept;  // where the coarse level begins or ends, and where fractures meet
+  const auto append = [&](const Point& x, double arc, bool keep) {
     const std::size_t n = path.points.size();
     if (n >= 2) {
-      // A point on the way straight on replaces the one before, but not where the coarse level begins or ends.
+      // A point on the way straight on replaces the one before.
       const Point a = path.points[n - 1] - path.points[n - 2], b = x - path.points[n - 1];
-      const bool is_end_of_coarse = path.arc[n - 1] == 0 || path.arc[n - 1] == path.length;
-      if (a.dot(b) > (1 - 1e-10) * a.norm() * b.norm() && !is_end_of_coarse) {
+      if (a.dot(b) > (1 - 1e-10) * a.norm() * b.norm() && !is_kept.back()) {
         path.points.pop_back();
         path.arc.pop_back();
+        is_kept.pop_back();
       }
     }
     path.points.push_back(x);
     path.arc.push_back(arc);
+    is_kept.push_back(keep);
   };
   path.length = 0;
   for (int i = 0; i < cells.cell_count; ++i) path.length += mesh.fracture_cells[cells.first_cell + i].length;
@@ -37,22 +39,24 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
     last = x;
   }
   for (auto x = added_first.added.rbegin(); x != added_first.added.rend(); ++x) {
-    append(*x, arc);
+    append(*x, arc, false);
     const Point& next = x + 1 == added_first.added.rend() ? end_point(false).position : *(x + 1);
     arc += (*x - next).norm();
   }
   arc = 0;
-  append(end_point(false).position, 0);
+  append(end_point(false).position, 0, true);
   for (int i = 0; i < cells.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
     arc += cell.length;
-    append(mesh.fracture_points[cell.points[1]].position, i + 1 == cells.cell_count ? path.length : arc);
+    const FracturePoint& point = mesh.fracture_points[cell.points[1]];
+    const bool is_last = i + 1 == cells.cell_count;
+    append(point.position, is_last ? path.length : arc, is_last || point.kind == FracturePoint::Kind::junction);
   }
   arc = path.length;
   last = end_point(true).position;
   for (const Point& x : added_last.added) {
     arc += (x - last).norm();
-    append(x, arc);
+    append(x, arc, false);
     last = x;
   }
   path.first_is_tip = end_point(false).kind == FracturePoint::Kind::tip;
@@ -102,9 +106,9 @@ Point snapped(const Rectangle& box, Point x) {
   return x;
 }
 
-/// How near the outline comes to a tip or a kink that is inside of the rock, or to a segment that runs along one of its
-/// sides (to the segment's farthest place, so that those that cross a side do not count). What lies on the outer
-/// boundary is not counted.
+/// How near the outline comes to a tip, a kink or a junction that is inside of the rock, or to a segment that runs
+/// along one of its sides (to the segment's farthest place, so that those that cross a side do not count). What lies on
+/// the outer boundary is not counted.
 double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths) {
   double gap = std::numeric_limits<double>::infinity();
   for (const FracturePath& path : paths)

@@ -18,7 +18,7 @@ struct TipEnd {
 /// A fracture with what its ends have added on the fine level. Arc lengths are those of the coarse level, from its
 /// first point: below 0 and above `length` lies what has been added.
 struct FracturePath {
-  std::vector<Point> points;  ///< straight pieces are one segment
+  std::vector<Point> points;  ///< straight pieces are one segment, but for points where fractures meet
   std::vector<double> arc;    ///< m, of each point
   double length;              ///< m, of the coarse level
   bool first_is_tip, last_is_tip;
@@ -38,8 +38,8 @@ struct FineDomain {
 };
 
 /// A square of side `size` (m) around `center`, clipped by the box that the rock fills, with all paths in it. A tip,
-/// a kink or a segment along a side that the outline would be nearer to than `gap` (m) is avoided by a slightly larger
-/// square, less than 1.5 times as large; where none is that far away, by the one that is farthest.
+/// a kink, a junction or a segment along a side that the outline would be nearer to than `gap` (m) is avoided by a
+/// slightly larger square, less than 1.5 times as large; where none is that far away, by the one that is farthest.
 /// `coarse_walls` is how the walls of the coarse level are held; what has been added feels tractions.
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
                        double size, double gap, CrackPath::Walls coarse_walls);

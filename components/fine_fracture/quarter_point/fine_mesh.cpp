@@ -21,7 +21,7 @@ void validate(const FineMeshOptions& options) {
   }
 }
 
-/// Grows from the rosettes' edges, from the kinks and from where the kind of walls changes.
+/// Grows from the rosettes' edges, from the kinks and junctions, and from where the kind of walls changes.
 class SizeField {
  public:
   SizeField(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, const FineMeshOptions& options)
@@ -43,6 +43,7 @@ class SizeField {
              changes ? kink_size : std::max(kink_size, options.far_size * (1 - 4 * bend / right_angle))});
       }
     }
+    for (const CrackJunction& junction : junctions(geometry)) sources_.push_back({junction.position, kink_size});
   }
 
   double at(const Point& x) const {

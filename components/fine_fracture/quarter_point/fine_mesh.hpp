@@ -11,12 +11,12 @@
 namespace sprekk::fine_fracture {
 
 struct FineMeshOptions {
-  double tip_size;      ///< radius of the rosettes, m; smaller where there is no room, see TipRoom
-  double far_size;      ///< largest edge length, m
-  double growth = 0.4;  ///< by how many m the edge length may grow per m of distance
-  int sectors = 16;     ///< quarter-point elements per rosette, even
-  double kink_size =
-      0;  ///< edge length at kinks of a path and where the kind of its walls changes, m; 0: a quarter of the tip size
+  double tip_size;       ///< radius of the rosettes, m; smaller where there is no room, see TipRoom
+  double far_size;       ///< largest edge length, m
+  double growth = 0.4;   ///< by how many m the edge length may grow per m of distance
+  int sectors = 16;      ///< quarter-point elements per rosette, even
+  double kink_size = 0;  ///< edge length at kinks of a path, where the kind of its walls changes, and where cracks
+                         ///< meet, m; 0: a quarter of the tip size
   /// A further bound of the edge length (m) as a function of place; may be empty.
   std::function<double(const Point&)> size_limit = {};
 };

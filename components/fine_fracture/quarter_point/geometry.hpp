@@ -14,7 +14,7 @@ struct CrackPath {
   /// displacements differ by a prescribed vector.
   enum class Walls { traction, jump };
 
-  std::vector<Point> points;  ///< m; each end is a tip inside the domain or lies on the outline
+  std::vector<Point> points;  ///< m; each end is a tip inside the domain, lies on the outline or at another crack
   bool first_is_tip, last_is_tip;
   std::vector<Walls> walls;  ///< one per segment
 };
@@ -30,8 +30,21 @@ struct FineGeometry {
   Side side(int edge) const { return sides.empty() ? Side::displacement : sides[edge]; }
 };
 
+/// A place inside of the domain where cracks touch or cross. All of them have it as a point of their paths.
+struct CrackJunction {
+  struct Vertex {
+    int crack, point;
+  };
+  Point position;                ///< m
+  std::vector<Vertex> vertices;  ///< two at least, in ascending order
+};
+
+/// In the order of their first vertices.
+std::vector<CrackJunction> junctions(const FineGeometry& geometry);
+
 /// Throws std::invalid_argument when the outline is not convex and counter-clockwise, when a list has the wrong length,
-/// or when a crack leaves the domain, has an end that is neither tip nor on the outline, or meets another crack.
+/// or when a crack leaves the domain, has an end that is neither tip nor on the outline nor at a junction, or meets
+/// another crack other than in a point of both paths, on the outline, or at a tip.
 void validate(const FineGeometry& geometry);
 
 }  // namespace sprekk::fine_fracture

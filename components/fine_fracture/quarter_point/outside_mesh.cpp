@@ -42,6 +42,7 @@ class Draughtsman {
       : geometry_(geometry), rooms_(rooms), tolerance_(outline_tolerance(geometry.outline)) {
     draw_outline();
     for (const TipRoom& room : rooms_) draw_rosette(room, sectors);
+    draw_junctions();
     for (std::size_t c = 0; c < geometry_.cracks.size(); ++c) draw_crack(static_cast<int>(c));
   }
   Drawing take() { return std::move(drawing_); }
@@ -80,11 +81,21 @@ class Draughtsman {
     drawing_.rosette_lines.push_back(std::move(lines));
   }
 
+  void draw_junctions() {
+    for (const CrackPath& crack : geometry_.cracks) shared_points_.emplace_back(crack.points.size(), none);
+    for (const CrackJunction& junction : junctions(geometry_)) {
+      const int drawn = drawing_.add_point(junction.position);
+      for (const auto& [crack, point] : junction.vertices) shared_points_[crack][point] = drawn;
+    }
+  }
+
   /// The point where the drawn part of a crack begins or ends.
   int end_point(int crack, bool is_last) const {
     for (std::size_t t = 0; t < rooms_.size(); ++t) {
       if (rooms_[t].crack == crack && rooms_[t].is_last == is_last) return drawing_.rosette_points[t][0];
     }
+    const int shared = is_last ? shared_points_[crack].back() : shared_points_[crack].front();
+    if (shared != none) return shared;
     const auto& path = geometry_.cracks[crack].points;
     const Point& x = is_last ? path.back() : path.front();
     const int n = static_cast<int>(outline_edges_.size());
@@ -108,7 +119,8 @@ class Draughtsman {
     int from = end_point(c, false);
     for (std::size_t i = 1; i + 1 < path.size(); ++i) {
       if (is_in_rosette(c, path[i])) continue;
-      const int to = drawing_.add_point(path[i]);
+      const int shared = shared_points_[c][i];
+      const int to = shared != none ? shared : drawing_.add_point(path[i]);
       lines.push_back(drawing_.add_line(from, to));
       from = to;
     }
@@ -119,7 +131,8 @@ class Draughtsman {
   const FineGeometry& geometry_;
   const std::vector<TipRoom>& rooms_;
   double tolerance_;
-  std::vector<int> outline_edges_;  ///< by line of the outline
+  std::vector<int> outline_edges_;               ///< by line of the outline
+  std::vector<std::vector<int>> shared_points_;  ///< by crack and point of its path: what is drawn, or none
   Drawing drawing_;
 };
 

@@ -32,8 +32,11 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     if (middle > lengths[fracture]) return -surroundings_->fluid_pressure(fracture, true) * normal;
     return surroundings_->wall_traction(fracture, at);
   };
-  loads.wall_jump = [this, &domain, arc](int crack, int segment, double s) {
-    return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s));
+  // Jumps are asked for at the ends of segments, too. At a junction each segment has its own: there this is a
+  // rounding's way inside.
+  const double inside = mesh_.junctions.empty() ? 0 : 1e-9;
+  loads.wall_jump = [this, &domain, arc, inside](int crack, int segment, double s) {
+    return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s + inside * (0.5 - s)));
   };
   return loads;
 }

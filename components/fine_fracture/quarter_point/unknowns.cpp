@@ -1,11 +1,30 @@
 #include "components/fine_fracture/quarter_point/unknowns.hpp"
 
 #include <numeric>
+#include <utility>
 
 #include "components/fine_fracture/quarter_point/wall_place.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
+
+namespace {
+
+/// Nodes that are in one part when they have been joined, directly or by way of others.
+class Parts {
+ public:
+  explicit Parts(int nodes) : part_(nodes) { std::iota(part_.begin(), part_.end(), 0); }
+  int of(int n) {
+    while (part_[n] != n) n = part_[n] = part_[part_[n]];
+    return n;
+  }
+  void join(int n, int other) { part_[of(n)] = of(other); }
+
+ private:
+  std::vector<int> part_;
+};
+
+}  // namespace
 
 Unknowns::Unknowns(const FineGeometry& geometry, const FineMesh& mesh)
     : is_prescribed_(mesh.node_count(), false), is_slave_(mesh.node_count(), false) {
@@ -30,34 +49,51 @@ void Unknowns::prescribe_sides(const FineGeometry& geometry, const FineMesh& mes
 }
 
 void Unknowns::tie_walls(const FineMesh& mesh) {
+  // The copies of a node form a tree: one for a pair of walls, more where cracks meet. The jump that would close a ring
+  // around a junction follows from the others.
+  struct Branch {
+    int plus, minus, wall_edge;
+  };
+  std::vector<Branch> branches;
+  std::vector<std::vector<int>> branches_at(mesh.node_count());
+  Parts trees(mesh.node_count());
   for (std::size_t e = 0; e < mesh.wall_edges.size(); ++e) {
     const FineMesh::WallEdge& edge = mesh.wall_edges[e];
     if (edge.walls != CrackPath::Walls::jump) continue;
     for (int k = 0; k < 3; ++k) {
       const int plus = edge.nodes[0][k], minus = edge.nodes[1][k];
-      const bool is_tied_already = is_slave_[minus] || is_slave_[plus];
-      if (plus == minus || is_tied_already || (is_prescribed_[plus] && is_prescribed_[minus])) continue;
-      const bool follows_plus = !is_prescribed_[minus];
-      const Tie tie{follows_plus ? minus : plus, follows_plus ? plus : minus, follows_plus ? 1.0 : -1.0,
-                    static_cast<int>(e)};
-      is_slave_[tie.slave] = true;
-      ties_.push_back(tie);
+      if (trees.of(plus) == trees.of(minus) || (is_prescribed_[plus] && is_prescribed_[minus])) continue;
+      trees.join(plus, minus);
+      for (const int node : {plus, minus}) branches_at[node].push_back(static_cast<int>(branches.size()));
+      branches.push_back({plus, minus, static_cast<int>(e)});
+    }
+  }
+  // From each tree's root outward, so that masters come before their slaves. A junction lies inside of the outline, and
+  // so no tree has two prescribed nodes.
+  std::vector<char> is_done(branches.size(), false);
+  for (const Branch& first : branches) {
+    std::vector<int> reached{is_prescribed_[first.minus] ? first.minus : first.plus};
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      for (const int b : branches_at[reached[i]]) {
+        if (std::exchange(is_done[b], true)) continue;
+        const auto [plus, minus, wall_edge] = branches[b];
+        const bool follows_plus = reached[i] == plus;
+        reached.push_back(follows_plus ? minus : plus);
+        is_slave_[reached.back()] = true;
+        ties_.push_back({reached.back(), reached[i], follows_plus ? 1.0 : -1.0, wall_edge});
+      }
     }
   }
 }
 
 /// Parts of the rock that nothing holds are kept from moving as rigid bodies.
 void Unknowns::pin_floating_parts(const FineMesh& mesh) {
-  std::vector<int> part(mesh.node_count());
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&part](int n) {
-    while (part[n] != n) n = part[n] = part[part[n]];
-    return n;
-  };
+  Parts parts(mesh.node_count());
+  const auto root = [&parts](int n) { return parts.of(n); };
   for (const FineMesh::Element& element : mesh.elements) {
-    for (int k = 1; k < 6; ++k) part[root(element.nodes[k])] = root(element.nodes[0]);
+    for (int k = 1; k < 6; ++k) parts.join(element.nodes[k], element.nodes[0]);
   }
-  for (const Tie& tie : ties_) part[root(tie.slave)] = root(tie.master);
+  for (const Tie& tie : ties_) parts.join(tie.slave, tie.master);
   std::vector<char> is_held(mesh.node_count(), false);
   for (const Prescribed& p : prescribed_) is_held[root(p.node)] = true;
   for (int first = 0; first < mesh.node_count(); ++first) {

@@ -1,0 +1,41 @@
+#include "couplers/two_level/jump_at_junction.hpp"
+
+#include "couplers/two_level/straight_piece.hpp"
+
+namespace sprekk::couplers {
+
+JumpAtJunction::JumpAtJunction(const Mesh& mesh, const Junction& junction) {
+  for (const int index : junction.cells) {
+    const FractureCell& cell = mesh.fracture_cells[index];
+    const Point& position = mesh.fracture_points[junction.points[0]].position;
+    const bool leads_here = (position - cell.center).dot(cell.tangent) > 0;
+    // The plus side is to the left along the tangent.
+    Arm arm{index, none, 0, leads_here ? 1.0 : -1.0, cell.normal, cell.tangent};
+    const int behind = leads_here ? index - 1 : index + 1;
+    if (leads_here ? is_straight_on(mesh, behind) : is_straight_on(mesh, index)) {
+      arm.behind = behind;
+      arm.share = cell.length / (cell.length + mesh.fracture_cells[behind].length);
+    }
+    arms_.push_back(arm);
+  }
+}
+
+Point JumpAtJunction::at_end(const Arm& arm, const Vector& jumps) {
+  Point local = jumps.segment<2>(2 * arm.cell);
+  if (arm.behind != none) local += arm.share * (local - Point(jumps.segment<2>(2 * arm.behind)));
+  return local[0] * arm.normal + local[1] * arm.tangent;
+}
+
+Point JumpAtJunction::of(int cell, const Vector& jumps) const {
+  Point left_over = Point::Zero(), own = Point::Zero();
+  for (const Arm& arm : arms_) {
+    const Point jump = at_end(arm, jumps);
+    left_over += arm.sign * jump;
+    if (arm.cell == cell) own = jump;
+  }
+  for (const Arm& arm : arms_)
+    if (arm.cell == cell) own -= arm.sign / static_cast<double>(arms_.size()) * left_over;
+  return own;
+}
+
+}  // namespace sprekk::couplers

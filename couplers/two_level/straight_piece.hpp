@@ -1,0 +1,17 @@
+// Where a fracture is straight and meets no other.
+#pragma once
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::couplers {
+
+/// Whether a cell and the next one, cell + 1, are on one straight piece of a fracture. Such pieces end at kinks and
+/// junctions.
+inline bool is_straight_on(const Mesh& mesh, int cell) {
+  if (cell < 0 || cell + 1 >= mesh.fracture_cell_count()) return false;
+  const FractureCell &here = mesh.fracture_cells[cell], &next = mesh.fracture_cells[cell + 1];
+  return here.fracture == next.fracture && mesh.fracture_points[here.points[1]].kind != FracturePoint::Kind::junction &&
+         here.tangent.dot(next.tangent) > 1 - 1e-8;
+}
+
+}  // namespace sprekk::couplers
