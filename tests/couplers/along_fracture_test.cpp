@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/components/meshes.hpp"
 
@@ -119,6 +120,113 @@ TEST(AlongFracture, DoesNotVanishAtTheOuterBoundary) {
   const Case c = kinked(true);
   for (double s = 0; s < first_length; s += 0.01) EXPECT_EQ(c.along.jump(s, c.values), c.along.at(s, c.values));
   EXPECT_LT(c.along.jump(length, c.values).norm(), rounding);
+}
+
+/// Two fractures that cross in (0.5, 0.5), the first one straight, and one that ends there.
+Mesh crossing() {
+  Geometry geometry = box(1, 1);
+  geometry.fractures.resize(3);
+  geometry.fractures[0].name = "a";
+  geometry.fractures[0].points = {Point(0.1, 0.5), Point(0.5, 0.5), Point(0.9, 0.5)};
+  geometry.fractures[1].name = "b";
+  geometry.fractures[1].points = {Point(0.6, 0.9), Point(0.5, 0.5), Point(0.3, 0.1)};
+  geometry.fractures[2].name = "c";
+  geometry.fractures[2].points = {Point(0.5, 0.5), Point(0.9, 0.8)};
+  return generate_mesh(geometry, unstructured(0.06));
+}
+const Point where_they_cross(0.5, 0.5);
+
+/// The sectors between the fractures, as the angle around the crossing says.
+int sector(const Mesh& mesh, const Point& x) {
+  const auto angle = [](const Point& y) {
+    const double a = std::atan2(y[1] - 0.5, y[0] - 0.5);
+    return a < -1e-9 ? a + 2 * std::numbers::pi : a;
+  };
+  int count = 0;
+  for (const FractureCell& cell : mesh.fracture_cells)
+    for (const Junction& junction : mesh.junctions)
+      if (std::find(junction.cells.begin(), junction.cells.end(), &cell - mesh.fracture_cells.data()) !=
+          junction.cells.end())
+        count += angle(cell.center) < angle(x) ? 1 : 0;
+  return count;
+}
+
+/// Each sector of the rock has a displacement of its own, linear or constant; the jumps of cells are what they leave.
+Point displacement(int sector, const Point& x, bool is_linear) {
+  const double k = sector;
+  const Point shift(std::sin(k), std::cos(3 * k));
+  return is_linear ? Point(shift + Point(k * x[0] - x[1], (2 - k) * x[1] + x[0])) : shift;
+}
+Point jump_at(const Mesh& mesh, const FractureCell& cell, const Point& x, bool is_linear) {
+  const Point off = 0.01 * cell.normal;
+  return displacement(sector(mesh, cell.center + off), x, is_linear) -
+         displacement(sector(mesh, cell.center - off), x, is_linear);
+}
+
+TEST(AlongFracture, MixesNothingAcrossAJunction) {
+  const Mesh mesh = crossing();
+  ASSERT_EQ(mesh.junctions.size(), 1u);
+  const AlongFracture along(mesh, 0);
+  Vector values(2 * mesh.fracture_cell_count());
+  for (int i = 0; i < mesh.fractures[0].cell_count; ++i) {
+    const bool is_before = mesh.fracture_cells[i].center[0] < where_they_cross[0];
+    values.segment<2>(2 * i) = is_before ? Point(3, 1) : Point(-5, 2);
+  }
+  for (double s = 0.005; s < 0.8; s += 0.01) {
+    const Point expected = global(mesh.fracture_cells[0], s < 0.4 ? Point(3, 1) : Point(-5, 2));
+    EXPECT_LT((along.at(s, values) - expected).norm(), rounding) << s;
+  }
+}
+
+TEST(AlongFracture, JumpsTowardsAJunctionAreExactForLinearDisplacements) {
+  const Mesh mesh = crossing();
+  for (const bool is_linear : {false, true}) {
+    Vector values(2 * mesh.fracture_cell_count());
+    for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+      const FractureCell& cell = mesh.fracture_cells[i];
+      const Point jump = jump_at(mesh, cell, cell.center, is_linear);
+      values.segment<2>(2 * i) = Point(jump.dot(cell.normal), jump.dot(cell.tangent));
+    }
+    int looked_at = 0;
+    for (int f = 0; f < 3; ++f) {
+      const AlongFracture along(mesh, f);
+      double s = 0;
+      for (int i = 0; i < mesh.fractures[f].cell_count; ++i) {
+        const FractureCell& cell = mesh.fracture_cells[mesh.fractures[f].first_cell + i];
+        for (const double part : {1e-9, 0.2, 0.7, 1 - 1e-9}) {
+          const Point x = cell.center + (part - 0.5) * cell.length * cell.tangent;
+          if ((x - where_they_cross).norm() > 0.1) continue;  // away from tips, where it vanishes
+          ++looked_at;
+          EXPECT_LT((along.jump(s + part * cell.length, values) - jump_at(mesh, cell, x, is_linear)).norm(), 1e-8);
+        }
+        s += cell.length;
+      }
+    }
+    EXPECT_GT(looked_at, 20);
+  }
+}
+
+TEST(AlongFracture, JumpsAroundAJunctionAddUpToZero) {
+  const Mesh mesh = crossing();
+  Vector values(2 * mesh.fracture_cell_count());
+  for (int i = 0; i < values.size(); ++i) values[i] = std::sin(1 + 3.0 * i);
+  Point sum = Point::Zero();
+  double largest = 0;
+  for (const int i : mesh.junctions[0].cells) {
+    const FractureCell& cell = mesh.fracture_cells[i];
+    const AlongFracture along(mesh, cell.fracture);
+    double s = 0;
+    for (int k = mesh.fractures[cell.fracture].first_cell; k < i; ++k) s += mesh.fracture_cells[k].length;
+    const bool leads_there = (where_they_cross - cell.center).dot(cell.tangent) > 0;
+    const Point jump = along.jump(s + (leads_there ? 1 - 1e-13 : 1e-13) * cell.length, values);
+    // From the right of the way out of the junction to its left.
+    sum += leads_there ? jump : Point(-jump);
+    largest = std::max(largest, jump.norm());
+    // The middle of the cell keeps its own.
+    EXPECT_LT((along.jump(s + 0.5 * cell.length, values) - global(cell, values.segment<2>(2 * i))).norm(), rounding);
+  }
+  EXPECT_GT(largest, 0.1);
+  EXPECT_LT(sum.norm(), 1e-11);
 }
 
 TEST(AlongFracture, OfASingleCellVanishesAtBothTips) {

@@ -87,6 +87,20 @@ TEST(FracturePath, KnowsEndsOnTheOuterBoundary) {
   EXPECT_FALSE(paths[1].last_is_tip);
 }
 
+TEST(FracturePath, HasAPointWhereAnotherFractureCrossesOrTouchesIt) {
+  const Mesh mesh = rock_with(
+      {{Point(0.4, 0.5), Point(1.6, 0.5)}, {Point(0.8, 0.2), Point(0.8, 0.8)}, {Point(1.2, 0.5), Point(1.3, 0.9)}});
+  const auto paths = paths_of(mesh);
+  expect_points(paths[0].points, {Point(0.4, 0.5), Point(0.8, 0.5), Point(1.2, 0.5), Point(1.6, 0.5)});
+  expect_lengths(paths[0].arc, {0, 0.4, 0.8, 1.2});
+  expect_points(paths[1].points, {Point(0.8, 0.2), Point(0.8, 0.5), Point(0.8, 0.8)});
+  // The end that touches is no tip.
+  expect_points(paths[2].points, {Point(1.2, 0.5), Point(1.3, 0.9)});
+  EXPECT_FALSE(paths[2].first_is_tip);
+  EXPECT_TRUE(paths[2].last_is_tip);
+  EXPECT_TRUE(paths[0].first_is_tip && paths[0].last_is_tip);
+}
+
 // Domains.
 
 TEST(FineDomain, OfACrackThatLeavesTheSquare) {
@@ -274,6 +288,43 @@ TEST(FineDomain, DoesNotAvoidTheRocksOwnBoundary) {
   expect_points(domain.geometry.outline, {Point(0, 0.3), Point(0.35, 0.3), Point(0.35, 0.7), Point(0, 0.7)});
   expect_points(domain.geometry.cracks[0].points, {Point(0, 0.5), Point(0.15, 0.5)});
   EXPECT_FALSE(domain.geometry.cracks[0].first_is_tip);
+}
+
+TEST(FineDomain, WithFracturesThatMeetInItAndOutside) {
+  // The tip at (1.2, 0.5); one fracture crosses at (1, 0.5), one touches at (1.1, 0.5) and goes on outside; two meet
+  // outside.
+  const Mesh mesh = rock_with({{Point(0.4, 0.5), Point(1.2, 0.5)},
+                               {Point(1, 0.4), Point(1, 0.6)},
+                               {Point(1.1, 0.5), Point(1.1, 0.9)},
+                               {Point(0.6, 0.3), Point(0.6, 0.7)}});
+  const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1.2, 0.5), 0.6, gap, Walls::jump);
+  EXPECT_NO_THROW(validate(domain.geometry));
+  ASSERT_EQ(domain.geometry.cracks.size(), 3u);
+  const auto& cracks = domain.geometry.cracks;
+  expect_points(cracks[0].points, {Point(0.9, 0.5), Point(1, 0.5), Point(1.1, 0.5), Point(1.2, 0.5)});
+  expect_points(cracks[1].points, {Point(1, 0.4), Point(1, 0.5), Point(1, 0.6)});
+  expect_points(cracks[2].points, {Point(1.1, 0.5), Point(1.1, 0.8)});
+  EXPECT_TRUE(cracks[1].first_is_tip && cracks[1].last_is_tip);
+  EXPECT_FALSE(cracks[2].first_is_tip || cracks[2].last_is_tip);
+  const auto meetings = junctions(domain.geometry);
+  ASSERT_EQ(meetings.size(), 2u);
+  // To the last digit one point for both.
+  EXPECT_EQ(cracks[0].points[1], cracks[1].points[1]);
+  EXPECT_EQ(cracks[0].points[2], cracks[2].points[0]);
+}
+
+TEST(FineDomain, KeepsItsOutlineAwayFromJunctions) {
+  for (const double away : {-0.009, -0.004, 0.0, 0.004, 0.009}) {
+    // A fracture crosses the one with the tip where the outline would be, or touches it there.
+    const Point at(0.8 + away, 0.5);
+    for (const Point& begin : {Point(at + Point(-0.1, -0.3)), at}) {
+      const Mesh mesh = rock_with({{Point(0.4, 0.5), Point(1, 0.5)}, {begin, at + Point(0.1, 0.3)}});
+      const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+      EXPECT_NO_THROW(validate(domain.geometry));
+      EXPECT_GE(std::abs(at[0] - domain.geometry.outline[0][0]), gap);
+      EXPECT_EQ(junctions(domain.geometry).size(), at[0] > domain.geometry.outline[0][0] ? 1u : 0u);
+    }
+  }
 }
 
 TEST(FineDomain, RefusesASquareWithoutTheTip) {
