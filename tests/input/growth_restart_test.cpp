@@ -104,6 +104,11 @@ TEST(RunWithGrowth, TheTimesOfBothLevelsAddUp) {
 
 TEST(RunWithGrowth, InterruptedAndContinuedHasTheSameBits) { expect_same_bits_in_parts({}); }
 
+TEST(RunWithGrowth, WithFracturesThatCrossInterruptedAndContinuedHasTheSameBits) {
+  expect_same_bits_in_parts(
+      {"--set", "geometry.fractures.crossing={center: [1 m, 1 m], length: 0.05 m, angle: 135 deg}"});
+}
+
 TEST(RunWithGrowth, WithPropertiesThatChangeInterruptedAndContinuedHasTheSameBits) {
   expect_same_bits_in_parts({"--set", "materials.young_modulus=(40e9*(1 - t/(20*min))) Pa", "--set",
                              "materials.permeability=(5e-20*(1 + t/min)) m^2", "--set",
