@@ -220,9 +220,10 @@ class Growth {
       if (!search.note().empty())
         outcomes_[i].notes.push_back("increment " + std::to_string(outcomes_[i].increments + 1) + ": " + search.note());
       state.stiffness_ratio = search.stiffness_ratio();
+      const Point ahead = turned(state.ahead, search.angle());
       if (search.length() > 0) {
         state.sifs = state.found;
-        state.ahead = turned(state.ahead, search.angle());
+        state.ahead = ahead;
         state.end = paths_[i].added.back();
         ++outcomes_[i].increments;
         outcomes_[i].length += search.length();
@@ -230,6 +231,7 @@ class Growth {
         state.is_outdated = others_advance(i);
       }
       outcomes_[i].blocked = search.is_limited();
+      outcomes_[i].ahead = ahead;
       if (search.is_limited())
         stop(i, "it has no free length ahead", false);
       else if (search.length() == 0)

@@ -31,6 +31,7 @@ struct TipOutcome {
   /// K_eq has come down to K_IC (or never was above it), or more growth would be shorter than the shortest increment.
   bool arrested = false;
   bool blocked = false;            ///< there is no free length ahead
+  Point ahead = Point::Zero();     ///< unit vector, where a blocked tip would go on
   std::string reason;              ///< why growth ended
   std::vector<std::string> notes;  ///< increments whose direction or length is not what the options ask for
   int increments = 0;              ///< added in this call

@@ -34,6 +34,11 @@ Spec TipsOptions::spec() {
               {{"interaction_integral", "over a domain around the tip, with the tractions of the walls"},
                {"displacement_correlation", "from the nodes of the quarter-point elements (the paper)"}},
               {.doc = "How stress-intensity factors follow from the displacement.", .source = "sec. 4.3"});
+  spec.choice(
+      "meeting", meeting,
+      {{"join", "it joins the other fracture, at the nearest point of its mesh"}, {"stop", "it stops for good"}},
+      {.doc = "What a tip does when its way to another fracture is used up, but for one coarse edge length. The "
+              "paper has no fractures that meet."});
   spec.quantity("cavity", cavity,
                 {.range = positive(),
                  .doc = "The coarse mesh changes within this many of its edge lengths around a path it takes over.",

@@ -12,16 +12,27 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-bool is_tip(const Mesh& mesh, const TipEnd& end) {
-  const Fracture& cells = mesh.fractures[end.fracture];
-  const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 : 0)];
-  return mesh.fracture_points[cell.points[end.at_end ? 1 : 0]].kind == FracturePoint::Kind::tip;
-}
-
 const FractureCell& end_cell(const Mesh& mesh, const TipEnd& end) {
   const Fracture& cells = mesh.fractures[end.fracture];
   return mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 : 0)];
 }
+
+FracturePoint::Kind kind_of(const Mesh& mesh, const TipEnd& end) {
+  return mesh.fracture_points[end_cell(mesh, end).points[end.at_end ? 1 : 0]].kind;
+}
+
+std::string name_of(const Mesh& mesh, const TipEnd& end) {
+  return mesh.fractures[end.fracture].name + (end.at_end ? "_last" : "_first");
+}
+
+std::vector<TipEnd> all_ends(const Mesh& mesh) {
+  std::vector<TipEnd> ends;
+  for (int f = 0; f < static_cast<int>(mesh.fractures.size()); ++f)
+    for (const bool at_end : {false, true}) ends.push_back({f, at_end});
+  return ends;
+}
+
+bool is_same(const TipEnd& a, const TipEnd& b) { return a.fracture == b.fracture && a.at_end == b.at_end; }
 
 /// Of the original fracture's cell at this end.
 double original_size(const Mesh& mesh, const TipEnd& end) {
@@ -59,16 +70,15 @@ double length_of(const Point& from, const TipPath& path) {
 
 Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     : Component(context.name), mesh_(context.mesh), options_(options) {
-  for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f)
-    for (const bool at_end : {false, true}) {
-      const TipEnd end{f, at_end};
-      if (!is_tip(mesh_, end)) continue;
-      Tip tip;
-      tip.end = end;
-      tip.name = mesh_.fractures[f].name + (at_end ? "_last" : "_first");
-      tip.coarse_size = original_size(mesh_, end);
-      tips_.push_back(std::move(tip));
-    }
+  for (const TipEnd& end : all_ends(mesh_)) {
+    if (kind_of(mesh_, end) == FracturePoint::Kind::junction) joints_.push_back({end, name_of(mesh_, end)});
+    if (kind_of(mesh_, end) != FracturePoint::Kind::tip) continue;
+    Tip tip;
+    tip.end = end;
+    tip.name = name_of(mesh_, end);
+    tip.coarse_size = original_size(mesh_, end);
+    tips_.push_back(std::move(tip));
+  }
 }
 
 Point Tips::position(const Tip& tip, const TipPath& path) const {
@@ -252,29 +262,68 @@ Growing::Growth Tips::grow(const StepTime&) {
     const TipOutcome& outcome = outcomes[i];
     increments_ += outcome.increments;
     tip.now.is_stopped = tip.now.is_stopped || outcome.blocked;
+    if (outcome.increments > 0) {
+      tip.now.path = outcome.path;
+      tip.now.sifs = outcome.end;
+    }
+    if (outcome.blocked && options_.meeting == "join") {
+      if (auto extension = way_to_join(tip, outcome, extensions)) {
+        tip.now.path.added.push_back(extension->points.back());
+        extensions.push_back(std::move(*extension));
+        continue;
+      }
+    }
     if (outcome.increments == 0) continue;
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
-    tip.now.path = outcome.path;
-    tip.now.sifs = outcome.end;
     const double length = length_of(position(tip, {}), tip.now.path);
     // Whole increments may fall short of the threshold by what their last one was shortened.
     if (length < 0.95 * surroundings_->propagation_threshold() * tip.coarse_size) continue;
-    extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip)});
+    extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
   }
   return result;
 }
 
+std::optional<PathExtension> Tips::way_to_join(const Tip& tip, const TipOutcome& outcome,
+                                               std::vector<PathExtension> others) const {
+  const Point from = position(tip, tip.now.path);
+  const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, outcome.ahead);
+  const double reach = 2 * cavity().size;
+  const bool is_ahead = free.met == sprekk::FreeLength::Met::fracture && free.length < reach;
+  const Point wanted = is_ahead ? free.where : from;
+  // Where another fracture passes by, the nearest point that is not behind.
+  constexpr double widest_turn = std::numbers::pi / 3;
+  const FracturePoint* nearest = nullptr;
+  for (const FracturePoint& point : mesh_.fracture_points) {
+    const Point way = point.position - from;
+    if (mesh_.fracture_cells[point.cells[0]].fracture == tip.end.fracture || way.norm() > reach ||
+        way.dot(outcome.ahead) < std::cos(widest_turn) * way.norm())
+      continue;
+    if (!nearest || (point.position - wanted).norm() < (nearest->position - wanted).norm()) nearest = &point;
+  }
+  if (!nearest) return std::nullopt;
+  TipPath path = tip.now.path;
+  path.added.push_back(nearest->position);
+  const PathExtension extension{tip.end.fracture, tip.end.at_end, coarse_path(tip, path)};
+  others.push_back(extension);
+  try {
+    check_extensions(mesh_, others, cavity().size);
+  } catch (const ExtensionError&) {
+    return std::nullopt;  // the tip stays where it is
+  }
+  return extension;
+}
+
 /// The path with no edges shorter than half of the coarse mesh size, except for a single one (sec. 4.4.2).
-std::vector<Point> Tips::coarse_path(const Tip& tip) const {
+std::vector<Point> Tips::coarse_path(const Tip& tip, const TipPath& path) const {
   const double shortest = 0.5 * tip.coarse_size;
   std::vector<Point> points;
   Point last = position(tip, {});
-  for (const Point& x : tip.now.path.added) {
+  for (const Point& x : path.added) {
     if ((x - last).norm() < shortest) continue;
     points.push_back(x);
     last = x;
   }
-  const Point& end = tip.now.path.added.back();
+  const Point& end = path.added.back();
   if (points.empty())
     points.push_back(end);
   else
@@ -304,7 +353,7 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
   const auto& old = dynamic_cast<const Tips&>(before);
   for (Tip& tip : tips_)
     for (const Tip& same : old.tips_) {
-      if (same.end.fracture != tip.end.fracture || same.end.at_end != tip.end.at_end) continue;
+      if (!is_same(same.end, tip.end)) continue;
       tip.now = same.now;
       // Only now: were it when the path is handed over, a mesh that cannot take it would lose it.
       const double taken = new_length(mesh_, tip.end, change);
@@ -314,6 +363,12 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
       }
       tip.accepted = tip.now;
     }
+  for (Joint& joint : joints_) {
+    for (const Joint& same : old.joints_)
+      if (is_same(same.end, joint.end)) joint.grown = same.grown;
+    for (const Tip& same : old.tips_)
+      if (is_same(same.end, joint.end)) joint.grown = same.now.grown + new_length(mesh_, joint.end, change);
+  }
 }
 
 void Tips::save(std::map<std::string, Vector>& state) const {
@@ -325,6 +380,7 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(7 + 2 * i) = kept.path.added[i];
     state[name() + "." + tip.name] = std::move(values);
   }
+  for (const Joint& joint : joints_) state[name() + "." + joint.name] = Vector::Constant(1, joint.grown);
 }
 
 void Tips::restore(const std::map<std::string, Vector>& state) {
@@ -341,18 +397,34 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     for (int i = 7; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
   }
+  for (Joint& joint : joints_) {
+    const auto found = state.find(name() + "." + joint.name);
+    if (found != state.end() && found->second.size() == 1) joint.grown = found->second[0];
+  }
 }
 
 void Tips::report(std::vector<Quantity>& quantities) const {
-  for (const Tip& tip : tips_) {
-    const std::string prefix = name() + "." + tip.name + ".";
-    quantities.push_back({prefix + "K_I", "Pa*m^0.5", tip.now.sifs.k1});
-    quantities.push_back({prefix + "K_II", "Pa*m^0.5", tip.now.sifs.k2});
-    quantities.push_back({prefix + "K_eq", "Pa*m^0.5", equivalent_sif(tip.now.sifs)});
-    quantities.push_back({prefix + "K_error", "Pa*m^0.5", tip.now.sif_error});
-    quantities.push_back({prefix + "stopped", "1", tip.now.is_stopped ? 1.0 : 0.0});
-    quantities.push_back({prefix + "length", "m", tip.now.grown + length_of(position(tip, {}), tip.now.path)});
+  // In the order of ends, so that columns stay when a tip joins a fracture and is none any more.
+  for (const TipEnd& end : all_ends(mesh_)) {
+    for (const Tip& tip : tips_)
+      if (is_same(tip.end, end))
+        report_end(tip.name, tip.now, tip.now.grown + length_of(position(tip, {}), tip.now.path), quantities);
+    State at_rest;
+    at_rest.is_stopped = true;
+    for (const Joint& joint : joints_)
+      if (is_same(joint.end, end)) report_end(joint.name, at_rest, joint.grown, quantities);
   }
+}
+
+void Tips::report_end(const std::string& end, const State& state, double length,
+                      std::vector<Quantity>& quantities) const {
+  const std::string prefix = name() + "." + end + ".";
+  quantities.push_back({prefix + "K_I", "Pa*m^0.5", state.sifs.k1});
+  quantities.push_back({prefix + "K_II", "Pa*m^0.5", state.sifs.k2});
+  quantities.push_back({prefix + "K_eq", "Pa*m^0.5", equivalent_sif(state.sifs)});
+  quantities.push_back({prefix + "K_error", "Pa*m^0.5", state.sif_error});
+  quantities.push_back({prefix + "stopped", "1", state.is_stopped ? 1.0 : 0.0});
+  quantities.push_back({prefix + "length", "m", length});
 }
 
 std::map<std::string, long> Tips::counts() const {

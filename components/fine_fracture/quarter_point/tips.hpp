@@ -22,6 +22,7 @@ struct TipsOptions {
   std::optional<double> tolerance;  ///< of the error estimate; none: sizes are those that are given
   std::optional<double> toughness;  ///< Pa m^0.5
   std::string factors = "interaction_integral";
+  std::string meeting = "join";
   double cavity = 4;  ///< radius in coarse mesh sizes
   double skip_below = 0.5;
   GrowthOptions growth;
@@ -60,7 +61,7 @@ class Tips : public Component, public FractureTips, public Growing {
     double sif_error = 0;      ///< Pa m^0.5, estimated
     double grown = 0;          ///< m, handed over to the coarse level
     bool has_started = false;  ///< was asked to grow: its onset is over
-    bool is_stopped = false;   ///< before another fracture or the boundary: it grows no more
+    bool is_stopped = false;   ///< at or before another fracture, or before the boundary: it grows no more
   };
   struct Tip {
     TipEnd end;
@@ -81,6 +82,14 @@ class Tips : public Component, public FractureTips, public Growing {
     std::uint64_t answered_for = 0;
   };
 
+  /// An end of a fracture at another one: it may have been a tip.
+  struct Joint {
+    TipEnd end;
+    std::string name;
+    double grown = 0;  ///< m
+  };
+
+  void report_end(const std::string& name, const State& state, double length, std::vector<Quantity>& quantities) const;
   Point position(const Tip& tip, const TipPath& path) const;
   Point direction(const Tip& tip) const;
   std::vector<FracturePath> paths_with(const std::vector<TipPath>& added) const;
@@ -98,12 +107,16 @@ class Tips : public Component, public FractureTips, public Growing {
   /// Whether an increment of the other tip is seen at once; farther ones are seen from the next step on.
   bool is_near(const Tip& tip, const Tip& other) const;
   double free_way(const Tip& tip, const TipPath& path, const Point& to) const;
-  std::vector<Point> coarse_path(const Tip& tip) const;
+  std::vector<Point> coarse_path(const Tip& tip, const TipPath& path) const;
+  /// The rest of a blocked tip's way to another fracture, if the mesh can take it beside the other extensions.
+  std::optional<PathExtension> way_to_join(const Tip& tip, const TipOutcome& outcome,
+                                           std::vector<PathExtension> others) const;
 
   const Mesh& mesh_;
   TipsOptions options_;
   TipSurroundings* surroundings_ = nullptr;
   std::vector<Tip> tips_;
+  std::vector<Joint> joints_;
   std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();  ///< of all fine levels
   long solves_ = 0, meshes_ = 0, kept_ = 0, skipped_ = 0, increments_ = 0;
 };
