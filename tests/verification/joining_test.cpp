@@ -1,0 +1,126 @@
+// A wing that grows into another fracture and joins it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/verification/scene_run.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+constexpr double mega = 1e6, hour = 3600;
+
+/// Two fractures of an elastic block without other loads than the pressure of their fluid, which rises by 1 MPa an
+/// hour. The longer one points to the middle of the other.
+std::string pressurized(const std::string& meeting) {
+  return R"(
+name: joining
+geometry:
+  box: {x: [-1 m, 1 m], y: [-1 m, 1 m]}
+  fractures:
+    main: {points: [[-0.06 m, 0 m], [0.06 m, 0 m]]}
+    wall: {points: [[0.12 m, -0.03 m], [0.13 m, 0.03 m]]}
+mesh: {size: 0.2 m, fracture_size: 10 mm, growth: 0.3}
+components:
+  rock:
+    type: poromechanics/mpsa
+    young_modulus: 40 GPa
+    poisson_ratio: 0.2
+    boundary:
+      left: {displacement_x: 0 m}
+      bottom: {displacement_y: 0 m}
+  conduit:
+    type: fracture_flow/tpfa
+    viscosity: 1.0e-4 Pa*s
+    fluid_compressibility: 4.0e-10 1/Pa
+    initial_aperture: 1 mm
+    transmissivity: constant
+    transmissivity_value: 1.0e-6 m^3
+    prescribed:
+      main: {fracture: main, pressure: "(t/3600) MPa"}
+      wall: {fracture: wall, pressure: "(t/3600) MPa"}
+  contact: {type: contact/coulomb, friction: 0.5}
+  tips:
+    type: fine_fracture/quarter_point
+    size: 0.3 m
+    toughness: 0.7 MPa*m^0.5
+    growth: {increment: 10 mm}
+    meeting: )" +
+         meeting + R"(
+couplers:
+  - {type: wall_traction, between: [rock, contact, conduit]}
+  - {type: two_level, between: [rock, conduit, tips]}
+schedule:
+  - solve: [rock, conduit, contact]
+  - {grow: tips, settle: [rock, contact]}
+time: {start: 1.4 h, end: 4 h, step: 0.05 h}
+)";
+}
+
+TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
+  SceneRun run = SceneRun::from_text(pressurized("join"));
+  while (run.mesh().junctions.empty()) ASSERT_TRUE(run.step()) << run.time();
+  // K_I = p sqrt(pi a) reaches the toughness at 1.61 MPa; the other fracture and the outline are worth a few percent.
+  EXPECT_NEAR(run.time() / hour, 1.61, 0.08);
+  ASSERT_EQ(run.mesh().junctions.size(), 1u);
+  EXPECT_EQ(run.mesh().junctions[0].cells.size(), 3u);
+  const int point = run.mesh().junctions[0].points[0];
+  EXPECT_NEAR(run.mesh().fracture_points[point].position.y(), 0, 0.0051);  // half a cell of the other fracture
+  EXPECT_EQ(run.quantity("tips.main_last.stopped"), 1);
+  EXPECT_NEAR(run.quantity("tips.main_last.length"), 0.065, 0.002);
+  EXPECT_EQ(run.quantity("tips.wall_last.stopped"), 0);
+
+  // Nothing rubs, and the rock is elastic: the way to a state does not matter.
+  ASSERT_TRUE(run.step());
+  if (HasFailure()) return;
+  Model fresh(run.model().scene(), run.mesh());
+  const double start = 1.4 * hour;
+  ASSERT_TRUE(fresh.attempt({start, run.time() - start, run.time()}).converged);
+  const Vector &grown = run.field("contact.jump"), &at_once = fresh.fields().at("contact.jump").now();
+  ASSERT_EQ(grown.size(), at_once.size());
+  EXPECT_LT((grown - at_once).lpNorm<Eigen::Infinity>(), 1e-9 * at_once.lpNorm<Eigen::Infinity>());
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) EXPECT_GT(grown[2 * i], 0) << i;
+}
+
+TEST(Joining, ATipMayBeAskedToStopInstead) {
+  SceneRun run = SceneRun::from_text(pressurized("stop"));
+  while (run.quantity("tips.main_last.stopped") == 0) ASSERT_TRUE(run.step()) << run.time();
+  EXPECT_TRUE(run.mesh().junctions.empty());
+  // One to two coarse edges before the other fracture.
+  EXPECT_GT(run.quantity("tips.main_last.length"), 0.065 - 0.02);
+  EXPECT_LT(run.quantity("tips.main_last.length"), 0.065 - 0.01 + 1e-12);
+}
+
+/// The scene of section 5.2 with a second fracture in the way of its right wing.
+SceneRun wings(const std::string& wall) {
+  return SceneRun("paper/wing_cracks.yaml", {{"geometry.fractures.wall", wall}});
+}
+
+TEST(Joining, FluidIsConservedAndFillsTheOtherFracture) {
+  SceneRun run = wings("{points: [[1.1 m, 0.98 m], [1.12 m, 1.1 m]]}");
+  double highest = 0, lowest = 6.9 * mega;  // of the fluid in fractures; the second one dilates as it slips
+  int steps_after = 0;
+  while (steps_after < 4) {
+    ASSERT_TRUE(run.step());
+    const double injected = run.quantity("fluid_injected");
+    EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-9 * injected);
+    const Vector &rock = run.field("pore.pressure"), &fluid = run.field("conduit.pressure");
+    highest = std::max(highest, fluid.maxCoeff());
+    if (run.mesh().junctions.empty()) {
+      lowest = std::min({lowest, fluid.minCoeff(), rock.minCoeff()});
+      continue;
+    }
+    const double margin = 0.01 * (highest - 6.9 * mega);
+    EXPECT_LT(rock.maxCoeff(), highest + margin) << run.time();
+    EXPECT_GT(rock.minCoeff(), lowest - margin) << run.time();
+    EXPECT_GT(fluid.minCoeff(), lowest - margin) << run.time();
+    ++steps_after;
+  }
+  // Fractures conduct ten orders of magnitude better than the rock: one pressure in all.
+  const Vector& fluid = run.field("conduit.pressure");
+  EXPECT_LT(fluid.maxCoeff() - fluid.minCoeff(), 1e-4 * (highest - 6.9 * mega));
+}
+
+}  // namespace
+}  // namespace sprekk::testing
