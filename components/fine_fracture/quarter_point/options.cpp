@@ -36,7 +36,8 @@ Spec TipsOptions::spec() {
               {.doc = "How stress-intensity factors follow from the displacement.", .source = "sec. 4.3"});
   spec.choice(
       "meeting", meeting,
-      {{"join", "it joins the other fracture, at the nearest point of its mesh"}, {"stop", "it stops for good"}},
+      {{"join", "it joins the other fracture, at the nearest point of its mesh, unless that closes a ring"},
+       {"stop", "it stops for good"}},
       {.doc = "What a tip does when its way to another fracture is used up, but for one coarse edge length. The "
               "paper has no fractures that meet."});
   spec.quantity("cavity", cavity,

@@ -256,6 +256,7 @@ Growing::Growth Tips::grow(const StepTime&) {
       [this](int tip, int other) { return is_near(tips_[tip], tips_[other]); });
   Growth result;
   std::vector<PathExtension>& extensions = result.extensions;
+  std::vector<std::pair<int, int>> joined;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
     tip.now.has_started = tip.now.has_started || load(tip.now.sifs) >= 1;
@@ -267,9 +268,10 @@ Growing::Growth Tips::grow(const StepTime&) {
       tip.now.sifs = outcome.end;
     }
     if (outcome.blocked && options_.meeting == "join") {
-      if (auto extension = way_to_join(tip, outcome, extensions)) {
-        tip.now.path.added.push_back(extension->points.back());
-        extensions.push_back(std::move(*extension));
+      if (const std::optional<Joining> joining = find_joining(tip, outcome, extensions, joined)) {
+        tip.now.path.added.push_back(joining->extension.points.back());
+        extensions.push_back(joining->extension);
+        joined.emplace_back(tip.end.fracture, joining->other);
         continue;
       }
     }
@@ -281,36 +283,6 @@ Growing::Growth Tips::grow(const StepTime&) {
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
   }
   return result;
-}
-
-std::optional<PathExtension> Tips::way_to_join(const Tip& tip, const TipOutcome& outcome,
-                                               std::vector<PathExtension> others) const {
-  const Point from = position(tip, tip.now.path);
-  const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, outcome.ahead);
-  const double reach = 2 * cavity().size;
-  const bool is_ahead = free.met == sprekk::FreeLength::Met::fracture && free.length < reach;
-  const Point wanted = is_ahead ? free.where : from;
-  // Where another fracture passes by, the nearest point that is not behind.
-  constexpr double widest_turn = std::numbers::pi / 3;
-  const FracturePoint* nearest = nullptr;
-  for (const FracturePoint& point : mesh_.fracture_points) {
-    const Point way = point.position - from;
-    if (mesh_.fracture_cells[point.cells[0]].fracture == tip.end.fracture || way.norm() > reach ||
-        way.dot(outcome.ahead) < std::cos(widest_turn) * way.norm())
-      continue;
-    if (!nearest || (point.position - wanted).norm() < (nearest->position - wanted).norm()) nearest = &point;
-  }
-  if (!nearest) return std::nullopt;
-  TipPath path = tip.now.path;
-  path.added.push_back(nearest->position);
-  const PathExtension extension{tip.end.fracture, tip.end.at_end, coarse_path(tip, path)};
-  others.push_back(extension);
-  try {
-    check_extensions(mesh_, others, cavity().size);
-  } catch (const ExtensionError&) {
-    return std::nullopt;  // the tip stays where it is
-  }
-  return extension;
 }
 
 /// The path with no edges shorter than half of the coarse mesh size, except for a single one (sec. 4.4.2).

@@ -108,9 +108,14 @@ class Tips : public Component, public FractureTips, public Growing {
   bool is_near(const Tip& tip, const Tip& other) const;
   double free_way(const Tip& tip, const TipPath& path, const Point& to) const;
   std::vector<Point> coarse_path(const Tip& tip, const TipPath& path) const;
-  /// The rest of a blocked tip's way to another fracture, if the mesh can take it beside the other extensions.
-  std::optional<PathExtension> way_to_join(const Tip& tip, const TipOutcome& outcome,
-                                           std::vector<PathExtension> others) const;
+  struct Joining {
+    PathExtension extension;
+    int other;  ///< the fracture that is joined
+  };
+  /// The rest of a blocked tip's way to another fracture, if the mesh can take it beside the other extensions and it
+  /// closes no ring. `joined`: fractures that join each other at the same time.
+  std::optional<Joining> find_joining(const Tip& tip, const TipOutcome& outcome, std::vector<PathExtension> extensions,
+                                      const std::vector<std::pair<int, int>>& joined) const;
 
   const Mesh& mesh_;
   TipsOptions options_;

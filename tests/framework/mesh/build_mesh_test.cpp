@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/mesh/cell_edges.hpp"
+#include "framework/mesh/fracture_networks.hpp"
 #include "framework/mesh/structured_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
@@ -197,6 +198,15 @@ TEST(BuildMesh, AFractureOfOneCellMayJoinTwo) {
   ASSERT_EQ(mesh.junctions.size(), 2u);
   EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[8].points[0]].position, Point(4, 5));
   EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[8].points[1]].position, Point(4, 4));
+  EXPECT_EQ(fracture_networks(mesh), (std::vector{0, 0, 0}));
+}
+
+TEST(FractureNetworks, AreWhatJunctionsConnect) {
+  const Mesh mesh = build_mesh(squares({fracture("a", {{1, 1}, {2, 1}}), fracture("b", {{2, 4}, {6, 4}}),
+                                        fracture("c", {{4, 4}, {4, 6}}), fracture("d", {{1, 7}, {2, 7}})}));
+  EXPECT_EQ(fracture_networks(mesh), (std::vector{0, 1, 1, 3}));
+  EXPECT_EQ(fracture_networks(mesh, {{3, 2}}), (std::vector{0, 1, 1, 1}));
+  EXPECT_EQ(fracture_networks(mesh, {{3, 2}, {0, 3}}), (std::vector{0, 0, 0, 0}));
 }
 
 TEST(BuildMesh, RefusesFracturesThatOverlap) {
