@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "framework/mesh/mesh.hpp"
 
@@ -10,7 +11,7 @@ namespace {
 
 /// By how much the width of a gap may vary along a part that counts as one.
 constexpr double evenness = 1.25;
-/// Lines that join each other count as neighbours across a gap where the way along the fracture is at least so many
+/// Lines that join each other count as neighbours across a gap where the way along the fractures is at least so many
 /// times the gap.
 constexpr double least_detour = 1.5;
 
@@ -20,6 +21,12 @@ struct Stretch {
 };
 
 double way_between(const Stretch& a, const Stretch& b) { return std::max({0.0, b.from - a.to, a.from - b.to}); }
+
+/// Where a fracture touches what leads to another line.
+struct Joint {
+  Stretch at;     ///< of the fracture
+  double beyond;  ///< m, the way from there along the other line's fracture
+};
 
 struct Line {
   Segment segment;
@@ -69,6 +76,7 @@ class Search {
       for (int j = 0; j < i; ++j) {
         if (lines_[i].fracture == none && lines_[j].fracture == none) continue;
         const double gap = distance(lines_[i].segment, lines_[j].segment);
+        if (gap < touch_) touching_.insert(touching_.end(), {{&lines_[i], &lines_[j]}, {&lines_[j], &lines_[i]}});
         if (gap >= touch_ && gap < limits_.widest) pairs.push_back({gap, i, j});
       }
     }
@@ -82,32 +90,32 @@ class Search {
 
  private:
   void look_along(const Line& line, const Line& other) {
-    const std::vector<Stretch> joints = joints_between(line, other);
+    const std::vector<Joint> joints = joints_between(line, other);
     divide(line, {0, 1}, other, joints);
   }
 
-  /// Where the fracture of two lines, which do not touch, leads from one to the other.
-  std::vector<Stretch> joints_between(const Line& line, const Line& other) const {
-    if (line.fracture == other.fracture) return {other.stretch};
-    if (line.fracture != none && other.fracture != none) return {};
+  /// Where the fractures of two lines, which do not touch, lead from one to the other.
+  std::vector<Joint> joints_between(const Line& line, const Line& other) const {
+    if (line.fracture == other.fracture) return {{other.stretch, 0}};
     const Line &of_fracture = line.fracture != none ? line : other, &fixed = line.fracture != none ? other : line;
-    std::vector<Stretch> joints;
-    for (const Line& next : lines_) {
-      if (next.fracture == of_fracture.fracture && distance(next.segment, fixed.segment) < touch_)
-        joints.push_back(next.stretch);
+    std::vector<Joint> joints;
+    for (const auto& [next, there] : touching_) {
+      const bool leads = fixed.fracture == none ? there == &fixed : there->fracture == fixed.fracture;
+      if (next->fracture != of_fracture.fracture || !leads) continue;
+      joints.push_back({next->stretch, fixed.fracture == none ? 0 : way_between(there->stretch, fixed.stretch)});
     }
     return joints;
   }
 
   /// Infinite without joints.
-  static double way_to(const std::vector<Stretch>& joints, const Stretch& stretch) {
+  static double way_to(const std::vector<Joint>& joints, const Stretch& stretch) {
     double way = std::numeric_limits<double>::infinity();
-    for (const Stretch& joint : joints) way = std::min(way, way_between(stretch, joint));
+    for (const Joint& joint : joints) way = std::min(way, way_between(stretch, joint.at) + joint.beyond);
     return way;
   }
 
   /// `range`: of the line, from 0 to 1. Halves it until the gap is even enough, or nowhere narrow.
-  void divide(const Line& line, const Stretch& range, const Line& other, const std::vector<Stretch>& joints) {
+  void divide(const Line& line, const Stretch& range, const Line& other, const std::vector<Joint>& joints) {
     const auto at = [&](double t) -> Point {
       return t == 1 ? line.segment.to : Point(line.segment.from + t * (line.segment.to - line.segment.from));
     };
@@ -134,10 +142,10 @@ class Search {
     }
   }
 
-  /// Along the fracture of two lines from a part of the one to the joints: the shortest way, and a bound for the
+  /// Along the fractures of two lines from a part of the one to the other: the shortest way, and a bound for the
   /// longest.
   static Stretch way_along(const Line& line, const Stretch& range, const Line& other,
-                           const std::vector<Stretch>& joints) {
+                           const std::vector<Joint>& joints) {
     const auto at = [&](double t) { return line.stretch.from + t * (line.stretch.to - line.stretch.from); };
     const Stretch part = line.fracture == none ? other.stretch : Stretch{at(range.from), at(range.to)};
     const double way = way_to(joints, part);
@@ -145,6 +153,7 @@ class Search {
   }
 
   const std::vector<Line> lines_;
+  std::vector<std::pair<const Line*, const Line*>> touching_;  ///< each pair both ways
   const double touch_;
   const GapLimits limits_;
   const std::function<double(const Point&)>& wanted_;

@@ -16,9 +16,17 @@ constexpr double most_growth_from_gaps = 0.5;
 
 SizeField::SizeField(const Geometry& geometry, const MeshOptions& options)
     : box_(geometry.box), far_size_(far_size(geometry, options)), growth_(options.growth) {
-  const double near_boundary = point_tolerance(geometry.box);
+  const double tolerance = point_tolerance(geometry.box);
   const auto is_on_boundary = [&](const Point& x) {
-    return (x - geometry.box.low).minCoeff() < near_boundary || (geometry.box.high - x).minCoeff() < near_boundary;
+    return (x - geometry.box.low).minCoeff() < tolerance || (geometry.box.high - x).minCoeff() < tolerance;
+  };
+  const auto is_on_another = [&](const Point& x, const FractureGeometry& own) {
+    for (const FractureGeometry& other : geometry.fractures) {
+      if (&other == &own) continue;
+      for (std::size_t i = 0; i + 1 < other.points.size(); ++i)
+        if (distance(x, {other.points[i], other.points[i + 1]}) < tolerance) return true;
+    }
+    return false;
   };
   for (const FractureGeometry& fracture : geometry.fractures) {
     const double size = fracture.size.value_or(options.fracture_size.value_or(far_size_));
@@ -26,7 +34,8 @@ SizeField::SizeField(const Geometry& geometry, const MeshOptions& options)
       add_source({fracture.points[i], fracture.points[i + 1]}, size, growth_);
     }
     for (const Point& end : {fracture.points.front(), fracture.points.back()}) {
-      if (!is_on_boundary(end)) add_source({end, end}, options.tip_size.value_or(size), growth_);
+      if (!is_on_boundary(end) && !is_on_another(end, fracture))
+        add_source({end, end}, options.tip_size.value_or(size), growth_);
     }
   }
   fill_buckets();

@@ -138,6 +138,35 @@ TEST(NarrowGaps, WideGapsChangeNothing) {
   }
 }
 
+TEST(NarrowGaps, AreNotWherePolylinesMeet) {
+  // Two of short segments cross, and a third one ends on one of them, at about right angles.
+  const auto polyline = [](const std::string& name, const Point& from, const Point& to) {
+    FractureGeometry line = fracture(name, {});
+    for (int i = 0; i <= 60; ++i) line.points.push_back(from + i / 60.0 * (to - from));
+    return line;
+  };
+  Geometry geometry = box(0, 2, 0, 2);
+  geometry.fractures = {polyline("a", {0.2, 1}, {1.8, 1.03}), polyline("b", {1.003, 0.2}, {1.01, 1.8})};
+  geometry.fractures.push_back(polyline("c", geometry.fractures[0].points[20], {0.7, 0.3}));
+  const MeshOptions options{.size = 0.2, .fracture_size = 0.08};
+  MeshOptions off = options;
+  off.gap_edges = 0;
+  const Mesh mesh = generate_mesh(geometry, options);
+  EXPECT_EQ(mesh.nodes, generate_mesh(geometry, off).nodes);
+  EXPECT_EQ(mesh.junctions.size(), 2u);
+  // Beside it, without touching it, there is one.
+  geometry.fractures[2] = polyline("c", geometry.fractures[0].points[20] - Point(0, 0.01), {0.7, 0.3});
+  EXPECT_GT(generate_mesh(geometry, options).cell_count(), generate_mesh(geometry, off).cell_count());
+}
+
+TEST(SizeField, AnEndOnAnotherFractureIsNoTip) {
+  Geometry geometry = box(0, 2, 0, 2);
+  geometry.fractures = {fracture("a", {{0.4, 1}, {1.6, 1}}), fracture("b", {{1, 1}, {1, 1.6}})};
+  const SizeField sizes(geometry, {.size = 0.2, .fracture_size = 0.1, .tip_size = 0.01});
+  EXPECT_DOUBLE_EQ(sizes.at({1, 1}), 0.1);
+  for (const Point& tip : {Point(0.4, 1), Point(1.6, 1), Point(1, 1.6)}) EXPECT_DOUBLE_EQ(sizes.at(tip), 0.01);
+}
+
 TEST(NarrowGaps, SizesAreThoseOfTheGapAndGrowFromThere) {
   const double gap = 0.02 * size, growth = 0.3;
   const Geometry geometry = in_box(with_gap.at("end and side")(gap));
