@@ -65,9 +65,9 @@ class Problem:
         return {name: {**self.common, **settings} for name, settings in cases.items()}
 
     def runs(self):
-        """[(case, number of the mesh, settings)]: all cases on a mesh, before those on the next; references on the first."""
+        """[(case, number of the mesh, settings)]: all cases on a mesh, before those on the next; the two finest references on the first."""
         return [(case, mesh, {**settings, **MESHES[mesh]}) for mesh in range(self.meshes)
-                for case, settings in self.choices().items() if mesh == 0 or case not in self.references]
+                for case, settings in self.choices().items() if mesh == 0 or case not in (REFERENCE, SECOND)]
 
 
 def k_ii_measured(folder):
