@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "framework/mesh/planar.hpp"
+
 namespace sprekk::fine_fracture {
 
 FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last) {
@@ -136,11 +138,40 @@ double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vect
   return gap;
 }
 
+/// Whether the path leads through x, which then is one of its points.
+bool add_if_on(FracturePath& path, const Point& x, double tolerance) {
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const Segment segment{path.points[i], path.points[i + 1]};
+    if (distance(x, segment) > tolerance) continue;
+    if (x == segment.from || x == segment.to) return true;
+    const double arc = path.arc[i] + (x - segment.from).norm();
+    path.points.insert(path.points.begin() + i + 1, x);
+    path.arc.insert(path.arc.begin() + i + 1, arc);
+    return true;
+  }
+  return false;
+}
+
+/// What has been added at an end may lead to another fracture, at a point of its mesh, before the coarse level knows
+/// of it. Then it is no tip any more, and both paths have a point there.
+std::vector<FracturePath> joined(std::vector<FracturePath> paths, double tolerance) {
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (const bool at_end : {false, true}) {
+      bool& is_tip = at_end ? paths[i].last_is_tip : paths[i].first_is_tip;
+      if (!is_tip || (at_end ? paths[i].arc.back() <= paths[i].length : paths[i].arc.front() >= 0)) continue;
+      const Point end = at_end ? paths[i].points.back() : paths[i].points.front();
+      for (std::size_t k = 0; k < paths.size(); ++k)
+        if (k != i && add_if_on(paths[k], end, tolerance)) is_tip = false;
+    }
+  return paths;
+}
+
 }  // namespace
 
-FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
-                       double size, double gap, CrackPath::Walls coarse_walls) {
+FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separate_paths, const TipEnd& tip,
+                       const Point& center, double size, double gap, CrackPath::Walls coarse_walls) {
   const Rectangle rock = bounds(mesh);
+  const std::vector<FracturePath> paths = joined(separate_paths, 1e-10 * (rock.high - rock.low).maxCoeff());
   Rectangle box;
   double widest = -1;
   constexpr double more = 1 + 1e-9;  // by more than rounding, so that domains that are images of one another stay so

@@ -313,6 +313,24 @@ TEST(FineDomain, WithFracturesThatMeetInItAndOutside) {
   EXPECT_EQ(cracks[0].points[2], cracks[2].points[0]);
 }
 
+TEST(FineDomain, WithAPathThatReachesAnotherFractureBeforeTheMeshKnows) {
+  // From (0.8, 0.7) down to (0.8, 0.5), in the middle of a straight fracture whose tip is at (1, 0.5).
+  const Mesh mesh = rock_with({{Point(0.4, 0.5), Point(1, 0.5)}, {Point(0.8, 0.9), Point(0.8, 0.7)}});
+  const std::vector<FracturePath> paths{fracture_path(mesh, 0, {}, {}),
+                                        fracture_path(mesh, 1, {}, TipPath{{Point(0.8, 0.6), Point(0.8, 0.5)}})};
+  const FineDomain domain = fine_domain(mesh, paths, {0, true}, Point(1, 0.5), 0.6, gap, Walls::jump);
+  EXPECT_NO_THROW(validate(domain.geometry));
+  ASSERT_EQ(domain.geometry.cracks.size(), 2u);
+  const CrackPath &through = domain.geometry.cracks[0], &joining = domain.geometry.cracks[1];
+  expect_points(through.points, {Point(0.7, 0.5), Point(0.8, 0.5), Point(1, 0.5)});
+  expect_lengths(domain.sources[0].arc, {0.3, 0.4, 0.6});
+  EXPECT_EQ(through.walls, (std::vector{Walls::jump, Walls::jump}));
+  expect_points(joining.points, {Point(0.8, 0.8), Point(0.8, 0.7), Point(0.8, 0.5)});
+  EXPECT_EQ(joining.walls, (std::vector{Walls::jump, Walls::traction}));
+  EXPECT_FALSE(joining.last_is_tip);
+  EXPECT_EQ(junctions(domain.geometry).size(), 1u);
+}
+
 TEST(FineDomain, KeepsItsOutlineAwayFromJunctions) {
   for (const double away : {-0.009, -0.004, 0.0, 0.004, 0.009}) {
     // A fracture crosses the one with the tip where the outline would be, or touches it there.

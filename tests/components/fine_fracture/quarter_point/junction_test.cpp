@@ -117,6 +117,26 @@ TEST(Junction, ACrackThatCarriesWhatIsThereChangesNothing) {
       }
 }
 
+TEST(Junction, ABlockThatCracksCutOutChangesNothingElse) {
+  // Three cracks beside the first one enclose a triangle.
+  const Griffith exact = paper_crack(1e6, 0.7e6, -3e6);
+  const Point a(-0.02, 0.03), b(0.04, 0.03), c(0.01, 0.08);
+  const auto over = [](const Point& from, const Point& to) { return Point(to + 0.2 * (to - from)); };
+  for (const Walls walls : {Walls::traction, Walls::jump}) {
+    FineGeometry geometry = paper_box();
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+      geometry.cracks.push_back({{over(to, from), from, to, over(from, to)}, true, true, {walls, walls, walls}});
+    ASSERT_EQ(junctions(geometry).size(), 3u);
+    const FineModel model(geometry, paper_mesh(), table_1_rock);
+    const FineSolution solution = model.solve(loads_of_first_crack(geometry, exact));
+    ASSERT_EQ(solution.tips.size(), 8u);
+    for (const TipIntensities& tip : solution.tips) {
+      const Point K = tip.crack == 0 ? exact.K() : Point(0, 0);
+      EXPECT_LT((tip.K - K).norm(), 4e-4 * exact.K().norm()) << tip.crack;
+    }
+  }
+}
+
 TEST(Junction, LimitsTheRoomOfATip) {
   // The other crack crosses 5 mm behind the tip.
   const Griffith exact = paper_crack(1e6, 0.7e6, -3e6);
