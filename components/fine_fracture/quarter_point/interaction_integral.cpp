@@ -70,7 +70,8 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
   std::array<std::array<double, 3>, domains> q;
   for (int k = 0; k < 3; ++k) q[0][k] = weight(element.nodes[k], 0);
   if (q[0] == std::array<double, 3>{}) return;
-  const bool is_rosette = element.tip != none;  // the weight is constant there
+  const bool is_rosette = element.tip != none;     // the weight is constant there
+  if (is_rosette && !is_own(element.tip)) return;  // it is 0 but for rounding
   std::array<Point, domains> dq;
   for (int d = 0; d < domains; ++d) {
     for (int k = 0; k < 3; ++k) q[d][k] = weight(element.nodes[k], d);
@@ -135,7 +136,7 @@ void InteractionIntegrals::add_wall(const FineMesh::WallEdge& edge) {
     q_from[d] = weight(edge.nodes[0][0], d);
     q_to[d] = weight(edge.nodes[0][1], d);
   }
-  if (q_from[0] == 0 && q_to[0] == 0) return;
+  if ((q_from[0] == 0 && q_to[0] == 0) || (edge.tip != none && !is_own(edge.tip))) return;
   constexpr int points = 5;
   for (const LinePoint& place : wall_rule(mesh_, edge, points)) {
     WallShare share{wall_point(edge, place), {}};

@@ -59,6 +59,7 @@ class InteractionIntegrals {
   };
   struct State;  ///< what one solution has in it
 
+  bool is_own(int tip) const { return &mesh_.tips[tip] == &tip_; }
   double weight(int node, int domain) const;
   WallPoint wall_point(const FineMesh::WallEdge& edge, const LinePoint& place);
   void add_element(const FineMesh::Element& element);

@@ -72,6 +72,11 @@ std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radi
     if (geometry.cracks[c].first_is_tip) rooms.push_back(room_of(geometry, static_cast<int>(c), false, largest_radius));
     if (geometry.cracks[c].last_is_tip) rooms.push_back(room_of(geometry, static_cast<int>(c), true, largest_radius));
   }
+  // Rosettes of other tips are not in it, either.
+  for (TipRoom& room : rooms)
+    for (const TipRoom& other : rooms)
+      if (&other != &room)
+        room.clearance = std::min(room.clearance, (other.position - room.position).norm() - other.radius);
   return rooms;
 }
 

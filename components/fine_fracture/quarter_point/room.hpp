@@ -15,7 +15,7 @@ struct TipRoom {
   Point direction;    ///< unit, along the crack and out of it
   double straight;    ///< length of the straight end of the path, m
   double same_walls;  ///< length of its part with the same kind of walls, m
-  double clearance;   ///< distance to the nearest thing that is not the straight end: m
+  double clearance;   ///< distance to the nearest thing that is not the straight end, or to another rosette, m
   double radius;      ///< of the rosette, m
 };
 

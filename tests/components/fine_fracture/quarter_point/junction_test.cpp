@@ -1,10 +1,13 @@
 // Cracks that touch and cross: factors of their tips, and what goes on where they meet.
 #include <functional>
+#include <random>
 
 #include "components/fine_fracture/quarter_point/adapt.hpp"
+#include "components/fine_fracture/quarter_point/fine_domain.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
+#include "tests/components/meshes.hpp"
 
 namespace sprekk::test {
 namespace {
@@ -263,6 +266,66 @@ TEST(Junction, RefinementToAToleranceFindsTheClosedForm) {
   EXPECT_GT(adapted.meshes, 1);
   const double K = star_factor(4) * 1e6 * std::sqrt(std::numbers::pi);
   EXPECT_LT(worst_error(adapted.solution, {K, 0}), 5e-4);
+}
+
+/// Fractures at random in a box of 2 m x 1 m, each of which begins on the one before, at a point inside of it, or
+/// crosses it.
+Mesh network(int seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
+  Geometry geometry = box(2, 1);
+  const int count = 2 + seed % 4;
+  for (int i = 0; i < count; ++i) {
+    FractureGeometry& fracture = geometry.fractures.emplace_back();
+    fracture.name = std::to_string(i);
+    Point middle(uniform(0.6, 1.4), uniform(0.3, 0.7));
+    double angle = uniform(0, std::numbers::pi);
+    if (i > 0) {
+      const auto& before = geometry.fractures[i - 1].points;
+      middle = before[0] + uniform(0.2, 0.8) * (before[1] - before[0]);
+      angle = std::atan2(before[1].y() - before[0].y(), before[1].x() - before[0].x()) + uniform(0.35, 2.8);
+    }
+    const Point along(std::cos(angle), std::sin(angle));
+    const bool touches = i > 0 && uniform(0, 1) < 0.4;
+    fracture.points = {middle - (touches ? 0 : uniform(0.05, 0.25)) * along, middle + uniform(0.05, 0.25) * along};
+    for (Point& x : fracture.points) x = x.cwiseMax(Point(0.02, 0.02)).cwiseMin(Point(1.98, 0.98));
+  }
+  return generate_mesh(geometry, unstructured(0.08));
+}
+
+// Some of them have tips of others near by, whose rosettes are no part of the domain of an integral.
+TEST(Junction, NetworksHoldALinearDisplacement) {
+  Tensor gradient;
+  gradient << 1e-4, -3e-4, 2e-4, 5e-5;
+  const Tensor stress = table_1_rock.stress(gradient);
+  std::size_t meetings = 0;
+  for (const int seed : {2, 3, 9}) {
+    const Mesh mesh = network(seed);
+    std::vector<FracturePath> paths;
+    for (int i = 0; i < static_cast<int>(mesh.fractures.size()); ++i) paths.push_back(fracture_path(mesh, i, {}, {}));
+    for (int f = 0; f < static_cast<int>(paths.size()); ++f)
+      for (const bool at_end : {false, true}) {
+        if (!(at_end ? paths[f].last_is_tip : paths[f].first_is_tip)) continue;
+        const Point center = at_end ? paths[f].points.back() : paths[f].points.front();
+        for (const Walls walls : {Walls::traction, Walls::jump})
+          for (const double size : {0.1, 0.3}) {
+            const FineDomain domain = fine_domain(mesh, paths, {f, at_end}, center, size, 0.04, walls);
+            meetings += junctions(domain.geometry).size();
+            const FineModel model(domain.geometry, {.tip_size = 0.04, .far_size = 0.1}, table_1_rock,
+                                  TipPlace{domain.crack, domain.is_last});
+            FineLoads loads;
+            loads.boundary_displacement = [&](const Point& x, const Point&) -> Point { return gradient * x; };
+            loads.wall_traction = [&](int crack, int segment, double) -> Point {
+              const auto& points = domain.geometry.cracks[crack].points;
+              const Point along = (points[segment + 1] - points[segment]).normalized();
+              return stress * Point(along.y(), -along.x());
+            };
+            const TipIntensities tip = model.solve(loads).tips.at(0);
+            EXPECT_LT(tip.K.norm(), 1e-7 * stress.norm() * std::sqrt(0.1)) << seed << " " << f << " " << size;
+          }
+      }
+  }
+  EXPECT_GT(meetings, 100u);
 }
 
 // Geometries.
