@@ -13,9 +13,9 @@ class BulkResponse {
  public:
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// `largest`: entries of X up to which it is kept, 40 MB. Else it is computed by so many columns at a time, a
+  /// `largest`: entries of X up to which it is kept, 1.2 GB. Else it is computed by so many columns at a time, a
   /// multiple of what solvers take together, since others would be rounded differently.
-  explicit BulkResponse(double largest = 5e6, int columns = 256) : largest_(largest), piece_(columns) {}
+  explicit BulkResponse(double largest = 1.5e8, int columns = 256) : largest_(largest), piece_(columns) {}
 
   /// Solves for the columns of X with the solver that has factorized A_BB. False if it cannot.
   bool compute(const BulkSplitting& split, LinearSolver& solver);
