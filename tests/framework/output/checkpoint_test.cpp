@@ -144,7 +144,7 @@ TEST_F(CheckpointTest, AnotherFormatVersionIsRefusedWithBothVersions) {
   const std::string message = message_of_reading();
   EXPECT_THAT(message, HasSubstr("version 7"));
   EXPECT_THAT(message, HasSubstr("sprekk 9.8"));
-  EXPECT_THAT(message, HasSubstr("this program reads version 5"));
+  EXPECT_THAT(message, HasSubstr("this program reads version 6"));
 }
 
 TEST_F(CheckpointTest, AnotherSceneIsRefused) {
