@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "framework/mesh/mesh_change.hpp"
+#include "framework/mesh/planar.hpp"
 #include "framework/mesh/point_location.hpp"
 
 namespace sprekk::fracture_flow {
@@ -138,7 +139,18 @@ void FractureFlow::check_names() const {
                        "choose a point on a fracture");
   };
   for (const auto& [name, injection] : options_.injections) check(injection.where);
-  for (const auto& [name, prescribed] : options_.prescribed) check(prescribed.where);
+  std::vector<const std::string*> prescribed_by(mesh_.fracture_cell_count(), nullptr);
+  for (const auto& [name, prescribed] : options_.prescribed) {
+    check(prescribed.where);
+    for (const int cell : cells_at(mesh_, prescribed.where)) {
+      if (prescribed_by[cell])
+        throw InputError(prescribed.where.origin, "'" + name + "' prescribes a pressure where there is one",
+                         "'" + *prescribed_by[cell] + "' gives the same fracture cell at " +
+                             to_text(mesh_.fracture_cells[cell].center) + " a pressure",
+                         "let each cell be in one of them");
+      prescribed_by[cell] = &name;
+    }
+  }
   for (const auto& [side, origin] : options_.boundary_origins)
     if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
       throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
