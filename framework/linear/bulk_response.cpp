@@ -13,6 +13,7 @@ bool BulkResponse::compute(const BulkSplitting& split, LinearSolver& solver) {
   of_felt_rows_.clear();
   near_.resize(split.near.size(), count);
   is_whole_ = static_cast<double>(rows) * count <= largest_;
+  columns_.resize(rows, 0);  // what it stays if nothing is felt
   const int width = is_whole_ ? count : piece_;
   for (int first = 0; first < count; first += width) {
     const int end = std::min(count, first + width);

@@ -13,6 +13,7 @@ namespace sprekk {
 namespace {
 
 constexpr std::size_t kept_bulks = 2;
+constexpr double largest_felt = 1.5e8;  ///< entries of what is kept in any case, 1.2 GB
 
 bool same_values(const SparseMatrix& a, const std::vector<double>& kept) {
   return a.nonZeros() == static_cast<Eigen::Index>(kept.size()) &&
@@ -98,6 +99,10 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   }
   BulkSplitting& split = *splitting_;
   split.take_sums(system.sums);
+  // Of each bulk the rows of X that are read and their products, and the pattern of reduced systems, in triplets first.
+  const double felt = split.felt.size();
+  if ((kept_bulks * split.near.size() + 6 * felt) * felt > largest_felt)
+    return LinearReport::failure("too many unknowns on fractures to condense the bulk");
   if (!is_same(system.number, number_)) {
     const double* values = system.local.valuePtr();
     const bool has_changed = split.bb.update(values) | split.bf.update(values);

@@ -195,14 +195,18 @@ class Check {
 
   /// Puts an end onto a point of other fractures that is meant to be there, and notes these.
   void join(Point& end) {
+    const int own = extensions_[index_].fracture;
     double least = joint_snap * size_;
+    const FracturePoint* nearest = nullptr;
     for (const FracturePoint& point : mesh_.fracture_points) {
-      if (mesh_.fracture_cells[point.cells[0]].fracture == extensions_[index_].fracture) continue;
-      if (point.kind == FracturePoint::Kind::on_boundary || (point.position - end).norm() >= least) continue;
+      const bool is_own = std::any_of(point.cells.begin(), point.cells.end(),
+                                      [&](int cell) { return mesh_.fracture_cells[cell].fracture == own; });
+      if (is_own || point.kind == FracturePoint::Kind::on_boundary || (point.position - end).norm() >= least) continue;
       least = (point.position - end).norm();
-      end = point.position;
+      nearest = &point;
     }
-    if (least == joint_snap * size_) return;
+    if (!nearest) return;
+    end = nearest->position;
     for (const FracturePoint& point : mesh_.fracture_points) {
       if (point.position != end) continue;
       for (const int cell : point.cells) is_joined_[mesh_.fracture_cells[cell].fracture] = true;

@@ -14,14 +14,20 @@ constexpr double mega = 1e6, hour = 3600;
 
 /// Two fractures of an elastic block without other loads than the pressure of their fluid, which rises by 1 MPa an
 /// hour. The longer one points to the middle of the other.
-std::string pressurized(const std::string& tips, const std::string& coupler, const std::string& grow) {
+struct Other {
+  std::string points = "[[0.12 m, -0.03 m], [0.13 m, 0.03 m]]", pressure = "(t/3600) MPa";
+};
+
+std::string pressurized(const Other& other, const std::string& tips, const std::string& coupler,
+                        const std::string& grow) {
   return R"(
 name: joining
 geometry:
   box: {x: [-1 m, 1 m], y: [-1 m, 1 m]}
   fractures:
     main: {points: [[-0.06 m, 0 m], [0.06 m, 0 m]]}
-    wall: {points: [[0.12 m, -0.03 m], [0.13 m, 0.03 m]]}
+    wall: {points: )" +
+         other.points + R"(}
 mesh: {size: 0.2 m, fracture_size: 10 mm, growth: 0.3}
 components:
   rock:
@@ -40,7 +46,8 @@ components:
     transmissivity_value: 1.0e-6 m^3
     prescribed:
       main: {fracture: main, pressure: "(t/3600) MPa"}
-      wall: {fracture: wall, pressure: "(t/3600) MPa"}
+      wall: {fracture: wall, pressure: ")" +
+         other.pressure + R"("}
   contact: {type: contact/coulomb, friction: 0.5}
 )" + tips +
          R"(
@@ -56,8 +63,9 @@ time: {start: 1.4 h, end: 4 h, step: 0.05 h}
 )";
 }
 
-std::string growing(const std::string& meeting) {
+std::string growing(const std::string& meeting, const Other& other = {}) {
   return pressurized(
+      other,
       "  tips: {type: fine_fracture/quarter_point, size: 0.3 m, toughness: 0.7 MPa*m^0.5, growth: {increment: 10 mm}, "
       "meeting: " +
           meeting + "}",
@@ -79,7 +87,7 @@ TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
 
   // Nothing rubs, and the rock is elastic: the way to a state does not matter. The new cells are bonded until the next
   // step, which is made here without further growth.
-  SceneRun without_growth = SceneRun::from_text(pressurized("", "", ""));
+  SceneRun without_growth = SceneRun::from_text(pressurized({}, "", "", ""));
   const Scene& scene = without_growth.model().scene();
   Model goes_on(scene, run.mesh()), fresh(scene, run.mesh());
   transfer_fields(run.model().fields(), no_change(run.mesh()), run.mesh(), goes_on.fields());
@@ -90,6 +98,37 @@ TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
   const Vector& at_once = fresh.fields().at("contact.jump").now();
   EXPECT_LT((grown - at_once).lpNorm<Eigen::Infinity>(), 1e-9 * at_once.lpNorm<Eigen::Infinity>());
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) EXPECT_GT(grown[2 * i], 0) << i;
+}
+
+TEST(Joining, TipsThatFaceEachOtherMeet) {
+  // Both grow towards each other, and one of them joins the other where that one is on the mesh.
+  SceneRun run = SceneRun::from_text(growing("join", {.points = "[[0.095 m, 0 m], [0.215 m, 0 m]]"}));
+  double longest = 0;
+  while (run.mesh().junctions.empty()) {
+    ASSERT_TRUE(run.step()) << run.time();
+    // Nothing that has grown is lost.
+    const double length = run.quantity("tips.wall_first.length");
+    EXPECT_GE(length, longest - 1e-12);
+    longest = length;
+  }
+  EXPECT_EQ(run.mesh().junctions[0].cells.size(), 2u);
+  EXPECT_EQ(run.quantity("tips.main_last.stopped"), 1);
+  EXPECT_EQ(run.quantity("tips.wall_first.stopped"), 1);
+  // Together they have grown by the distance between them.
+  EXPECT_NEAR(run.quantity("tips.main_last.length") + run.quantity("tips.wall_first.length"), 0.035, 1e-3);
+}
+
+TEST(Joining, NoTipClosesARing) {
+  // The other fracture, without fluid, has an arm before each tip.
+  SceneRun run = SceneRun::from_text(growing(
+      "join",
+      {.points = "[[-0.12 m, 0.03 m], [-0.12 m, -0.2 m], [0.125 m, -0.2 m], [0.125 m, 0.03 m]]", .pressure = "0 MPa"}));
+  const auto are_stopped = [&] {
+    return run.quantity("tips.main_first.stopped") + run.quantity("tips.main_last.stopped") == 2;
+  };
+  while (!are_stopped()) ASSERT_TRUE(run.step()) << run.time();
+  ASSERT_TRUE(run.step());
+  EXPECT_EQ(run.mesh().junctions.size(), 1u);
 }
 
 TEST(Joining, ATipMayBeAskedToStopInstead) {

@@ -1,43 +1,75 @@
 // How a tip joins another fracture.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/mesh/fracture_networks.hpp"
+#include "framework/mesh/planar.hpp"
 
 namespace sprekk::fine_fracture {
 
+namespace {
+
+double distance_to_boundary(const Mesh& mesh, const Point& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int face = 0; face < mesh.face_count(); ++face)
+    if (mesh.face_side[face] != none)
+      least = std::min(
+          least, distance(x, Segment{mesh.nodes[mesh.face_nodes[face][0]], mesh.nodes[mesh.face_nodes[face][1]]}));
+  return least;
+}
+
+}  // namespace
+
+/// Whether a point is a tip that has a path of its own, which the mesh does not know yet: what is there is not its end.
+bool Tips::goes_on_elsewhere(const FracturePoint& point) const {
+  return point.kind == FracturePoint::Kind::tip && std::any_of(tips_.begin(), tips_.end(), [&](const Tip& tip) {
+           return !tip.now.path.added.empty() && position(tip, {}) == point.position;
+         });
+}
+
 std::optional<Tips::Joining> Tips::find_joining(const Tip& tip, const TipOutcome& outcome,
-                                                std::vector<PathExtension> extensions,
+                                                const std::vector<PathExtension>& others,
                                                 const std::vector<std::pair<int, int>>& joined) const {
+  using Met = sprekk::FreeLength::Met;
   const Point from = position(tip, tip.now.path);
+  const std::vector<int> networks = fracture_networks(mesh_, joined);
+  const int own = networks[tip.end.fracture];
   const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, outcome.ahead);
   const double reach = 2 * cavity().size;
-  const bool is_ahead = free.met == sprekk::FreeLength::Met::fracture && free.length < reach;
+  const bool is_met = free.met != Met::nothing && free.length < reach;
+  // A side stops it, and so does a fracture that it is connected with.
+  if (is_met && (free.met == Met::boundary || networks[free.index] == own)) return std::nullopt;
   // Where another fracture passes by, the nearest point that is not behind.
-  const Point wanted = is_ahead ? free.where : from;
+  const Point wanted = is_met ? free.where : from;
+  const double to_side = is_met ? reach : distance_to_boundary(mesh_, from);
   constexpr double widest_turn = std::numbers::pi / 3;
-  const std::vector<int> networks = fracture_networks(mesh_, joined);
-  const auto fracture_of = [&](const FracturePoint& point) { return mesh_.fracture_cells[point.cells[0]].fracture; };
-  const FracturePoint* nearest = nullptr;
+  std::vector<std::pair<double, const FracturePoint*>> candidates;
   for (const FracturePoint& point : mesh_.fracture_points) {
     const Point way = point.position - from;
-    if (networks[fracture_of(point)] == networks[tip.end.fracture] || way.norm() > reach ||
-        way.dot(outcome.ahead) < std::cos(widest_turn) * way.norm())
+    if (networks[mesh_.fracture_cells[point.cells[0]].fracture] == own ||
+        point.kind == FracturePoint::Kind::on_boundary || goes_on_elsewhere(point) ||
+        way.norm() > std::min(reach, to_side) || way.dot(outcome.ahead) < std::cos(widest_turn) * way.norm())
       continue;
-    if (!nearest || (point.position - wanted).norm() < (nearest->position - wanted).norm()) nearest = &point;
+    candidates.emplace_back((point.position - wanted).norm(), &point);
   }
-  if (!nearest) return std::nullopt;
-  TipPath path = tip.now.path;
-  path.added.push_back(nearest->position);
-  const PathExtension extension{tip.end.fracture, tip.end.at_end, coarse_path(tip, path)};
-  extensions.push_back(extension);
-  try {
-    check_extensions(mesh_, extensions, cavity().size);
-  } catch (const ExtensionError&) {
-    return std::nullopt;  // the tip stays where it is
+  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [away, point] : candidates) {
+    TipPath path = tip.now.path;
+    path.added.push_back(point->position);
+    const PathExtension extension{tip.end.fracture, tip.end.at_end, coarse_path(tip, path)};
+    std::vector<PathExtension> all = others;
+    all.push_back(extension);
+    try {
+      check_extensions(mesh_, all, cavity().size);
+    } catch (const ExtensionError&) {
+      continue;
+    }
+    return Joining{extension, mesh_.fracture_cells[point->cells[0]].fracture};
   }
-  return Joining{extension, fracture_of(*nearest)};
+  return std::nullopt;  // the tip stays where it is
 }
 
 }  // namespace sprekk::fine_fracture

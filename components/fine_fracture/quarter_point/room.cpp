@@ -59,6 +59,7 @@ TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double larges
   // A third of what separates two tips leaves a third between their rosettes.
   room.radius = std::min(
       {largest_radius, room.straight / (has_two_tips ? 3 : 2), room.same_walls / 2, room.clearance / 2, to_others / 3});
+  if (walk.ends_in_tip) room.radius = std::min(room.radius, (walk.points.back() - tip).norm() / 3);
   room.clearance = std::min(room.clearance, to_others);
   if (has_two_tips) room.clearance = std::min(room.clearance, room.straight - room.radius);
   return room;

@@ -21,7 +21,7 @@ struct TipRoom {
 
 /// All tips with their rooms. The radius of a rosette is `largest_radius` unless this is more than half of the
 /// straight end (a third, if that ends in two tips), of its part with the same kind of walls, or of the distance to
-/// anything else (a third of that to other cracks).
+/// anything else (a third of that to other cracks and to the other tip of its own).
 std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radius);
 
 }  // namespace sprekk::fine_fracture

@@ -257,6 +257,7 @@ Growing::Growth Tips::grow(const StepTime&) {
   Growth result;
   std::vector<PathExtension>& extensions = result.extensions;
   std::vector<std::pair<int, int>> joined;
+  std::vector<std::size_t> blocked;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
     tip.now.has_started = tip.now.has_started || load(tip.now.sifs) >= 1;
@@ -267,20 +268,26 @@ Growing::Growth Tips::grow(const StepTime&) {
       tip.now.path = outcome.path;
       tip.now.sifs = outcome.end;
     }
-    if (outcome.blocked && options_.meeting == "join") {
-      if (const std::optional<Joining> joining = find_joining(tip, outcome, extensions, joined)) {
-        tip.now.path.added.push_back(joining->extension.points.back());
-        extensions.push_back(joining->extension);
-        joined.emplace_back(tip.end.fracture, joining->other);
-        continue;
-      }
-    }
+    if (outcome.blocked && options_.meeting == "join") blocked.push_back(i);
     if (outcome.increments == 0) continue;
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
     const double length = length_of(position(tip, {}), tip.now.path);
     // Whole increments may fall short of the threshold by what their last one was shortened.
     if (length < 0.95 * surroundings_->propagation_threshold() * tip.coarse_size) continue;
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
+  }
+  // When it is known where all others go. A path that goes on to another fracture takes the place of the one before.
+  for (const std::size_t i : blocked) {
+    Tip& tip = tips_[i];
+    std::vector<PathExtension> others;
+    for (const PathExtension& other : extensions)
+      if (!is_same({other.fracture, other.at_end}, tip.end)) others.push_back(other);
+    const std::optional<Joining> joining = find_joining(tip, outcomes[i], others, joined);
+    if (!joining) continue;
+    tip.now.path.added.push_back(joining->extension.points.back());
+    joined.emplace_back(tip.end.fracture, joining->other);
+    extensions = std::move(others);
+    extensions.push_back(joining->extension);
   }
   return result;
 }

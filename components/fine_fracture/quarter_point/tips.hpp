@@ -114,8 +114,10 @@ class Tips : public Component, public FractureTips, public Growing {
   };
   /// The rest of a blocked tip's way to another fracture, if the mesh can take it beside the other extensions and it
   /// closes no ring. `joined`: fractures that join each other at the same time.
-  std::optional<Joining> find_joining(const Tip& tip, const TipOutcome& outcome, std::vector<PathExtension> extensions,
+  std::optional<Joining> find_joining(const Tip& tip, const TipOutcome& outcome,
+                                      const std::vector<PathExtension>& others,
                                       const std::vector<std::pair<int, int>>& joined) const;
+  bool goes_on_elsewhere(const FracturePoint& point) const;
 
   const Mesh& mesh_;
   TipsOptions options_;

@@ -101,14 +101,26 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
 
 namespace {
 
-/// A whole fracture is what it was at the start: what has grown is no part of it.
+/// The nearest cell that has not grown.
+int nearest_original_cell(const Mesh& mesh, int fracture, const Point& x) {
+  const int nearest = nearest_fracture_cell(mesh, fracture, x);
+  if (!mesh.fracture_cells[nearest].grown) return nearest;
+  // What has grown lies at the ends: the first or the last of the others.
+  const auto& [name, first, count] = mesh.fractures[fracture];
+  int low = first, high = first + count - 1;
+  while (mesh.fracture_cells[low].grown) ++low;
+  while (mesh.fracture_cells[high].grown) --high;
+  return nearest < low ? low : high;
+}
+
+/// A place or a whole fracture is what it was at the start: what has grown is no part of it.
 std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
   std::vector<int> cells;
   if (where.at) {
     int nearest = none;
     for (int f = 0; f < static_cast<int>(mesh.fractures.size()); ++f) {
       if (!where.fracture.empty() && mesh.fractures[f].name != where.fracture) continue;
-      const int candidate = nearest_fracture_cell(mesh, f, *where.at);
+      const int candidate = nearest_original_cell(mesh, f, *where.at);
       const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *where.at).norm(); };
       if (nearest == none || distance(candidate) < distance(nearest)) nearest = candidate;
     }
