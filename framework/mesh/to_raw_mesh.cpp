@@ -1,0 +1,63 @@
+// From a mesh back to the plane mesh that it was built from.
+#include <algorithm>
+#include <numeric>
+
+#include "framework/mesh/build_mesh.hpp"
+
+namespace sprekk {
+
+RawMesh to_raw_mesh(const Mesh& mesh, std::vector<int>* merged) {
+  // The copies of a node are tied to each other across the fracture cells that end there.
+  std::vector<int> root(mesh.nodes.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int node) {
+    while (root[node] != node) node = root[node] = root[root[node]];
+    return node;
+  };
+  const auto tie = [&](int a, int b) {
+    a = find(a), b = find(b);
+    root[std::max(a, b)] = std::min(a, b);
+  };
+  for (const FractureCell& cell : mesh.fracture_cells) {
+    const auto &plus = mesh.face_nodes[cell.faces[0]], &minus = mesh.face_nodes[cell.faces[1]];
+    tie(plus[0], minus[1]);
+    tie(plus[1], minus[0]);
+  }
+
+  RawMesh raw;
+  std::vector<int> number(mesh.nodes.size());
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    if (find(node) == node) {
+      number[node] = static_cast<int>(raw.nodes.size());
+      raw.nodes.push_back(mesh.nodes[node]);
+    } else {
+      number[node] = number[find(node)];  // the root has the smaller index
+    }
+  }
+  raw.cells = mesh.cell_nodes;
+  for (Ring& cell : raw.cells) {
+    for (int& node : cell) node = number[node];
+  }
+  raw.regions = mesh.cell_region;
+  raw.region_names = mesh.region_names;
+  raw.side_names = mesh.side_names;
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    if (mesh.face_side[face] == none) continue;
+    raw.boundary_edges.push_back(
+        {{number[mesh.face_nodes[face][0]], number[mesh.face_nodes[face][1]]}, mesh.face_side[face]});
+  }
+  for (const Fracture& fracture : mesh.fractures) {
+    RawMesh::Chain chain{fracture.name, {}};
+    for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
+      // The plus wall runs along the chain.
+      const auto& plus = mesh.face_nodes[mesh.fracture_cells[i].faces[0]];
+      if (chain.nodes.empty()) chain.nodes.push_back(number[plus[0]]);
+      chain.nodes.push_back(number[plus[1]]);
+    }
+    raw.fractures.push_back(std::move(chain));
+  }
+  if (merged) *merged = std::move(number);
+  return raw;
+}
+
+}  // namespace sprekk
