@@ -1,6 +1,5 @@
 #include "components/fine_fracture/quarter_point/model.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <stdexcept>
 
 #include "components/fine_fracture/quarter_point/quadrature.hpp"
@@ -10,7 +9,6 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-using ElementMatrix = Eigen::Matrix<double, 12, 12>;
 using ElementVector = Eigen::Matrix<double, 12, 1>;
 
 ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& element, const Elasticity& rock) {
@@ -36,6 +34,13 @@ ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& e
   return stiffness;
 }
 
+std::vector<ElementMatrix> stiffness_by_element(const FineMesh& mesh, const Elasticity& rock) {
+  std::vector<ElementMatrix> stiffness;
+  stiffness.reserve(mesh.elements.size());
+  for (const auto& element : mesh.elements) stiffness.push_back(element_stiffness(mesh, element, rock));
+  return stiffness;
+}
+
 auto timed(Profile& profile, const char* name, const auto& work) {
   const ScopedTimer timer(profile, name);
   return work();
@@ -49,102 +54,6 @@ ElementVector gather(const FineMesh::Element& element, const Vector& values) {
 
 }  // namespace
 
-/// The matrix is ordered by nodes, whose two unknowns follow one another: half the graph and a quarter of its edges for
-/// the same fill.
-class FineModel::Factors {
- public:
-  Factors(const FineMesh& mesh, const Unknowns& unknowns, const std::vector<ElementMatrix>& stiffness,
-          Profile& profile) {
-    {
-      const ScopedTimer timer(profile, "ordering");
-      place_ = places_by_node(mesh, unknowns);
-    }
-    const Eigen::SparseMatrix<double> matrix = assemble(mesh, unknowns, stiffness, profile);
-    {
-      const ScopedTimer timer(profile, "ordering");
-      factorization_.analyzePattern(matrix);
-    }
-    const ScopedTimer timer(profile, "factorization");
-    factorization_.factorize(matrix);
-    if (factorization_.info() != Eigen::Success) throw std::runtime_error("fine level: the stiffness is singular");
-  }
-
-  Vector solve(const Vector& b) const {
-    Vector ordered(b.size());
-    for (int i = 0; i < b.size(); ++i) ordered[place_[i]] = b[i];
-    const Vector y = factorization_.solve(ordered);
-    Vector x(b.size());
-    for (int i = 0; i < b.size(); ++i) x[i] = y[place_[i]];
-    return x;
-  }
-
- private:
-  /// By unknown: its place in an order of minimum degree.
-  static std::vector<int> places_by_node(const FineMesh& mesh, const Unknowns& unknowns) {
-    // The unknowns of a node are neighbours, and the first stands for both. A node may have one, or share another's.
-    std::vector<int> first_of(unknowns.count(), none), block_of_node(mesh.node_count(), none), first_unknown;
-    for (int n = 0; n < mesh.node_count(); ++n) {
-      const int x = unknowns.of(2 * n), y = unknowns.of(2 * n + 1), first = x != none ? x : y;
-      if (first == none) continue;
-      if (first_of[first] == none) {
-        first_of[first] = static_cast<int>(first_unknown.size());
-        first_unknown.push_back(first);
-      }
-      block_of_node[n] = first_of[first];
-    }
-    std::vector<Triplet> entries;
-    entries.reserve(mesh.elements.size() * 21);
-    for (const auto& element : mesh.elements) {
-      for (const int i : element.nodes) {
-        for (const int j : element.nodes) {
-          const int a = block_of_node[i], b = block_of_node[j];
-          if (a >= b && b != none) entries.emplace_back(a, b, 1.0);
-        }
-      }
-    }
-    const int blocks = static_cast<int>(first_unknown.size());
-    Eigen::SparseMatrix<double> graph(blocks, blocks);
-    graph.setFromTriplets(entries.begin(), entries.end());
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-    Eigen::AMDOrdering<int>()(graph, order);
-    std::vector<int> place(unknowns.count());
-    int next = 0;
-    for (int k = 0; k < blocks; ++k) {
-      const int first = first_unknown[order.indices()[k]];
-      place[first] = next++;
-      if (first + 1 < unknowns.count() && first_of[first + 1] == none) place[first + 1] = next++;
-    }
-    return place;
-  }
-
-  /// The lower triangle.
-  Eigen::SparseMatrix<double> assemble(const FineMesh& mesh, const Unknowns& unknowns,
-                                       const std::vector<ElementMatrix>& stiffness, Profile& profile) const {
-    const ScopedTimer timer(profile, "assembly");
-    std::vector<Triplet> entries;
-    entries.reserve(stiffness.size() * 78);
-    for (std::size_t e = 0; e < stiffness.size(); ++e) {
-      const auto& nodes = mesh.elements[e].nodes;
-      std::array<int, 12> rows;
-      for (int k = 0; k < 12; ++k) {
-        const int unknown = unknowns.of(2 * nodes[k / 2] + k % 2);
-        rows[k] = unknown == none ? none : place_[unknown];
-      }
-      for (int i = 0; i < 12; ++i) {
-        for (int j = 0; j < 12; ++j) {
-          if (rows[j] != none && rows[i] >= rows[j]) entries.emplace_back(rows[i], rows[j], stiffness[e](i, j));
-        }
-      }
-    }
-    Eigen::SparseMatrix<double> matrix(unknowns.count(), unknowns.count());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-  }
-
-  std::vector<int> place_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factorization_;
-};
-
 FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
                      const std::optional<TipPlace>& wanted, std::shared_ptr<Profile> profile)
     : profile_(std::move(profile)),
@@ -153,14 +62,10 @@ FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, cons
       mesh_(timed(*profile_, "mesh",
                   [&] { return std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options)); })),
       unknowns_(geometry_, *mesh_),
+      stiffness_(timed(*profile_, "assembly", [&] { return stiffness_by_element(*mesh_, rock_); })),
+      factors_(*mesh_, unknowns_, stiffness_, *profile_),
       offset_forces_(timed(*profile_, "loads", [&] { return OffsetForces(*mesh_); })) {
   for (const char* name : {"ordering", "factorization", "back-solves"}) profile_->at(name).is_solver = true;
-  {
-    const ScopedTimer timer(*profile_, "assembly");
-    stiffness_.reserve(mesh_->elements.size());
-    for (const auto& element : mesh_->elements) stiffness_.push_back(element_stiffness(*mesh_, element, rock_));
-  }
-  factors_ = std::make_unique<Factors>(*mesh_, unknowns_, stiffness_, *profile_);
   const ScopedTimer timer(*profile_, "factors");
   offset_places_ = offset_forces_.places();
   for (const FineMesh::Tip& tip : mesh_->tips) {
@@ -169,10 +74,6 @@ FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, cons
     offset_places_.insert(offset_places_.end(), places.begin(), places.end());
   }
 }
-
-FineModel::~FineModel() = default;
-FineModel::FineModel(FineModel&&) noexcept = default;
-FineModel& FineModel::operator=(FineModel&&) noexcept = default;
 
 Vector FineModel::right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const {
   Vector f = traction_forces(geometry_, *mesh_, loads);
@@ -193,7 +94,7 @@ Vector FineModel::right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd
 
 Vector FineModel::back_solve(const Vector& b) const {
   const ScopedTimer timer(*profile_, "back-solves");
-  const Vector x = factors_->solve(b);
+  const Vector x = factors_.solve(b);
   if (!x.allFinite()) throw std::runtime_error("fine level: the displacements are not finite");
   return x;
 }

@@ -8,6 +8,7 @@
 
 #include "components/fine_fracture/quarter_point/forces.hpp"
 #include "components/fine_fracture/quarter_point/solution.hpp"
+#include "components/fine_fracture/quarter_point/stiffness_factors.hpp"
 #include "components/fine_fracture/quarter_point/unknowns.hpp"
 #include "framework/output/profile.hpp"
 
@@ -23,9 +24,6 @@ class FineModel {
   /// when the matrix is singular.
   FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
             const std::optional<TipPlace>& wanted = {}, std::shared_ptr<Profile> profile = std::make_shared<Profile>());
-  ~FineModel();
-  FineModel(FineModel&&) noexcept;
-  FineModel& operator=(FineModel&&) noexcept;
 
   const FineGeometry& geometry() const { return geometry_; }
   const FineMesh& mesh() const { return *mesh_; }
@@ -40,9 +38,6 @@ class FineModel {
   double strain_energy(const FineSolution& solution) const;
 
  private:
-  using ElementMatrix = Eigen::Matrix<double, 12, 12>;
-  class Factors;
-
   /// For the unknowns, with u of all that is prescribed and 0 elsewhere.
   Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const;
   Vector back_solve(const Vector& b) const;
@@ -53,7 +48,7 @@ class FineModel {
   std::shared_ptr<const FineMesh> mesh_;
   Unknowns unknowns_;
   std::vector<ElementMatrix> stiffness_;
-  std::unique_ptr<Factors> factors_;
+  StiffnessFactors factors_;
   OffsetForces offset_forces_;
   std::vector<TipEvaluation> tips_;
   std::vector<Point> offset_places_;  ///< of offset_forces_, then those of tips_

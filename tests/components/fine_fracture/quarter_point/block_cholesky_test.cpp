@@ -1,0 +1,72 @@
+#include "components/fine_fracture/quarter_point/block_cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <random>
+#include <stdexcept>
+
+namespace sprekk::fine_fracture {
+namespace {
+
+/// The stiffness of springs in a plane: between each block and some of those before it, and to the ground.
+struct Springs {
+  Eigen::MatrixXd dense;
+  BlockMatrix blocks;
+
+  Springs(int count, double to_ground) : dense(Eigen::MatrixXd::Zero(2 * count, 2 * count)) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> entry(-1, 1);
+    std::uniform_int_distribution<int> any(0, count - 1);
+    dense.diagonal().setConstant(to_ground);
+    for (int b = 1; b < count; ++b) {
+      for (const int other : {b - 1, any(random) % b, any(random) % b}) {
+        Eigen::Matrix2d half;
+        half << entry(random), entry(random), entry(random), entry(random);
+        const Eigen::Matrix2d spring = half * half.transpose() + 0.1 * Eigen::Matrix2d::Identity();
+        for (const auto& [i, j, sign] :
+             {std::tuple{b, b, 1.0}, {other, other, 1.0}, {b, other, -1.0}, {other, b, -1.0}})
+          dense.block<2, 2>(2 * i, 2 * j) += sign * spring;
+      }
+    }
+    for (int c = 0; c < count; ++c) {
+      for (int r = 0; r <= c; ++r) {
+        const Eigen::Matrix2d block = dense.block<2, 2>(2 * r, 2 * c);
+        if (r < c && block.isZero(0)) continue;
+        blocks.rows.push_back(r);
+        blocks.blocks.push_back(block);
+      }
+      blocks.starts.push_back(static_cast<int>(blocks.rows.size()));
+    }
+  }
+};
+
+TEST(BlockCholesky, SolvesWhatADenseFactorizationSolves) {
+  const Springs springs(60, 0.3);
+  ASSERT_LT(springs.blocks.blocks.size(), 300u);  // sparse
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(120, -1, 2);
+  const Eigen::VectorXd x = BlockCholesky(springs.blocks).solve(b), expected = springs.dense.llt().solve(b);
+  EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm());
+}
+
+TEST(BlockCholesky, SolvesASingleBlock) {
+  BlockMatrix matrix;
+  matrix.rows = {0};
+  matrix.starts = {0, 1};
+  matrix.blocks.emplace_back();
+  matrix.blocks[0] << 2, 1, 1, 3;
+  const Vector x = BlockCholesky(matrix).solve(Eigen::Vector2d(5, 10));
+  EXPECT_NEAR(x[0], 1, 1e-15);
+  EXPECT_NEAR(x[1], 3, 1e-15);
+}
+
+TEST(BlockCholesky, RefusesWhatNothingHolds) {
+  // Without the ground the springs move as a whole.
+  EXPECT_THROW(BlockCholesky{Springs(60, 0).blocks}, std::runtime_error);
+  Springs pushed(60, 0.3);
+  pushed.blocks.at(59, 59).setConstant(-1);
+  EXPECT_THROW(BlockCholesky{pushed.blocks}, std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sprekk::fine_fracture
