@@ -64,7 +64,8 @@ struct FineMesh {
   int node_count() const { return static_cast<int>(nodes.size()); }
 };
 
-/// Throws std::invalid_argument for a geometry or options that are not valid, std::runtime_error if gmsh fails.
+/// Throws std::invalid_argument for a geometry or options that are not valid, std::runtime_error
+/// where the mesh cannot follow its lines.
 FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options);
 
 }  // namespace sprekk::fine_fracture

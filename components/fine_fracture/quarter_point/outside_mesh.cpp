@@ -1,17 +1,13 @@
 #include "components/fine_fracture/quarter_point/outside_mesh.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "components/fine_fracture/quarter_point/outline.hpp"
-#include "framework/mesh/cell_shape.hpp"
-#include "framework/mesh/gmsh_drawing.hpp"
-#include "framework/mesh/gmsh_model.hpp"
+#include "framework/mesh/canonical_drawing.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "framework/mesh/mesh_region.hpp"
 #include "framework/mesh/smooth_triangles.hpp"
 
 namespace sprekk::fine_fracture {
@@ -136,100 +132,58 @@ class Draughtsman {
   Drawing drawing_;
 };
 
-std::vector<int> outline_lines(const Drawing& drawing) {
-  std::vector<int> lines;
+/// In the frame of the drawing's shape, so that images of one another have meshes that are.
+RegionDrawing region(const Drawing& drawing, const CanonicalDrawing& canonical) {
+  RegionDrawing region{canonical.points, std::vector<RegionDrawing::Line>(canonical.lines.size())};
+  for (std::size_t i = 0; i < canonical.lines.size(); ++i) region.lines[i] = {canonical.lines[i], false, false};
   for (std::size_t i = 0; i < drawing.lines.size(); ++i)
-    if (drawing.line_edges[i] != none) lines.push_back(static_cast<int>(i));
-  return lines;
-}
-
-void enter(const Drawing& drawing, const CanonicalDrawing& canonical) {
-  enter_drawing(canonical);
-  std::vector<std::vector<int>> loops{outline_lines(drawing)};
+    if (drawing.line_edges[i] != none) region.lines[canonical.line_number[i]].is_boundary = true;
   for (const auto& lines : drawing.rosette_lines) {
-    for (const int line : lines) gmsh::model::geo::mesh::setTransfiniteCurve(canonical.line_number[line] + 1, 2);
-    loops.push_back(lines);
+    for (const int line : lines) {
+      RegionDrawing::Line& edge = region.lines[canonical.line_number[line]];
+      edge.is_boundary = edge.is_whole = true;
+    }
   }
-  std::vector<int> cracks;
-  for (const auto& lines : drawing.crack_lines) cracks.insert(cracks.end(), lines.begin(), lines.end());
-  add_surface(canonical, loops, cracks);
+  return region;
 }
 
-/// Reads the mesh that gmsh made.
+/// From the frame back to where things are.
 class Reader {
  public:
-  Reader(const Drawing& drawing, const CanonicalDrawing& canonical, RawMesh& raw)
-      : drawing_(drawing), canonical_(canonical) {
-    std::vector<std::size_t> tags, elements;
-    std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
-    number_.resize(tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()) + 1);
-    for (std::size_t i = 0; i < tags.size(); ++i) {
-      number_[tags[i]] = static_cast<int>(i);
-      raw.nodes.emplace_back(coordinates[3 * i], coordinates[3 * i + 1]);
-    }
-    tags.clear();
-    constexpr int three_node_triangle = 2;
-    gmsh::model::mesh::getElementsByType(three_node_triangle, elements, tags);
-    for (std::size_t i = 0; i + 2 < tags.size(); i += 3) {
-      raw.cells.push_back({number_[tags[i]], number_[tags[i + 1]], number_[tags[i + 2]]});
-      if (signed_area(raw.nodes, raw.cells.back()) < 0) raw.cells.back().turn();
-    }
-    smooth(raw);
-    for (Point& x : raw.nodes) x = canonical.outward(x);
-    for (std::size_t i = 0; i < drawing.points.size(); ++i) {
-      tags.clear(), coordinates.clear(), parameters.clear();
-      gmsh::model::mesh::getNodes(tags, coordinates, parameters, 0, canonical.point_number[i] + 1, false, false);
-      points_.push_back(number_[tags.at(0)]);
-      raw.nodes[points_.back()] = drawing.points[i];  // without the frame's rounding
-    }
+  Reader(const Drawing& drawing, const CanonicalDrawing& canonical, const RegionMesh& mesh, RawMesh& raw)
+      : drawing_(drawing), canonical_(canonical), mesh_(mesh) {
+    for (const Point& x : mesh.points) raw.nodes.push_back(canonical.outward(x));
+    raw.cells = mesh.triangles;
+    for (std::size_t i = 0; i < drawing.points.size(); ++i)
+      raw.nodes[at_point(static_cast<int>(i))] = drawing.points[i];  // without the frame's rounding
   }
 
-  int at_point(int point) const { return points_[point]; }
+  int at_point(int point) const { return canonical_.point_number[point]; }
 
   /// From the beginning of a line to its end. Nodes inside are placed on the line again.
   std::vector<int> along(int line, RawMesh& raw) const {
-    std::vector<std::size_t> tags;
-    std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters, 1, canonical_.line_number[line] + 1, false, false);
+    std::vector<int> nodes = mesh_.on_line[canonical_.line_number[line]];
+    if (canonical_.is_reversed[line]) std::reverse(nodes.begin(), nodes.end());
     const auto [a, b] = drawing_.lines[line];
     const Point from = drawing_.points[a], step = drawing_.points[b] - from;
-    std::vector<std::pair<double, int>> ordered;
-    for (const std::size_t tag : tags) {
-      Point& x = raw.nodes[number_[tag]];
-      const double t = (x - from).dot(step) / step.squaredNorm();
-      x = from + t * step;
-      ordered.emplace_back(t, number_[tag]);
+    for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+      Point& x = raw.nodes[nodes[i]];
+      x = from + (x - from).dot(step) / step.squaredNorm() * step;
     }
-    std::sort(ordered.begin(), ordered.end());
-    std::vector<int> nodes{points_[a]};
-    for (const auto& [t, node] : ordered) nodes.push_back(node);
-    nodes.push_back(points_[b]);
     return nodes;
   }
 
  private:
-  /// In gmsh's frame, so that images of one another stay so.
-  void smooth(RawMesh& raw) const {
-    std::vector<std::size_t> tags;
-    std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters, 2, -1, false, false);
-    std::vector<char> is_free(raw.nodes.size(), false);
-    for (const std::size_t tag : tags) is_free[number_[tag]] = true;
-    constexpr int rounds = 2;
-    smooth_triangles(raw.nodes, raw.cells, is_free, rounds);
-  }
-
   const Drawing& drawing_;
   const CanonicalDrawing& canonical_;
-  std::vector<int> number_;  ///< by gmsh's number
-  std::vector<int> points_;  ///< nodes at the drawing's points
+  const RegionMesh& mesh_;
 };
 
-OutsideMesh read(const Drawing& drawing, const CanonicalDrawing& canonical, int outline_edges) {
+OutsideMesh read(const Drawing& drawing, const CanonicalDrawing& canonical, const RegionMesh& region,
+                 int outline_edges) {
   OutsideMesh mesh;
   RawMesh& raw = mesh.raw;
-  const Reader reader(drawing, canonical, raw);
+  const Reader reader(drawing, canonical, region, raw);
   for (int i = 0; i < outline_edges; ++i) raw.side_names.push_back(std::to_string(i));
   for (std::size_t line = 0; line < drawing.lines.size(); ++line) {
     if (drawing.line_edges[line] == none) continue;
@@ -272,25 +226,15 @@ OutsideMesh mesh_outside(const FineGeometry& geometry, const std::vector<TipRoom
                          const std::function<double(const Point&)>& size) {
   const Drawing drawing = Draughtsman(geometry, rooms, sectors).take();
   const CanonicalDrawing canonical(drawing.points, drawing.lines);
-  OutsideMesh mesh;
-  const GmshModel model;
-  model.run("mesh the fine level", [&] {
-    // Together a third of the price of gmsh's own choices. Shapes are smoothed afterwards, and lengths along a line are
-    // needed for a number of edges.
-    constexpr int delaunay = 5;
-    gmsh::option::setNumber("Mesh.Algorithm", delaunay);
-    gmsh::option::setNumber("Mesh.Smoothing", 0);
-    gmsh::option::setNumber("Mesh.LcIntegrationPrecision", 1e-3);
-    enter(drawing, canonical);
-    // Without the last digits, in which images of one another differ.
-    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) {
-      return static_cast<float>(size(canonical.outward({x, y})) / canonical.scale());
-    });
-    gmsh::model::mesh::generate(2);
-    mesh = read(drawing, canonical, static_cast<int>(geometry.outline.size()));
+  // Without the last digits, in which images of one another differ.
+  RegionMesh mesh = mesh_region(region(drawing, canonical), [&](const Point& x) {
+    return static_cast<double>(static_cast<float>(size(canonical.outward(x)) / canonical.scale()));
   });
-  if (mesh.raw.cells.empty()) throw std::runtime_error("gmsh made no triangles on the fine level");
-  return mesh;
+  std::vector<char> is_free(mesh.points.size(), true);
+  std::fill(is_free.begin(), is_free.begin() + mesh.first_inside, false);
+  constexpr int rounds = 2;
+  smooth_triangles(mesh.points, mesh.triangles, is_free, rounds);
+  return read(drawing, canonical, mesh, static_cast<int>(geometry.outline.size()));
 }
 
 }  // namespace sprekk::fine_fracture

@@ -18,7 +18,7 @@ struct OutsideMesh {
   std::vector<std::vector<int>> rosettes;  ///< the nodes of the rosettes' corners, by tip
 };
 
-/// Meshes with gmsh; corners of rosettes become neighbouring nodes. `size` is the edge length at a place, m.
+/// Corners of rosettes become neighbouring nodes. `size` is the edge length at a place, m.
 OutsideMesh mesh_outside(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, int sectors,
                          const std::function<double(const Point&)>& size);
 
