@@ -2,6 +2,7 @@
 
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/distort_mesh.hpp"
+#include "framework/mesh/number_in_space.hpp"
 #include "framework/mesh/read_msh.hpp"
 #include "framework/mesh/regions.hpp"
 #include "framework/mesh/single_cell_corners.hpp"
@@ -17,9 +18,12 @@ RawMesh triangulate(const Geometry& geometry, const MeshOptions& options) {
   return unstructured_mesh(geometry, options);
 }
 
-Mesh finish(RawMesh raw, const MeshOptions& options) {
+Mesh finish(RawMesh raw, const Geometry& geometry, const MeshOptions& options) {
   avoid_single_cell_corners(raw);
+  const std::vector<Point> places = raw.nodes;
   distort_mesh(raw, options.distortion, options.seed);
+  // A distorted mesh has the numbers of the regular one. Those of a structured mesh follow its lines.
+  if (geometry.is_imported() || options.kind == MeshOptions::Kind::unstructured) number_in_space(raw, places);
   return build_mesh(raw);
 }
 
@@ -28,9 +32,9 @@ Mesh finish(RawMesh raw, const MeshOptions& options) {
 Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options) {
   validate_geometry(geometry, options);
   RawMesh raw = triangulate(geometry, options);
-  if (!geometry.is_imported()) return finish(std::move(raw), options);
+  if (!geometry.is_imported()) return finish(std::move(raw), geometry, options);
   try {
-    return finish(std::move(raw), options);
+    return finish(std::move(raw), geometry, options);
   } catch (const InputError& error) {
     // What is wrong with the triangles of a file is the user's to mend: say in which file.
     throw InputError(geometry.file_origin, "cannot use the mesh file '" + geometry.file + "'", error.what());
