@@ -19,6 +19,14 @@ struct FluxOperators {
   SparseMatrix flux_boundary;   ///< faces × faces
   SparseMatrix trace_cell;      ///< faces × cells; rows of inner faces are empty
   SparseMatrix trace_boundary;  ///< faces × faces; rows of inner faces are empty
+
+  /// To move matrices would copy them.
+  void swap(FluxOperators& other) {
+    flux_cell.swap(other.flux_cell);
+    flux_boundary.swap(other.flux_boundary);
+    trace_cell.swap(other.trace_cell);
+    trace_boundary.swap(other.trace_boundary);
+  }
 };
 
 }  // namespace sprekk::matrix_flow

@@ -172,7 +172,8 @@ void MatrixFlow::discretize() {
     ++discretizations_;
     discretized_cells_ += mesh_.cell_count();
     discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
-    operators_ = discretize_(mesh_, mobility_, conditions_, nodes);
+    FluxOperators made = discretize_(mesh_, mobility_, conditions_, nodes);
+    operators_.swap(made);
   }
   use_operators();
 }
@@ -190,7 +191,7 @@ void MatrixFlow::discretize_from(const FlowInputs& before, const FluxOperators& 
   ++discretizations_;
   discretized_cells_ += result.cells;
   discretized_regions_ += result.regions;
-  operators_ = std::move(result.operators);
+  operators_.swap(result.operators);
   use_operators();
 }
 

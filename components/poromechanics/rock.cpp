@@ -105,7 +105,8 @@ void Rock::discretize() {
   const std::vector<char> nodes = nodes_to_discretize(mesh_);
   discretized_cells_ += mesh_.cell_count();
   discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
-  operators_ = discretize_mpsa(mesh_, stiffness_.of_cells(), conditions_, nodes);
+  StressOperators made = discretize_mpsa(mesh_, stiffness_.of_cells(), conditions_, nodes);
+  operators_.swap(made);
   use_operators();
 }
 
@@ -121,7 +122,7 @@ void Rock::discretize_from(const StressInputs& before, const StressOperators& op
   Rediscretized result = rediscretize_mpsa(before, operators, {mesh_, stiffness_.of_cells(), conditions_}, change);
   discretized_cells_ += result.cells;
   discretized_regions_ += result.regions;
-  operators_ = std::move(result.operators);
+  operators_.swap(result.operators);
   use_operators();
 }
 

@@ -4,6 +4,9 @@ namespace sprekk {
 
 NodeStencil::NodeStencil(const Adjacency& row_nodes, const Adjacency& listed) : listed_(listed) {
   columns_.offsets.reserve(row_nodes.size() + 1);
+  std::size_t most = 0;
+  for (const int node : row_nodes.items) most += listed[node].size();
+  columns_.items.reserve(most);
   std::vector<int> unsorted;
   for (int row = 0; row < row_nodes.size(); ++row) {
     unsorted.clear();

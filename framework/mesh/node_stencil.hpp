@@ -62,7 +62,11 @@ class StencilMatrix {
     row_start(entity, i)[slot * column_components_ + j] += value;
   }
 
-  SparseMatrix take() { return std::move(matrix_); }
+  SparseMatrix take() {
+    SparseMatrix taken;
+    taken.swap(matrix_);  // to move it would copy it
+    return taken;
+  }
 
  private:
   double* row_start(int entity, int i) {

@@ -33,6 +33,9 @@ struct StressOperators {
   SparseMatrix trace_displacement, trace_stress, trace_boundary;     ///< 2 faces × …; rows of inner faces are empty
   SparseMatrix volume_displacement, volume_stress, volume_boundary;  ///< cells × …
   SparseMatrix moment_displacement;                                  ///< 3 faces × 2 cells; mostly empty
+
+  /// To move matrices would copy them.
+  void swap(StressOperators& other);
 };
 
 /// `conditions`: [f][direction]. `nodes` as for MPFA. Exact for linear displacements with constant s, and for layers
