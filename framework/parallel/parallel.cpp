@@ -44,6 +44,12 @@ std::vector<Value> gather_values(const std::vector<Value>& mine, MPI_Datatype ty
 
 void start_mpi() {
   if (is_running()) return;
+  if (!launched_by_mpirun()) {
+    // One process talks to nobody. Without a daemon and without networks Open MPI starts in 0.03 s instead of 0.4 s.
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    setenv("OMPI_MCA_pml", "ob1", 0);
+    setenv("OMPI_MCA_mpi_yield_when_idle", "0", 1);
+  }
   MPI_Init(nullptr, nullptr);
   std::atexit(finalize_at_exit);
 }
