@@ -1,3 +1,7 @@
 #include "framework/command_line/command_line.hpp"
+#include "framework/command_line/keep_memory.hpp"
 
-int main(int argc, char** argv) { return sprekk::run_command_line(argc, argv); }
+int main(int argc, char** argv) {
+  sprekk::keep_memory();
+  return sprekk::run_command_line(argc, argv);
+}
