@@ -29,16 +29,24 @@ struct Largest {
   Vector of_row, of_column;
 };
 
-Largest largest_entries(const SparseMatrix& a) {
+/// Of |A| scaled by rows and columns.
+Largest largest_entries(const SparseMatrix& a, const Vector& row_scale, const Vector& column_scale) {
   Largest largest{Vector::Zero(a.rows()), Vector::Zero(a.cols())};
-  const int* outer = a.outerIndexPtr();
-  for (int row = 0; row < a.rows(); ++row)
+  const int* const outer = a.outerIndexPtr();
+  const int* const inner = a.innerIndexPtr();
+  const double* const values = a.valuePtr();
+  for (int row = 0; row < a.rows(); ++row) {
+    const double scale = row_scale[row];
+    double of_row = 0;
     for (int k = outer[row]; k < outer[row + 1]; ++k) {
-      const double size = std::abs(a.valuePtr()[k]);
-      if (size > largest.of_row[row]) largest.of_row[row] = size;
-      double& column = largest.of_column[a.innerIndexPtr()[k]];
-      if (size > column) column = size;
+      const int column = inner[k];
+      const double size = std::abs(values[k]) * scale * column_scale[column];
+      of_row = size > of_row ? size : of_row;
+      double& of_column = largest.of_column[column];
+      of_column = size > of_column ? size : of_column;
     }
+    largest.of_row[row] = of_row;
+  }
   parallel::max(largest.of_column);
   return largest;
 }
@@ -76,23 +84,20 @@ Equilibrated equilibrate(const LinearSystem& system) {
   result.row_scale = Vector::Ones(a.rows());
   result.column_scale = Vector::Ones(a.cols());
 
-  Largest largest = largest_entries(a);
+  Largest largest = largest_entries(a, result.row_scale, result.column_scale);
   result.mistake = find_mistake(system, a, largest);
   if (!result.mistake.empty()) return result;
 
   // A sweep halves the spread of the exponents: 20 sweeps are enough for any double.
   for (int sweep = 0; sweep < 20; ++sweep) {
     if (!parallel::any(!is_near_one(largest.of_row) || !is_near_one(largest.of_column))) break;
-    const Vector row_factor = largest.of_row.unaryExpr(&half_inverse);
-    const Vector column_factor = largest.of_column.unaryExpr(&half_inverse);
-    const int* outer = a.outerIndexPtr();
-    for (int row = 0; row < a.rows(); ++row)
-      for (int k = outer[row]; k < outer[row + 1]; ++k)
-        a.valuePtr()[k] *= row_factor[row] * column_factor[a.innerIndexPtr()[k]];
-    result.row_scale.array() *= row_factor.array();
-    result.column_scale.array() *= column_factor.array();
-    largest = largest_entries(a);
+    result.row_scale.array() *= largest.of_row.unaryExpr(&half_inverse).array();
+    result.column_scale.array() *= largest.of_column.unaryExpr(&half_inverse).array();
+    largest = largest_entries(a, result.row_scale, result.column_scale);
   }
+  for (int row = 0; row < a.rows(); ++row)
+    for (int k = a.outerIndexPtr()[row]; k < a.outerIndexPtr()[row + 1]; ++k)
+      a.valuePtr()[k] = a.valuePtr()[k] * result.row_scale[row] * result.column_scale[a.innerIndexPtr()[k]];
   return result;
 }
 
