@@ -86,11 +86,11 @@ LinearReport UmfpackSolver::order() {
   int status = UMFPACK_OK;
   std::array<double, UMFPACK_CONTROL> control = control_;
   if (given.empty()) {
-    // Where most entries are in a dense block, as in condensed systems of long fractures, METIS takes ten times as long
-    // as the factorization, and leaves no less fill than COLAMD; and rows that UMFPACK holds for dense, and sets aside,
-    // cost it two to five times as much as if it did not.
-    constexpr int mostly_dense = 100;
-    if (a.nonZeros() / mostly_dense > n) {
+    // METIS takes ten times as long as the factorization, and leaves no less fill than COLAMD, where most entries are
+    // in a dense block, as in condensed systems; and rows that UMFPACK holds for dense, and sets aside, cost it two to
+    // five times as much as if it did not.
+    constexpr int mostly_dense = 50, small = 1000;
+    if (n < small || a.nonZeros() / mostly_dense > n) {
       control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
       control[UMFPACK_DENSE_ROW] = n;
     }
@@ -119,7 +119,10 @@ std::vector<int> UmfpackSolver::order_of_entities() const {
   const int n = graph.size();
   if (n == static_cast<int>(scaled_.matrix.rows())) return {};
   void* symbolic = nullptr;
-  if (umfpack_di_symbolic(n, n, graph.starts().data(), graph.neighbours().data(), nullptr, &symbolic, control_.data(),
+  std::array<double, UMFPACK_CONTROL> control = control_;
+  constexpr int worth_dissecting = 4000;  // below, minimum degree is quicker and leaves no more fill
+  if (n < worth_dissecting) control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
+  if (umfpack_di_symbolic(n, n, graph.starts().data(), graph.neighbours().data(), nullptr, &symbolic, control.data(),
                           nullptr) != UMFPACK_OK)
     return {};
   std::vector<int> order(n);
