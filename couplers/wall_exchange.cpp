@@ -1,5 +1,7 @@
 // wall_exchange: fluid flows between a fracture and the matrix through its walls (Eq. 9).
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
@@ -19,9 +21,10 @@ struct WallExchangeOptions {
 };
 
 /// Determines lambda of every wall, from the fracture into the matrix: lambda = kappa (p_i − tr p). Its row is divided
-/// by kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well scaled
-/// from sealed to wide open walls. lambda leaves the fluid balance of the fracture: Eq. 8, in which Eq. 9 has the sign
-/// of a flux out of the fracture.
+/// by about kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well
+/// scaled from sealed to wide open walls; the exact divisor leaves a power of two in front of tr p, so that what is
+/// read from the matrix keeps its digits when kappa changes (BulkResponse). lambda leaves the fluid balance of the
+/// fracture: Eq. 8, in which Eq. 9 has the sign of a flux out of the fracture.
 ///
 /// What the matrix has received through each wall is kept in `exchanged`, and what of it the fracture has counted in
 /// `counted`, so that nothing is lost when the two are solved one after the other, or one of them in substeps.
@@ -79,9 +82,9 @@ class WallExchange : public Coupler {
     Vector of_flux(walls), of_trace(walls), of_pressure(walls);
     for (int w = 0; w < walls; ++w) {
       const double k = kappa.value[w / 2], scale = 1 / (k + matrix_conductance_[w]);
-      of_flux[w] = scale;
-      of_trace[w] = scale * k;
-      of_pressure[w] = -scale * k;
+      of_trace[w] = power_of_two_near(scale * k);
+      of_flux[w] = of_trace[w] > 0 ? of_trace[w] / k : scale;
+      of_pressure[w] = -of_trace[w];
     }
     assembly.add(flux, of_flux.cwiseProduct(flux.now()));
     assembly.diagonal(flux, flux, of_flux);
@@ -99,10 +102,11 @@ class WallExchange : public Coupler {
       assembly.derivative(flux, *term.field, SparseMatrix(of_trace.asDiagonal() * term.matrix.entries()));
     assembly.derivative(flux, pressure, SparseMatrix(of_pressure.asDiagonal() * to_walls_));
     Vector by_aperture(walls);
-    for (int w = 0; w < walls; ++w)
-      by_aperture[w] = of_flux[w] * kappa.by_aperture[w / 2] * (trace_now[w] - pressure.now()[w / 2]) -
-                       of_flux[w] * of_flux[w] * kappa.by_aperture[w / 2] *
-                           (flux.now()[w] + kappa.value[w / 2] * (trace_now[w] - pressure.now()[w / 2]));
+    for (int w = 0; w < walls; ++w) {
+      const double difference =
+          of_trace[w] > 0 ? -flux.now()[w] / kappa.value[w / 2] : trace_now[w] - pressure.now()[w / 2];
+      by_aperture[w] = of_flux[w] * kappa.by_aperture[w / 2] * difference;
+    }
     assembly.derivative(flux, fracture_.aperture(), SparseMatrix(by_aperture.asDiagonal() * to_walls_));
   }
 
@@ -129,6 +133,12 @@ class WallExchange : public Coupler {
   }
 
  private:
+  static double power_of_two_near(double share) {
+    int exponent = 0;
+    const double mantissa = std::frexp(share, &exponent);  // 0 or from 1/2 to 1
+    return mantissa == 0 ? 0 : std::ldexp(1.0, mantissa < std::numbers::sqrt2 / 2 ? exponent - 1 : exponent);
+  }
+
   static FieldSpec book(const CouplerContext& context, const char* name, const Field& with, const char* doc) {
     return {.owner = context.name,
             .name = name,

@@ -1,16 +1,78 @@
 #include "framework/linear/bulk_response.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace sprekk {
 
-bool BulkResponse::compute(const BulkSplitting& split, LinearSolver& solver) {
-  const int rows = split.bulk_size(), count = static_cast<int>(split.felt.size());
-  std::vector<int> column_of(split.local_size(), -1);
-  for (int c = 0; c < count; ++c) column_of[split.felt[c]] = c;
+namespace {
 
+/// The columns of A_BF for those unknowns, and the rows of A_FB.
+SparseMatrix chosen_columns(const SparseMatrix& a, const std::vector<int>& columns) {
+  std::vector<int> place(a.cols(), -1);
+  for (std::size_t c = 0; c < columns.size(); ++c) place[columns[c]] = static_cast<int>(c);
+  SparseMatrix chosen(a.rows(), columns.size());
+  chosen.reserve(a.nonZeros());
+  for (int row = 0; row < a.rows(); ++row) {
+    chosen.startVec(row);
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
+      chosen.insertBack(row, place[entry.col()]) = entry.value();
+  }
+  chosen.finalize();
+  return chosen;
+}
+
+SparseMatrix chosen_rows(const SparseMatrix& a, const std::vector<int>& rows) {
+  SparseMatrix chosen(rows.size(), a.cols());
+  chosen.reserve(a.nonZeros());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    chosen.startVec(k);
+    for (SparseMatrix::InnerIterator entry(a, rows[k]); entry; ++entry)
+      chosen.insertBack(k, entry.col()) = entry.value();
+  }
+  chosen.finalize();
+  return chosen;
+}
+
+/// The power of two, or its negative, with which all of a are the bits of b, if there is one.
+std::optional<double> common_factor(const double* a, const double* b, int size) {
+  const auto begins = std::find_if(a, a + size, [](double x) { return x != 0; });
+  const double factor = begins == a + size ? 1 : b[begins - a] / *begins;
+  int exponent = 0;
+  if (std::abs(std::frexp(factor, &exponent)) != 0.5) return std::nullopt;
+  const bool fits = std::equal(a, a + size, b, [factor](double x, double y) { return factor * x == y; });
+  return fits ? std::optional(factor) : std::nullopt;
+}
+
+}  // namespace
+
+LinearReport BulkResponse::compute(const BulkSplitting& split, LinearSolver& solver, bool is_short_lived) {
+  is_whole_ = has_near_ = false;
+  columns_.resize(0, 0);
   of_felt_rows_.clear();
+  of_bordered_.clear();
+  if (is_short_lived) {
+    Eigen::MatrixXd response;
+    const std::optional<LinearReport> report =
+        solver.factor_bordered(split.bulk_system(), chosen_columns(split.bf.matrix, split.felt),
+                               chosen_rows(split.fb.matrix, split.feeling), response);
+    if (report && report->solved) {
+      bordered_ = response;
+      of_bordered_.assign(split.fb.matrix.valuePtr(), split.fb.matrix.valuePtr() + split.fb.matrix.nonZeros());
+    }
+    if (report) return *report;
+  }
+  const LinearReport report = solver.factor(split.bulk_system());
+  if (report.solved && !solve_columns(split, solver))
+    return LinearReport::failure(solver.name() + " does not solve for columns");
+  return report;
+}
+
+bool BulkResponse::solve_columns(const BulkSplitting& split, LinearSolver& solver) {
+  const int rows = split.bulk_size(), count = static_cast<int>(split.felt.size());
+  const SparseMatrix felt = chosen_columns(split.bf.matrix, split.felt);
   near_.resize(split.near.size(), count);
   is_whole_ = static_cast<double>(rows) * count <= largest_;
   columns_.resize(rows, 0);  // what it stays if nothing is felt
@@ -19,33 +81,44 @@ bool BulkResponse::compute(const BulkSplitting& split, LinearSolver& solver) {
     const int end = std::min(count, first + width);
     columns_.setZero(rows, end - first);
     for (int row = 0; row < rows; ++row)
-      for (SparseMatrix::InnerIterator entry(split.bf.matrix, row); entry; ++entry) {
-        const int column = column_of[entry.col()];
-        if (column >= first && column < end) columns_(row, column - first) = entry.value();
-      }
+      for (SparseMatrix::InnerIterator entry(felt, row); entry; ++entry)
+        if (entry.col() >= first && entry.col() < end) columns_(row, entry.col() - first) = entry.value();
     if (!solver.solve_columns(columns_)) return false;
     for (std::size_t k = 0; k < split.near.size(); ++k)
       near_.row(k).segment(first, end - first) = columns_.row(split.near[k]);
   }
   if (!is_whole_) columns_.resize(0, 0);
-  return true;
+  return has_near_ = true;
 }
 
-const BulkResponse::RowMatrix& BulkResponse::felt_rows(const BulkSplitting& split) {
+/// Row k of A_FB with X.
+void BulkResponse::multiply(const BulkSplitting& split, std::size_t k) {
+  const SparseMatrix& fb = split.fb.matrix;
+  felt_rows_.row(k).setZero();
+  for (SparseMatrix::InnerIterator entry(fb, split.feeling[k]); entry; ++entry)
+    felt_rows_.row(k) += entry.value() * near_.row(split.near_place[entry.col()]);
+}
+
+const BulkResponse::RowMatrix& BulkResponse::felt_rows(const BulkSplitting& split, LinearSolver& solver) {
   const SparseMatrix& fb = split.fb.matrix;
   const bool is_first = of_felt_rows_.empty();
   if (is_first) {
     of_felt_rows_.resize(fb.nonZeros());
-    felt_rows_.resize(split.feeling.size(), near_.cols());
+    felt_rows_.resize(split.feeling.size(), split.felt.size());
   }
   for (std::size_t k = 0; k < split.feeling.size(); ++k) {
-    const int begin = fb.outerIndexPtr()[split.feeling[k]], end = fb.outerIndexPtr()[split.feeling[k] + 1];
-    const std::size_t size = (end - begin) * sizeof(double);
-    if (!is_first && std::memcmp(&of_felt_rows_[begin], fb.valuePtr() + begin, size) == 0) continue;
-    std::memcpy(&of_felt_rows_[begin], fb.valuePtr() + begin, size);
-    felt_rows_.row(k).setZero();
-    for (int e = begin; e < end; ++e)
-      felt_rows_.row(k) += fb.valuePtr()[e] * near_.row(split.near_place[fb.innerIndexPtr()[e]]);
+    const int begin = fb.outerIndexPtr()[split.feeling[k]], count = fb.outerIndexPtr()[split.feeling[k] + 1] - begin;
+    const double* const values = fb.valuePtr() + begin;
+    if (!is_first && std::memcmp(&of_felt_rows_[begin], values, count * sizeof(double)) == 0) continue;
+    std::memcpy(&of_felt_rows_[begin], values, count * sizeof(double));
+    const std::optional<double> factor =
+        of_bordered_.empty() ? std::nullopt : common_factor(&of_bordered_[begin], values, count);
+    if (factor) {
+      felt_rows_.row(k) = *factor * bordered_.row(k);
+    } else {
+      if (!has_near_) solve_columns(split, solver);
+      multiply(split, k);
+    }
   }
   return felt_rows_;
 }

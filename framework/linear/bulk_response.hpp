@@ -7,8 +7,10 @@
 
 namespace sprekk {
 
-/// X = A_BB^-1 A_BF, one column for each of BulkSplitting::felt. The equations of F read few of its rows, those of
-/// A_FB; they are always kept. The rest of X only spares a back-solve for x_B, and is kept where it is not too large.
+/// X = A_BB^-1 A_BF, one column for each of BulkSplitting::felt, as far as it is needed. The equations of F read
+/// A_FB X, which a solver may give while it factorizes (LinearSolver::factor_bordered), for less than the columns of X
+/// cost. X itself spares a back-solve for each x_B, so that it pays after some hundred of them. Of its rows those are
+/// kept that A_FB reads, and the rest where it is not too large.
 class BulkResponse {
  public:
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -17,23 +19,32 @@ class BulkResponse {
   /// multiple of what solvers take together, since others would be rounded differently.
   explicit BulkResponse(double largest = 1.5e8, int columns = 256) : largest_(largest), piece_(columns) {}
 
-  /// Solves for the columns of X with the solver that has factorized A_BB. False if it cannot.
-  bool compute(const BulkSplitting& split, LinearSolver& solver);
+  /// Factorizes A_BB and finds the response. `is_short_lived`: it serves a few systems only, for which X is not worth
+  /// its price where the solver can do without.
+  LinearReport compute(const BulkSplitting& split, LinearSolver& solver, bool is_short_lived);
+  /// Whether X is kept, all of it.
   bool is_whole() const { return is_whole_; }
 
   /// A_FB X, a row for each of BulkSplitting::feeling. Rows of A_FB whose bits are those of the last call are not
-  /// multiplied again.
-  const RowMatrix& felt_rows(const BulkSplitting& split);
+  /// multiplied again, and those that only a power of two has scaled since `compute` are scaled; for others X has to be
+  /// computed if it was not. So the bits depend on the matrices, and not on those that were seen before. `solver`: the
+  /// one that `compute` was given.
+  const RowMatrix& felt_rows(const BulkSplitting& split, LinearSolver& solver);
 
-  /// x_B − X x_F. `solver` as for `compute`; it is used where X is not whole.
+  /// x_B − X x_F. `solver` as for `felt_rows`; it is used where X is not whole.
   void subtract(const BulkSplitting& split, LinearSolver& solver, const Vector& local, Vector& bulk) const;
 
  private:
+  bool solve_columns(const BulkSplitting& split, LinearSolver& solver);
+  void multiply(const BulkSplitting& split, std::size_t k);
+
   double largest_;
   int piece_;
-  bool is_whole_ = false;
+  bool is_whole_ = false, has_near_ = false;
   Eigen::MatrixXd columns_;           ///< X, if it is whole
   RowMatrix near_;                    ///< the rows of X that A_FB has columns for: BulkSplitting::near
+  RowMatrix bordered_;                ///< A_FB X as the factorization gave it,
+  std::vector<double> of_bordered_;   ///< and the values of A_FB that it had
   RowMatrix felt_rows_;               ///< A_FB X
   std::vector<double> of_felt_rows_;  ///< the values of A_FB that it was made with; empty for none
 };

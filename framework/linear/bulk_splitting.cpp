@@ -27,6 +27,23 @@ void multiply(const SparseMatrix& a, const Vector& x, Vector& product, Vector& s
     }
 }
 
+/// What the sizes of the terms of its own rows, to so small a part, make of those of the rows that read an unknown:
+/// jumps that are zero are differences of displacements that are not, and round-off is no mistake.
+Vector least_sizes(const SparseMatrix& a, const Vector& size) {
+  constexpr double small = 1e-4;
+  Vector determined = Vector::Zero(a.cols()), least = Vector::Zero(a.rows());
+  for (int row = 0; row < a.rows(); ++row) {
+    double largest = 0;
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
+      largest = std::max(largest, std::abs(entry.value()));
+    if (largest > 0) determined[row] = size[row] / largest;
+  }
+  for (int row = 0; row < a.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
+      least[row] += small * std::abs(entry.value()) * determined[entry.col()];
+  return least;
+}
+
 double largest_by_block(const std::vector<UnknownBlock>& blocks, const Vector& residual, const Vector& size) {
   double largest = 0;
   for (const UnknownBlock& block : blocks) {
@@ -168,6 +185,7 @@ double BulkSplitting::backward_error(const Vector& bulk, const Vector& local, co
   size = b_local.cwiseAbs();
   multiply(fb.matrix, bulk, product, size);
   multiply(ff.matrix, local, product, size);
+  size = size.cwiseMax(least_sizes(ff.matrix, size));
   return std::max(of_bulk, largest_by_block(local_blocks_, b_local - product, size));
 }
 

@@ -118,7 +118,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
     const double price = price_of_columns(split);
     if (price > worth_at_once && bulk.systems <= price)
       return LinearReport::failure("condensing costs more than the few systems that the bulk has had so far");
-    bulk.report = respond(bulk);
+    bulk.report = bulk.response.compute(split, *bulk.solver, options_.bulk_changes_often);
     bulk.is_tried = true;
     is_proven_ = false;
   }
@@ -148,18 +148,10 @@ void CondensedSolver::choose_bulk() {
   bulk.is_tried = false;
 }
 
-LinearReport CondensedSolver::respond(Bulk& bulk) const {
-  const BulkSplitting& split = *splitting_;
-  const LinearReport report = bulk.solver->factor(split.bulk_system());
-  if (!report.solved) return report;
-  if (!bulk.response.compute(split, *bulk.solver))
-    return LinearReport::failure(bulk.solver->name() + " does not solve for columns");
-  return report;
-}
-
 SparseMatrix CondensedSolver::reduced_matrix() {
   const BulkSplitting& split = *splitting_;
-  const BulkResponse::RowMatrix& felt_rows = bulks_.front().response.felt_rows(split);
+  Bulk& bulk = bulks_.front();
+  const BulkResponse::RowMatrix& felt_rows = bulk.response.felt_rows(split, *bulk.solver);
   SparseMatrix reduced = reduced_pattern_;
   int feeling = 0;
   for (int row = 0; row < split.local_size(); ++row) {
@@ -199,28 +191,11 @@ LinearReport CondensedSolver::solve_condensed(const Vector& b_bulk, const Vector
 
 LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
   if (is_condensed_) {
-    constexpr double accurate = 1e-11, acceptable = 1e-9;
     const BulkSplitting& split = *splitting_;
     const Vector b_bulk = split.bulk_part(b_rows), b_local = split.local_part(b_rows);
     Vector bulk, local;
     LinearReport report = solve_condensed(b_bulk, b_local, bulk, local);
-    double error = !report.solved ? HUGE_VAL : is_proven_ ? 0 : split.backward_error(bulk, local, b_bulk, b_local);
-    if (error > accurate && std::isfinite(error)) {
-      Vector more_bulk, more_local;
-      const Vector r_bulk = b_bulk - split.bb.matrix * bulk - split.bf.matrix * local;
-      const Vector r_local = b_local - split.fb.matrix * bulk - split.ff.matrix * local;
-      if (solve_condensed(r_bulk, r_local, more_bulk, more_local).solved) {
-        more_bulk += bulk;
-        more_local += local;
-        const double next = split.backward_error(more_bulk, more_local, b_bulk, b_local);
-        if (next < error) {
-          error = next;
-          bulk = std::move(more_bulk);
-          local = std::move(more_local);
-        }
-      }
-    }
-    if (error <= acceptable) {
+    if (report.solved && (is_proven_ || proves(b_bulk, b_local, bulk, local))) {
       is_proven_ = true;
       x = split.joined(bulk, local);
       return report;
@@ -229,6 +204,20 @@ LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
     if (!report.solved) return report;
   }
   return whole_ ? whole_->solve(b_rows, x) : LinearReport::failure("solve was called before factor");
+}
+
+/// Whether this solution is accurate, or would be with one step of refinement. That step is not kept: of later
+/// solutions nobody asks, and a run that goes on from a checkpoint is to have the bits of one that was not interrupted.
+bool CondensedSolver::proves(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local) {
+  constexpr double acceptable = 1e-9;
+  const BulkSplitting& split = *splitting_;
+  const double error = split.backward_error(bulk, local, b_bulk, b_local);
+  if (error <= acceptable || !std::isfinite(error)) return error <= acceptable;
+  Vector more_bulk, more_local;
+  const Vector r_bulk = b_bulk - split.bb.matrix * bulk - split.bf.matrix * local;
+  const Vector r_local = b_local - split.fb.matrix * bulk - split.ff.matrix * local;
+  return solve_condensed(r_bulk, r_local, more_bulk, more_local).solved &&
+         split.backward_error(bulk + more_bulk, local + more_local, b_bulk, b_local) <= acceptable;
 }
 
 std::string CondensedSolver::name() const {

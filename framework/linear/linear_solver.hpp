@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,6 +108,13 @@ class LinearSolver {
   /// A X = B in place for the columns of B, in one process, without a look at residuals. False for a solver that
   /// cannot.
   virtual bool solve_columns(Eigen::Ref<Eigen::MatrixXd> /*columns*/) { return false; }
+  /// Factorizes A as `factor` does and finds R A^-1 C on the way, in one process: the Schur complement of a border of
+  /// columns C (n × c) and rows R (r × n), for less than the columns of A^-1 C would cost. Nothing for a solver that
+  /// cannot, which has done nothing then.
+  virtual std::optional<LinearReport> factor_bordered(const LinearSystem& /*system*/, const SparseMatrix& /*columns*/,
+                                                      const SparseMatrix& /*rows*/, Eigen::MatrixXd& /*response*/) {
+    return std::nullopt;
+  }
   virtual std::string name() const = 0;
   virtual const LinearCounts& counts() const { return counts_; }
 
@@ -119,10 +127,13 @@ struct LinearOptions {
   double tolerance = 1e-10;   ///< relative residual of iterative methods
   int max_iterations = 500;
   bool condense = true;  ///< direct solvers in one process: factorize the bulk once, and then only what is local
+  /// The bulk serves a few systems only before it is another one, as where meshes change with the steps. Then a quick
+  /// factorization counts for more than quick back-solves.
+  bool bulk_changes_often = false;
 };
 
-/// `auto`: UMFPACK for small systems in one process, MUMPS for larger ones and in several processes, Belos with the
-/// block preconditioner above a size.
+/// `auto`: UMFPACK for small systems in one process, MUMPS for larger ones, where the bulk changes often and in several
+/// processes, Belos with the block preconditioner above a size.
 /// Throws std::invalid_argument for an unknown type, and for umfpack on several processes.
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
 /// Whether that is, for a system of this size, a direct solver.

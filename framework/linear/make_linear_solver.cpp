@@ -20,18 +20,10 @@ class AutomaticSolver final : public LinearSolver {
  public:
   explicit AutomaticSolver(const LinearOptions& options) : options_(options) {}
 
-  LinearReport factor(const LinearSystem& system) override {
-    // MUMPS factorizes 1.4 to 2.8 times faster than UMFPACK, but it starts MPI, which takes as long as a small run.
-    constexpr int smallest_for_mumps = 10'000;
-    const auto unknowns = system.local.cols();
-    const char* const type = unknowns > largest_for_direct                            ? "belos"
-                             : parallel::size() > 1 || unknowns >= smallest_for_mumps ? "mumps"
-                                                                                      : "umfpack";
-    if (!chosen_ || chosen_->name() != type) {
-      options_.type = type;
-      chosen_ = make_linear_solver(options_);
-    }
-    return chosen_->factor(system);
+  LinearReport factor(const LinearSystem& system) override { return chosen_for(system).factor(system); }
+  std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
+                                              const SparseMatrix& rows, Eigen::MatrixXd& response) override {
+    return chosen_for(system).factor_bordered(system, columns, rows, response);
   }
   LinearReport solve(const Vector& b_rows, Vector& x) override {
     if (!chosen_) return LinearReport::failure("solve was called before factor");
@@ -44,6 +36,20 @@ class AutomaticSolver final : public LinearSolver {
   const LinearCounts& counts() const override { return chosen_ ? chosen_->counts() : counts_; }
 
  private:
+  LinearSolver& chosen_for(const LinearSystem& system) {
+    // MUMPS factorizes 1.4 to 2.8 times faster than UMFPACK, but it starts MPI, and a back-solve of few unknowns takes
+    // it twice as long.
+    constexpr int smallest_for_mumps = 10'000;
+    const auto unknowns = system.local.cols();
+    const bool is_for_mumps = parallel::size() > 1 || options_.bulk_changes_often || unknowns >= smallest_for_mumps;
+    const char* const type = unknowns > largest_for_direct ? "belos" : is_for_mumps ? "mumps" : "umfpack";
+    if (!chosen_ || chosen_->name() != type) {
+      options_.type = type;
+      chosen_ = make_linear_solver(options_);
+    }
+    return *chosen_;
+  }
+
   LinearOptions options_;
   std::unique_ptr<LinearSolver> chosen_;
 };

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -16,7 +17,23 @@
 namespace sprekk {
 namespace {
 
-enum Job { end_instance = -2, start_instance = -1, analyse = 1, factorize = 2, back_substitute = 3 };
+enum Job { end_instance = -2, start_instance = -1, analyse = 1, factorize = 2, solve_for_columns = 3 };
+
+bool have_same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
+}
+
+/// Powers of two that bring the largest entries of a border to 2^-10: MUMPS compares pivots with all entries of a row,
+/// and those of the border shall not matter.
+Vector scales_of_border(const Vector& largest) {
+  return largest.unaryExpr([](double size) {
+    int exponent = 0;
+    std::frexp(size, &exponent);
+    return size > 0 ? std::ldexp(1.0, -10 - exponent) : 1.0;
+  });
+}
 
 }  // namespace
 
@@ -24,6 +41,9 @@ enum Job { end_instance = -2, start_instance = -1, analyse = 1, factorize = 2, b
 struct MumpsSolver::Instance {
   DMUMPS_STRUC_C data{};
   std::vector<int> rows, columns;  ///< of the entries of this process, counted from one
+  std::vector<double> values;      ///< of the matrix and its border
+  std::vector<int> border;         ///< the numbers of the unknowns that are not eliminated
+  std::vector<double> schur;       ///< what is left of their equations, by rows
 
   Instance() {
     parallel::start_mpi();
@@ -33,15 +53,15 @@ struct MumpsSolver::Instance {
     run(start_instance);
     for (int stream = 1; stream <= 3; ++stream) icntl(stream) = -1;  // errors, warnings, statistics: quiet
     icntl(4) = 0;
-    icntl(5) = 0;    // an assembled matrix
-    icntl(7) = 7;    // an ordering of its own choice
-    icntl(8) = 0;    // no scaling: done already
-    icntl(10) = 0;   // no refinement: ours looks at the true residual
-    icntl(14) = 30;  // per cent of spare room
-    icntl(18) = 3;   // entries on every process
-    icntl(20) = 0;   // a dense right-hand side on the root
-    icntl(21) = 0;   // the solution on the root
-    icntl(24) = 1;   // notes pivots that are zero to rounding, and goes on
+    icntl(5) = 0;                              // an assembled matrix
+    icntl(8) = 0;                              // no scaling: done already
+    icntl(10) = 0;                             // no refinement: ours looks at the true residual
+    icntl(14) = 30;                            // per cent of spare room
+    icntl(18) = parallel::size() > 1 ? 3 : 0;  // entries on every process
+    icntl(20) = 0;                             // a dense right-hand side on the root
+    icntl(21) = 0;                             // the solution on the root
+    icntl(24) = 1;                             // notes pivots that are zero to rounding, and goes on
+    icntl(26) = 0;                             // solves for what is eliminated
   }
   ~Instance() {
     int is_finalized = 0;
@@ -68,43 +88,134 @@ LinearReport MumpsSolver::factor(const LinearSystem& system) {
     compressed.local.makeCompressed();
     return factor(compressed);
   }
-  const Change change = last_.compare_and_remember(system);
+  const Change change = take(system);
   if (change == Change::nothing) {
     ++counts_.reused;
     return last_report_;
   }
+  const bool had_border = border_.size() > 0;
+  border_ = {};
+  return factor_scaled(change == Change::pattern || had_border);
+}
+
+std::optional<LinearReport> MumpsSolver::factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
+                                                         const SparseMatrix& rows, Eigen::MatrixXd& response) {
+  if (parallel::size() > 1 || !system.local.isCompressed()) return std::nullopt;
+  const Change change = take(system);
+  Border border = scaled(columns, rows);
+  const bool has_new_pattern = change == Change::pattern || !have_same_pattern(border.columns, border_.columns) ||
+                               !have_same_pattern(border.rows, border_.rows);
+  border_ = std::move(border);
+  const LinearReport report = factor_scaled(has_new_pattern);
+  if (!report.solved) return report;
+  response.resize(rows.rows(), columns.cols());
+  const int size = border_.size();
+  for (int row = 0; row < response.rows(); ++row)
+    for (int column = 0; column < response.cols(); ++column)
+      response(row, column) = -mumps_->schur[static_cast<std::size_t>(row) * size + column] /
+                              (border_.row_scale[row] * border_.column_scale[column]);
+  return report;
+}
+
+/// Remembers the system and scales it, if it is a new one.
+Change MumpsSolver::take(const LinearSystem& system) {
+  const Change change = last_.compare_and_remember(system);
+  if (change == Change::nothing) return change;
   system_.rows = system.rows;
   system_.blocks = system.blocks;
   system_.sums = system.sums;
-  {
-    const Stopwatch watch(counts_.seconds_factor);
-    scaled_ = equilibrate(system);
-  }
-  if (!scaled_.mistake.empty()) {
-    last_.forget();
-    return last_report_ = LinearReport::failure(scaled_.mistake);
-  }
-  last_report_ = change == Change::pattern ? order() : LinearReport::success();
+  const Stopwatch watch(counts_.seconds_factor);
+  scaled_ = equilibrate(system);
+  return change;
+}
+
+MumpsSolver::Border MumpsSolver::scaled(const SparseMatrix& columns, const SparseMatrix& rows) {
+  const Stopwatch watch(counts_.seconds_factor);
+  Border border{scaled_.row_scale.asDiagonal() * columns, rows * scaled_.column_scale.asDiagonal(), {}, {}};
+  Vector largest_of_column = Vector::Zero(columns.cols()), largest_of_row = Vector::Zero(rows.rows());
+  for (int row = 0; row < columns.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(border.columns, row); entry; ++entry)
+      largest_of_column[entry.col()] = std::max(largest_of_column[entry.col()], std::abs(entry.value()));
+  for (int row = 0; row < rows.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(border.rows, row); entry; ++entry)
+      largest_of_row[row] = std::max(largest_of_row[row], std::abs(entry.value()));
+  border.column_scale = scales_of_border(largest_of_column);
+  border.row_scale = scales_of_border(largest_of_row);
+  border.columns = border.columns * border.column_scale.asDiagonal();
+  border.rows = border.row_scale.asDiagonal() * border.rows;
+  return border;
+}
+
+LinearReport MumpsSolver::factor_scaled(bool has_new_pattern) {
+  last_report_ = scaled_.mistake.empty() ? LinearReport::success() : LinearReport::failure(scaled_.mistake);
+  if (last_report_.solved && has_new_pattern) last_report_ = order();
   if (last_report_.solved) last_report_ = factor_values();
-  if (!last_report_.solved) last_.forget();  // MUMPS promises nothing about an instance after an error
+  if (!last_report_.solved) {  // MUMPS promises nothing about an instance after an error
+    last_.forget();
+    border_ = {};
+  }
   return last_report_;
+}
+
+void MumpsSolver::list_entries() {
+  std::vector<int>&rows = mumps_->rows, &columns = mumps_->columns;
+  rows.clear();
+  columns.clear();
+  const auto list = [&](const SparseMatrix& a, const auto& number_of_row, int first_column) {
+    for (int row = 0; row < a.rows(); ++row)
+      for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
+        rows.push_back(number_of_row(row) + 1);
+        columns.push_back(first_column + static_cast<int>(entry.col()) + 1);
+      }
+  };
+  const int n = static_cast<int>(scaled_.matrix.cols());
+  list(
+      scaled_.matrix, [&](int row) { return system_.rows[row]; }, 0);
+  list(
+      border_.columns, [](int row) { return row; }, n);
+  list(
+      border_.rows, [n](int row) { return n + row; }, 0);
+  mumps_->border.clear();
+  for (int k = 0; k < border_.size(); ++k) {
+    mumps_->border.push_back(n + k + 1);
+    rows.push_back(n + k + 1);
+    columns.push_back(n + k + 1);
+  }
+}
+
+/// Of those entries.
+double* MumpsSolver::list_values() {
+  if (border_.size() == 0) return scaled_.matrix.valuePtr();
+  std::vector<double>& values = mumps_->values;
+  values.clear();
+  for (const SparseMatrix* a : {&scaled_.matrix, &border_.columns, &border_.rows})
+    values.insert(values.end(), a->valuePtr(), a->valuePtr() + a->nonZeros());
+  values.resize(values.size() + border_.size(), 0.0);
+  return values.data();
 }
 
 LinearReport MumpsSolver::order() {
   const Stopwatch watch(counts_.seconds_ordering);
-  const SparseMatrix& a = scaled_.matrix;
-  mumps_->rows.resize(a.nonZeros());
-  mumps_->columns.resize(a.nonZeros());
-  for (int row = 0; row < a.rows(); ++row)
-    for (int k = a.outerIndexPtr()[row]; k < a.outerIndexPtr()[row + 1]; ++k) {
-      mumps_->rows[k] = system_.rows[row] + 1;
-      mumps_->columns[k] = a.innerIndexPtr()[k] + 1;
-    }
-  mumps_->data.n = static_cast<int>(a.cols());
-  mumps_->data.nnz_loc = a.nonZeros();
-  mumps_->data.irn_loc = mumps_->rows.data();
-  mumps_->data.jcn_loc = mumps_->columns.data();
-  mumps_->data.a_loc = scaled_.matrix.valuePtr();
+  list_entries();
+  auto& data = mumps_->data;
+  data.n = static_cast<int>(scaled_.matrix.cols()) + border_.size();
+  if (parallel::size() > 1) {
+    data.nnz_loc = static_cast<int>(mumps_->rows.size());
+    data.irn_loc = mumps_->rows.data();
+    data.jcn_loc = mumps_->columns.data();
+  } else {
+    data.nnz = static_cast<int>(mumps_->rows.size());
+    data.irn = mumps_->rows.data();
+    data.jcn = mumps_->columns.data();
+  }
+  mumps_->icntl(19) = border_.size() > 0 ? 1 : 0;
+  data.size_schur = border_.size();
+  data.listvar_schur = mumps_->border.data();
+  // Minimum degree costs a third of nested dissection, and leaves as little fill where there is not much to dissect. A
+  // border excludes the latter, of those that Debian's MUMPS knows.
+  constexpr int minimum_degree = 0, its_own_choice = 7, worth_dissecting = 10'000;
+  const bool is_small = parallel::size() == 1 && data.n < worth_dissecting;
+  mumps_->icntl(7) = is_small || border_.size() > 0 ? minimum_degree : its_own_choice;
   mumps_->run(analyse);
   ++counts_.orderings;
   if (mumps_->status() == -6) return LinearReport::failure("the matrix is singular (its pattern alone shows it)");
@@ -115,7 +226,9 @@ LinearReport MumpsSolver::order() {
 
 LinearReport MumpsSolver::factor_values() {
   const Stopwatch watch(counts_.seconds_factor);
-  mumps_->data.a_loc = scaled_.matrix.valuePtr();
+  (parallel::size() > 1 ? mumps_->data.a_loc : mumps_->data.a) = list_values();
+  mumps_->schur.resize(static_cast<std::size_t>(border_.size()) * border_.size());
+  mumps_->data.schur = mumps_->schur.data();
   // What is a zero pivot: the default, round-off of the largest entry; where sums of balances hold by less, zero.
   mumps_->data.cntl[2] = system_.sums.empty() ? 0 : -1e-200;
   const int spare = mumps_->icntl(14);
@@ -131,6 +244,10 @@ LinearReport MumpsSolver::factor_values() {
   if (status < 0) mumps_->icntl(14) = spare;
   if (status < 0)
     return LinearReport::failure("the factorization of MUMPS failed with status " + std::to_string(status));
+  return not_singular();
+}
+
+LinearReport MumpsSolver::not_singular() {
   if (mumps_->data.infog[27] > 0) {  // the number of zero pivots; their list is on the root
     int row = parallel::is_root() ? mumps_->data.pivnul_list[0] : 0;
     MPI_Bcast(&row, 1, MPI_INT, 0, MPI_COMM_WORLD);
@@ -156,26 +273,32 @@ bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
   const Stopwatch watch(counts_.seconds_solve);
   counts_.columns += static_cast<int>(columns.cols());
   constexpr int together = 32;  // more than one is what makes it fast; all of them would double the memory
-  Eigen::MatrixXd block(columns.rows(), std::min<Eigen::Index>(together, columns.cols()));
+  Eigen::MatrixXd block(mumps_->data.n, std::min<Eigen::Index>(together, columns.cols()));
   mumps_->icntl(9) = 1;
   for (Eigen::Index first = 0; first < columns.cols(); first += block.cols()) {
     const Eigen::Index count = std::min(block.cols(), columns.cols() - first);
-    block.leftCols(count) = scaled_.row_scale.asDiagonal() * columns.middleCols(first, count);
-    mumps_->data.rhs = block.data();
-    mumps_->data.nrhs = static_cast<int>(count);
-    mumps_->data.lrhs = mumps_->data.n;
-    mumps_->run(back_substitute);
-    columns.middleCols(first, count) = scaled_.column_scale.asDiagonal() * block.leftCols(count);
+    block.setZero();
+    block.topLeftCorner(columns.rows(), count) = scaled_.row_scale.asDiagonal() * columns.middleCols(first, count);
+    back_substitute(block.leftCols(count));
+    columns.middleCols(first, count) = scaled_.column_scale.asDiagonal() * block.topLeftCorner(columns.rows(), count);
   }
   return true;
 }
 
+/// In place; rows of the border are zero.
+void MumpsSolver::back_substitute(Eigen::Ref<Eigen::MatrixXd> columns) {
+  mumps_->data.rhs = columns.data();
+  mumps_->data.nrhs = static_cast<int>(columns.cols());
+  mumps_->data.lrhs = mumps_->data.n;
+  mumps_->run(solve_for_columns);
+}
+
 void MumpsSolver::apply_inverse(Vector& v, bool transposed) {
   mumps_->icntl(9) = transposed ? 2 : 1;
-  mumps_->data.rhs = v.data();
-  mumps_->data.nrhs = 1;
-  mumps_->data.lrhs = mumps_->data.n;
-  mumps_->run(back_substitute);
+  const Eigen::Index unknowns = v.size();
+  v.conservativeResizeLike(Vector::Zero(mumps_->data.n));
+  back_substitute(v);
+  v.conservativeResize(unknowns);
   MPI_Bcast(v.data(), static_cast<int>(v.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
 }
 

@@ -1,7 +1,9 @@
 // MUMPS behind the linear solver interface: one process or several.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "framework/linear/equilibration.hpp"
 #include "framework/linear/last_system.hpp"
@@ -20,12 +22,27 @@ class MumpsSolver final : public LinearSolver {
   LinearReport factor(const LinearSystem& system) override;
   LinearReport solve(const Vector& b_rows, Vector& x) override;
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
+  std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
+                                              const SparseMatrix& rows, Eigen::MatrixXd& response) override;
   std::string name() const override { return "mumps"; }
 
  private:
   struct Instance;  ///< MUMPS's own data
+  /// Columns and rows around the matrix that are not eliminated, scaled.
+  struct Border {
+    SparseMatrix columns, rows;
+    Vector column_scale, row_scale;  ///< with which they have been multiplied, powers of two
+    int size() const { return static_cast<int>(std::max(columns.cols(), rows.rows())); }
+  };
+  Border scaled(const SparseMatrix& columns, const SparseMatrix& rows);
+  Change take(const LinearSystem& system);
+  LinearReport factor_scaled(bool has_new_pattern);
   LinearReport order();
+  void list_entries();
+  double* list_values();
   LinearReport factor_values();
+  LinearReport not_singular();
+  void back_substitute(Eigen::Ref<Eigen::MatrixXd> columns);
   void apply_inverse(Vector& v, bool transposed);
 
   std::unique_ptr<Instance> mumps_;
@@ -33,6 +50,7 @@ class MumpsSolver final : public LinearSolver {
   LinearReport last_report_;
   LinearSystem system_;  ///< rows and blocks; the matrix lives, scaled, in scaled_
   Equilibrated scaled_;
+  Border border_;
 };
 
 }  // namespace sprekk

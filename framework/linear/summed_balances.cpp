@@ -194,6 +194,13 @@ LinearReport SummedBalances::solve(const Vector& b_rows, Vector& x) {
   return solver_->solve(b, x);
 }
 
+std::optional<LinearReport> SummedBalances::factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
+                                                            const SparseMatrix& rows, Eigen::MatrixXd& response) {
+  if (parallel::size() > 1 || !exchanging_rows(system.local, system.blocks).empty()) return std::nullopt;
+  sums_.clear();
+  return solver_->factor_bordered(system, columns, rows, response);
+}
+
 bool SummedBalances::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
   for (const Sum& sum : sums_) {
     Eigen::RowVectorXd total = Eigen::RowVectorXd::Zero(columns.cols());

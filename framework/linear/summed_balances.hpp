@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/linear/linear_solver.hpp"
@@ -21,6 +22,9 @@ class SummedBalances final : public LinearSolver {
   LinearReport factor(const LinearSystem& system) override;
   LinearReport solve(const Vector& b_rows, Vector& x) override;
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
+  /// Only where there is nothing to sum.
+  std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
+                                              const SparseMatrix& rows, Eigen::MatrixXd& response) override;
   std::string name() const override { return solver_->name(); }
   const LinearCounts& counts() const override { return solver_->counts(); }
 

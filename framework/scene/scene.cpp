@@ -228,7 +228,9 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   read.region_names = mesh_names(scene.geometry).regions;
   read_components(scene, read);
   read_couplers(scene, read);
-  scene.schedule = read_schedule(*whole.find("schedule"), {component_names(scene), scene.linear, scene.newton, read});
+  const Node& schedule = *whole.find("schedule");
+  scene.linear.bulk_changes_often = has_step(schedule, "grow");
+  scene.schedule = read_schedule(schedule, {component_names(scene), scene.linear, scene.newton, read});
   note_unused_materials(scene, materials_used);
   return scene;
 }

@@ -185,4 +185,11 @@ ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading) 
   throw InputError(node.origin, "a step of the schedule is missing", "a step is a map such as 'solve: [pore, rock]'");
 }
 
+bool has_step(const Node& schedule, const std::string& key) {
+  return std::any_of(schedule.items.begin(), schedule.items.end(),
+                     [&](const Node& item) { return has_step(item, key); }) ||
+         std::any_of(schedule.entries.begin(), schedule.entries.end(),
+                     [&](const Node::Entry& entry) { return entry.key == key || has_step(entry.value, key); });
+}
+
 }  // namespace sprekk

@@ -39,6 +39,8 @@ using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const Schedu
 /// Reads the steps of a `schedule:` (a list of steps, run one after the other; one step needs no list). Throws
 /// InputError for unknown steps and components; what it returns, for a stabilization that no part offers.
 ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading);
+/// Whether there is a step of that kind, also inside of others.
+bool has_step(const Node& schedule, const std::string& key);
 
 /// A kind of step, known by its key in the scene.
 struct ScheduleKind {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "tests/framework/linear/test_systems.hpp"
 
@@ -12,20 +13,30 @@ namespace {
 
 const LinearSystem fractured = test::FracturedBiot{12}.build();
 
-class ResponseOf : public testing::TestWithParam<const char*> {
+struct Way {
+  const char* type;
+  bool is_short_lived;  ///< with MUMPS: found while it factorizes
+};
+
+class ResponseOf : public testing::TestWithParam<Way> {
  protected:
   ResponseOf() {
     split.bb.update(fractured.local.valuePtr());
     split.bf.update(fractured.local.valuePtr());
     split.fb.update(fractured.local.valuePtr());
     LinearOptions options;
-    options.type = GetParam();
+    options.type = GetParam().type;
     solver = make_linear_solver(options);
-    EXPECT_TRUE(solver->factor(split.bulk_system()).solved);
   }
-  BulkResponse computed(BulkResponse response) {
-    EXPECT_TRUE(response.compute(split, *solver));
+  BulkResponse computed(BulkResponse response, bool is_short_lived = GetParam().is_short_lived) {
+    EXPECT_TRUE(response.compute(split, *solver, is_short_lived).solved);
     return response;
+  }
+  /// A_FB A_BB^-1 A_BF by dense elimination, a row for each that feels the bulk.
+  Eigen::MatrixXd exact_rows() const {
+    const Eigen::MatrixXd dense =
+        split.fb.matrix * Eigen::MatrixXd(split.bb.matrix).partialPivLu().solve(Eigen::MatrixXd(split.bf.matrix));
+    return dense(split.feeling, split.felt);
   }
   const BulkResponse kept{1e9}, in_pieces{0, 32};  // X has 65 columns
 
@@ -35,25 +46,22 @@ class ResponseOf : public testing::TestWithParam<const char*> {
 
 TEST_P(ResponseOf, IsThatOfADenseElimination) {
   BulkResponse response = computed(kept);
-  const Eigen::MatrixXd dense =
-      split.fb.matrix * Eigen::MatrixXd(split.bb.matrix).partialPivLu().solve(Eigen::MatrixXd(split.bf.matrix));
-  ASSERT_EQ(response.felt_rows(split).rows(), static_cast<int>(split.feeling.size()));
-  ASSERT_EQ(response.felt_rows(split).cols(), static_cast<int>(split.felt.size()));
-  for (std::size_t k = 0; k < split.feeling.size(); ++k) {
-    const Eigen::RowVectorXd exact = dense.row(split.feeling[k])(split.felt);
-    EXPECT_LT((response.felt_rows(split).row(k) - exact).norm(), 1e-9 * exact.norm()) << split.feeling[k];
-  }
+  const Eigen::MatrixXd exact = exact_rows();
+  const BulkResponse::RowMatrix& rows = response.felt_rows(split, *solver);
+  ASSERT_EQ(rows.rows(), exact.rows());
+  ASSERT_EQ(rows.cols(), exact.cols());
+  for (int k = 0; k < rows.rows(); ++k) EXPECT_LT((rows.row(k) - exact.row(k)).norm(), 1e-9 * exact.row(k).norm()) << k;
 }
 
 TEST_P(ResponseOf, HasTheSameBitsInPieces) {
-  BulkResponse whole = computed(kept), pieces = computed(in_pieces);
+  BulkResponse whole = computed(kept, false), pieces = computed(in_pieces, false);
   EXPECT_TRUE(whole.is_whole());
   EXPECT_FALSE(pieces.is_whole());
-  EXPECT_EQ(whole.felt_rows(split), pieces.felt_rows(split));
+  EXPECT_EQ(whole.felt_rows(split, *solver), pieces.felt_rows(split, *solver));
 }
 
 TEST_P(ResponseOf, SubtractsByABackSolveWhereItIsNotKept) {
-  const BulkResponse whole = computed(kept), pieces = computed(in_pieces);
+  const BulkResponse whole = computed(kept, false), pieces = computed(in_pieces);
   const Vector local = test::random_vector(split.local_size(), 3);
   Vector multiplied = Vector::Zero(split.bulk_size()), solved = multiplied;
   whole.subtract(split, *solver, local, multiplied);
@@ -63,16 +71,76 @@ TEST_P(ResponseOf, SubtractsByABackSolveWhereItIsNotKept) {
 
 TEST_P(ResponseOf, FollowsRowsThatChange) {
   BulkResponse response = computed(kept);
-  const BulkResponse::RowMatrix before = response.felt_rows(split);
+  const BulkResponse::RowMatrix before = response.felt_rows(split, *solver);
   const std::size_t changed = split.feeling.size() / 2;
   split.fb.matrix.row(split.feeling[changed]) *= 2.0;
   BulkResponse::RowMatrix expected = before;
   expected.row(changed) *= 2.0;
-  EXPECT_EQ(response.felt_rows(split), expected);
+  EXPECT_EQ(response.felt_rows(split, *solver), expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, ResponseOf, testing::Values("umfpack", "mumps"),
-                         [](const auto& info) { return std::string(info.param); });
+TEST_P(ResponseOf, FollowsARowOfWhichOneEntryChanges) {
+  BulkResponse response = computed(kept);
+  response.felt_rows(split, *solver);
+  const int changed = static_cast<int>(split.feeling.size()) / 2;
+  split.fb.matrix.valuePtr()[split.fb.matrix.outerIndexPtr()[split.feeling[changed]]] *= 3;
+  const Eigen::MatrixXd exact = exact_rows();
+  const BulkResponse::RowMatrix& rows = response.felt_rows(split, *solver);
+  EXPECT_LT((rows.row(changed) - exact.row(changed)).norm(), 1e-9 * exact.row(changed).norm());
+}
+
+// Else a run that goes on from a checkpoint would not have the bits of one that was not interrupted.
+TEST_P(ResponseOf, DoesNotRememberWithWhichScalesOfRowsItWasComputed) {
+  BulkResponse::RowMatrix expected = computed(kept).felt_rows(split, *solver);
+  const SparseMatrix rows = split.fb.matrix;
+  for (int k = 0; k < static_cast<int>(split.feeling.size()); ++k)
+    split.fb.matrix.row(split.feeling[k]) *= std::ldexp(1.0, k % 60 - 30);
+  BulkResponse response = computed(kept);
+  split.fb.matrix = rows;
+  EXPECT_EQ(response.felt_rows(split, *solver), expected);
+}
+
+TEST_P(ResponseOf, LeavesASolverThatSolves) {
+  computed(kept);
+  Vector exact = test::random_vector(split.bulk_size(), 5);  // displacements (m), then pressures (Pa)
+  exact.head(2 * split.bulk_size() / 3) *= 1e-4;
+  exact.tail(split.bulk_size() / 3) *= 1e6;
+  Vector x;
+  ASSERT_TRUE(solver->solve(split.bb.matrix * exact, x).solved);
+  EXPECT_LT(test::block_difference(split.bulk_system(), x, exact), 1e-9);
+  ASSERT_TRUE(solver->factor(split.bulk_system()).solved);
+  ASSERT_TRUE(solver->solve(split.bb.matrix * exact, x).solved);
+  EXPECT_LT(test::block_difference(split.bulk_system(), x, exact), 1e-9);
+}
+
+TEST_P(ResponseOf, IsRefusedWhereTheBulkIsSingular) {
+  for (SparseMatrix::InnerIterator entry(split.bb.matrix, 7); entry; ++entry) entry.valueRef() = 0;
+  BulkResponse response = kept;
+  const LinearReport report = response.compute(split, *solver, GetParam().is_short_lived);
+  EXPECT_FALSE(report.solved);
+  EXPECT_NE(report.reason.find("singular"), std::string::npos) << report.reason;
+}
+
+TEST(ShortLivedResponse, NeedsNoColumns) {
+  BulkSplitting split{fractured};
+  for (SubMatrix* sub : {&split.bb, &split.bf, &split.fb}) sub->update(fractured.local.valuePtr());
+  LinearOptions options;
+  options.type = "mumps";
+  const std::unique_ptr<LinearSolver> solver = make_linear_solver(options);
+  BulkResponse response;
+  ASSERT_TRUE(response.compute(split, *solver, true).solved);
+  response.felt_rows(split, *solver);
+  EXPECT_FALSE(response.is_whole());
+  EXPECT_EQ(solver->counts().columns, 0);
+  EXPECT_EQ(solver->counts().factorizations, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, ResponseOf,
+                         testing::Values(Way{"umfpack", false}, Way{"umfpack", true}, Way{"mumps", false},
+                                         Way{"mumps", true}),
+                         [](const auto& info) {
+                           return std::string(info.param.type) + (info.param.is_short_lived ? "_short_lived" : "");
+                         });
 
 }  // namespace
 }  // namespace sprekk
