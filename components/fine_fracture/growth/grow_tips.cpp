@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "components/fine_fracture/growth/increment_search.hpp"
 #include "components/fine_fracture/growth/increments.hpp"
 
 namespace sprekk::fine_fracture {
@@ -32,7 +31,7 @@ struct State {
   Sifs sifs;
   bool is_stopped = false;
   bool is_outdated = true;  ///< whether `sifs`, or those of the increment, belong to older paths
-  double stiffness_ratio = 1;
+  Experience experience;
   std::unique_ptr<IncrementSearch> search;
   Sifs found;  ///< at the end of the increment once the search is settled
 };
@@ -54,6 +53,7 @@ class Growth {
       const std::vector<Point>& added = tips_[i].path.added;
       state.end = added.empty() ? tips_[i].tip : added.back();
       state.ahead = tips_[i].direction;
+      state.experience = tips_[i].experience;
       if (!added.empty())
         state.ahead = (added.back() - (added.size() > 1 ? added[added.size() - 2] : tips_[i].tip)).normalized();
     }
@@ -71,6 +71,7 @@ class Growth {
       if (states_[i].is_outdated && outcomes_[i].reason != not_finite) update(i);
       outcomes_[i].path = paths_[i];
       outcomes_[i].end = states_[i].sifs;
+      outcomes_[i].experience = states_[i].experience;
       if (!states_[i].is_stopped) outcomes_[i].arrested = true;
     }
     return std::move(outcomes_);
@@ -141,7 +142,7 @@ class Growth {
       double length = std::max(lengths[k], options_.smallest_length());
       if (options_.longest) length = std::min(length, *options_.longest - outcomes_[i].length);
       states_[i].search = std::make_unique<IncrementSearch>(options_, states_[i].sifs, tips_[i].toughness, length,
-                                                            states_[i].stiffness_ratio);
+                                                            states_[i].experience);
       paths_[i].added.push_back(states_[i].end);
       place(i);
     }
@@ -219,7 +220,7 @@ class Growth {
       const IncrementSearch& search = *state.search;
       if (!search.note().empty())
         outcomes_[i].notes.push_back("increment " + std::to_string(outcomes_[i].increments + 1) + ": " + search.note());
-      state.stiffness_ratio = search.stiffness_ratio();
+      state.experience = search.experience();
       const Point ahead = turned(state.ahead, search.angle());
       if (search.length() > 0) {
         state.sifs = state.found;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/fine_fracture/growth/growth_options.hpp"
+#include "components/fine_fracture/growth/increment_search.hpp"
 #include "components/fine_fracture/growth/mixed_mode.hpp"
 #include "framework/types.hpp"
 
@@ -22,6 +23,7 @@ struct GrowingTip {
   double toughness = 0;             ///< K_IC, Pa sqrt(m)
   double youngs_prime = 0;          ///< E' = E/(1 − nu^2), Pa
   TipPath path;                     ///< added before, to start from
+  Experience experience = {};       ///< with the increment before
 };
 
 struct TipOutcome {
@@ -34,6 +36,7 @@ struct TipOutcome {
   Point ahead = Point::Zero();     ///< unit vector, where a blocked tip would go on
   std::string reason;              ///< why growth ended
   std::vector<std::string> notes;  ///< increments whose direction or length is not what the options ask for
+  Experience experience;           ///< with the last increment
   int increments = 0;              ///< added in this call
   double length = 0;               ///< m, added in this call
   long evaluations = 0;            ///< of this tip's stress intensity factors

@@ -22,16 +22,17 @@ bool turns_away(const Sifs& sifs, double length) {
 }  // namespace
 
 IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start, double toughness, double full_length,
-                                 double stiffness_ratio)
+                                 const Experience& before)
     : options_(options),
       start_(start),
       toughness_(toughness),
+      experience_(before),
       full_length_(full_length),
-      stiffness_ratio_(stiffness_ratio),
       length_(full_length),
       best_{0, std::numbers::pi},
       shorter_{0, excess(equivalent_sif(start))},
       longer_{full_length, 0} {
+  length_ = first_length();
   if (!options_.is_implicit()) {
     angle_ = clamp_turn(options_.relaxation * maximum_tangential_angle(start_));
     phase_ = Phase::direction_fixed;
@@ -40,6 +41,15 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
   } else {
     angle_ = local_symmetry_angle(start_, length_, options_.largest_turn);
   }
+}
+
+double IncrementSearch::first_length() const {
+  // Only where the whole length is much too long: near the toughness a small part of K_eq is a large one of the length,
+  // and whole increments are what tips that grow together have in common.
+  constexpr double tolerances = 5;
+  const double excess_of_whole = shorter_.excess + experience_.release * full_length_;
+  if (!options_.seeks_arrest() || excess_of_whole < tolerances * options_.arrest_tolerance) return full_length_;
+  return std::clamp(-shorter_.excess / experience_.release, options_.smallest_length(), full_length_);
 }
 
 double IncrementSearch::clamp_turn(double angle) const {
@@ -103,13 +113,13 @@ bool IncrementSearch::is_reversed() const {
 
 double IncrementSearch::root_of_phi() {
   const Direction& last = directions_.back();
-  double slope = estimated_slope(last.angle) * stiffness_ratio_;
+  double slope = estimated_slope(last.angle) * experience_.stiffness_ratio;
   if (directions_.size() > 1) {
     const Direction& before = directions_[directions_.size() - 2];
     const double secant = (last.phi - before.phi) / (last.angle - before.angle);
     if (secant > 0.02 && secant < 100) {
       slope = secant;
-      stiffness_ratio_ = std::clamp(secant / estimated_slope(last.angle), 0.1, 20.0);
+      experience_.stiffness_ratio = std::clamp(secant / estimated_slope(last.angle), 0.1, 20.0);
     }
   }
   double root = clamp_turn(last.angle - last.phi / slope);
@@ -133,6 +143,7 @@ void IncrementSearch::learn(const Sifs& end) {
   const bool is_length_met_now = is_length_met(k_eq);
   is_settled_ = is_direction_met(end) && is_length_met_now;
   if (is_settled_) {
+    experience_.release = (excess(k_eq) - excess(equivalent_sif(start_))) / length_;
     // Other tips may move yet, and what was found for their old places no longer binds.
     directions_.clear();
     return;
@@ -166,7 +177,7 @@ void IncrementSearch::learn(const Sifs& end) {
     angle_ = root;
     is_settled_ = is_length_met_now && root == present;
   } else {
-    shorten(k_eq, root);
+    change_length(k_eq, root);
   }
 }
 
@@ -187,14 +198,22 @@ double IncrementSearch::next_length(const std::optional<Length>& third) const {
   return std::clamp(next, shorter_.length + margin, longer_.length - margin);
 }
 
-void IncrementSearch::shorten(double k_eq, double root) {
+/// No increment that is too long is known yet.
+double IncrementSearch::longer_length() const {
+  constexpr double nearly = 0.7;
+  const double slope = (shorter_.excess - excess(equivalent_sif(start_))) / shorter_.length;
+  const double next = shorter_.length - shorter_.excess / slope;
+  return slope > 0 && next < nearly * full_length_ ? next : full_length_;
+}
+
+void IncrementSearch::change_length(double k_eq, double root) {
   const Length here = {length_, excess(k_eq)};
   if (here.excess > 0 && length_ <= options_.smallest_length() * (1 + 1e-12)) return stay();
   Length& replaced = here.excess > 0 ? longer_ : shorter_;
   const std::optional<Length> third = has_longer_ ? std::optional(replaced) : std::nullopt;
   has_longer_ = has_longer_ || here.excess > 0;
   replaced = here;
-  const double next = std::max(next_length(third), options_.smallest_length());
+  const double next = has_longer_ ? std::max(next_length(third), options_.smallest_length()) : longer_length();
   if (phase_ == Phase::searching) {
     // By how much the estimate is wrong vanishes with the length, where the estimate is exact.
     const double wrong = root - local_symmetry_angle(start_, length_, options_.largest_turn);

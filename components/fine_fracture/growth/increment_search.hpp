@@ -10,6 +10,12 @@
 
 namespace sprekk::fine_fracture {
 
+/// What an increment of a tip tells its next one to try first.
+struct Experience {
+  double stiffness_ratio = 1;  ///< measured over estimated d phi/d angle
+  double release = 0;  ///< 1/m: by how much ln K_eq fell over its length; none is known where this is not positive
+};
+
 /// Two conditions at the end of the increment, each met within its tolerance:
 ///   phi(angle) = atan2(K_II, K_I) = 0       (direction: implicit), and
 ///   K_eq(length) = K_IC, or length = the full length and K_eq >= K_IC       (length: arrest).
@@ -21,10 +27,9 @@ namespace sprekk::fine_fracture {
 ///   while (!search.is_settled()) search.learn(sifs at the end of the increment search.angle(), search.length());
 class IncrementSearch {
  public:
-  /// `start`: at the tip before the increment; `full_length` in m. `stiffness_ratio`: measured over estimated
-  /// d phi/d angle of the increment before, 1 for the first.
+  /// `start`: at the tip before the increment; `full_length` in m.
   IncrementSearch(const GrowthOptions& options, const Sifs& start, double toughness, double full_length,
-                  double stiffness_ratio = 1);
+                  const Experience& before = {});
 
   double angle() const { return angle_; }    ///< rad, counted from the direction ahead
   double length() const { return length_; }  ///< m, 0 when the tip is to stay where it is
@@ -37,7 +42,7 @@ class IncrementSearch {
   void learn(const Sifs& end);
 
   bool is_settled() const { return is_settled_; }
-  double stiffness_ratio() const { return stiffness_ratio_; }
+  const Experience& experience() const { return experience_; }
   const std::string& note() const { return note_; }  ///< what was not as it should be, or ""
 
  private:
@@ -56,8 +61,10 @@ class IncrementSearch {
   double clamp_turn(double angle) const;
   bool is_reversed() const;
   double root_of_phi();
+  double first_length() const;
   double next_length(const std::optional<Length>& third) const;
-  void shorten(double k_eq, double root);
+  double longer_length() const;
+  void change_length(double k_eq, double root);
   void accept_as_it_is();
   /// The longest length known to end at the toughness or above, or none.
   void fall_back();
@@ -68,7 +75,8 @@ class IncrementSearch {
   const GrowthOptions options_;
   const Sifs start_;
   const double toughness_;
-  double full_length_, stiffness_ratio_;
+  Experience experience_;
+  double full_length_;
   double angle_ = 0, length_ = 0;
   bool is_limited_ = false, is_settled_ = false;
   Phase phase_ = Phase::searching;

@@ -242,7 +242,7 @@ Growing::Growth Tips::grow(const StepTime&) {
   for (const Tip& tip : tips_) {
     const LameParameters lame = surroundings_->stiffness(position(tip, {}));
     growing.push_back({position(tip, {}), direction(tip), *options_.toughness,
-                       Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path});
+                       Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path, tip.now.experience});
   }
   GrowthOptions growth = options_.growth;
   // Beyond what the coarse level wants to know of, its answer counts: the fluid's pressure falls as tips go on.
@@ -267,6 +267,7 @@ Growing::Growth Tips::grow(const StepTime&) {
     if (outcome.increments > 0) {
       tip.now.path = outcome.path;
       tip.now.sifs = outcome.end;
+      tip.now.experience = outcome.experience;
     }
     if (outcome.blocked && options_.meeting == "join") blocked.push_back(i);
     if (outcome.increments == 0) continue;
@@ -350,13 +351,19 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
   }
 }
 
+namespace {
+
+constexpr int state_size = 9;  ///< without the path
+
+}  // namespace
+
 void Tips::save(std::map<std::string, Vector>& state) const {
   for (const Tip& tip : tips_) {
     const State& kept = tip.accepted;
-    Vector values(7 + 2 * kept.path.added.size());
-    values.head<7>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started,
-        kept.sif_error;
-    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(7 + 2 * i) = kept.path.added[i];
+    Vector values(state_size + 2 * kept.path.added.size());
+    values.head<state_size>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped,
+        kept.has_started, kept.sif_error, kept.experience.stiffness_ratio, kept.experience.release;
+    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(state_size + 2 * i) = kept.path.added[i];
     state[name() + "." + tip.name] = std::move(values);
   }
   for (const Joint& joint : joints_) state[name() + "." + joint.name] = Vector::Constant(1, joint.grown);
@@ -365,7 +372,7 @@ void Tips::save(std::map<std::string, Vector>& state) const {
 void Tips::restore(const std::map<std::string, Vector>& state) {
   for (Tip& tip : tips_) {
     const auto found = state.find(name() + "." + tip.name);
-    if (found == state.end() || found->second.size() < 7) continue;
+    if (found == state.end() || found->second.size() < state_size) continue;
     const Vector& values = found->second;
     State kept;
     kept.sifs = {values[0], values[1], values[2]};
@@ -373,7 +380,8 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.is_stopped = values[4] != 0;
     kept.has_started = values[5] != 0;
     kept.sif_error = values[6];
-    for (int i = 7; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
+    kept.experience = {values[7], values[8]};
+    for (int i = state_size; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
   }
   for (Joint& joint : joints_) {

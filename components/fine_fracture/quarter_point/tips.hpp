@@ -61,6 +61,7 @@ class Tips : public Component, public FractureTips, public Growing {
     double sif_error = 0;      ///< Pa m^0.5, estimated
     double grown = 0;          ///< m, handed over to the coarse level
     bool has_started = false;  ///< was asked to grow: its onset is over
+    Experience experience;     ///< with its last increment
     bool is_stopped = false;   ///< at or before another fracture, or before the boundary: it grows no more
   };
   struct Tip {

@@ -65,6 +65,36 @@ TEST(Arrest, of_a_crack_opened_by_point_forces) {
   }
 }
 
+TEST(Arrest, is_found_sooner_after_another_one) {
+  // As above, but the force rises by 3 % again and again: the tip is told what it learnt from its last increment, and
+  // what one of another place has learnt may mislead it, but finds the same length.
+  GrowthOptions options = options_with(0.05);
+  GrowingTip knowing = tip_at(0.02), forgetful = knowing, misled = knowing;
+  long with = 0, without = 0;
+  for (int rise = 1; rise <= 10; ++rise) {
+    const double force = 0.7e6 * std::sqrt(pi * 0.02) * std::pow(1.03, rise), exact = std::pow(force / 0.7e6, 2) / pi;
+    const auto grow = [&](GrowingTip& tip) {
+      const auto sifs = [&](int, const std::vector<TipPath>& paths) {
+        return Sifs{force / std::sqrt(pi * (0.02 + added_length(tip, paths[0]))), 0};
+      };
+      const TipOutcome outcome = grow_tips({tip}, options, sifs, unlimited)[0];
+      EXPECT_TRUE(outcome.arrested);
+      EXPECT_NEAR(0.02 + added_length(tip, outcome.path), exact, 2.1 * 1e-2 * exact) << rise;
+      tip.path = outcome.path;
+      if (outcome.increments > 0) tip.experience = outcome.experience;
+      return outcome.evaluations - 1;  // without that of the start
+    };
+    with += grow(knowing);
+    forgetful.experience = {};
+    without += grow(forgetful);
+    // 10 times and a tenth of what is true here, 25 to 15 per m.
+    misled.experience = {1, rise % 2 == 0 ? 200.0 : 2.0};
+    grow(misled);
+  }
+  EXPECT_LE(with, 20);
+  EXPECT_GE(without, 30);
+}
+
 TEST(Arrest, of_wings_of_a_slipping_fracture_under_confinement) {
   // Wings of length l of a fracture of half-length c, effective shear tau, pressed together by sigma_3 (Horii and
   // Nemat-Nasser 1986): K_I = 2 c tau cos(45 degrees)/sqrt(pi (l + 0.27 c)) − sigma_3 sqrt(pi l/2).

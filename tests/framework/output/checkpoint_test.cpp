@@ -137,14 +137,14 @@ TEST_F(CheckpointTest, AnotherFormatVersionIsRefusedWithBothVersions) {
   {
     Hdf5Writer newer(path);
     newer.text("format", "sprekk checkpoint");
-    newer.integers("format_version", std::array{7});
+    newer.integers("format_version", std::array{8});
     newer.text("program_version", "9.8");
     newer.close();
   }
   const std::string message = message_of_reading();
-  EXPECT_THAT(message, HasSubstr("version 7"));
+  EXPECT_THAT(message, HasSubstr("version 8"));
   EXPECT_THAT(message, HasSubstr("sprekk 9.8"));
-  EXPECT_THAT(message, HasSubstr("this program reads version 6"));
+  EXPECT_THAT(message, HasSubstr("this program reads version 7"));
 }
 
 TEST_F(CheckpointTest, AnotherSceneIsRefused) {
