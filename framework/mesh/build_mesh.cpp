@@ -7,54 +7,14 @@
 #include <string>
 
 #include "framework/config/input_error.hpp"
+#include "framework/mesh/add_junction.hpp"
 #include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/counter_clockwise.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
 namespace {
-
-/// Twice the area over the square of the longest edge, about the smallest angle in rad, below which geometry is lost
-/// to rounding.
-constexpr double smallest_flatness = 1e-10;
-
-void require_area(const std::vector<Point>& nodes, const Ring& cell) {
-  const Point &p = nodes[cell[0]], &q = nodes[cell[1]], &r = nodes[cell[2]];
-  const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
-  // Negated, so that NaN is refused too.
-  if (!(std::abs(2 * signed_area(p, q, r)) > smallest_flatness * longest)) {
-    throw InputError("the triangle at " + to_text((p + q + r) / 3) + " is degenerate (it has no area)");
-  }
-}
-
-void require_convex(const std::vector<Point>& nodes, const Ring& cell) {
-  double longest = 0;
-  Point mean = Point::Zero();
-  for (int k = 0; k < cell.size(); ++k) {
-    longest = std::max(longest, (nodes[cell.after(k)] - nodes[cell[k]]).squaredNorm());
-    mean += nodes[cell[k]] / 4;
-  }
-  Ring turned = cell;
-  turned.turn();
-  const double smallest = std::max(smallest_corner_area(nodes, cell), smallest_corner_area(nodes, turned));
-  if (!mean.allFinite() || !(2 * smallest > smallest_flatness * longest)) {
-    throw InputError("the quadrilateral at " + to_text(mean) +
-                     " is not convex (a corner of it has no angle below 180 degrees) cut it into triangles");
-  }
-}
-
-std::vector<Ring> counter_clockwise(const RawMesh& raw) {
-  std::vector<Ring> cells = raw.cells;
-  const int count = static_cast<int>(raw.nodes.size());
-  for (Ring& cell : cells) {
-    if (*std::min_element(cell.begin(), cell.end()) < 0 || *std::max_element(cell.begin(), cell.end()) >= count) {
-      throw InputError("a cell names a node that does not exist (there are " + std::to_string(count) + " nodes)");
-    }
-    cell.size() == 3 ? require_area(raw.nodes, cell) : require_convex(raw.nodes, cell);
-    if (signed_area(raw.nodes, cell) < 0) cell.turn();
-  }
-  return cells;
-}
 
 /// Builds one mesh; its members are what the steps hand to each other.
 class MeshBuilder {
@@ -281,7 +241,7 @@ class MeshBuilder {
   }
 
   void place_fracture_cells() {
-    std::map<int, std::vector<CellEnd>> ends_at;  // by the raw node of a junction
+    std::map<int, std::vector<FractureCellEnd>> ends_at;  // by the raw node of a junction
     for (int fracture = 0; fracture < static_cast<int>(raw_.fractures.size()); ++fracture) {
       const auto& chain = raw_.fractures[fracture].nodes;
       const int first_cell = mesh_.fractures[fracture].first_cell;
@@ -305,7 +265,7 @@ class MeshBuilder {
       for (const int node : chain) {
         const auto found = ends_at.find(node);
         if (found == ends_at.end()) continue;
-        add_junction(raw_.nodes[node], found->second);
+        add_junction(mesh_, raw_.nodes[node], found->second);
         ends_at.erase(found);
       }
     }
@@ -337,43 +297,6 @@ class MeshBuilder {
     point.kind = outer_edges_at_node_[node] > 0 ? FracturePoint::Kind::on_boundary : FracturePoint::Kind::tip;
     if (point.kind == FracturePoint::Kind::on_boundary) point.side = side_at(node);
     return point;
-  }
-
-  /// One end of a fracture cell: 0 or 1, as in FractureCell::points.
-  struct CellEnd {
-    int cell, end;
-  };
-
-  /// The points between neighbours in a fracture are there already. `ends` are in ascending order of their cells.
-  void add_junction(const Point& position, const std::vector<CellEnd>& ends) {
-    const auto fracture_of = [&](const CellEnd& end) { return mesh_.fracture_cells[end.cell].fracture; };
-    const auto are_neighbours = [&](std::size_t i, std::size_t j) {
-      return ends[j].cell == ends[i].cell + 1 && fracture_of(ends[i]) == fracture_of(ends[j]);
-    };
-    Junction junction;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      junction.cells.push_back(ends[i].cell);
-      const bool has_neighbour =
-          (i > 0 && are_neighbours(i - 1, i)) || (i + 1 < ends.size() && are_neighbours(i, i + 1));
-      int& own_point = mesh_.fracture_cells[ends[i].cell].points[ends[i].end];
-      if (!has_neighbour) own_point = none;
-    }
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      int& own_point = mesh_.fracture_cells[ends[i].cell].points[ends[i].end];
-      for (std::size_t j = i + 1; j < ends.size(); ++j) {
-        int& other_point = mesh_.fracture_cells[ends[j].cell].points[ends[j].end];
-        int point = own_point;
-        if (!are_neighbours(i, j)) {
-          point = static_cast<int>(mesh_.fracture_points.size());
-          mesh_.fracture_points.push_back(
-              {position, {ends[i].cell, ends[j].cell}, FracturePoint::Kind::junction, none});
-        }
-        junction.points.push_back(point);
-        if (own_point == none) own_point = point;
-        if (other_point == none) other_point = point;
-      }
-    }
-    mesh_.junctions.push_back(std::move(junction));
   }
 
   /// At a corner between two sides: the one with the smaller index.

@@ -1,23 +1,10 @@
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "framework/mesh/mesh_change.hpp"
-#include "framework/mesh/planar.hpp"
-#include "framework/mesh/point_location.hpp"
 
 namespace sprekk::fracture_flow {
-
-namespace {
-
-/// The region of the rock on the plus side.
-int region_of(const Mesh& mesh, int fracture_cell) {
-  return mesh.cell_region[mesh.face_cells[mesh.fracture_cells[fracture_cell].faces[0]][0]];
-}
-
-}  // namespace
 
 FractureFlow::FractureFlow(const ComponentContext& context, const Options& options)
     : Component(context.name),
@@ -99,75 +86,6 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
   aperture_.set_accepted(std::move(aperture));
 }
 
-namespace {
-
-/// The nearest cell that has not grown.
-int nearest_original_cell(const Mesh& mesh, int fracture, const Point& x) {
-  const int nearest = nearest_fracture_cell(mesh, fracture, x);
-  if (!mesh.fracture_cells[nearest].grown) return nearest;
-  // What has grown lies at the ends: the first or the last of the others.
-  const auto& [name, first, count] = mesh.fractures[fracture];
-  int low = first, high = first + count - 1;
-  while (mesh.fracture_cells[low].grown) ++low;
-  while (mesh.fracture_cells[high].grown) --high;
-  return nearest < low ? low : high;
-}
-
-/// A place or a whole fracture is what it was at the start: what has grown is no part of it.
-std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
-  std::vector<int> cells;
-  if (where.at) {
-    int nearest = none;
-    for (int f = 0; f < static_cast<int>(mesh.fractures.size()); ++f) {
-      if (!where.fracture.empty() && mesh.fractures[f].name != where.fracture) continue;
-      const int candidate = nearest_original_cell(mesh, f, *where.at);
-      const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *where.at).norm(); };
-      if (nearest == none || distance(candidate) < distance(nearest)) nearest = candidate;
-    }
-    return {nearest};
-  }
-  for (int i = 0; i < mesh.fracture_cell_count(); ++i)
-    if (!mesh.fracture_cells[i].grown &&
-        (where.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == where.fracture))
-      cells.push_back(i);
-  return cells;
-}
-
-}  // namespace
-
-void FractureFlow::check_names() const {
-  std::vector<std::string> names;
-  for (const Fracture& fracture : mesh_.fractures) names.push_back(fracture.name);
-  const auto check = [&](const Where& where) {
-    if (!where.fracture.empty() && find_fracture(mesh_, where.fracture) == none)
-      throw unknown_name(where.origin, "fracture", where.fracture, names);
-    if (!where.at) return;
-    const FractureCell& cell = mesh_.fracture_cells[cells_at(mesh_, where).front()];
-    const double away = (cell.center - *where.at).norm();
-    if (away > cell.length)
-      throw InputError(where.origin, "there is no fracture at this place",
-                       "the nearest cell is " + fmt::format("{:.3g} m", away) + " away and only " +
-                           fmt::format("{:.3g} m", cell.length) + " long",
-                       "choose a point on a fracture");
-  };
-  for (const auto& [name, injection] : options_.injections) check(injection.where);
-  std::vector<const std::string*> prescribed_by(mesh_.fracture_cell_count(), nullptr);
-  for (const auto& [name, prescribed] : options_.prescribed) {
-    check(prescribed.where);
-    for (const int cell : cells_at(mesh_, prescribed.where)) {
-      if (prescribed_by[cell])
-        throw InputError(prescribed.where.origin, "'" + name + "' prescribes a pressure where there is one",
-                         "'" + *prescribed_by[cell] + "' gives the same fracture cell at " +
-                             to_text(mesh_.fracture_cells[cell].center) + " a pressure",
-                         "let each cell be in one of them");
-      prescribed_by[cell] = &name;
-    }
-  }
-  for (const auto& [side, origin] : options_.boundary_origins)
-    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
-      throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
-}
-
 void FractureFlow::make_links(const StepTime& step) {
   links_.clear();
   std::vector<std::pair<int, int>> place_of(mesh_.fracture_points.size(), {none, none});
@@ -177,7 +95,7 @@ void FractureFlow::make_links(const StepTime& step) {
   for (int i = 0; i < static_cast<int>(mesh_.fracture_points.size()); ++i) {
     const FracturePoint& point = mesh_.fracture_points[i];
     Link link{i, point.cells[0], none, place_of[i].first, place_of[i].second};
-    const int region = region_of(mesh_, link.first);
+    const int region = region_of(link.first);
     Point other = point.position;
     if (point.cells.size() == 2) {
       link.second = point.cells[1];
@@ -200,27 +118,6 @@ void FractureFlow::evaluate_data(const StepTime& step) {
     property->evaluate(step);
   make_links(step);
   prescribe(step);
-}
-
-void FractureFlow::prescribe(const StepTime& step) {
-  source_ = Vector::Zero(mesh_.fracture_cell_count());
-  for (const auto& [name, injection] : options_.injections) {
-    const std::vector<int> cells = cells_at(mesh_, injection.where);
-    double length = 0;
-    for (const int cell : cells) length += mesh_.fracture_cells[cell].length;
-    for (const int cell : cells) {
-      const FractureCell& at = mesh_.fracture_cells[cell];
-      source_[cell] += value_in_step(injection.rate, {at.center, region_of(mesh_, cell), 0}, step) * at.length / length;
-    }
-  }
-  prescribed_.clear();
-  for (const auto& [name, given] : options_.prescribed)
-    for (const int cell : cells_at(mesh_, given.where)) {
-      const FractureCell& at = mesh_.fracture_cells[cell];
-      const double storage = at.length * initial_aperture_[cell] * compressibility_[cell];
-      prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(mesh_, cell), 0}, step),
-                             storage > 0 ? storage : at.length});
-    }
 }
 
 double FractureFlow::hydraulic_aperture(int cell) const {
@@ -256,38 +153,6 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
     if (conducts_by_aperture(i)) kappa.by_aperture[i] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a);
   }
   return kappa;
-}
-
-Conductance FractureFlow::conductance(const Link& link) const {
-  const Transmissivity first = transmissivity(link.first);
-  const double half = 0.5 * mesh_.fracture_cells[link.first].length;
-  if (link.second == none) return {first.value / half, {{link.first, first.by_aperture / half}}};
-  const Transmissivity second = transmissivity(link.second);
-  const double other_half = 0.5 * mesh_.fracture_cells[link.second].length;
-  if (first.value == 0 || second.value == 0) return {0, {}};
-  const double value = 1 / (half / first.value + other_half / second.value);
-  return {value,
-          {{link.first, value * value * half / (first.value * first.value) * first.by_aperture},
-           {link.second, value * value * other_half / (second.value * second.value) * second.by_aperture}}};
-}
-
-std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
-  std::vector<JunctionFluxes> fluxes;
-  for (const Junction& junction : mesh_.junctions) {
-    std::vector<JunctionFluxes::Half> halves;
-    for (const int cell : junction.cells) {
-      const Transmissivity t = transmissivity(cell);
-      const double half = 0.5 * mesh_.fracture_cells[cell].length;
-      halves.push_back({t.value / half, t.by_aperture / half});
-    }
-    fluxes.emplace_back(junction, std::move(halves));
-  }
-  return fluxes;
-}
-
-double FractureFlow::pressure_drop(const Link& link) const {
-  const double second = link.second == none ? link.boundary_pressure : pressure_.now()[link.second];
-  return pressure_.now()[link.first] - second - link.gravity;
 }
 
 void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
@@ -329,77 +194,6 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   // In a steady flow nothing else is left than what fluxes leave of one another.
   assembly.compare_round_off_of_exchange(pressure_, step.dt * flux_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, flux_, std::move(divergence));
-}
-
-struct FractureFlow::FluxRows {
-  double dt;
-  Vector of_flux, drop;
-  std::vector<Triplet> by_flux, by_pressure, by_aperture;  ///< by_flux: beside of_flux, which is the diagonal
-  double largest_pressure = 0;
-};
-
-void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
-  if (!assembly.has_row(flux_)) return;
-  const int points = flux_.size(), count = mesh_.fracture_cell_count();
-  FluxRows rows{step.dt, Vector::Ones(points), Vector::Zero(points), {}, {}, {}};
-  const std::vector<JunctionFluxes> at_junctions = junction_fluxes();
-  for (const Link& link : links_) {
-    if (link.junction == none) {
-      add_row(link, conductance(link), rows);
-      continue;
-    }
-    const JunctionFluxes::Flux flux = at_junctions[link.junction].flux(link.place);
-    flux.parts.empty() ? add_row(link, flux.conductance, rows) : add_row(link, flux, rows);
-  }
-  assembly.add(flux_, rows.of_flux.cwiseProduct(flux_.now()));
-  assembly.add(flux_, rows.drop);
-  assembly.compare_round_off(flux_, rows.largest_pressure);
-  assembly.diagonal(flux_, flux_, rows.of_flux);
-  if (!assembly.wants_derivatives()) return;
-  SparseMatrix pressures(points, count), apertures(points, count);
-  pressures.setFromTriplets(rows.by_pressure.begin(), rows.by_pressure.end());
-  apertures.setFromTriplets(rows.by_aperture.begin(), rows.by_aperture.end());
-  assembly.derivative(flux_, pressure_, std::move(pressures));
-  assembly.derivative(flux_, aperture_, std::move(apertures));
-  if (rows.by_flux.empty()) return;
-  SparseMatrix fluxes(points, points);
-  fluxes.setFromTriplets(rows.by_flux.begin(), rows.by_flux.end());
-  assembly.derivative(flux_, flux_, std::move(fluxes));
-}
-
-/// Divided by its conductance plus that of a cell's storage, a row is well scaled from sealed to wide open.
-double FractureFlow::scale_of_row(const Link& link, double conductance, double dt) const {
-  const FractureCell& first = mesh_.fracture_cells[link.first];
-  const double reference = first.length * initial_aperture_[link.first] * compressibility_[link.first] / dt;
-  return conductance + reference > 0 ? 1 / (conductance + reference) : 1;
-}
-
-void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& rows) const {
-  const double scale = scale_of_row(link, c.value, rows.dt);
-  const double dp = pressure_drop(link), q = flux_.now()[link.point];
-  rows.of_flux[link.point] = scale;
-  rows.drop[link.point] = -scale * c.value * dp;
-  rows.largest_pressure = std::max(rows.largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
-  rows.by_pressure.emplace_back(link.point, link.first, -scale * c.value);
-  if (link.second != none) rows.by_pressure.emplace_back(link.point, link.second, scale * c.value);
-  // d/da of scale (q − C dp), with the scale's own derivative −scale^2 C'.
-  for (const auto& [cell, by] : c.by_aperture)
-    rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
-}
-
-void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const {
-  const double scale = scale_of_row(link, flux.conductance.value, rows.dt);
-  double rest = flux_.now()[link.point];
-  rows.of_flux[link.point] = scale;
-  for (const auto& [point, share] : flux.parts) {
-    const double q = flux_.now()[point];
-    rest -= share.value * q;
-    rows.drop[link.point] -= scale * share.value * q;
-    rows.by_flux.emplace_back(link.point, point, -scale * share.value);
-    for (const auto& [cell, by] : share.by_aperture) rows.by_aperture.emplace_back(link.point, cell, -scale * by * q);
-  }
-  for (const auto& [cell, by] : flux.conductance.by_aperture)
-    rows.by_aperture.emplace_back(link.point, cell, -scale * scale * by * rest);
 }
 
 void FractureFlow::constrain(Assembly& assembly) const {

@@ -70,6 +70,7 @@ class FractureFlow : public Component, public FractureFluid {
   void add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const;
   double scale_of_row(const Link& link, double conductance, double dt) const;
   void check_names() const;
+  int region_of(int cell) const;
   std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);
   void prescribe(const StepTime& step);

@@ -1,0 +1,111 @@
+// The rows of the fluxes along fractures: through a point of two cells, at an open end, where fractures meet.
+#include <algorithm>
+
+#include "components/fracture_flow/tpfa/fracture_flow.hpp"
+
+namespace sprekk::fracture_flow {
+
+Conductance FractureFlow::conductance(const Link& link) const {
+  const Transmissivity first = transmissivity(link.first);
+  const double half = 0.5 * mesh_.fracture_cells[link.first].length;
+  if (link.second == none) return {first.value / half, {{link.first, first.by_aperture / half}}};
+  const Transmissivity second = transmissivity(link.second);
+  const double other_half = 0.5 * mesh_.fracture_cells[link.second].length;
+  if (first.value == 0 || second.value == 0) return {0, {}};
+  const double value = 1 / (half / first.value + other_half / second.value);
+  return {value,
+          {{link.first, value * value * half / (first.value * first.value) * first.by_aperture},
+           {link.second, value * value * other_half / (second.value * second.value) * second.by_aperture}}};
+}
+
+std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
+  std::vector<JunctionFluxes> fluxes;
+  for (const Junction& junction : mesh_.junctions) {
+    std::vector<JunctionFluxes::Half> halves;
+    for (const int cell : junction.cells) {
+      const Transmissivity t = transmissivity(cell);
+      const double half = 0.5 * mesh_.fracture_cells[cell].length;
+      halves.push_back({t.value / half, t.by_aperture / half});
+    }
+    fluxes.emplace_back(junction, std::move(halves));
+  }
+  return fluxes;
+}
+
+double FractureFlow::pressure_drop(const Link& link) const {
+  const double second = link.second == none ? link.boundary_pressure : pressure_.now()[link.second];
+  return pressure_.now()[link.first] - second - link.gravity;
+}
+
+struct FractureFlow::FluxRows {
+  double dt;
+  Vector of_flux, drop;
+  std::vector<Triplet> by_flux, by_pressure, by_aperture;  ///< by_flux: beside of_flux, which is the diagonal
+  double largest_pressure = 0;
+};
+
+void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
+  if (!assembly.has_row(flux_)) return;
+  const int points = flux_.size(), count = mesh_.fracture_cell_count();
+  FluxRows rows{step.dt, Vector::Ones(points), Vector::Zero(points), {}, {}, {}};
+  const std::vector<JunctionFluxes> at_junctions = junction_fluxes();
+  for (const Link& link : links_) {
+    if (link.junction == none) {
+      add_row(link, conductance(link), rows);
+      continue;
+    }
+    const JunctionFluxes::Flux flux = at_junctions[link.junction].flux(link.place);
+    flux.parts.empty() ? add_row(link, flux.conductance, rows) : add_row(link, flux, rows);
+  }
+  assembly.add(flux_, rows.of_flux.cwiseProduct(flux_.now()));
+  assembly.add(flux_, rows.drop);
+  assembly.compare_round_off(flux_, rows.largest_pressure);
+  assembly.diagonal(flux_, flux_, rows.of_flux);
+  if (!assembly.wants_derivatives()) return;
+  SparseMatrix pressures(points, count), apertures(points, count);
+  pressures.setFromTriplets(rows.by_pressure.begin(), rows.by_pressure.end());
+  apertures.setFromTriplets(rows.by_aperture.begin(), rows.by_aperture.end());
+  assembly.derivative(flux_, pressure_, std::move(pressures));
+  assembly.derivative(flux_, aperture_, std::move(apertures));
+  if (rows.by_flux.empty()) return;
+  SparseMatrix fluxes(points, points);
+  fluxes.setFromTriplets(rows.by_flux.begin(), rows.by_flux.end());
+  assembly.derivative(flux_, flux_, std::move(fluxes));
+}
+
+/// Divided by its conductance plus that of a cell's storage, a row is well scaled from sealed to wide open.
+double FractureFlow::scale_of_row(const Link& link, double conductance, double dt) const {
+  const FractureCell& first = mesh_.fracture_cells[link.first];
+  const double reference = first.length * initial_aperture_[link.first] * compressibility_[link.first] / dt;
+  return conductance + reference > 0 ? 1 / (conductance + reference) : 1;
+}
+
+void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& rows) const {
+  const double scale = scale_of_row(link, c.value, rows.dt);
+  const double dp = pressure_drop(link), q = flux_.now()[link.point];
+  rows.of_flux[link.point] = scale;
+  rows.drop[link.point] = -scale * c.value * dp;
+  rows.largest_pressure = std::max(rows.largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
+  rows.by_pressure.emplace_back(link.point, link.first, -scale * c.value);
+  if (link.second != none) rows.by_pressure.emplace_back(link.point, link.second, scale * c.value);
+  // d/da of scale (q − C dp), with the scale's own derivative −scale^2 C'.
+  for (const auto& [cell, by] : c.by_aperture)
+    rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
+}
+
+void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const {
+  const double scale = scale_of_row(link, flux.conductance.value, rows.dt);
+  double rest = flux_.now()[link.point];
+  rows.of_flux[link.point] = scale;
+  for (const auto& [point, share] : flux.parts) {
+    const double q = flux_.now()[point];
+    rest -= share.value * q;
+    rows.drop[link.point] -= scale * share.value * q;
+    rows.by_flux.emplace_back(link.point, point, -scale * share.value);
+    for (const auto& [cell, by] : share.by_aperture) rows.by_aperture.emplace_back(link.point, cell, -scale * by * q);
+  }
+  for (const auto& [cell, by] : flux.conductance.by_aperture)
+    rows.by_aperture.emplace_back(link.point, cell, -scale * scale * by * rest);
+}
+
+}  // namespace sprekk::fracture_flow

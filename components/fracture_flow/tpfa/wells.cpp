@@ -1,0 +1,107 @@
+// Where fluid is injected into fractures and where their pressure is prescribed.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "components/fracture_flow/tpfa/fracture_flow.hpp"
+#include "framework/mesh/planar.hpp"
+#include "framework/mesh/point_location.hpp"
+
+namespace sprekk::fracture_flow {
+
+namespace {
+
+/// The nearest cell that has not grown.
+int nearest_original_cell(const Mesh& mesh, int fracture, const Point& x) {
+  const int nearest = nearest_fracture_cell(mesh, fracture, x);
+  if (!mesh.fracture_cells[nearest].grown) return nearest;
+  // What has grown lies at the ends: the first or the last of the others.
+  const auto& [name, first, count] = mesh.fractures[fracture];
+  int low = first, high = first + count - 1;
+  while (mesh.fracture_cells[low].grown) ++low;
+  while (mesh.fracture_cells[high].grown) --high;
+  return nearest < low ? low : high;
+}
+
+/// A place or a whole fracture is what it was at the start: what has grown is no part of it.
+std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
+  std::vector<int> cells;
+  if (where.at) {
+    int nearest = none;
+    for (int f = 0; f < static_cast<int>(mesh.fractures.size()); ++f) {
+      if (!where.fracture.empty() && mesh.fractures[f].name != where.fracture) continue;
+      const int candidate = nearest_original_cell(mesh, f, *where.at);
+      const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *where.at).norm(); };
+      if (nearest == none || distance(candidate) < distance(nearest)) nearest = candidate;
+    }
+    return {nearest};
+  }
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i)
+    if (!mesh.fracture_cells[i].grown &&
+        (where.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == where.fracture))
+      cells.push_back(i);
+  return cells;
+}
+
+}  // namespace
+
+void FractureFlow::check_names() const {
+  std::vector<std::string> names;
+  for (const Fracture& fracture : mesh_.fractures) names.push_back(fracture.name);
+  const auto check = [&](const Where& where) {
+    if (!where.fracture.empty() && find_fracture(mesh_, where.fracture) == none)
+      throw unknown_name(where.origin, "fracture", where.fracture, names);
+    if (!where.at) return;
+    const FractureCell& cell = mesh_.fracture_cells[cells_at(mesh_, where).front()];
+    const double away = (cell.center - *where.at).norm();
+    if (away > cell.length)
+      throw InputError(where.origin, "there is no fracture at this place",
+                       "the nearest cell is " + fmt::format("{:.3g} m", away) + " away and only " +
+                           fmt::format("{:.3g} m", cell.length) + " long",
+                       "choose a point on a fracture");
+  };
+  for (const auto& [name, injection] : options_.injections) check(injection.where);
+  std::vector<const std::string*> prescribed_by(mesh_.fracture_cell_count(), nullptr);
+  for (const auto& [name, prescribed] : options_.prescribed) {
+    check(prescribed.where);
+    for (const int cell : cells_at(mesh_, prescribed.where)) {
+      if (prescribed_by[cell])
+        throw InputError(prescribed.where.origin, "'" + name + "' prescribes a pressure where there is one",
+                         "'" + *prescribed_by[cell] + "' gives the same fracture cell at " +
+                             to_text(mesh_.fracture_cells[cell].center) + " a pressure",
+                         "let each cell be in one of them");
+      prescribed_by[cell] = &name;
+    }
+  }
+  for (const auto& [side, origin] : options_.boundary_origins)
+    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
+      throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
+}
+
+/// The region of the rock on the plus side.
+int FractureFlow::region_of(int cell) const {
+  return mesh_.cell_region[mesh_.face_cells[mesh_.fracture_cells[cell].faces[0]][0]];
+}
+
+void FractureFlow::prescribe(const StepTime& step) {
+  source_ = Vector::Zero(mesh_.fracture_cell_count());
+  for (const auto& [name, injection] : options_.injections) {
+    const std::vector<int> cells = cells_at(mesh_, injection.where);
+    double length = 0;
+    for (const int cell : cells) length += mesh_.fracture_cells[cell].length;
+    for (const int cell : cells) {
+      const FractureCell& at = mesh_.fracture_cells[cell];
+      source_[cell] += value_in_step(injection.rate, {at.center, region_of(cell), 0}, step) * at.length / length;
+    }
+  }
+  prescribed_.clear();
+  for (const auto& [name, given] : options_.prescribed)
+    for (const int cell : cells_at(mesh_, given.where)) {
+      const FractureCell& at = mesh_.fracture_cells[cell];
+      const double storage = at.length * initial_aperture_[cell] * compressibility_[cell];
+      prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(cell), 0}, step),
+                             storage > 0 ? storage : at.length});
+    }
+}
+
+}  // namespace sprekk::fracture_flow

@@ -1,0 +1,14 @@
+// The cells of a mesh as it was given, turned the way that everything else expects.
+#pragma once
+
+#include <vector>
+
+#include "framework/mesh/raw_mesh.hpp"
+
+namespace sprekk {
+
+/// The rings of nodes of all cells, counter-clockwise. Throws InputError for a cell that names a node that is not
+/// there, a triangle without an area, a quadrilateral that is not convex.
+std::vector<Ring> counter_clockwise(const RawMesh& raw);
+
+}  // namespace sprekk
