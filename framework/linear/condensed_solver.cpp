@@ -46,10 +46,10 @@ SparseMatrix pattern_of_reduced(const BulkSplitting& split) {
 /// For how many systems a bulk has to stay until condensing has paid for the columns of X, or infinity. In
 /// factorizations of the bulk, with their ordering, f columns cost C = f / 200, and a reduced system
 /// R = (f / (7 sqrt(n)))^3 for its dense part; measured from 4,000 to 250,000 unknowns, docs/performance.md. Then m
-/// systems cost 1 + C + m R instead of m.
-double price_of_columns(const BulkSplitting& split) {
+/// systems cost 1 + C + m R instead of m. With the factorization (`is_short_lived`) they cost f / 700 or less.
+double price_of_columns(const BulkSplitting& split, bool is_short_lived) {
   const double f = split.felt.size(), reduced = std::pow(f / (7 * std::sqrt(split.bulk_size())), 3);
-  return reduced < 1 ? f / 200 / (1 - reduced) : HUGE_VAL;
+  return reduced < 1 ? f / (is_short_lived ? 700 : 200) / (1 - reduced) : HUGE_VAL;
 }
 
 /// Nobody knows for how many systems a bulk will stay, at least for the three or so of one step. Against the best that
@@ -115,7 +115,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   Bulk& bulk = bulks_.front();
   ++bulk.systems;
   if (!bulk.is_tried) {
-    const double price = price_of_columns(split);
+    const double price = price_of_columns(split, options_.bulk_changes_often);
     if (price > worth_at_once && bulk.systems <= price)
       return LinearReport::failure("condensing costs more than the few systems that the bulk has had so far");
     bulk.report = bulk.response.compute(split, *bulk.solver, options_.bulk_changes_often);
