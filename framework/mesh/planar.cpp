@@ -51,7 +51,8 @@ bool is_inside(const Point& point, const std::vector<Point>& polygon) {
 double smallest_angle(const Point& a, const Point& b, const Point& c) {
   const double twice_area = cross(b - a, c - a);
   const auto dots = {(b - a).dot(c - a), (c - b).dot(a - b), (a - c).dot(b - c)};
-  // All have this area: the smallest belongs to the largest dot product, or to the smallest one if the triangle is turned.
+  // All have this area: the smallest belongs to the largest dot product, or to the smallest one if the triangle is
+  // turned.
   return std::atan2(twice_area, twice_area < 0 ? std::min(dots) : std::max(dots));
 }
 

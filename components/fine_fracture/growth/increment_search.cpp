@@ -63,7 +63,12 @@ void IncrementSearch::limit_length(double free_length) {
     full_length_ = 0;
     return stay();
   }
-  length_ = full_length_ = free_length;
+  full_length_ = free_length;
+  forget_lengths();
+}
+
+void IncrementSearch::forget_lengths() {
+  length_ = full_length_;
   shorter_ = {0, excess(equivalent_sif(start_))};
   longer_ = {full_length_, 0};
   has_longer_ = false;
@@ -154,9 +159,15 @@ void IncrementSearch::learn(const Sifs& end) {
     return accept_as_it_is();
   }
 
+  const bool tells_direction = end.k1 > 0 || is_length_met_now;
+  if (tries_ >= options_.tries && !tells_direction) {
+    // Lengths have closed in on a jump of K, beyond which the tip is closed: with one direction for all of them it
+    // ends.
+    fix_direction("K_II did not vanish within the tries");
+    return forget_lengths();
+  }
   const double present = angle_;
   double root = angle_;
-  const bool tells_direction = end.k1 > 0 || is_length_met_now;
   if (phase_ == Phase::searching && tells_direction) {
     directions_.push_back({angle_, phi});
     root = root_of_phi();

@@ -70,6 +70,7 @@ class IncrementSearch {
   void fall_back();
   void keep_direction();
   void fix_direction(const std::string& why);
+  void forget_lengths();
   void stay();
 
   const GrowthOptions options_;

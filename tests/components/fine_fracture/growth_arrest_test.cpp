@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 #include "components/fine_fracture/growth/grow_tips.hpp"
 #include "components/fine_fracture/growth/kink.hpp"
@@ -144,6 +145,23 @@ TEST(Arrest, turns_and_stops_at_once) {
     ends.push_back(outcome.path.added[0]);
   }
   EXPECT_LT((ends[0] - ends[1]).norm(), 1e-3 * ends[0].norm());
+}
+
+// A tip that meets the shadow of another fracture: K jumps, and neither of its sides has the toughness.
+TEST(Arrest, that_does_not_exist_ends_the_search_too) {
+  const GrowingTip tip = tip_at(0);
+  for (const double k1_beyond : {-1457.0, -5e5, 1e3}) {
+    int evaluations = 0;
+    double jump = 0;  // where the search looks second: it is open there, and closed wherever else it looks
+    const auto sifs = [&](int, const std::vector<TipPath>& paths) {
+      if (++evaluations > 1000) throw std::runtime_error("the search does not end");
+      if (evaluations == 3) jump = added_length(tip, paths[0]);
+      return evaluations == 1 || evaluations == 3 ? Sifs{9e5, -1e5} : Sifs{k1_beyond, 4.97e5};
+    };
+    const TipOutcome outcome = grow_tips({tip}, options_with(0.01), sifs, unlimited)[0];
+    EXPECT_LE(outcome.length, jump * (1 + 1e-12)) << k1_beyond;
+    EXPECT_FALSE(outcome.notes.empty()) << k1_beyond;
+  }
 }
 
 TEST(FixedIncrements, go_on_until_below_the_toughness) {
