@@ -49,24 +49,28 @@ std::optional<double> common_factor(const double* a, const double* b, int size) 
 }  // namespace
 
 LinearReport BulkResponse::compute(const BulkSplitting& split, LinearSolver& solver, bool is_short_lived) {
-  is_whole_ = has_near_ = false;
+  is_whole_ = false;
   columns_.resize(0, 0);
   of_felt_rows_.clear();
   of_bordered_.clear();
-  if (is_short_lived) {
-    Eigen::MatrixXd response;
-    const std::optional<LinearReport> report =
-        solver.factor_bordered(split.bulk_system(), chosen_columns(split.bf.matrix, split.felt),
-                               chosen_rows(split.fb.matrix, split.feeling), response);
-    if (report && report->solved) {
-      bordered_ = response;
-      of_bordered_.assign(split.fb.matrix.valuePtr(), split.fb.matrix.valuePtr() + split.fb.matrix.nonZeros());
-    }
-    if (report) return *report;
-  }
+  if (is_short_lived)
+    if (const std::optional<LinearReport> report = compute_bordered(split, solver)) return *report;
   const LinearReport report = solver.factor(split.bulk_system());
   if (report.solved && !solve_columns(split, solver))
     return LinearReport::failure(solver.name() + " does not solve for columns");
+  return report;
+}
+
+std::optional<LinearReport> BulkResponse::compute_bordered(const BulkSplitting& split, LinearSolver& solver) {
+  Eigen::MatrixXd response;
+  const std::optional<LinearReport> report =
+      solver.factor_bordered(split.bulk_system(), chosen_columns(split.bf.matrix, split.felt),
+                             chosen_rows(split.fb.matrix, split.feeling), response);
+  of_bordered_.clear();
+  if (report && report->solved) {
+    bordered_ = response;
+    of_bordered_.assign(split.fb.matrix.valuePtr(), split.fb.matrix.valuePtr() + split.fb.matrix.nonZeros());
+  }
   return report;
 }
 
@@ -88,7 +92,7 @@ bool BulkResponse::solve_columns(const BulkSplitting& split, LinearSolver& solve
       near_.row(k).segment(first, end - first) = columns_.row(split.near[k]);
   }
   if (!is_whole_) columns_.resize(0, 0);
-  return has_near_ = true;
+  return true;
 }
 
 /// Row k of A_FB with X.
@@ -99,8 +103,21 @@ void BulkResponse::multiply(const BulkSplitting& split, std::size_t k) {
     felt_rows_.row(k) += entry.value() * near_.row(split.near_place[entry.col()]);
 }
 
+bool BulkResponse::are_multiples_of_bordered(const BulkSplitting& split) const {
+  const SparseMatrix& fb = split.fb.matrix;
+  return std::all_of(split.feeling.begin(), split.feeling.end(), [&](int row) {
+    const int begin = fb.outerIndexPtr()[row], count = fb.outerIndexPtr()[row + 1] - begin;
+    return common_factor(&of_bordered_[begin], fb.valuePtr() + begin, count).has_value();
+  });
+}
+
 const BulkResponse::RowMatrix& BulkResponse::felt_rows(const BulkSplitting& split, LinearSolver& solver) {
   const SparseMatrix& fb = split.fb.matrix;
+  if (!of_bordered_.empty() && !are_multiples_of_bordered(split)) {
+    of_felt_rows_.clear();
+    const std::optional<LinearReport> report = compute_bordered(split, solver);
+    if (!report || !report->solved) solve_columns(split, solver);
+  }
   const bool is_first = of_felt_rows_.empty();
   if (is_first) {
     of_felt_rows_.resize(fb.nonZeros());
@@ -111,14 +128,10 @@ const BulkResponse::RowMatrix& BulkResponse::felt_rows(const BulkSplitting& spli
     const double* const values = fb.valuePtr() + begin;
     if (!is_first && std::memcmp(&of_felt_rows_[begin], values, count * sizeof(double)) == 0) continue;
     std::memcpy(&of_felt_rows_[begin], values, count * sizeof(double));
-    const std::optional<double> factor =
-        of_bordered_.empty() ? std::nullopt : common_factor(&of_bordered_[begin], values, count);
-    if (factor) {
-      felt_rows_.row(k) = *factor * bordered_.row(k);
-    } else {
-      if (!has_near_) solve_columns(split, solver);
+    if (of_bordered_.empty())
       multiply(split, k);
-    }
+    else
+      felt_rows_.row(k) = *common_factor(&of_bordered_[begin], values, count) * bordered_.row(k);
   }
   return felt_rows_;
 }

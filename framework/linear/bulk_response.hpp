@@ -1,6 +1,7 @@
 // What the bulk answers to the unknowns on fractures, as their equations feel it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "framework/linear/bulk_splitting.hpp"
@@ -26,21 +27,23 @@ class BulkResponse {
   bool is_whole() const { return is_whole_; }
 
   /// A_FB X, a row for each of BulkSplitting::feeling. Rows of A_FB whose bits are those of the last call are not
-  /// multiplied again, and those that only a power of two has scaled since `compute` are scaled; for others X has to be
-  /// computed if it was not. So the bits depend on the matrices, and not on those that were seen before. `solver`: the
-  /// one that `compute` was given.
+  /// multiplied again, and those that only a power of two has scaled since `compute` are scaled; for others the
+  /// factorization is made again. So the bits depend on the matrices, and not on those that were seen before. `solver`:
+  /// the one that `compute` was given.
   const RowMatrix& felt_rows(const BulkSplitting& split, LinearSolver& solver);
 
   /// x_B − X x_F. `solver` as for `felt_rows`; it is used where X is not whole.
   void subtract(const BulkSplitting& split, LinearSolver& solver, const Vector& local, Vector& bulk) const;
 
  private:
+  std::optional<LinearReport> compute_bordered(const BulkSplitting& split, LinearSolver& solver);
+  bool are_multiples_of_bordered(const BulkSplitting& split) const;
   bool solve_columns(const BulkSplitting& split, LinearSolver& solver);
   void multiply(const BulkSplitting& split, std::size_t k);
 
   double largest_;
   int piece_;
-  bool is_whole_ = false, has_near_ = false;
+  bool is_whole_ = false;
   Eigen::MatrixXd columns_;           ///< X, if it is whole
   RowMatrix near_;                    ///< the rows of X that A_FB has columns for: BulkSplitting::near
   RowMatrix bordered_;                ///< A_FB X as the factorization gave it,

@@ -36,7 +36,7 @@ Vector least_sizes(const SparseMatrix& a, const Vector& size) {
     double largest = 0;
     for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
       largest = std::max(largest, std::abs(entry.value()));
-    if (largest > 0) determined[row] = size[row] / largest;
+    if (largest > 0 && std::abs(a.coeff(row, row)) == largest) determined[row] = size[row] / largest;
   }
   for (int row = 0; row < a.rows(); ++row)
     for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)

@@ -65,6 +65,7 @@ struct CondensedSolver::Bulk {
   std::vector<double> values, columns;  ///< of the A_BB and A_BF for which the rest holds
   int systems = 0;                      ///< that it has had
   bool is_tried = false;                ///< whether it has been factorized, successfully or not
+  bool is_proven = false;               ///< a solution was accurate; callers see the residuals of the others
   LinearReport report;
   BulkResponse response;
 };
@@ -120,7 +121,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
       return LinearReport::failure("condensing costs more than the few systems that the bulk has had so far");
     bulk.report = bulk.response.compute(split, *bulk.solver, options_.bulk_changes_often);
     bulk.is_tried = true;
-    is_proven_ = false;
+    bulk.is_proven = false;
   }
   if (!bulk.report.solved) return bulk.report;
   if (is_same(system.number, reduced_number_)) return reduced_report_;
@@ -195,11 +196,13 @@ LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
     const Vector b_bulk = split.bulk_part(b_rows), b_local = split.local_part(b_rows);
     Vector bulk, local;
     LinearReport report = solve_condensed(b_bulk, b_local, bulk, local);
-    if (report.solved && (is_proven_ || proves(b_bulk, b_local, bulk, local))) {
-      is_proven_ = true;
+    Bulk& used = bulks_.front();
+    used.is_proven = used.is_proven || (report.solved && proves(b_bulk, b_local, bulk, local));
+    if (report.solved && used.is_proven) {
       x = split.joined(bulk, local);
       return report;
     }
+    if (report.solved) used.report = LinearReport::failure("the first solution with this bulk was inaccurate");
     report = factor_whole(split.whole_system());
     if (!report.solved) return report;
   }

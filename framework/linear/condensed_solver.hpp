@@ -54,7 +54,6 @@ class CondensedSolver final : public LinearSolver {
   SummedBalances reduced_{std::make_unique<UmfpackSolver>()};
   std::unique_ptr<LinearSolver> whole_;
   bool is_condensed_ = false;
-  bool is_proven_ = false;  ///< a solution with this bulk was accurate; callers see the residuals of the others
   LinearCounts retired_;
   mutable LinearCounts total_;
 };

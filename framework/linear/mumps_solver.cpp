@@ -54,6 +54,7 @@ struct MumpsSolver::Instance {
     for (int stream = 1; stream <= 3; ++stream) icntl(stream) = -1;  // errors, warnings, statistics: quiet
     icntl(4) = 0;
     icntl(5) = 0;                              // an assembled matrix
+    icntl(6) = 0;                              // no permutation of columns
     icntl(8) = 0;                              // no scaling: done already
     icntl(10) = 0;                             // no refinement: ours looks at the true residual
     icntl(14) = 30;                            // per cent of spare room
@@ -216,6 +217,7 @@ LinearReport MumpsSolver::order() {
   constexpr int minimum_degree = 0, its_own_choice = 7, worth_dissecting = 10'000;
   const bool is_small = parallel::size() == 1 && data.n < worth_dissecting;
   mumps_->icntl(7) = is_small || border_.size() > 0 ? minimum_degree : its_own_choice;
+  data.a = nullptr;  // values are for the factorization; those of the last matrix may be gone
   mumps_->run(analyse);
   ++counts_.orderings;
   if (mumps_->status() == -6) return LinearReport::failure("the matrix is singular (its pattern alone shows it)");

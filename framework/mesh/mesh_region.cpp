@@ -26,6 +26,8 @@ std::vector<Point> division(const Point& from, const Point& to, const std::funct
   while (places.back() < length) {
     const double left = length - places.back();
     double step = step_per_size * size(from + places.back() * along);
+    if (!(step > 1e-9 * length))
+      throw std::runtime_error("the size wanted along a line is not positive, or a billionth of it");
     if (step > 0.999 * left) step = left;
     edges.push_back(edges.back() + step / size(from + (places.back() + 0.5 * step) * along));
     places.push_back(step == left ? length : places.back() + step);
