@@ -116,7 +116,10 @@ const BulkResponse::RowMatrix& BulkResponse::felt_rows(const BulkSplitting& spli
   if (!of_bordered_.empty() && !are_multiples_of_bordered(split)) {
     of_felt_rows_.clear();
     const std::optional<LinearReport> report = compute_bordered(split, solver);
-    if (!report || !report->solved) solve_columns(split, solver);
+    if (!report || !report->solved) {
+      solver.factor(split.bulk_system());  // what it had is gone with the failure
+      solve_columns(split, solver);
+    }
   }
   const bool is_first = of_felt_rows_.empty();
   if (is_first) {

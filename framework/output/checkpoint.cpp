@@ -14,7 +14,7 @@ namespace sprekk {
 namespace {
 
 const std::string format_name = "sprekk checkpoint";
-constexpr int format_version = 7;  // raised whenever the layout of the file changes
+constexpr int format_version = 8;  // raised whenever the layout of the file changes
 
 std::span<const double> span_of(const Vector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
@@ -54,7 +54,8 @@ void write_content(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.integers("clock/failed_wait", std::array{checkpoint.clock.failed_wait, checkpoint.clock.failed_patience});
   const auto& released = checkpoint.clock.released;
   file.integers("clock/was_released", std::array{released ? 1 : 0});
-  file.doubles("clock/released", std::array{released.value_or(0), checkpoint.clock.due});
+  file.doubles("clock/released", std::array{released.value_or(0), checkpoint.clock.level, checkpoint.clock.due,
+                                            checkpoint.clock.rise, checkpoint.clock.expected});
   write_mesh(file, checkpoint.mesh);
   file.text("fields/names", nlohmann::json(names_of(checkpoint.fields)).dump());
   std::size_t i = 0;
@@ -78,7 +79,10 @@ Checkpoint read_content(const Hdf5Reader& file) {
                       file.integers("clock/failed_wait").at(1)};
   const std::vector<double> released = file.doubles("clock/released");
   if (file.integers("clock/was_released").at(0) != 0) checkpoint.clock.released = released.at(0);
-  checkpoint.clock.due = released.at(1);
+  checkpoint.clock.level = released.at(1);
+  checkpoint.clock.due = released.at(2);
+  checkpoint.clock.rise = released.at(3);
+  checkpoint.clock.expected = released.at(4);
   checkpoint.mesh = read_mesh(file);
   const auto fields = read_names(file, "fields/names");
   for (std::size_t i = 0; i < fields.size(); ++i)

@@ -18,8 +18,8 @@ struct Checkpoint {
     double held_step = 0;    ///< s, the size that it holds after a growth event, or 0
     double failed_step = 0;  ///< s, a size that failed and waits to be tried again, or 0
     int failed_wait = 0, failed_patience = 3;
-    std::optional<double> released = std::nullopt;  ///< s, when steps were last held small no more
-    double due = 0;                                 ///< s, from a release to the next hold, or 0
+    std::optional<double> released = std::nullopt;      ///< s, when steps were last held small no more
+    double level = 0, due = 0, rise = 1, expected = 0;  ///< 1, s, 1, s: what the controller remembers of growth events
   };
   struct Values {
     Vector now, accepted;

@@ -45,16 +45,18 @@ MeshGrowth::Outcome MeshGrowth::before_acceptance() {
 
 MeshGrowth::Outcome MeshGrowth::after_acceptance() {
   bool is_unsettled = false;
+  double nearness = 0;
   for (std::size_t i = 0; i < model_->growing().size(); ++i) {
     const GrowStep& grow = *model_->growing()[i];
     is_unsettled = is_unsettled || grow.is_unsettled();
+    nearness = std::max(nearness, grow.nearness());
     if (grow.extensions().empty()) continue;
-    const double small = grow.options().cut * model_->scene().time.step;
+    const double small = grow.options().cut * model_->scene().time.step, near = grow.nearness();
     const Outcome outcome = take_over(i);
-    if (outcome == Outcome::changed) controller_.hold(small);
+    if (outcome == Outcome::changed) controller_.hold(small, near);
     return outcome;
   }
-  if (!is_unsettled) controller_.release();
+  if (!is_unsettled) controller_.release(nearness);
   return Outcome::nothing;
 }
 

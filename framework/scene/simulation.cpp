@@ -164,7 +164,8 @@ void Run::restore() {
   model_->restore_extra_state(checkpoint_->extra);
   const Checkpoint::Clock& clock = checkpoint_->clock;
   controller_.restore(clock.time, clock.step, clock.next_step, clock.held_step,
-                      {clock.failed_step, clock.failed_wait, clock.failed_patience}, {clock.released, clock.due});
+                      {clock.failed_step, clock.failed_wait, clock.failed_patience},
+                      {clock.released, clock.level, clock.due, clock.rise, clock.expected});
   restored_steps_ = clock.step;
   checkpoint_.reset();
 }
@@ -316,10 +317,11 @@ ExitCode Run::loop() {
   const auto checkpoint = [&] {
     const FailedStep& failed = controller_.failed();
     const Recurrence& recurrence = controller_.recurrence();
-    output_.write_checkpoint(*model_,
-                             {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held(),
-                              failed.size, failed.wait, failed.patience, recurrence.released, recurrence.due},
-                             fingerprint_);
+    output_.write_checkpoint(
+        *model_,
+        {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held(), failed.size, failed.wait,
+         failed.patience, recurrence.released, recurrence.level, recurrence.due, recurrence.rise, recurrence.expected},
+        fingerprint_);
     last_checkpoint = now();
   };
   while (!controller_.is_finished() && !is_stopped_) {

@@ -102,14 +102,19 @@ void StepController::accepted(const StepTime& step, int iterations) {
     wanted_ = std::min(held_, grown());
     return;
   }
-  if (!options_.adaptive) {
+  if (!options_.adaptive)
     wanted_ = std::min(options_.step, grown());
-    return;
-  }
-  if (iterations > options_.iterations)
+  else if (iterations > options_.iterations)
     wanted_ = std::max(options_.smallest.value_or(options_.step * 1e-6), wanted_ * options_.shrink);
   else if (2 * iterations <= options_.iterations)
     wanted_ = std::min(options_.largest, grown());
+  wanted_ = until_expected(wanted_);
+}
+
+/// A step of this size, or one to where the next hold is expected.
+double StepController::until_expected(double size) const {
+  const double rest = recurrence_.expected - time_;
+  return rest > 1e-9 * options_.step ? std::min(size, std::max(rest, 0.1 * options_.step)) : size;
 }
 
 bool StepController::rejected(const StepTime& step, double retry) {
@@ -126,16 +131,32 @@ bool StepController::rejected(const StepTime& step, double retry) {
   return true;
 }
 
-void StepController::hold(double step) {
-  if (held_ == 0 && recurrence_.released) recurrence_.due = time_ - *recurrence_.released;
+void StepController::hold(double step, double level) {
+  if (held_ == 0 && recurrence_.released) {
+    recurrence_.due = time_ - *recurrence_.released;
+    recurrence_.rise = std::min(level, 1.0) - recurrence_.level;
+  }
+  recurrence_.expected = 0;
   held_ = wanted_ = step;
 }
 
-void StepController::release() {
-  if (held_ == 0) return;
-  held_ = 0;
-  recurrence_.released = time_;
-  wanted_ = recurrence_.due > 0 ? std::clamp(recurrence_.due, 0.1 * options_.step, options_.step) : options_.step;
+void StepController::release(double level) {
+  Recurrence& last = recurrence_;
+  constexpr double least_rise = 1e-3;  // what is less tells no rate
+  const auto share = [](double left, double rise) {
+    return rise > least_rise ? std::clamp(left / rise, 0.5, 2.0) : 1.0;
+  };
+  if (held_ > 0) {
+    held_ = 0;
+    last.released = time_;
+    last.level = level;
+    last.expected = last.due > 0 ? time_ + last.due * share(1 - level, last.rise) : 0;
+    wanted_ = until_expected(options_.step);
+  } else if (last.expected > 0 && last.expected <= time_ + 1e-9 * options_.step && level < 1) {
+    last.expected =
+        time_ + (time_ - *last.released) * std::min(1.0, (1 - level) / std::max(level - last.level, least_rise));
+    wanted_ = until_expected(options_.step);
+  }
 }
 
 void StepController::restore(double time, int steps, double wanted, double held, const FailedStep& failed,

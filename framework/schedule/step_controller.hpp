@@ -38,10 +38,13 @@ struct FailedStep {
   int patience = 3;  ///< what `wait` starts from; doubles each time the size fails again
 };
 
-/// What holds steps small comes again and again: when it was over last, and how long after that it came back.
+/// What holds steps small comes again and again, each time that a level (a load, say) has risen to 1.
 struct Recurrence {
   std::optional<double> released = std::nullopt;  ///< s, the time of the last release
-  double due = 0;                                 ///< s, from a release to the next hold; 0 as long as unknown
+  double level = 0;                               ///< at the last release
+  double due = 0;                                 ///< s, from a release to its hold; 0 as long as unknown
+  double rise = 1;                                ///< of the level in that time
+  double expected = 0;                            ///< s, the time at which the next hold is expected; 0 for unknown
 };
 
 /// Constant or adaptive steps that end exactly at the targets (output times, switches of sources, the end). A rejected
@@ -61,10 +64,12 @@ class StepController {
   void accepted(const StepTime& step, int iterations);
   /// Cuts the step, to `retry` (s) if that is given; false when it is as small as allowed.
   bool rejected(const StepTime& step, double retry = 0);
-  /// Holds all steps at this size (s) until `release`. The standard size then returns at once, or, when a hold came
-  /// sooner after the last release, a step that is as long as that took, but at least a tenth of the standard one.
-  void hold(double step);
-  void release();
+  /// Holds all steps at this size (s) until `release`. The standard size then returns, but the step in which the next
+  /// hold is expected ends with it: in proportion to how far the level rose, and in what time, from the last release to
+  /// its hold. It is at least a tenth of the standard one. A release of what is not held tells how far the level is:
+  /// where a hold is overdue it is expected anew, from the rise since the release.
+  void hold(double step, double level = 1);
+  void release(double level = 0);
   double held() const { return held_; }  ///< s, 0 when nothing is held
   const Recurrence& recurrence() const { return recurrence_; }
 
@@ -76,6 +81,7 @@ class StepController {
 
  private:
   double grown() const;
+  double until_expected(double size) const;
   void remember_success(const StepTime& step);
 
   TimeOptions options_;

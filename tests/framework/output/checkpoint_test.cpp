@@ -27,6 +27,11 @@ class CheckpointTest : public TemporaryFolder {
     checkpoint.scene_fingerprint = fingerprint("components: {}");
     checkpoint.program_version = "0.1.0";
     checkpoint.clock = {1.0 / 3, 42, 0.1 + 0.2};
+    checkpoint.clock.released = 0.7;
+    checkpoint.clock.level = 0.1;
+    checkpoint.clock.due = 0.3;
+    checkpoint.clock.rise = 0.6;
+    checkpoint.clock.expected = 1.1;
     checkpoint.mesh = small_mesh();
     Vector odd(5);
     odd << 1.0 / 3, -0.0, 5e-324, std::nan("3"), 1e308;
@@ -55,6 +60,11 @@ TEST_F(CheckpointTest, ComesBackToTheBit) {
   EXPECT_EQ(read.clock.time, checkpoint.clock.time);
   EXPECT_EQ(read.clock.step, checkpoint.clock.step);
   EXPECT_EQ(read.clock.next_step, checkpoint.clock.next_step);
+  EXPECT_EQ(read.clock.released, checkpoint.clock.released);
+  EXPECT_EQ(read.clock.level, checkpoint.clock.level);
+  EXPECT_EQ(read.clock.due, checkpoint.clock.due);
+  EXPECT_EQ(read.clock.rise, checkpoint.clock.rise);
+  EXPECT_EQ(read.clock.expected, checkpoint.clock.expected);
   EXPECT_TRUE(is_same_mesh(read.mesh, checkpoint.mesh));
   ASSERT_EQ(read.fields.size(), checkpoint.fields.size());
   for (const auto& [name, values] : checkpoint.fields) {
@@ -137,14 +147,14 @@ TEST_F(CheckpointTest, AnotherFormatVersionIsRefusedWithBothVersions) {
   {
     Hdf5Writer newer(path);
     newer.text("format", "sprekk checkpoint");
-    newer.integers("format_version", std::array{8});
+    newer.integers("format_version", std::array{9});
     newer.text("program_version", "9.8");
     newer.close();
   }
   const std::string message = message_of_reading();
-  EXPECT_THAT(message, HasSubstr("version 8"));
+  EXPECT_THAT(message, HasSubstr("version 9"));
   EXPECT_THAT(message, HasSubstr("sprekk 9.8"));
-  EXPECT_THAT(message, HasSubstr("this program reads version 7"));
+  EXPECT_THAT(message, HasSubstr("this program reads version 8"));
 }
 
 TEST_F(CheckpointTest, AnotherSceneIsRefused) {

@@ -159,6 +159,54 @@ TEST(StepController, AReleasedStepIsAsLongAsTheLastPause) {
   EXPECT_EQ(controller.next().dt, 1);
 }
 
+// A level that rises at a constant rate, 0.5 an hour, and falls with each hold.
+TEST(StepController, AHoldIsExpectedWhereTheLevelComesToOne) {
+  StepController controller(hours(20), {5});
+  controller.hold(0.01, 1);
+  controller.release(0.8);
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.4));
+  controller.accepted(controller.next(), 1);
+  controller.hold(0.01, 1);  // 0.4 h for a rise of 0.2
+  controller.release(0.6);
+  EXPECT_NEAR(controller.next().dt, 0.8, 1e-12);
+  controller.accepted(controller.next(), 1);
+  EXPECT_NEAR(controller.time(), 1.2, 1e-12);
+  controller.hold(0.01, 1.5);  // past 1 it says nothing about the rate
+  controller.release(0.3);
+  EXPECT_EQ(controller.next().dt, 1);
+  controller.accepted(controller.next(), 1);
+  EXPECT_NEAR(controller.next().dt, 0.4, 1e-12);  // of 1.4 h
+  controller.accepted(controller.next(), 1);
+  controller.hold(0.01, 1);
+  controller.release(0);
+  for (int i = 0; i < 2; ++i) controller.accepted(controller.next(), 1);
+  EXPECT_NEAR(controller.time(), 4.6, 1e-12);
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  controller.accepted(controller.next(), 1);
+  EXPECT_EQ(controller.time(), 5);  // a target is met on the way
+  EXPECT_NEAR(controller.next().dt, 0.6, 1e-12);
+}
+
+TEST(StepController, AnOverdueHoldIsExpectedFromTheRiseSoFar) {
+  StepController controller(hours(20), {});
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.6));
+  controller.accepted(controller.next(), 1);
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  controller.accepted(controller.next(), 1);
+  controller.release(0.8);  // 0.3 in 0.6 h, and 0.2 are left
+  EXPECT_NEAR(controller.next().dt, 0.4, 1e-12);
+  controller.accepted(controller.next(), 1);
+  controller.release(0.9999);
+  EXPECT_NEAR(controller.next().dt, 0.1, 1e-12);
+  controller.accepted(controller.next(), 1);
+  controller.release(1.2);  // it has come to 1 and nothing was held: nothing is expected
+  EXPECT_GT(controller.next().dt, 0.1);
+}
+
 TEST(StepController, ContinuesWithTheLastPause) {
   StepController whole(hours(10), {}), part(hours(10), {});
   whole.hold(0.01);
