@@ -1,15 +1,14 @@
 #include "framework/mesh/fill_cavity.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
-#include "framework/mesh/gmsh_drawing.hpp"
-#include "framework/mesh/gmsh_model.hpp"
+#include "framework/mesh/gmsh_cavity.hpp"
+#include "framework/mesh/mesh_region.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
@@ -52,32 +51,6 @@ class Sizes {
   double growth_;
 };
 
-/// The rim's edges in closed loops, the outermost first.
-std::vector<std::vector<int>> rim_loops(const CavityOutline& outline) {
-  std::vector<int> leaving(outline.points.size(), -1);
-  for (std::size_t e = 0; e < outline.edges.size(); ++e) {
-    if (outline.edges[e].place == Place::rim) leaving[outline.edges[e].points[0]] = static_cast<int>(e);
-  }
-  std::vector<bool> is_done(outline.edges.size());
-  std::vector<std::vector<int>> loops;
-  std::vector<double> areas;
-  for (std::size_t e = 0; e < outline.edges.size(); ++e) {
-    if (outline.edges[e].place != Place::rim || is_done[e]) continue;
-    std::vector<int> loop;
-    std::vector<Point> polygon;
-    for (int next = static_cast<int>(e); next >= 0 && !is_done[next]; next = leaving[outline.edges[next].points[1]]) {
-      is_done[next] = true;
-      loop.push_back(next);
-      polygon.push_back(outline.points[outline.edges[next].points[0]]);
-    }
-    loops.push_back(std::move(loop));
-    areas.push_back(signed_area(polygon));
-  }
-  const auto outermost = std::max_element(areas.begin(), areas.end()) - areas.begin();
-  std::swap(loops.front(), loops[outermost]);
-  return loops;
-}
-
 /// The outline as the drawing has it: its points, and its edges in the drawing's order, those of the rim in their
 /// direction.
 CavityOutline canonical(const CavityOutline& outline, const CanonicalDrawing& drawing) {
@@ -98,41 +71,15 @@ std::vector<std::array<int, 2>> lines_of(const CavityOutline& outline) {
   return lines;
 }
 
-void describe(const CavityOutline& outline, const CanonicalDrawing& drawing) {
-  enter_drawing(drawing);
-  std::vector<int> inner;
-  for (std::size_t e = 0; e < outline.edges.size(); ++e) {
-    gmsh::model::geo::mesh::setTransfiniteCurve(drawing.line_number[e] + 1, 2);
-    if (outline.edges[e].place == Place::inside) inner.push_back(static_cast<int>(e));
-  }
-  add_surface(drawing, rim_loops(outline), inner);
-}
-
-void fetch(const CavityOutline& outline, Triangulation& filling) {
-  std::vector<std::size_t> tags, elements;
-  std::vector<double> coordinates, parameters;
-  gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
-  std::vector<int> number(tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()) + 1, -1);
-  filling.points = outline.points;
-  for (std::size_t i = 0; i < outline.points.size(); ++i) {
-    std::vector<std::size_t> node;
-    std::vector<double> place, parameter;
-    gmsh::model::mesh::getNodes(node, place, parameter, 0, static_cast<int>(i) + 1, false, false);
-    number[node.at(0)] = static_cast<int>(i);
-  }
-  for (std::size_t i = 0; i < tags.size(); ++i) {
-    if (number[tags[i]] >= 0) continue;
-    number[tags[i]] = static_cast<int>(filling.points.size());
-    filling.points.emplace_back(coordinates[3 * i], coordinates[3 * i + 1]);
-  }
-  tags.clear();
-  constexpr int three_node_triangle = 2;
-  gmsh::model::mesh::getElementsByType(three_node_triangle, elements, tags);
-  for (std::size_t i = 0; i + 2 < tags.size(); i += 3) {
-    std::array<int, 3> t{number[tags[i]], number[tags[i + 1]], number[tags[i + 2]]};
-    if (signed_area(filling.points[t[0]], filling.points[t[1]], filling.points[t[2]]) < 0) std::swap(t[1], t[2]);
-    filling.triangles.push_back(t);
-  }
+Triangulation fill_here(const CavityOutline& outline, const std::function<double(const Point&)>& size) {
+  RegionDrawing drawing{outline.points, {}};
+  for (const auto& [points, place, is_barrier] : outline.edges)
+    drawing.lines.push_back({points, place == Place::rim, true});
+  const RegionMesh mesh = mesh_region(drawing, size);
+  Triangulation filling;
+  filling.points = mesh.points;
+  for (const Ring& triangle : mesh.triangles) filling.triangles.push_back({triangle[0], triangle[1], triangle[2]});
+  return filling;
 }
 
 /// Whether each edge is there, and the triangles cover what is inside of the rim.
@@ -180,19 +127,10 @@ void take_back(const CavityOutline& outline, const CanonicalDrawing& drawing, Tr
 Triangulation fill_cavity(const CavityOutline& given, double growth, MeshMethod method) {
   const CanonicalDrawing drawing(given.points, lines_of(given));
   const CavityOutline outline = canonical(given, drawing);
-  Triangulation filling;
-  {
-    const GmshModel model;
-    model.run("fill the cavity", [&] {
-      // GmshModel chooses the frontal one.
-      if (method == MeshMethod::delaunay) gmsh::option::setNumber("Mesh.Algorithm", 5);
-      const Sizes sizes(outline, growth);
-      describe(given, drawing);
-      gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) { return sizes.at({x, y}); });
-      gmsh::model::mesh::generate(2);
-      fetch(outline, filling);
-    });
-  }
+  const Sizes sizes(outline, growth);
+  const auto size = [&sizes](const Point& x) { return sizes.at(x); };
+  Triangulation filling =
+      method == MeshMethod::frontal ? fill_here(outline, size) : fill_with_gmsh(given, drawing, outline, size);
   verify(outline, drawing, filling);
   filling.is_fixed.assign(filling.points.size(), false);
   std::fill_n(filling.is_fixed.begin(), outline.points.size(), true);

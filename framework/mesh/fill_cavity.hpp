@@ -20,7 +20,7 @@ struct CavityOutline {
   std::vector<Edge> edges;
 };
 
-/// How gmsh places points: by layers from the edges inwards, or in the middle of the largest triangle.
+/// How points are placed: from the edges inwards (mesh_region), or in the middle of the largest triangle (gmsh).
 enum class MeshMethod { frontal, delaunay };
 
 /// Triangles with edge lengths that go from those of the inner edges to those of the rim, growing by `growth` m a metre

@@ -108,15 +108,18 @@ class Round {
   /// Whether both edges at `corner` of a triangle are barriers, its third edge being new.
   bool makes_corner(int corner, int p, int q) const { return is_barrier(corner, p) && is_barrier(corner, q); }
 
-  double worst_around(const std::vector<int>& triangles) const {
+  /// The smallest angle of all, or the first that is not above `enough`.
+  double worst_around(const std::vector<int>& triangles, double enough) const {
     double worst = std::numeric_limits<double>::infinity();
-    for (const int i : triangles)
+    for (const int i : triangles) {
       worst = std::min(worst, angle(t_.triangles[i][0], t_.triangles[i][1], t_.triangles[i][2]));
+      if (worst <= enough) break;
+    }
     return worst;
   }
 
   bool move(int point, const std::vector<int>& triangles) {
-    double best = worst_around(triangles);
+    double best = worst_around(triangles, -std::numeric_limits<double>::infinity());
     // Nothing is gained around a point that has good triangles already.
     if (best > 50 * std::numbers::pi / 180) return false;
     const Point start = t_.points[point];
@@ -131,7 +134,7 @@ class Round {
     }
     const auto attempt = [&](const Point& place) {
       t_.points[point] = place;
-      const double worst = worst_around(triangles);
+      const double worst = worst_around(triangles, best);
       if (worst > best) best = worst, best_place = place;
     };
     const double before = best;
