@@ -111,15 +111,14 @@ bool BulkResponse::are_multiples_of_bordered(const BulkSplitting& split) const {
   });
 }
 
-const BulkResponse::RowMatrix& BulkResponse::felt_rows(const BulkSplitting& split, LinearSolver& solver) {
+const BulkResponse::RowMatrix* BulkResponse::felt_rows(const BulkSplitting& split, LinearSolver& solver) {
   const SparseMatrix& fb = split.fb.matrix;
   if (!of_bordered_.empty() && !are_multiples_of_bordered(split)) {
     of_felt_rows_.clear();
     const std::optional<LinearReport> report = compute_bordered(split, solver);
-    if (!report || !report->solved) {
-      solver.factor(split.bulk_system());  // what it had is gone with the failure
-      solve_columns(split, solver);
-    }
+    const bool has_border = report && report->solved;
+    // What the solver had is gone with the failure.
+    if (!has_border && !(solver.factor(split.bulk_system()).solved && solve_columns(split, solver))) return nullptr;
   }
   const bool is_first = of_felt_rows_.empty();
   if (is_first) {
@@ -136,7 +135,7 @@ const BulkResponse::RowMatrix& BulkResponse::felt_rows(const BulkSplitting& spli
     else
       felt_rows_.row(k) = *common_factor(&of_bordered_[begin], values, count) * bordered_.row(k);
   }
-  return felt_rows_;
+  return &felt_rows_;
 }
 
 void BulkResponse::subtract(const BulkSplitting& split, LinearSolver& solver, const Vector& local, Vector& bulk) const {

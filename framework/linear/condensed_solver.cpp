@@ -43,6 +43,32 @@ SparseMatrix pattern_of_reduced(const BulkSplitting& split) {
   return pattern;
 }
 
+/// A_FF - A_FB X.
+SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& pattern,
+                            const BulkResponse::RowMatrix& felt_rows) {
+  SparseMatrix reduced = pattern;
+  int feeling = 0;
+  for (int row = 0; row < split.local_size(); ++row) {
+    SparseMatrix::InnerIterator kept(split.ff.matrix, row);
+    const bool feels = split.fb.has_row(row);
+    const double* const by_bulk = feels ? felt_rows.row(feeling++).data() : nullptr;
+    std::size_t c = 0;
+    for (SparseMatrix::InnerIterator entry(reduced, row); entry; ++entry) {
+      double value = 0;
+      if (kept && kept.col() == entry.col()) {
+        value = kept.value();
+        ++kept;
+      }
+      if (feels) {
+        while (c < split.felt.size() && split.felt[c] < entry.col()) ++c;
+        if (c < split.felt.size() && split.felt[c] == entry.col()) value -= by_bulk[c];
+      }
+      entry.valueRef() = value;
+    }
+  }
+  return reduced;
+}
+
 /// For how many systems a bulk has to stay until condensing has paid for the columns of X, or infinity. In
 /// factorizations of the bulk, with their ordering, f columns cost C = f / 200, and a reduced system
 /// R = (f / (7 sqrt(n)))^3 for its dense part; measured from 4,000 to 250,000 unknowns, docs/performance.md. Then m
@@ -126,8 +152,10 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   if (!bulk.report.solved) return bulk.report;
   if (is_same(system.number, reduced_number_)) return reduced_report_;
   if (reduced_pattern_.rows() == 0) reduced_pattern_ = pattern_of_reduced(split);
+  const BulkResponse::RowMatrix* const felt_rows = bulk.response.felt_rows(split, *bulk.solver);
+  if (!felt_rows) return bulk.report = LinearReport::failure("the bulk could be factorized no more");
   reduced_number_ = system.number;
-  return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix()));
+  return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix(split, reduced_pattern_, *felt_rows)));
 }
 
 void CondensedSolver::choose_bulk() {
@@ -147,33 +175,6 @@ void CondensedSolver::choose_bulk() {
   bulk.columns = values_of(splitting_->bf.matrix);
   bulk.systems = 0;
   bulk.is_tried = false;
-}
-
-SparseMatrix CondensedSolver::reduced_matrix() {
-  const BulkSplitting& split = *splitting_;
-  Bulk& bulk = bulks_.front();
-  const BulkResponse::RowMatrix& felt_rows = bulk.response.felt_rows(split, *bulk.solver);
-  SparseMatrix reduced = reduced_pattern_;
-  int feeling = 0;
-  for (int row = 0; row < split.local_size(); ++row) {
-    SparseMatrix::InnerIterator kept(split.ff.matrix, row);
-    const bool feels = split.fb.has_row(row);
-    const double* const by_bulk = feels ? felt_rows.row(feeling++).data() : nullptr;
-    std::size_t c = 0;
-    for (SparseMatrix::InnerIterator entry(reduced, row); entry; ++entry) {
-      double value = 0;
-      if (kept && kept.col() == entry.col()) {
-        value = kept.value();
-        ++kept;
-      }
-      if (feels) {
-        while (c < split.felt.size() && split.felt[c] < entry.col()) ++c;
-        if (c < split.felt.size() && split.felt[c] == entry.col()) value -= by_bulk[c];
-      }
-      entry.valueRef() = value;
-    }
-  }
-  return reduced;
 }
 
 LinearReport CondensedSolver::solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk,

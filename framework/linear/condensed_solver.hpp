@@ -39,7 +39,6 @@ class CondensedSolver final : public LinearSolver {
   struct Bulk;  ///< a factorization of A_BB, with X
   LinearReport condense(const LinearSystem& system);
   void choose_bulk();
-  SparseMatrix reduced_matrix();
   LinearReport solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk, Vector& local);
   bool proves(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local);
   LinearReport factor_whole(const LinearSystem& system);

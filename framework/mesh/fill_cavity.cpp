@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "framework/mesh/gmsh_cavity.hpp"
+#include "framework/mesh/canonical_drawing.hpp"
 #include "framework/mesh/mesh_region.hpp"
 #include "framework/mesh/planar.hpp"
 
@@ -71,7 +71,7 @@ std::vector<std::array<int, 2>> lines_of(const CavityOutline& outline) {
   return lines;
 }
 
-Triangulation fill_here(const CavityOutline& outline, const std::function<double(const Point&)>& size) {
+Triangulation triangulate(const CavityOutline& outline, const std::function<double(const Point&)>& size) {
   RegionDrawing drawing{outline.points, {}};
   for (const auto& [points, place, is_barrier] : outline.edges)
     drawing.lines.push_back({points, place == Place::rim, true});
@@ -124,13 +124,11 @@ void take_back(const CavityOutline& outline, const CanonicalDrawing& drawing, Tr
 
 }  // namespace
 
-Triangulation fill_cavity(const CavityOutline& given, double growth, MeshMethod method) {
+Triangulation fill_cavity(const CavityOutline& given, double size, double growth) {
   const CanonicalDrawing drawing(given.points, lines_of(given));
   const CavityOutline outline = canonical(given, drawing);
   const Sizes sizes(outline, growth);
-  const auto size = [&sizes](const Point& x) { return sizes.at(x); };
-  Triangulation filling =
-      method == MeshMethod::frontal ? fill_here(outline, size) : fill_with_gmsh(given, drawing, outline, size);
+  Triangulation filling = triangulate(outline, [&](const Point& x) { return size * sizes.at(x); });
   verify(outline, drawing, filling);
   filling.is_fixed.assign(filling.points.size(), false);
   std::fill_n(filling.is_fixed.begin(), outline.points.size(), true);

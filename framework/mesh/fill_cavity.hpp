@@ -20,11 +20,9 @@ struct CavityOutline {
   std::vector<Edge> edges;
 };
 
-/// How points are placed: from the edges inwards (mesh_region), or in the middle of the largest triangle (gmsh).
-enum class MeshMethod { frontal, delaunay };
-
 /// Triangles with edge lengths that go from those of the inner edges to those of the rim, growing by `growth` m a metre
-/// where the rim allows. The points of the outline come first. Throws std::runtime_error when this fails.
-Triangulation fill_cavity(const CavityOutline& outline, double growth, MeshMethod method);
+/// where the rim allows; inside, they are `size` times that. The points of the outline come first. Throws
+/// std::runtime_error when this fails.
+Triangulation fill_cavity(const CavityOutline& outline, double size, double growth);
 
 }  // namespace sprekk

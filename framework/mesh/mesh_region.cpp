@@ -141,8 +141,21 @@ class Mesher {
         reached.push_back(other);
       }
     }
+    require_closed_boundary();
     for (int t = 0; t < count(); ++t)
       if (states_[t].state != State::outside) rate(t);
+  }
+
+  void require_closed_boundary() const {
+    const auto is_outside = [this](int t) { return t == none || states_[t].state == State::outside; };
+    for (int t = 0; t < count(); ++t) {
+      const Delaunay::Triangle& triangle = delaunay_.triangles()[t];
+      for (int k = 0; k < 3; ++k) {
+        const bool separates = is_outside(t) != is_outside(triangle.across[k]);
+        if (separates != (triangle.edges[k] == Delaunay::Edge::boundary))
+          throw std::runtime_error("the boundary of a region is not closed");
+      }
+    }
   }
 
   struct Circle {

@@ -30,7 +30,8 @@ struct RegionMesh {
 /// Divides the lines, makes a Delaunay triangulation that has their edges, and adds points from the lines inward, where
 /// they make nearly equilateral triangles with edges that are there (Rebay, J. Comput. Phys. 106 (1993) 125), until
 /// circumradii fit to `size`, the wanted length of edges at a place. It should grow by no more than half of the
-/// distance. The same drawing makes the same mesh. Throws std::runtime_error when lines have more than ends in common.
+/// distance. The same drawing makes the same mesh. Throws std::runtime_error when lines have more than ends in common,
+/// or when boundaries are not closed.
 RegionMesh mesh_region(const RegionDrawing& drawing, const std::function<double(const Point&)>& size);
 
 }  // namespace sprekk

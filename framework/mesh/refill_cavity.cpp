@@ -16,14 +16,12 @@ namespace {
 
 using Place = CavityOutline::Edge::Place;
 
-/// Below this angle (rad) other methods and larger cavities are tried.
+/// Below this angle (rad) smaller edges and larger cavities are tried.
 constexpr double wanted_angle = 25 * std::numbers::pi / 180;
 struct Attempt {
-  double enlargement;  ///< of the radius
-  MeshMethod method;
+  double radius, size;  ///< as multiples
 };
-constexpr Attempt attempts[] = {{1, MeshMethod::frontal},     {1, MeshMethod::delaunay},  {1.25, MeshMethod::frontal},
-                                {1.25, MeshMethod::delaunay}, {1.6, MeshMethod::frontal}, {2, MeshMethod::frontal}};
+constexpr Attempt attempts[] = {{1, 1}, {1, 0.75}, {1.25, 1}, {1.25, 0.75}, {1.6, 1}, {2, 1}};
 /// So many attempts in a row without gain are the last: small angles between lines that must stay remain.
 constexpr int most_vain_attempts = 2;
 /// An edge of an interface is divided when it is so many times longer than the gap between it and a path.
@@ -47,9 +45,9 @@ class Refilling {
     bool has_one = false;
     std::string failure;
     int in_vain = 0;
-    for (const auto& [enlargement, method] : attempts) {
+    for (const Attempt& attempt : attempts) {
       try {
-        Refill next = refill(enlargement * options_.radius, method);
+        Refill next = refill(attempt);
         in_vain = !has_one || is_better(next, best) ? 0 : in_vain + 1;
         if (in_vain == 0) best = std::move(next);
         has_one = true;
@@ -63,10 +61,11 @@ class Refilling {
   }
 
  private:
-  Refill refill(double radius, MeshMethod method) const {
+  Refill refill(const Attempt& attempt) const {
     Refill refill;
     refill.nodes = path_nodes_.nodes;
-    refill.is_removed = choose_cavity(mesh_, merged_, paths_, std::vector<double>(paths_.size(), radius));
+    refill.is_removed =
+        choose_cavity(mesh_, merged_, paths_, std::vector<double>(paths_.size(), attempt.radius * options_.radius));
     const std::vector<int> part = connected_parts(mesh_, refill.is_removed);
     std::vector<std::vector<int>> cells;
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
@@ -76,7 +75,8 @@ class Refilling {
     }
     std::vector<int> part_of_path;
     for (const auto& path : paths_) part_of_path.push_back(part_met(path, cells));
-    for (std::size_t p = 0; p < cells.size(); ++p) fill(cells[p], static_cast<int>(p), part_of_path, method, refill);
+    for (std::size_t p = 0; p < cells.size(); ++p)
+      fill(cells[p], static_cast<int>(p), part_of_path, attempt.size, refill);
     return refill;
   }
 
@@ -132,7 +132,7 @@ class Refilling {
     return a.side == b.side && a.region == b.region && std::abs(cross(u, v)) <= 1e-14 * u.norm() * v.norm();
   }
 
-  void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, MeshMethod method,
+  void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, double size,
             Refill& refill) const {
     Outline outline(refill.nodes);
     std::vector<OuterEdge> outer_edges;
@@ -169,7 +169,7 @@ class Refilling {
         refill.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, edge.side});
       }
     }
-    const Triangulation filling = fill_cavity(outline.get(), options_.growth, method);
+    const Triangulation filling = fill_cavity(outline.get(), size, options_.growth);
     refill.smallest_angle = std::min(refill.smallest_angle, smallest_angle(filling));
     refill.single_corners += single_corner_count(filling);
     std::vector<int> node_of = outline.nodes();
@@ -204,7 +204,8 @@ class Refilling {
           if (node != chain[i] && node != chain[i + 1]) away = std::min(away, distance(nodes[node], piece));
         }
       }
-      if (piece.length() < too_long * std::max(away, interface_snap * options_.size)) {
+      if (is_edge_of_path(chain[i], chain[i + 1]) ||
+          piece.length() < too_long * std::max(away, interface_snap * options_.size)) {
         ++i;
         continue;
       }
@@ -212,6 +213,15 @@ class Refilling {
       nodes.push_back(0.5 * (piece.from + piece.to));
     }
     return chain;
+  }
+
+  /// A path may run along an interface.
+  bool is_edge_of_path(int a, int b) const {
+    return std::any_of(path_nodes_.paths.begin(), path_nodes_.paths.end(), [&](const std::vector<int>& path) {
+      for (std::size_t i = 0; i + 1 < path.size(); ++i)
+        if (std::minmax(path[i], path[i + 1]) == std::minmax(a, b)) return true;
+      return false;
+    });
   }
 
   /// Two edges in one line become one where their common node is nearly, but not, a path's end.

@@ -53,9 +53,10 @@ void write_content(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.doubles("clock/failed_step", std::array{checkpoint.clock.failed_step});
   file.integers("clock/failed_wait", std::array{checkpoint.clock.failed_wait, checkpoint.clock.failed_patience});
   const auto& released = checkpoint.clock.released;
-  file.integers("clock/was_released", std::array{released ? 1 : 0});
+  const auto& expected = checkpoint.clock.expected;
+  file.integers("clock/was_released", std::array{released ? 1 : 0, expected ? 1 : 0});
   file.doubles("clock/released", std::array{released.value_or(0), checkpoint.clock.level, checkpoint.clock.due,
-                                            checkpoint.clock.rise, checkpoint.clock.expected});
+                                            checkpoint.clock.rise, expected.value_or(0), checkpoint.clock.patience});
   write_mesh(file, checkpoint.mesh);
   file.text("fields/names", nlohmann::json(names_of(checkpoint.fields)).dump());
   std::size_t i = 0;
@@ -82,7 +83,8 @@ Checkpoint read_content(const Hdf5Reader& file) {
   checkpoint.clock.level = released.at(1);
   checkpoint.clock.due = released.at(2);
   checkpoint.clock.rise = released.at(3);
-  checkpoint.clock.expected = released.at(4);
+  if (file.integers("clock/was_released").at(1) != 0) checkpoint.clock.expected = released.at(4);
+  checkpoint.clock.patience = released.at(5);
   checkpoint.mesh = read_mesh(file);
   const auto fields = read_names(file, "fields/names");
   for (std::size_t i = 0; i < fields.size(); ++i)

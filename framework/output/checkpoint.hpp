@@ -18,8 +18,10 @@ struct Checkpoint {
     double held_step = 0;    ///< s, the size that it holds after a growth event, or 0
     double failed_step = 0;  ///< s, a size that failed and waits to be tried again, or 0
     int failed_wait = 0, failed_patience = 3;
-    std::optional<double> released = std::nullopt;      ///< s, when steps were last held small no more
-    double level = 0, due = 0, rise = 1, expected = 0;  ///< 1, s, 1, s: what the controller remembers of growth events
+    std::optional<double> released = std::nullopt;  ///< s, when steps were last held small no more
+    double level = 0, due = 0, rise = 1;            ///< -, s, -: of the release before, the hold after it
+    std::optional<double> expected = std::nullopt;  ///< s, when steps are to be held the next time
+    double patience = 0;                            ///< s, how long that has been waited for beyond its time
   };
   struct Values {
     Vector now, accepted;

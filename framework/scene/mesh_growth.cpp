@@ -57,6 +57,7 @@ MeshGrowth::Outcome MeshGrowth::after_acceptance() {
     return outcome;
   }
   if (!is_unsettled) controller_.release(nearness);
+  controller_.observe(nearness);
   return Outcome::nothing;
 }
 

@@ -165,7 +165,7 @@ void Run::restore() {
   const Checkpoint::Clock& clock = checkpoint_->clock;
   controller_.restore(clock.time, clock.step, clock.next_step, clock.held_step,
                       {clock.failed_step, clock.failed_wait, clock.failed_patience},
-                      {clock.released, clock.level, clock.due, clock.rise, clock.expected});
+                      {clock.released, clock.level, clock.due, clock.rise, clock.expected, clock.patience});
   restored_steps_ = clock.step;
   checkpoint_.reset();
 }
@@ -317,11 +317,11 @@ ExitCode Run::loop() {
   const auto checkpoint = [&] {
     const FailedStep& failed = controller_.failed();
     const Recurrence& recurrence = controller_.recurrence();
-    output_.write_checkpoint(
-        *model_,
-        {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held(), failed.size, failed.wait,
-         failed.patience, recurrence.released, recurrence.level, recurrence.due, recurrence.rise, recurrence.expected},
-        fingerprint_);
+    output_.write_checkpoint(*model_,
+                             {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held(),
+                              failed.size, failed.wait, failed.patience, recurrence.released, recurrence.level,
+                              recurrence.due, recurrence.rise, recurrence.expected, recurrence.patience},
+                             fingerprint_);
     last_checkpoint = now();
   };
   while (!controller_.is_finished() && !is_stopped_) {

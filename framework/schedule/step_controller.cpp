@@ -5,6 +5,12 @@
 #include "framework/config/units.hpp"
 
 namespace sprekk {
+namespace {
+
+constexpr double rounding = 1e-9;    ///< of the standard step: times nearer than this are the same
+constexpr double least_rise = 1e-3;  ///< of a level; what is less tells no rate
+
+}  // namespace
 
 Spec TimeOptions::spec() {
   Spec spec("time", "From when to when, and in which steps.");
@@ -57,7 +63,7 @@ StepController::StepController(const TimeOptions& options, std::vector<double> t
   std::sort(targets.begin(), targets.end());
   // Targets that differ by round-off (an output time at a switch) are one; of these the end stays what it is.
   for (const double target : targets) {
-    if (targets_.empty() || target - targets_.back() > 1e-9 * options_.step)
+    if (targets_.empty() || target - targets_.back() > rounding * options_.step)
       targets_.push_back(target);
     else if (target == options_.end)
       targets_.back() = target;
@@ -65,16 +71,18 @@ StepController::StepController(const TimeOptions& options, std::vector<double> t
 }
 
 StepTime StepController::next() const {
+  const bool is_due = recurrence_.expected && *recurrence_.expected > time_ + rounding * options_.step;
+  const double size = is_due ? std::min(wanted_, std::max(*recurrence_.expected - time_, shortest_wait())) : wanted_;
   const auto target = std::upper_bound(targets_.begin(), targets_.end(), time_);
-  StepTime step{time_, wanted_, time_ + wanted_};
+  StepTime step{time_, size, time_ + size};
   if (target == targets_.end()) return step;
   // A rest that is a hair longer than the step is taken in one, so that no sliver is left; a rest of less than two
   // steps of an adaptive run in two equal ones.
   const double rest = *target - time_;
-  if (rest <= wanted_ * (1 + 1e-9)) {
+  if (rest <= size * (1 + 1e-9)) {
     step.dt = rest;
     step.end = *target;
-  } else if (options_.adaptive && rest < 2 * wanted_) {
+  } else if (options_.adaptive && rest < 2 * size) {
     step.dt = rest / 2;
     step.end = time_ + step.dt;
   }
@@ -102,19 +110,14 @@ void StepController::accepted(const StepTime& step, int iterations) {
     wanted_ = std::min(held_, grown());
     return;
   }
-  if (!options_.adaptive)
+  if (!options_.adaptive) {
     wanted_ = std::min(options_.step, grown());
-  else if (iterations > options_.iterations)
+    return;
+  }
+  if (iterations > options_.iterations)
     wanted_ = std::max(options_.smallest.value_or(options_.step * 1e-6), wanted_ * options_.shrink);
   else if (2 * iterations <= options_.iterations)
     wanted_ = std::min(options_.largest, grown());
-  wanted_ = until_expected(wanted_);
-}
-
-/// A step of this size, or one to where the next hold is expected.
-double StepController::until_expected(double size) const {
-  const double rest = recurrence_.expected - time_;
-  return rest > 1e-9 * options_.step ? std::min(size, std::max(rest, 0.1 * options_.step)) : size;
 }
 
 bool StepController::rejected(const StepTime& step, double retry) {
@@ -132,32 +135,37 @@ bool StepController::rejected(const StepTime& step, double retry) {
 }
 
 void StepController::hold(double step, double level) {
-  if (held_ == 0 && recurrence_.released) {
-    recurrence_.due = time_ - *recurrence_.released;
-    recurrence_.rise = std::min(level, 1.0) - recurrence_.level;
+  Recurrence& last = recurrence_;
+  if (held_ == 0 && last.released) {
+    last.due = time_ - *last.released;
+    last.rise = std::min(level, 1.0) - last.level;
   }
-  recurrence_.expected = 0;
+  last.expected = std::nullopt;
   held_ = wanted_ = step;
 }
 
 void StepController::release(double level) {
+  if (held_ == 0) return;
+  held_ = 0;
+  wanted_ = options_.step;
   Recurrence& last = recurrence_;
-  constexpr double least_rise = 1e-3;  // what is less tells no rate
-  const auto share = [](double left, double rise) {
-    return rise > least_rise ? std::clamp(left / rise, 0.5, 2.0) : 1.0;
-  };
-  if (held_ > 0) {
-    held_ = 0;
-    last.released = time_;
-    last.level = level;
-    last.expected = last.due > 0 ? time_ + last.due * share(1 - level, last.rise) : 0;
-    wanted_ = until_expected(options_.step);
-  } else if (last.expected > 0 && last.expected <= time_ + 1e-9 * options_.step && level < 1) {
-    last.expected =
-        time_ + (time_ - *last.released) * std::min(1.0, (1 - level) / std::max(level - last.level, least_rise));
-    wanted_ = until_expected(options_.step);
-  }
+  last.released = time_;
+  last.level = level;
+  last.patience = 0;
+  if (last.due == 0) return;
+  const double share = last.rise > least_rise ? std::clamp((1 - level) / last.rise, 0.5, 2.0) : 1;
+  last.expected = time_ + last.due * share;
 }
+
+void StepController::observe(double level) {
+  Recurrence& last = recurrence_;
+  if (!last.expected || *last.expected > time_ + rounding * options_.step || level >= 1) return;
+  const double rest = (time_ - *last.released) * (1 - level) / std::max(level - last.level, least_rise);
+  last.patience = std::max({rest, 2 * last.patience, shortest_wait()});
+  last.expected = time_ + last.patience;
+}
+
+double StepController::shortest_wait() const { return std::max(0.1 * options_.step, options_.smallest.value_or(0)); }
 
 void StepController::restore(double time, int steps, double wanted, double held, const FailedStep& failed,
                              const Recurrence& recurrence) {

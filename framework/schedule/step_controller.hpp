@@ -44,7 +44,8 @@ struct Recurrence {
   double level = 0;                               ///< at the last release
   double due = 0;                                 ///< s, from a release to its hold; 0 as long as unknown
   double rise = 1;                                ///< of the level in that time
-  double expected = 0;                            ///< s, the time at which the next hold is expected; 0 for unknown
+  std::optional<double> expected = std::nullopt;  ///< s, the time of the next hold
+  double patience = 0;                            ///< s, how long it was waited for when it was overdue
 };
 
 /// Constant or adaptive steps that end exactly at the targets (output times, switches of sources, the end). A rejected
@@ -58,7 +59,7 @@ class StepController {
   bool is_finished() const { return time_ >= options_.end; }
   double time() const { return time_; }
   int steps() const { return steps_; }
-  double wanted() const { return wanted_; }  ///< s, the size of the next step unless it is cut to hit a target
+  double wanted() const { return wanted_; }  ///< s, the size of the next step unless a target or a hold comes before
   StepTime next() const;
 
   void accepted(const StepTime& step, int iterations);
@@ -66,10 +67,12 @@ class StepController {
   bool rejected(const StepTime& step, double retry = 0);
   /// Holds all steps at this size (s) until `release`. The standard size then returns, but the step in which the next
   /// hold is expected ends with it: in proportion to how far the level rose, and in what time, from the last release to
-  /// its hold. It is at least a tenth of the standard one. A release of what is not held tells how far the level is:
-  /// where a hold is overdue it is expected anew, from the rise since the release.
+  /// its hold. It is at least a tenth of the standard one.
   void hold(double step, double level = 1);
   void release(double level = 0);
+  /// Where the level is after a step. A hold that is overdue is expected anew, from the rise since the release, but
+  /// each time after twice the time at least: a level may come to rest below 1.
+  void observe(double level);
   double held() const { return held_; }  ///< s, 0 when nothing is held
   const Recurrence& recurrence() const { return recurrence_; }
 
@@ -81,7 +84,7 @@ class StepController {
 
  private:
   double grown() const;
-  double until_expected(double size) const;
+  double shortest_wait() const;
   void remember_success(const StepTime& step);
 
   TimeOptions options_;

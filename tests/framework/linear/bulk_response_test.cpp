@@ -47,7 +47,7 @@ class ResponseOf : public testing::TestWithParam<Way> {
 TEST_P(ResponseOf, IsThatOfADenseElimination) {
   BulkResponse response = computed(kept);
   const Eigen::MatrixXd exact = exact_rows();
-  const BulkResponse::RowMatrix& rows = response.felt_rows(split, *solver);
+  const BulkResponse::RowMatrix& rows = *response.felt_rows(split, *solver);
   ASSERT_EQ(rows.rows(), exact.rows());
   ASSERT_EQ(rows.cols(), exact.cols());
   for (int k = 0; k < rows.rows(); ++k) EXPECT_LT((rows.row(k) - exact.row(k)).norm(), 1e-9 * exact.row(k).norm()) << k;
@@ -57,7 +57,7 @@ TEST_P(ResponseOf, HasTheSameBitsInPieces) {
   BulkResponse whole = computed(kept, false), pieces = computed(in_pieces, false);
   EXPECT_TRUE(whole.is_whole());
   EXPECT_FALSE(pieces.is_whole());
-  EXPECT_EQ(whole.felt_rows(split, *solver), pieces.felt_rows(split, *solver));
+  EXPECT_EQ(*whole.felt_rows(split, *solver), *pieces.felt_rows(split, *solver));
 }
 
 TEST_P(ResponseOf, SubtractsByABackSolveWhereItIsNotKept) {
@@ -71,12 +71,12 @@ TEST_P(ResponseOf, SubtractsByABackSolveWhereItIsNotKept) {
 
 TEST_P(ResponseOf, FollowsRowsThatChange) {
   BulkResponse response = computed(kept);
-  const BulkResponse::RowMatrix before = response.felt_rows(split, *solver);
+  const BulkResponse::RowMatrix before = *response.felt_rows(split, *solver);
   const std::size_t changed = split.feeling.size() / 2;
   split.fb.matrix.row(split.feeling[changed]) *= 2.0;
   BulkResponse::RowMatrix expected = before;
   expected.row(changed) *= 2.0;
-  EXPECT_EQ(response.felt_rows(split, *solver), expected);
+  EXPECT_EQ(*response.felt_rows(split, *solver), expected);
 }
 
 TEST_P(ResponseOf, FollowsARowOfWhichOneEntryChanges) {
@@ -85,19 +85,19 @@ TEST_P(ResponseOf, FollowsARowOfWhichOneEntryChanges) {
   const int changed = static_cast<int>(split.feeling.size()) / 2;
   split.fb.matrix.valuePtr()[split.fb.matrix.outerIndexPtr()[split.feeling[changed]]] *= 3;
   const Eigen::MatrixXd exact = exact_rows();
-  const BulkResponse::RowMatrix& rows = response.felt_rows(split, *solver);
+  const BulkResponse::RowMatrix& rows = *response.felt_rows(split, *solver);
   EXPECT_LT((rows.row(changed) - exact.row(changed)).norm(), 1e-9 * exact.row(changed).norm());
 }
 
 // Else a run that goes on from a checkpoint would not have the bits of one that was not interrupted.
 TEST_P(ResponseOf, DoesNotRememberWithWhichScalesOfRowsItWasComputed) {
-  BulkResponse::RowMatrix expected = computed(kept).felt_rows(split, *solver);
+  BulkResponse::RowMatrix expected = *computed(kept).felt_rows(split, *solver);
   const SparseMatrix rows = split.fb.matrix;
   for (int k = 0; k < static_cast<int>(split.feeling.size()); ++k)
     split.fb.matrix.row(split.feeling[k]) *= std::ldexp(1.0, k % 60 - 30);
   BulkResponse response = computed(kept);
   split.fb.matrix = rows;
-  EXPECT_EQ(response.felt_rows(split, *solver), expected);
+  EXPECT_EQ(*response.felt_rows(split, *solver), expected);
 }
 
 TEST_P(ResponseOf, LeavesASolverThatSolves) {

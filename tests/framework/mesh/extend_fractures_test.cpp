@@ -256,6 +256,22 @@ TEST(ExtendFractures, RegionInterfacesStay) {
   EXPECT_NEAR(area, signed_area(geometry.regions[0].polygon), 1e-12);
 }
 
+TEST(ExtendFractures, AlongAnInterface) {
+  Geometry geometry = box(0, 2, 0, 2);
+  geometry.regions = {region("top half", {{0, 1}, {2, 1}, {2, 2}, {0, 2}})};
+  // On the interface already, and onto it with a turn.
+  for (const Point& from : {Point(0.7, 1), Point(0.9, 0.95)}) {
+    geometry.fractures = {fracture("main", {from, {1, 1}})};
+    const Mesh mesh = generate_mesh(geometry, coarse_outside);
+    for (const double length : {0.6, 1.0, 1.7, 5.0, 12.0}) {
+      const GrownMesh grown = extend_fractures(mesh, {{0, true, {{1 + length * size, 1}}}}, usual);
+      expect_sound(mesh, grown);
+      EXPECT_GE(grown.smallest_angle, 25 * degree) << from << ' ' << length;
+      EXPECT_NEAR(fracture_length(grown.mesh, 0), fracture_length(mesh, 0) + length * size, 1e-12);
+    }
+  }
+}
+
 TEST(ExtendFractures, SameInputSameBits) {
   const Mesh mesh = one_fracture();
   const std::vector<PathExtension> paths{straight(mesh, 0, true, 4 * size, 0.6), straight(mesh, 0, false, size)};

@@ -124,5 +124,13 @@ TEST(MeshRegion, RefusesLinesThatCross) {
   EXPECT_THROW(mesh_region(drawing, [](const Point&) { return 0.1; }), std::runtime_error);
 }
 
+TEST(MeshRegion, RefusesBoundariesThatAreNotClosed) {
+  const auto size = [](const Point&) { return 0.5; };
+  RegionDrawing open = square(), leaking = square();
+  open.lines.pop_back();
+  leaking.lines[2].is_boundary = false;
+  for (const RegionDrawing& drawing : {open, leaking}) EXPECT_THROW(mesh_region(drawing, size), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace sprekk

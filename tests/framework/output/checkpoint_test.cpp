@@ -32,6 +32,7 @@ class CheckpointTest : public TemporaryFolder {
     checkpoint.clock.due = 0.3;
     checkpoint.clock.rise = 0.6;
     checkpoint.clock.expected = 1.1;
+    checkpoint.clock.patience = 0.4;
     checkpoint.mesh = small_mesh();
     Vector odd(5);
     odd << 1.0 / 3, -0.0, 5e-324, std::nan("3"), 1e308;
@@ -65,6 +66,7 @@ TEST_F(CheckpointTest, ComesBackToTheBit) {
   EXPECT_EQ(read.clock.due, checkpoint.clock.due);
   EXPECT_EQ(read.clock.rise, checkpoint.clock.rise);
   EXPECT_EQ(read.clock.expected, checkpoint.clock.expected);
+  EXPECT_EQ(read.clock.patience, checkpoint.clock.patience);
   EXPECT_TRUE(is_same_mesh(read.mesh, checkpoint.mesh));
   ASSERT_EQ(read.fields.size(), checkpoint.fields.size());
   for (const auto& [name, values] : checkpoint.fields) {

@@ -197,14 +197,51 @@ TEST(StepController, AnOverdueHoldIsExpectedFromTheRiseSoFar) {
   controller.hold(0.01, 1);
   controller.release(0.5);
   controller.accepted(controller.next(), 1);
-  controller.release(0.8);  // 0.3 in 0.6 h, and 0.2 are left
+  controller.observe(0.8);  // 0.3 in 0.6 h, and 0.2 are left
   EXPECT_NEAR(controller.next().dt, 0.4, 1e-12);
   controller.accepted(controller.next(), 1);
-  controller.release(0.9999);
-  EXPECT_NEAR(controller.next().dt, 0.1, 1e-12);
+  controller.observe(1.2);  // it has come to 1 and nothing was held: nothing is expected
+  EXPECT_EQ(controller.next().dt, 1);
+}
+
+TEST(StepController, ALevelThatRestsBelowOneCostsFewSteps) {
+  StepController controller(hours(1000), {});
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.6));
   controller.accepted(controller.next(), 1);
-  controller.release(1.2);  // it has come to 1 and nothing was held: nothing is expected
-  EXPECT_GT(controller.next().dt, 0.1);
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  while (!controller.is_finished()) {
+    controller.accepted(controller.next(), 1);
+    controller.observe(0.9999);
+  }
+  EXPECT_LE(controller.steps(), 1000 + 16);  // 0.1, 0.2, 0.4, … h, and what is left of each wait beyond whole steps
+}
+
+// Expectations end steps, but sizes go on as if they did not.
+TEST(StepController, AnExpectationLeavesTheSizeAsItIs) {
+  TimeOptions options = hours(20);
+  options.adaptive = true;
+  options.largest = 4;
+  options.iterations = 8;
+  StepController controller(options, {});
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.2));
+  controller.accepted(controller.next(), 5);
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  EXPECT_NEAR(controller.next().dt, 0.2, 1e-12);
+  controller.accepted(controller.next(), 5);  // neither many iterations nor few
+  EXPECT_EQ(controller.next().dt, 1);
+}
+
+TEST(StepController, NothingIsExpectedBeforeTimeZeroEither) {
+  TimeOptions options = hours(3);
+  options.start = -2.5;
+  StepController controller(options, {});
+  EXPECT_EQ(ends(controller), (std::vector<double>{-1.5, -0.5, 0.5, 1.5, 2.5, 3}));
 }
 
 TEST(StepController, ContinuesWithTheLastPause) {
