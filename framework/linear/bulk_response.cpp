@@ -116,9 +116,7 @@ const BulkResponse::RowMatrix* BulkResponse::felt_rows(const BulkSplitting& spli
   if (!of_bordered_.empty() && !are_multiples_of_bordered(split)) {
     of_felt_rows_.clear();
     const std::optional<LinearReport> report = compute_bordered(split, solver);
-    const bool has_border = report && report->solved;
-    // What the solver had is gone with the failure.
-    if (!has_border && !(solver.factor(split.bulk_system()).solved && solve_columns(split, solver))) return nullptr;
+    if (!report || !report->solved) return nullptr;
   }
   const bool is_first = of_felt_rows_.empty();
   if (is_first) {

@@ -29,7 +29,7 @@ class BulkResponse {
   /// A_FB X, a row for each of BulkSplitting::feeling. Rows of A_FB whose bits are those of the last call are not
   /// multiplied again, and those that only a power of two has scaled since `compute` are scaled; for others the
   /// factorization is made again. So the bits depend on the matrices, and not on those that were seen before. `solver`:
-  /// the one that `compute` was given. Null when that fails.
+  /// the one that `compute` was given. Null when that factorization fails.
   const RowMatrix* felt_rows(const BulkSplitting& split, LinearSolver& solver);
 
   /// x_B − X x_F. `solver` as for `felt_rows`; it is used where X is not whole.

@@ -153,7 +153,9 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   if (is_same(system.number, reduced_number_)) return reduced_report_;
   if (reduced_pattern_.rows() == 0) reduced_pattern_ = pattern_of_reduced(split);
   const BulkResponse::RowMatrix* const felt_rows = bulk.response.felt_rows(split, *bulk.solver);
-  if (!felt_rows) return bulk.report = LinearReport::failure("the bulk could be factorized no more");
+  if (!felt_rows)
+    return bulk.report =
+               LinearReport::failure("the bulk could not be factorized for equations on fractures that have changed");
   reduced_number_ = system.number;
   return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix(split, reduced_pattern_, *felt_rows)));
 }

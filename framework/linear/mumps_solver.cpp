@@ -271,7 +271,7 @@ LinearReport MumpsSolver::solve(const Vector& b_rows, Vector& x) {
 }
 
 bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
-  if (parallel::size() > 1 || !last_report_.solved) return false;
+  if (parallel::size() > 1) return false;
   const Stopwatch watch(counts_.seconds_solve);
   counts_.columns += static_cast<int>(columns.cols());
   constexpr int together = 32;  // more than one is what makes it fast; all of them would double the memory

@@ -13,8 +13,8 @@ namespace sprekk {
 /// differ by a shift, by half a turn, or by the order and direction of their parts become the same to the last bit (but
 /// where rounding decides), and so does what a generator makes of them. Growth that is point-symmetric stays so.
 ///
-/// The frame has its origin in the middle of the points, and there a size between 1 and 2, because of absolute
-/// tolerances in gmsh; the scale is a power of two, which costs no digits. Places are multiples of 2^-32.
+/// The frame has its origin in the middle of the points, and there a size between 1 and 2; the scale is a power of two,
+/// which costs no digits. Places are multiples of 2^-32, as mesh_region() wants them.
 struct CanonicalDrawing {
   /// `points` (m) has two different ones at least; each line joins two of them.
   CanonicalDrawing(const std::vector<Point>& points, const std::vector<std::array<int, 2>>& lines);

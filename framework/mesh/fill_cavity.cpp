@@ -37,7 +37,7 @@ class Sizes {
     }
     if (sources_[0].empty()) return upper;
     const double sum = nearest[0] + nearest[1];
-    // So steep that the rim's size is reached at the rim.
+    // So steep that the rim's size is reached at the rim, as far as mesh_region() follows.
     const double straight = sum > 0 ? (size[0] * nearest[1] + size[1] * nearest[0]) / sum : 0;
     return std::max(upper, straight);
   }
@@ -124,11 +124,11 @@ void take_back(const CavityOutline& outline, const CanonicalDrawing& drawing, Tr
 
 }  // namespace
 
-Triangulation fill_cavity(const CavityOutline& given, double size, double growth) {
+Triangulation fill_cavity(const CavityOutline& given, double size_factor, double growth) {
   const CanonicalDrawing drawing(given.points, lines_of(given));
   const CavityOutline outline = canonical(given, drawing);
   const Sizes sizes(outline, growth);
-  Triangulation filling = triangulate(outline, [&](const Point& x) { return size * sizes.at(x); });
+  Triangulation filling = triangulate(outline, [&](const Point& x) { return size_factor * sizes.at(x); });
   verify(outline, drawing, filling);
   filling.is_fixed.assign(filling.points.size(), false);
   std::fill_n(filling.is_fixed.begin(), outline.points.size(), true);

@@ -20,9 +20,9 @@ struct CavityOutline {
   std::vector<Edge> edges;
 };
 
-/// Triangles with edge lengths that go from those of the inner edges to those of the rim, growing by `growth` m a metre
-/// where the rim allows; inside, they are `size` times that. The points of the outline come first. Throws
-/// std::runtime_error when this fails.
-Triangulation fill_cavity(const CavityOutline& outline, double size, double growth);
+/// Triangles with edge lengths that go from those of the inner edges towards those of the rim, growing by `growth` m a
+/// metre, or up to 0.4 where the rim is near. `size_factor` makes all but the given edges so many times as long. The
+/// points of the outline come first. Throws std::runtime_error when this fails.
+Triangulation fill_cavity(const CavityOutline& outline, double size_factor, double growth);
 
 }  // namespace sprekk

@@ -19,7 +19,7 @@ using Place = CavityOutline::Edge::Place;
 /// Below this angle (rad) smaller edges and larger cavities are tried.
 constexpr double wanted_angle = 25 * std::numbers::pi / 180;
 struct Attempt {
-  double radius, size;  ///< as multiples
+  double radius_factor, size_factor;
 };
 constexpr Attempt attempts[] = {{1, 1}, {1, 0.75}, {1.25, 1}, {1.25, 0.75}, {1.6, 1}, {2, 1}};
 /// So many attempts in a row without gain are the last: small angles between lines that must stay remain.
@@ -64,8 +64,8 @@ class Refilling {
   Refill refill(const Attempt& attempt) const {
     Refill refill;
     refill.nodes = path_nodes_.nodes;
-    refill.is_removed =
-        choose_cavity(mesh_, merged_, paths_, std::vector<double>(paths_.size(), attempt.radius * options_.radius));
+    refill.is_removed = choose_cavity(mesh_, merged_, paths_,
+                                      std::vector<double>(paths_.size(), attempt.radius_factor * options_.radius));
     const std::vector<int> part = connected_parts(mesh_, refill.is_removed);
     std::vector<std::vector<int>> cells;
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
@@ -76,7 +76,7 @@ class Refilling {
     std::vector<int> part_of_path;
     for (const auto& path : paths_) part_of_path.push_back(part_met(path, cells));
     for (std::size_t p = 0; p < cells.size(); ++p)
-      fill(cells[p], static_cast<int>(p), part_of_path, attempt.size, refill);
+      fill(cells[p], static_cast<int>(p), part_of_path, attempt.size_factor, refill);
     return refill;
   }
 
@@ -132,7 +132,7 @@ class Refilling {
     return a.side == b.side && a.region == b.region && std::abs(cross(u, v)) <= 1e-14 * u.norm() * v.norm();
   }
 
-  void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, double size,
+  void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, double size_factor,
             Refill& refill) const {
     Outline outline(refill.nodes);
     std::vector<OuterEdge> outer_edges;
@@ -169,7 +169,7 @@ class Refilling {
         refill.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, edge.side});
       }
     }
-    const Triangulation filling = fill_cavity(outline.get(), size, options_.growth);
+    const Triangulation filling = fill_cavity(outline.get(), size_factor, options_.growth);
     refill.smallest_angle = std::min(refill.smallest_angle, smallest_angle(filling));
     refill.single_corners += single_corner_count(filling);
     std::vector<int> node_of = outline.nodes();

@@ -54,9 +54,9 @@ void write_content(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.integers("clock/failed_wait", std::array{checkpoint.clock.failed_wait, checkpoint.clock.failed_patience});
   const auto& released = checkpoint.clock.released;
   const auto& expected = checkpoint.clock.expected;
-  file.integers("clock/was_released", std::array{released ? 1 : 0, expected ? 1 : 0});
-  file.doubles("clock/released", std::array{released.value_or(0), checkpoint.clock.level, checkpoint.clock.due,
-                                            checkpoint.clock.rise, expected.value_or(0), checkpoint.clock.patience});
+  file.integers("clock/recurrence_known", std::array{released ? 1 : 0, expected ? 1 : 0});
+  file.doubles("clock/recurrence", std::array{released.value_or(0), checkpoint.clock.level, checkpoint.clock.pause,
+                                              checkpoint.clock.rise, expected.value_or(0), checkpoint.clock.patience});
   write_mesh(file, checkpoint.mesh);
   file.text("fields/names", nlohmann::json(names_of(checkpoint.fields)).dump());
   std::size_t i = 0;
@@ -78,13 +78,13 @@ Checkpoint read_content(const Hdf5Reader& file) {
                       file.doubles("clock/next_step").at(0),   file.doubles("clock/held_step").at(0),
                       file.doubles("clock/failed_step").at(0), file.integers("clock/failed_wait").at(0),
                       file.integers("clock/failed_wait").at(1)};
-  const std::vector<double> released = file.doubles("clock/released");
-  if (file.integers("clock/was_released").at(0) != 0) checkpoint.clock.released = released.at(0);
-  checkpoint.clock.level = released.at(1);
-  checkpoint.clock.due = released.at(2);
-  checkpoint.clock.rise = released.at(3);
-  if (file.integers("clock/was_released").at(1) != 0) checkpoint.clock.expected = released.at(4);
-  checkpoint.clock.patience = released.at(5);
+  const std::vector<double> recurrence = file.doubles("clock/recurrence");
+  if (file.integers("clock/recurrence_known").at(0) != 0) checkpoint.clock.released = recurrence.at(0);
+  checkpoint.clock.level = recurrence.at(1);
+  checkpoint.clock.pause = recurrence.at(2);
+  checkpoint.clock.rise = recurrence.at(3);
+  if (file.integers("clock/recurrence_known").at(1) != 0) checkpoint.clock.expected = recurrence.at(4);
+  checkpoint.clock.patience = recurrence.at(5);
   checkpoint.mesh = read_mesh(file);
   const auto fields = read_names(file, "fields/names");
   for (std::size_t i = 0; i < fields.size(); ++i)

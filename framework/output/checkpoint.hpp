@@ -19,9 +19,10 @@ struct Checkpoint {
     double failed_step = 0;  ///< s, a size that failed and waits to be tried again, or 0
     int failed_wait = 0, failed_patience = 3;
     std::optional<double> released = std::nullopt;  ///< s, when steps were last held small no more
-    double level = 0, due = 0, rise = 1;            ///< -, s, -: of the release before, the hold after it
+    double level = 0;                               ///< of what holds steps, at that time
+    double pause = 0, rise = 1;                     ///< s and of that level, from the release before to its hold
     std::optional<double> expected = std::nullopt;  ///< s, when steps are to be held the next time
-    double patience = 0;                            ///< s, how long that has been waited for beyond its time
+    double patience = 0;                            ///< s, how long that is waited for once it is overdue
   };
   struct Values {
     Vector now, accepted;

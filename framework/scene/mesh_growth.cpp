@@ -51,9 +51,9 @@ MeshGrowth::Outcome MeshGrowth::after_acceptance() {
     is_unsettled = is_unsettled || grow.is_unsettled();
     nearness = std::max(nearness, grow.nearness());
     if (grow.extensions().empty()) continue;
-    const double small = grow.options().cut * model_->scene().time.step, near = grow.nearness();
+    const double small = grow.options().cut * model_->scene().time.step;
     const Outcome outcome = take_over(i);
-    if (outcome == Outcome::changed) controller_.hold(small, near);
+    if (outcome == Outcome::changed) controller_.hold(small, nearness);
     return outcome;
   }
   if (!is_unsettled) controller_.release(nearness);

@@ -164,8 +164,13 @@ void Run::restore() {
   model_->restore_extra_state(checkpoint_->extra);
   const Checkpoint::Clock& clock = checkpoint_->clock;
   controller_.restore(clock.time, clock.step, clock.next_step, clock.held_step,
-                      {clock.failed_step, clock.failed_wait, clock.failed_patience},
-                      {clock.released, clock.level, clock.due, clock.rise, clock.expected, clock.patience});
+                      {.size = clock.failed_step, .wait = clock.failed_wait, .patience = clock.failed_patience},
+                      {.released = clock.released,
+                       .level = clock.level,
+                       .pause = clock.pause,
+                       .rise = clock.rise,
+                       .expected = clock.expected,
+                       .patience = clock.patience});
   restored_steps_ = clock.step;
   checkpoint_.reset();
 }
@@ -317,11 +322,20 @@ ExitCode Run::loop() {
   const auto checkpoint = [&] {
     const FailedStep& failed = controller_.failed();
     const Recurrence& recurrence = controller_.recurrence();
-    output_.write_checkpoint(*model_,
-                             {controller_.time(), controller_.steps(), controller_.wanted(), controller_.held(),
-                              failed.size, failed.wait, failed.patience, recurrence.released, recurrence.level,
-                              recurrence.due, recurrence.rise, recurrence.expected, recurrence.patience},
-                             fingerprint_);
+    const Checkpoint::Clock clock{.time = controller_.time(),
+                                  .step = controller_.steps(),
+                                  .next_step = controller_.wanted(),
+                                  .held_step = controller_.held(),
+                                  .failed_step = failed.size,
+                                  .failed_wait = failed.wait,
+                                  .failed_patience = failed.patience,
+                                  .released = recurrence.released,
+                                  .level = recurrence.level,
+                                  .pause = recurrence.pause,
+                                  .rise = recurrence.rise,
+                                  .expected = recurrence.expected,
+                                  .patience = recurrence.patience};
+    output_.write_checkpoint(*model_, clock, fingerprint_);
     last_checkpoint = now();
   };
   while (!controller_.is_finished() && !is_stopped_) {

@@ -1,6 +1,7 @@
 // grow: lets fractures grow after the steps before it, and settles the state on the mesh that has grown with them.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "framework/schedule/growing.hpp"
@@ -41,9 +42,8 @@ class GrowStep : public ScheduleStep {
   CavityOptions cavity() const { return growing_->cavity(); }
   /// Whether a growth event still shows at the tips.
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
-  /// How far the load of the tips is on the way to where a step is to end: 1 is between the load of growth and what a
-  /// step may pass it by.
-  double nearness() const { return load_.now / (1 + 0.5 * options_.overshoot); }
+  /// The largest load of all tips over that at whose time a step that is refused for it would be made to end.
+  double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * options_.overshoot); }
   /// Solves for the components of `settle` at fixed values of everything else, with data as in the given step.
   StepStatus settle(const StepTime& step) { return settle_.run(step); }
 

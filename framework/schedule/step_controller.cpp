@@ -8,7 +8,7 @@ namespace sprekk {
 namespace {
 
 constexpr double rounding = 1e-9;    ///< of the standard step: times nearer than this are the same
-constexpr double least_rise = 1e-3;  ///< of a level; what is less tells no rate
+constexpr double least_rise = 1e-2;  ///< of a level; what is less tells no rate
 
 }  // namespace
 
@@ -79,10 +79,10 @@ StepTime StepController::next() const {
   // A rest that is a hair longer than the step is taken in one, so that no sliver is left; a rest of less than two
   // steps of an adaptive run in two equal ones.
   const double rest = *target - time_;
-  if (rest <= size * (1 + 1e-9)) {
+  if (rest <= size * (1 + rounding)) {
     step.dt = rest;
     step.end = *target;
-  } else if (options_.adaptive && rest < 2 * size) {
+  } else if (options_.adaptive && size == wanted_ && rest < 2 * size) {
     step.dt = rest / 2;
     step.end = time_ + step.dt;
   }
@@ -137,7 +137,7 @@ bool StepController::rejected(const StepTime& step, double retry) {
 void StepController::hold(double step, double level) {
   Recurrence& last = recurrence_;
   if (held_ == 0 && last.released) {
-    last.due = time_ - *last.released;
+    last.pause = time_ - *last.released;
     last.rise = std::min(level, 1.0) - last.level;
   }
   last.expected = std::nullopt;
@@ -152,9 +152,9 @@ void StepController::release(double level) {
   last.released = time_;
   last.level = level;
   last.patience = 0;
-  if (last.due == 0) return;
+  if (last.pause == 0) return;
   const double share = last.rise > least_rise ? std::clamp((1 - level) / last.rise, 0.5, 2.0) : 1;
-  last.expected = time_ + last.due * share;
+  last.expected = time_ + last.pause * share;
 }
 
 void StepController::observe(double level) {

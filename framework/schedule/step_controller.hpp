@@ -42,10 +42,10 @@ struct FailedStep {
 struct Recurrence {
   std::optional<double> released = std::nullopt;  ///< s, the time of the last release
   double level = 0;                               ///< at the last release
-  double due = 0;                                 ///< s, from a release to its hold; 0 as long as unknown
+  double pause = 0;                               ///< s, from a release to its hold; 0 as long as unknown
   double rise = 1;                                ///< of the level in that time
   std::optional<double> expected = std::nullopt;  ///< s, the time of the next hold
-  double patience = 0;                            ///< s, how long it was waited for when it was overdue
+  double patience = 0;                            ///< s, how long a hold that was overdue is waited for
 };
 
 /// Constant or adaptive steps that end exactly at the targets (output times, switches of sources, the end). A rejected
@@ -66,10 +66,10 @@ class StepController {
   /// Cuts the step, to `retry` (s) if that is given; false when it is as small as allowed.
   bool rejected(const StepTime& step, double retry = 0);
   /// Holds all steps at this size (s) until `release`. The standard size then returns, but the step in which the next
-  /// hold is expected ends with it: in proportion to how far the level rose, and in what time, from the last release to
-  /// its hold. It is at least a tenth of the standard one.
-  void hold(double step, double level = 1);
-  void release(double level = 0);
+  /// hold is expected ends there: after the last pause, from a release to its hold, times the rise to 1 that is left
+  /// over the rise in that pause. It is at least a tenth of the standard one.
+  void hold(double step, double level);
+  void release(double level);
   /// Where the level is after a step. A hold that is overdue is expected anew, from the rise since the release, but
   /// each time after twice the time at least: a level may come to rest below 1.
   void observe(double level);

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <utility>
 
 #include "tests/framework/linear/test_systems.hpp"
 
@@ -16,6 +17,14 @@ const LinearSystem fractured = test::FracturedBiot{12}.build();
 struct Way {
   const char* type;
   bool is_short_lived;  ///< with MUMPS: found while it factorizes
+};
+
+class ShortLivedResponse : public testing::Test {
+ protected:
+  ShortLivedResponse() {
+    for (SubMatrix* sub : {&split.bb, &split.bf, &split.fb}) sub->update(fractured.local.valuePtr());
+  }
+  BulkSplitting split{fractured};
 };
 
 class ResponseOf : public testing::TestWithParam<Way> {
@@ -100,6 +109,37 @@ TEST_P(ResponseOf, DoesNotRememberWithWhichScalesOfRowsItWasComputed) {
   EXPECT_EQ(*response.felt_rows(split, *solver), expected);
 }
 
+/// MUMPS, until something else than the first border is asked for.
+class BordersOnce : public LinearSolver {
+ public:
+  BordersOnce() {
+    LinearOptions options;
+    options.type = "mumps";
+    solver_ = make_linear_solver(options);
+  }
+  LinearReport factor(const LinearSystem& system) override { return solver_->factor(system); }
+  LinearReport solve(const Vector& b_rows, Vector& x) override { return solver_->solve(b_rows, x); }
+  std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
+                                              const SparseMatrix& rows, Eigen::MatrixXd& response) override {
+    if (std::exchange(has_bordered_, true)) return LinearReport::failure("no memory is left");
+    return solver_->factor_bordered(system, columns, rows, response);
+  }
+  std::string name() const override { return "borders once"; }
+
+ private:
+  std::unique_ptr<LinearSolver> solver_;
+  bool has_bordered_ = false;
+};
+
+TEST_F(ShortLivedResponse, IsNoneWhereRowsChangeAndTheFactorizationFails) {
+  BordersOnce solver;
+  BulkResponse response;
+  ASSERT_TRUE(response.compute(split, solver, true).solved);
+  ASSERT_NE(response.felt_rows(split, solver), nullptr);
+  split.fb.matrix.valuePtr()[split.fb.matrix.outerIndexPtr()[split.feeling[0]]] *= 3;
+  EXPECT_EQ(response.felt_rows(split, solver), nullptr);
+}
+
 TEST_P(ResponseOf, LeavesASolverThatSolves) {
   computed(kept);
   Vector exact = test::random_vector(split.bulk_size(), 5);  // displacements (m), then pressures (Pa)
@@ -121,9 +161,7 @@ TEST_P(ResponseOf, IsRefusedWhereTheBulkIsSingular) {
   EXPECT_NE(report.reason.find("singular"), std::string::npos) << report.reason;
 }
 
-TEST(ShortLivedResponse, NeedsNoColumns) {
-  BulkSplitting split{fractured};
-  for (SubMatrix* sub : {&split.bb, &split.bf, &split.fb}) sub->update(fractured.local.valuePtr());
+TEST_F(ShortLivedResponse, NeedsNoColumns) {
   LinearOptions options;
   options.type = "mumps";
   const std::unique_ptr<LinearSolver> solver = make_linear_solver(options);

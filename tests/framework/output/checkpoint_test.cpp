@@ -29,7 +29,11 @@ class CheckpointTest : public TemporaryFolder {
     checkpoint.clock = {1.0 / 3, 42, 0.1 + 0.2};
     checkpoint.clock.released = 0.7;
     checkpoint.clock.level = 0.1;
-    checkpoint.clock.due = 0.3;
+    checkpoint.clock.pause = 0.3;
+    checkpoint.clock.held_step = 0.01;
+    checkpoint.clock.failed_step = 0.9;
+    checkpoint.clock.failed_wait = 5;
+    checkpoint.clock.failed_patience = 6;
     checkpoint.clock.rise = 0.6;
     checkpoint.clock.expected = 1.1;
     checkpoint.clock.patience = 0.4;
@@ -63,7 +67,11 @@ TEST_F(CheckpointTest, ComesBackToTheBit) {
   EXPECT_EQ(read.clock.next_step, checkpoint.clock.next_step);
   EXPECT_EQ(read.clock.released, checkpoint.clock.released);
   EXPECT_EQ(read.clock.level, checkpoint.clock.level);
-  EXPECT_EQ(read.clock.due, checkpoint.clock.due);
+  EXPECT_EQ(read.clock.pause, checkpoint.clock.pause);
+  EXPECT_EQ(read.clock.held_step, checkpoint.clock.held_step);
+  EXPECT_EQ(read.clock.failed_step, checkpoint.clock.failed_step);
+  EXPECT_EQ(read.clock.failed_wait, checkpoint.clock.failed_wait);
+  EXPECT_EQ(read.clock.failed_patience, checkpoint.clock.failed_patience);
   EXPECT_EQ(read.clock.rise, checkpoint.clock.rise);
   EXPECT_EQ(read.clock.expected, checkpoint.clock.expected);
   EXPECT_EQ(read.clock.patience, checkpoint.clock.patience);

@@ -113,7 +113,7 @@ TEST(StepController, HoldsASizeUntilItIsReleased) {
     options.adaptive = adaptive;
     options.largest = 4;
     StepController controller(options, {0.7});
-    controller.hold(0.25);
+    controller.hold(0.25, 1);
     std::vector<double> ends;
     for (int i = 0; i < 3; ++i) {
       const StepTime step = controller.next();
@@ -126,36 +126,36 @@ TEST(StepController, HoldsASizeUntilItIsReleased) {
     EXPECT_EQ(ends[2], 0.7);
     EXPECT_EQ(controller.held(), 0.25);
     EXPECT_EQ(controller.wanted(), 0.25);
-    controller.release();
+    controller.release(0);
     EXPECT_EQ(controller.held(), 0);
     EXPECT_EQ(controller.next().dt, 1);
   }
 }
 
-// Held at 0, 3, 3.6, …: after a release it takes as long as it did the last time, but not less than a tenth of a step.
+// After a release it takes as long as it did the last time, but not less than a tenth of a step.
 TEST(StepController, AReleasedStepIsAsLongAsTheLastPause) {
   StepController controller(hours(10), {});
-  controller.hold(0.01);
-  controller.release();
+  controller.hold(0.01, 1);
+  controller.release(0);
   EXPECT_EQ(controller.next().dt, 1);  // nothing is known yet
   EXPECT_TRUE(controller.rejected(controller.next(), 0.4));
   controller.accepted(controller.next(), 1);
-  controller.hold(0.01);
+  controller.hold(0.01, 1);
   controller.accepted(controller.next(), 1);
-  controller.hold(0.01);  // goes on: no new pause
+  controller.hold(0.01, 1);  // goes on: no new pause
   controller.accepted(controller.next(), 1);
-  controller.release();
+  controller.release(0);
   EXPECT_NEAR(controller.next().dt, 0.4, 1e-15);
   EXPECT_TRUE(controller.rejected(controller.next(), 0.02));
   controller.accepted(controller.next(), 1);
-  controller.hold(0.01);
-  controller.release();
+  controller.hold(0.01, 1);
+  controller.release(0);
   EXPECT_NEAR(controller.next().dt, 0.1, 1e-15);
   // A pause that is longer than a step is no limit; until the hold comes, steps grow as after any cut.
   for (int i = 0; i < 9; ++i) controller.accepted(controller.next(), 1);
   EXPECT_EQ(controller.next().dt, 1);
-  controller.hold(0.01);
-  controller.release();
+  controller.hold(0.01, 1);
+  controller.release(0);
   EXPECT_EQ(controller.next().dt, 1);
 }
 
@@ -237,35 +237,74 @@ TEST(StepController, AnExpectationLeavesTheSizeAsItIs) {
   EXPECT_EQ(controller.next().dt, 1);
 }
 
-TEST(StepController, NothingIsExpectedBeforeTimeZeroEither) {
+TEST(StepController, HoldsAreExpectedBeforeTimeZeroToo) {
   TimeOptions options = hours(3);
   options.start = -2.5;
   StepController controller(options, {});
   EXPECT_EQ(ends(controller), (std::vector<double>{-1.5, -0.5, 0.5, 1.5, 2.5, 3}));
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.2));
+  controller.accepted(controller.next(), 1);
+  controller.hold(0.01, 1);
+  controller.release(0.5);
+  EXPECT_NEAR(controller.next().dt, 0.2, 1e-12);
+}
+
+TEST(StepController, AnExpectationIsMetBeforeTheWayToATargetIsHalved) {
+  TimeOptions options = hours(20);
+  options.adaptive = true;
+  StepController controller(options, {1.5});
+  controller.hold(0.01, 1);
+  controller.release(0);
+  controller.accepted(controller.next(), 5);  // half of the way to the target
+  controller.hold(0.01, 1);
+  controller.release(0.25);
+  EXPECT_NEAR(controller.next().dt, 0.75 * 0.75, 1e-12);
 }
 
 TEST(StepController, ContinuesWithTheLastPause) {
   StepController whole(hours(10), {}), part(hours(10), {});
-  whole.hold(0.01);
-  whole.release();
+  whole.hold(0.01, 1);
+  whole.release(0);
   EXPECT_TRUE(whole.rejected(whole.next(), 0.4));
   whole.accepted(whole.next(), 1);
-  whole.hold(0.01);
+  whole.hold(0.01, 1);
   part.restore(whole.time(), whole.steps(), whole.wanted(), whole.held(), whole.failed(), whole.recurrence());
-  part.release();
+  part.release(0);
   EXPECT_NEAR(part.next().dt, 0.4, 1e-15);
+}
+
+TEST(StepController, ContinuesWithWhatItExpects) {
+  StepController whole(hours(20), {});
+  whole.hold(0.01, 1);
+  whole.release(0.4);
+  EXPECT_TRUE(whole.rejected(whole.next(), 0.7));
+  whole.accepted(whole.next(), 1);
+  whole.hold(0.01, 1);
+  whole.release(0.6);
+  for (int i = 0; i < 6; ++i) {
+    StepController part(hours(20), {});
+    part.restore(whole.time(), whole.steps(), whole.wanted(), whole.held(), whole.failed(), whole.recurrence());
+    EXPECT_EQ(part.next().end, whole.next().end) << i;
+    whole.accepted(whole.next(), 1);
+    whole.observe(0.99);
+    part.accepted(part.next(), 1);
+    part.observe(0.99);
+    EXPECT_EQ(part.next().end, whole.next().end) << i;
+  }
 }
 
 TEST(StepController, ReleasingWhatIsNotHeldChangesNothing) {
   StepController controller(hours(10), {});
   EXPECT_TRUE(controller.rejected(controller.next(), 0.5));
-  controller.release();
+  controller.release(0);
   EXPECT_EQ(controller.next().dt, 0.5);
 }
 
 TEST(StepController, ARetryWhileHeldGrowsBackToWhatIsHeld) {
   StepController controller(hours(10), {});
-  controller.hold(0.4);
+  controller.hold(0.4, 1);
   EXPECT_TRUE(controller.rejected(controller.next(), 0.2));
   std::vector<double> sizes;
   for (int i = 0; i < 4; ++i) {
@@ -280,12 +319,12 @@ TEST(StepController, ARetryWhileHeldGrowsBackToWhatIsHeld) {
 
 TEST(StepController, ContinuesWhatWasHeld) {
   StepController whole(hours(3), {}), part(hours(3), {});
-  whole.hold(0.25);
+  whole.hold(0.25, 1);
   whole.accepted(whole.next(), 1);
   part.restore(whole.time(), whole.steps(), whole.wanted(), whole.held());
   EXPECT_EQ(part.held(), 0.25);
   EXPECT_EQ(ends(part), ends(whole));
-  part.release();
+  part.release(0);
   EXPECT_EQ(part.next().dt, 1);
 }
 
