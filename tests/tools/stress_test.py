@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tools"))
 import results  # noqa: E402
-from stress_suite import (check_balance, check_contact, check_finite, check_pressure, fractures, physics, ranges,  # noqa: E402
+from stress_suite import (check_balance, check_contact, check_finite, check_pressure, compare, fractures, physics, ranges,  # noqa: E402
                           scene, summary, twisted_mesh, written)
 
 P = {"young": 2.5e9, "poisson": 0.25, "alpha": 0.0, "permeability": 1e-15, "viscosity": 1e-3, "storage": 1e-10,
@@ -129,6 +129,19 @@ class Checks(unittest.TestCase):
         bad = change("matrix", "pore.pressure[Pa]", 3, np.nan)
         self.found(check_finite.failures(bad, {}), "not finite")
         self.found(check_finite.failures([], {"a": np.array([1.0, np.inf])}), "not finite")
+
+
+class Processes(unittest.TestCase):
+    def test_a_cell_at_its_friction_bound_may_stick_or_slip(self):
+        def history(stick, slip, is_open, pressure):
+            return {"time[s]": np.array([1.0, 2.0]), "contact.cells_stick[1]": np.array([0.0, stick]),
+                    "contact.cells_slip[1]": np.array([9.0, slip]), "contact.cells_open[1]": np.array([0.0, is_open]),
+                    "p[Pa]": np.array([1.0, pressure])}
+
+        alone = history(4, 5, 0, 3.0)
+        self.assertEqual(compare.differences(alone, history(5, 4, 0, 3.0), 0), [])
+        self.assertEqual(len(compare.differences(alone, history(4, 4, 1, 3.0), 0)), 2)
+        self.assertEqual(len(compare.differences(alone, history(5, 4, 0, 3.0001), 0)), 1)
 
 
 class Summary(unittest.TestCase):
