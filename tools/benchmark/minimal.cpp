@@ -14,6 +14,7 @@
 
 #include "components/matrix_flow/mpfa/mpfa.hpp"
 #include "components/poromechanics/mpsa/mpsa.hpp"
+#include "framework/command_line/keep_memory.hpp"
 #include "framework/config/node.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -252,6 +253,7 @@ void compare(const Pair& pair, int repeats, bool last) {
 /// bench_minimal [SIZE [REPEATS [NAME [general|minimal]]]]: of triangles (m), and of measurements; of pairs, those
 /// whose names begin so. With the last argument, one half of them runs and nothing is measured: for a profiler.
 int main(int count, char** arguments) {
+  keep_memory();  // as sprekk does; for both halves
   const double size = count > 1 ? std::atof(arguments[1]) : 0.015;
   const int repeats = count > 2 ? std::atoi(arguments[2]) : 7;
   const Mesh mesh = square(size);
