@@ -8,6 +8,7 @@
 
 #include "framework/assembly/assembly.hpp"
 #include "framework/assembly/levels.hpp"
+#include "framework/assembly/notes.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
 #include "framework/field/output_field.hpp"
@@ -66,8 +67,8 @@ class Part {
   /// Called after the fields have been accepted or rewound, for state that is not in fields.
   virtual void accepted() {}
   virtual void rewound() {}
-  /// Of a part on a mesh that has grown: takes over what the same part had on the mesh before (after the values of
-  /// fields have been), and gives new entities their start.
+  /// Called on a part that has been built on a changed mesh, after its fields have received their values: takes over the
+  /// state of the part `before` that it replaces, and gives new entities their initial state.
   virtual void carry_over(const Part& /*before*/, const MeshChange& /*change*/) {}
   /// Called when the equilibrium on the new mesh has been found, before it is accepted.
   virtual void settled(const MeshChange& /*change*/) {}
@@ -98,6 +99,12 @@ class Part {
   /// Quantities for history.csv, and fields for pictures.
   virtual void report(std::vector<Quantity>&) const {}
   virtual void output(std::vector<OutputField>&) const {}
+  /// Adds what can be known before the run: data without effect, data that contradict one another. `sprekk check` shows
+  /// it, and a run at its start.
+  virtual void note_input(Notes&) const {}
+  /// Adds what a step did that its user would not expect. Called on all processes for each step that is about to be
+  /// accepted, after report().
+  virtual void note_step(Notes&, const StepTime&) const {}
   /// How often something was computed or reused, for the end-of-run table: name → count.
   virtual std::map<std::string, long> counts() const { return {}; }
   /// Entries of the end-of-run table for work of its own inside of steps, without that of the schedule's solvers.
