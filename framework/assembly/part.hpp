@@ -67,8 +67,8 @@ class Part {
   /// Called after the fields have been accepted or rewound, for state that is not in fields.
   virtual void accepted() {}
   virtual void rewound() {}
-  /// Called on a part that has been built on a changed mesh, after its fields have received their values: takes over the
-  /// state of the part `before` that it replaces, and gives new entities their initial state.
+  /// Called on a part that has been built on a changed mesh, after its fields have received their values: takes over
+  /// the state of the part `before` that it replaces, and gives new entities their initial state.
   virtual void carry_over(const Part& /*before*/, const MeshChange& /*change*/) {}
   /// Called when the equilibrium on the new mesh has been found, before it is accepted.
   virtual void settled(const MeshChange& /*change*/) {}
