@@ -12,23 +12,36 @@ class Notes {
  public:
   struct Note {
     std::string topic;      ///< one name for all notes of a kind: "pore.pressure below zero"
-    std::string text;       ///< of the first step that it was added in
+    std::string text;       ///< of the step with the largest measure, the first of several
     double first_time = 0;  ///< end of that step (s)
     double last_time = 0;   ///< end of the last step that it was added in (s)
-    long steps = 0;         ///< number of accepted steps that it was added in
+    long steps = 0;         ///< number of accepted steps that it was added in; 0: of the input
+    double measure = 0;     ///< how bad it was, in units of its topic
   };
 
   /// The end (s) of the accepted step that what follows is about.
   void at_time(double time) { time_ = time; }
-  /// Adds a note, or counts one more step for a note of the same topic.
-  void add(const std::string& topic, const std::string& text);
+  /// What follows is about the input, at the start (s) of the run, not about steps.
+  void of_input(double start) {
+    time_ = start;
+    is_of_input_ = true;
+  }
+  /// Adds a note, or counts one more step for a note of the same topic, whose text is then that of the larger measure:
+  /// give one where a text has figures, so that the worst is told and not the first. Only what the first process adds
+  /// is shown: what a process knows alone is to be reduced before.
+  void add(const std::string& topic, const std::string& text, double measure = 0);
 
   const std::vector<Note>& all() const { return notes_; }
+  bool empty() const { return notes_.empty(); }
   void restore(std::vector<Note> notes) { notes_ = std::move(notes); }
 
  private:
   double time_ = 0;
+  bool is_of_input_ = false;
   std::vector<Note> notes_;
 };
+
+/// The text, and of a note about steps how many these were and when.
+std::string described(const Notes::Note& note);
 
 }  // namespace sprekk

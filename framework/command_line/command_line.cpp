@@ -40,8 +40,9 @@ void print_scene(const Scene& scene) {
 void check_scene(const Scene& scene) {
   const Model model(scene);
   StopCondition(scene, model.quantities());
+  const Notes notes = model.input_notes();
   if (!parallel::is_root()) return;
-  for (const std::string& note : scene.notes) std::cerr << "note: " << note << "\n";
+  for (const Notes::Note& note : notes.all()) std::cerr << "note: " << described(note) << "\n";
   std::cout << scene.name << ": ok, " << model.mesh().cell_count() << " cells, " << model.mesh().fracture_cell_count()
             << " fracture cells\n";
 }

@@ -14,7 +14,7 @@ namespace sprekk {
 namespace {
 
 const std::string format_name = "sprekk checkpoint";
-constexpr int format_version = 8;  // raised whenever the layout of the file changes
+constexpr int format_version = 9;  // raised whenever the layout of the file changes
 
 std::span<const double> span_of(const Vector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
@@ -40,6 +40,20 @@ std::vector<std::string> names_of(const Map& map) {
 std::string field_path(std::size_t i, const char* level) { return fmt::format("fields/{}/{}", i, level); }
 std::string extra_path(std::size_t i) { return fmt::format("extra/{}", i); }
 
+std::string text_of(const std::vector<Notes::Note>& notes) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Notes::Note& note : notes)
+    list.push_back({note.topic, note.text, note.first_time, note.last_time, note.steps, note.measure});
+  return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::vector<Notes::Note> read_notes(const std::string& text) {
+  std::vector<Notes::Note> notes;
+  for (const nlohmann::json& note : nlohmann::json::parse(text))
+    notes.push_back({note.at(0), note.at(1), note.at(2), note.at(3), note.at(4), note.at(5)});
+  return notes;
+}
+
 void write_content(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.text("format", format_name);
   file.integers("format_version", std::array{format_version});
@@ -57,6 +71,7 @@ void write_content(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.integers("clock/recurrence_known", std::array{released ? 1 : 0, expected ? 1 : 0});
   file.doubles("clock/recurrence", std::array{released.value_or(0), checkpoint.clock.level, checkpoint.clock.pause,
                                               checkpoint.clock.rise, expected.value_or(0), checkpoint.clock.patience});
+  file.text("notes", text_of(checkpoint.notes));
   write_mesh(file, checkpoint.mesh);
   file.text("fields/names", nlohmann::json(names_of(checkpoint.fields)).dump());
   std::size_t i = 0;
@@ -85,6 +100,7 @@ Checkpoint read_content(const Hdf5Reader& file) {
   checkpoint.clock.rise = recurrence.at(3);
   if (file.integers("clock/recurrence_known").at(1) != 0) checkpoint.clock.expected = recurrence.at(4);
   checkpoint.clock.patience = recurrence.at(5);
+  checkpoint.notes = read_notes(file.text("notes"));
   checkpoint.mesh = read_mesh(file);
   const auto fields = read_names(file, "fields/names");
   for (std::size_t i = 0; i < fields.size(); ++i)

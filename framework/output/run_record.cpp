@@ -37,6 +37,17 @@ Json profile_json(const Profile& profile) {
   return objects;
 }
 
+Json notes_json(const std::vector<Notes::Note>& notes) {
+  Json list = Json::array();
+  for (const Notes::Note& note : notes)
+    list.push_back({{"topic", note.topic},
+                    {"text", note.text},
+                    {"first_time", note.first_time},
+                    {"last_time", note.last_time},
+                    {"steps", note.steps}});
+  return list;
+}
+
 }  // namespace
 
 std::string RunRecord::json(const Profile& profile) const {
@@ -44,7 +55,7 @@ std::string RunRecord::json(const Profile& profile) const {
   const Json whole = {
       {"exit", {{"code", exit_code}, {"reason", exit_reason}}},
       {"results", results},
-      {"warnings", warnings},
+      {"notes", notes_json(notes)},
       {"counters", counters},
       {"seconds", seconds},
       {"timings", timings},

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/assembly/notes.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/picture/display_unit.hpp"
 #include "framework/report/html.hpp"
@@ -80,14 +81,23 @@ std::string figures(const json& results) {
   return rows.size() == 1 ? "" : "<h3>Result figures</h3>\n" + html_table(rows);
 }
 
+std::string noted(const json& notes) {
+  std::string text;
+  for (const json& note : notes) {
+    if (!note.is_object()) continue;
+    const Notes::Note read{note.value("topic", ""), note.value("text", ""), note.value("first_time", 0.0),
+                           note.value("last_time", 0.0), note.value("steps", 0L)};
+    text += "<p class=\"warning\">" + escaped_markup(described(read)) + "</p>\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string summary_section(const RunResults& results) {
   const json record = json::parse(results.record);
   std::string text = exit_text(part(record, "exit"));
-  const json warnings = part(record, "warnings");
-  for (const json& warning : warnings)
-    text += "<p class=\"warning\">" + escaped_markup(warning.is_string() ? warning.get<std::string>() : "") + "</p>\n";
+  text += noted(part(record, "notes"));
   for (const std::string& problem : results.problems)
     text += "<p class=\"warning\">" + escaped_markup(problem) + "</p>\n";
   return html_section("summary", "Summary",

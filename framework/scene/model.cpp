@@ -146,6 +146,13 @@ std::vector<Quantity> Model::quantities() const {
   return quantities;
 }
 
+Notes Model::input_notes() const {
+  Notes notes = scene_.notes;
+  notes.of_input(scene_.time.start);
+  for (const Part* part : parts_) part->note_input(notes);
+  return notes;
+}
+
 std::vector<OutputField> Model::output() const {
   std::vector<OutputField> fields;
   for (const auto& field : fields_.all())

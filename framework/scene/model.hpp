@@ -47,6 +47,7 @@ class Model {
   std::vector<double> switch_times() const;
   std::vector<Quantity> quantities() const;  ///< for history.csv
   std::vector<OutputField> output() const;   ///< for pictures
+  Notes input_notes() const;                 ///< of the scene and of all parts
 
  private:
   void check_determined() const;

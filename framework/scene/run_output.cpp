@@ -42,13 +42,15 @@ void RunOutput::write_fields(double time, int step, const Mesh& mesh, const std:
   if (parallel::is_root() && fields_) fields_->write(time, step, mesh, fields);
 }
 
-void RunOutput::write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const std::string& fingerprint) {
+void RunOutput::write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const Notes& notes,
+                                 const std::string& fingerprint) {
   if (!parallel::is_root()) return;
   Checkpoint checkpoint;
   checkpoint.scene_name = model.scene().name;
   checkpoint.scene_fingerprint = fingerprint;
   checkpoint.program_version = build_info().version;
   checkpoint.clock = clock;
+  checkpoint.notes = notes.all();
   checkpoint.mesh = model.mesh();
   checkpoint.fields = field_values(model.fields());
   checkpoint.extra = model.extra_state();

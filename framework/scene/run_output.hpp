@@ -23,7 +23,8 @@ class RunOutput {
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
   void write_iteration(const IterationRecord& record);
   void write_fields(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields);
-  void write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const std::string& fingerprint);
+  void write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const Notes& notes,
+                        const std::string& fingerprint);
 
   std::filesystem::path path() const { return folder_.path(); }
   std::filesystem::path checkpoint_path() const { return path() / "checkpoint.h5"; }

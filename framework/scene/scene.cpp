@@ -194,7 +194,8 @@ void note_unused_materials(Scene& scene, const std::set<std::string>& used) {
   if (!materials) return;
   for (const Node::Entry& entry : materials->entries)
     if (used.count(entry.key) == 0)
-      scene.notes.push_back(entry.origin.text() + ": no component of this scene uses " + quoted(entry.key));
+      scene.notes.add("materials." + entry.key + " without effect",
+                      entry.origin.text() + ": no component of this scene uses " + quoted(entry.key));
 }
 
 }  // namespace
@@ -204,6 +205,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   check_materials(whole.find("materials"));
   Scene scene;
   scene.whole = whole;
+  scene.notes.of_input(0);
 
   std::set<std::string> materials_used;
   ReadContext read;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/assembly/notes.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/scene/probe.hpp"
@@ -53,7 +54,7 @@ struct Scene {
   NewtonOptions newton;
   LinearOptions linear;
   std::vector<Resolved> resolved;
-  std::vector<std::string> notes;  ///< what is not wrong but may not be meant
+  Notes notes;  ///< what is not wrong but may not be meant
 
   const Origin& schedule_origin() const { return whole.find("schedule")->origin; }
 };

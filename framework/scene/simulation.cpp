@@ -74,6 +74,8 @@ class Run {
   void restore();
   void require_columns() const;
   void record_start();
+  void note_input(const MeshQuality& quality);
+  void note_step(const StepTime& step);    ///< that is about to be accepted
   void retire_counts(const Model& model);  ///< adds what the model has counted to the totals
   void split_steps();                      ///< takes what others have timed inside of steps out of their time
   void count_settling();
@@ -95,6 +97,7 @@ class Run {
   MeshGrowth growth_;
   Profile profile_;
   RunRecord record_;
+  Notes input_notes_, step_notes_;
   std::string fingerprint_, reason_;
   double began_, processor_at_first_step_;
   long newton_iterations_ = 0, rejected_ = 0;
@@ -171,6 +174,7 @@ void Run::restore() {
                        .rise = clock.rise,
                        .expected = clock.expected,
                        .patience = clock.patience});
+  step_notes_.restore(checkpoint_->notes);
   restored_steps_ = clock.step;
   checkpoint_.reset();
 }
@@ -188,27 +192,38 @@ void Run::require_columns() const {
   }
 }
 
+void Run::note_input(const MeshQuality& quality) {
+  input_notes_ = model_->input_notes();
+  if (blas_in_use().is_reference)
+    input_notes_.add("reference BLAS",
+                     "the reference BLAS is in use, which makes sparse factorizations several times slower: "
+                     "install libopenblas0-pthread");
+  if (const double angle = quality.smallest_angle * 180 / std::numbers::pi; angle < least_good_angle)
+    input_notes_.add(
+        "small angle of the mesh",
+        fmt::format("the mesh has an angle of {:.2g} degrees, where multi-point fluxes and stresses may overshoot "
+                    "(lines that meet at a small angle, or a gap narrower than mesh.gap_size)",
+                    angle));
+  record_.notes = input_notes_.all();
+}
+
+void Run::note_step(const StepTime& step) {
+  step_notes_.at_time(step.end);
+  for (const Part* part : model_->parts()) part->note_step(step_notes_, step);
+}
+
 void Run::record_start() {
   const Scene& scene = model_->scene();
   record_.scene_name = scene.name;
   record_.scene_files = options_.scene_files;
   record_.parameters = parameters_of(scene);
-  const BlasInfo blas = blas_in_use();
-  record_.blas = blas.name;
-  if (blas.is_reference)
-    record_.warnings.push_back(
-        "the reference BLAS is in use, which makes sparse factorizations several times slower: "
-        "install libopenblas0-pthread");
+  record_.blas = blas_in_use().name;
   record_.processes = parallel::size();
   const MeshQuality quality = mesh_quality(model_->mesh());
   record_.counters["mesh: cells"] = quality.cells;
   record_.counters["mesh: fracture cells"] = quality.fracture_cells;
   record_.results["mesh_smallest_angle[rad]"] = quality.smallest_angle;
-  if (const double angle = quality.smallest_angle * 180 / std::numbers::pi; angle < least_good_angle)
-    record_.warnings.push_back(
-        fmt::format("the mesh has an angle of {:.2g} degrees, where multi-point fluxes and stresses may overshoot "
-                    "(lines that meet at a small angle, or a gap narrower than mesh.gap_size)",
-                    angle));
+  note_input(quality);
   record_.counters["objects: components"] = static_cast<long>(model_->components().size());
   record_.counters["objects: couplers"] = static_cast<long>(model_->couplers().size());
   record_.counters["objects: fields"] = static_cast<long>(model_->fields().all().size());
@@ -289,6 +304,7 @@ bool Run::advance() {
     if (status.converged) {
       // Both before the step is accepted: which cells slip shows in what changed since the last accepted step.
       const std::vector<Quantity> quantities = model_->quantities();
+      note_step(step);
       const bool is_steady = stays_as_it_is(step);
       is_stopped_ = is_steady || stop_.is_reached(quantities);
       if (is_steady) record_.results["steady_since[s]"] = step.start;
@@ -335,7 +351,7 @@ ExitCode Run::loop() {
                                   .rise = recurrence.rise,
                                   .expected = recurrence.expected,
                                   .patience = recurrence.patience};
-    output_.write_checkpoint(*model_, clock, fingerprint_);
+    output_.write_checkpoint(*model_, clock, step_notes_, fingerprint_);
     last_checkpoint = now();
   };
   while (!controller_.is_finished() && !is_stopped_) {
@@ -400,11 +416,13 @@ void Run::finish(ExitCode code) {
   split_steps();
   record_.timings["factorizations, back-solves"] = profile_.solver_seconds();
   record_.timings["everything else"] = record_.seconds - profile_.solver_seconds();
+  record_.notes = input_notes_.all();
+  record_.notes.insert(record_.notes.end(), step_notes_.all().begin(), step_notes_.all().end());
   if (!parallel::is_root()) return;
   record_.write(output_.path() / "run.json", profile_);
+  if (!options_.quiet) std::cerr << profile_.table(record_.seconds) << "\n";
+  for (const Notes::Note& note : record_.notes) std::cerr << "note: " << described(note) << "\n";
   if (!options_.quiet) {
-    std::cerr << profile_.table(record_.seconds) << "\n";
-    for (const std::string& warning : record_.warnings) std::cerr << "warning: " << warning << "\n";
     if (record_.counters["steps accepted"] == 0 && code == ExitCode::done)
       std::cerr << "nothing was to be done: the run ended at t = " << controller_.time()
                 << " s before, and time.end is " << model_->scene().time.end << " s\n";
@@ -418,6 +436,8 @@ ExitCode Run::execute() {
   record_start();
   output_.open(options_.checkpoint ? std::optional(controller_.time()) : std::nullopt, model_->scene().output.fields);
   if (parallel::is_root()) record_.write(output_.path() / "run.json", profile_);
+  if (parallel::is_root() && !options_.quiet)
+    for (const Notes::Note& note : input_notes_.all()) std::cerr << "note: " << described(note) << "\n";
   const ExitCode code = loop();
   finish(code);
   return code;

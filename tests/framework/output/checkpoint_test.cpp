@@ -37,6 +37,7 @@ class CheckpointTest : public TemporaryFolder {
     checkpoint.clock.rise = 0.6;
     checkpoint.clock.expected = 1.1;
     checkpoint.clock.patience = 0.4;
+    checkpoint.notes = {{"pore.pressure", "bad byte \" here", 0.1 + 0.2, 1.0 / 3, 7, 1e-300}, {"empty", "", 0, 0, 1}};
     checkpoint.mesh = small_mesh();
     Vector odd(5);
     odd << 1.0 / 3, -0.0, 5e-324, std::nan("3"), 1e308;
@@ -75,6 +76,13 @@ TEST_F(CheckpointTest, ComesBackToTheBit) {
   EXPECT_EQ(read.clock.rise, checkpoint.clock.rise);
   EXPECT_EQ(read.clock.expected, checkpoint.clock.expected);
   EXPECT_EQ(read.clock.patience, checkpoint.clock.patience);
+  ASSERT_EQ(read.notes.size(), 2u);
+  EXPECT_EQ(read.notes[0].topic, checkpoint.notes[0].topic);
+  EXPECT_EQ(read.notes[0].text, checkpoint.notes[0].text);
+  EXPECT_EQ(read.notes[0].first_time, checkpoint.notes[0].first_time);
+  EXPECT_EQ(read.notes[0].last_time, checkpoint.notes[0].last_time);
+  EXPECT_EQ(read.notes[0].steps, 7);
+  EXPECT_EQ(read.notes[0].measure, 1e-300);
   EXPECT_TRUE(is_same_mesh(read.mesh, checkpoint.mesh));
   ASSERT_EQ(read.fields.size(), checkpoint.fields.size());
   for (const auto& [name, values] : checkpoint.fields) {

@@ -25,7 +25,7 @@ TEST_F(RunRecordTest, HoldsWhatItWasGiven) {
   record.timings["mesh"] = 0.25;
   record.counters["steps accepted"] = 12;
   record.results["well.pressure[Pa]"] = 0.1 + 0.2;
-  record.warnings = {"three cells were floored"};
+  record.notes = {{"floor", "three cells were floored", 0.1, 1.0 / 3, 4}};
   Profile profile;
   profile.at("pore") = {"pore", 1, 2, 3, 0.5};
   record.write(folder / "run.json", profile);
@@ -43,7 +43,11 @@ TEST_F(RunRecordTest, HoldsWhatItWasGiven) {
   EXPECT_EQ(read["timings"]["mesh"], 0.25);
   EXPECT_EQ(read["counters"]["steps accepted"], 12);
   EXPECT_EQ(read["results"]["well.pressure[Pa]"].get<double>(), 0.1 + 0.2);
-  EXPECT_EQ(read["warnings"], json({"three cells were floored"}));
+  EXPECT_EQ(read["notes"][0], (json{{"topic", "floor"},
+                                    {"text", "three cells were floored"},
+                                    {"first_time", 0.1},
+                                    {"last_time", 1.0 / 3},
+                                    {"steps", 4}}));
   EXPECT_EQ(read["profile"][0], (json{{"name", "pore"}, {"calls", 1}, {"reuses", 2}, {"skips", 3}, {"seconds", 0.5}}));
 }
 
@@ -60,10 +64,10 @@ TEST_F(RunRecordTest, ABareRecordSaysThatTheRunGoesOnAndWhatRunsIt) {
 TEST_F(RunRecordTest, NumbersAndTextThatJsonCannotHoldDoNotPreventIt) {
   RunRecord record;
   record.results["a"] = std::nan("");
-  record.warnings = {"bad byte \xff here"};
+  record.notes = {{"bytes", "bad byte \xff here"}};
   const json read = json::parse(record.json(Profile()));
   EXPECT_TRUE(read["results"]["a"].is_null());
-  EXPECT_EQ(read["warnings"].size(), 1u);
+  EXPECT_EQ(read["notes"].size(), 1u);
 }
 
 }  // namespace
