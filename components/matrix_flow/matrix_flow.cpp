@@ -20,6 +20,8 @@ FluxOperators no_flow(const Mesh& mesh, const std::vector<FlowCondition>& condit
   operators.trace_cell.resize(mesh.face_count(), mesh.cell_count());
   operators.trace_boundary.resize(mesh.face_count(), mesh.face_count());
   operators.flux_boundary.resize(mesh.face_count(), mesh.face_count());
+  operators.flux_change.resize(mesh.face_count(), mesh.face_count());
+  operators.trace_change.resize(mesh.face_count(), mesh.face_count());
   std::vector<Triplet> prescribed;
   for (int f = 0; f < mesh.face_count(); ++f)
     if (conditions[f] == FlowCondition::flux) prescribed.emplace_back(f, f, 1.0);
@@ -74,13 +76,14 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   use_properties();
   check_sides();
 
-  const auto potential = [&](const Point& x) {
-    return options_.gravity.is_zero() ? 0.0 : options_.fluid_density * options_.gravity.at({x, 0, 0}).dot(x);
-  };
   gravity_potential_cell_.resize(mesh_.cell_count());
-  for (int c = 0; c < mesh_.cell_count(); ++c) gravity_potential_cell_[c] = potential(mesh_.cell_center[c]);
+  for (int c = 0; c < mesh_.cell_count(); ++c) gravity_potential_cell_[c] = gravity_potential(mesh_.cell_center[c]);
   gravity_potential_face_.resize(mesh_.face_count());
-  for (int f = 0; f < mesh_.face_count(); ++f) gravity_potential_face_[f] = potential(mesh_.face_center[f]);
+  for (int f = 0; f < mesh_.face_count(); ++f) gravity_potential_face_[f] = gravity_potential(mesh_.face_center[f]);
+}
+
+double MatrixFlow::gravity_potential(const Point& x) const {
+  return options_.gravity.is_zero() ? 0.0 : options_.fluid_density * options_.gravity.at({x, 0, 0}).dot(x);
 }
 
 std::vector<const Data*> MatrixFlow::properties() const {
@@ -269,13 +272,25 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
   forget_flow();
   evaluate_sources(step);
   boundary_values_ = Vector::Zero(mesh_.face_count());
+  boundary_changes_ = Vector::Zero(mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_side[f] == none) continue;
     const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
     if (found == options_.boundary.end()) continue;
     const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
     const SideCondition& side = found->second;
-    if (side.pressure) boundary_values_[f] = value_in_step(*side.pressure, place, step) - gravity_potential_face_[f];
+    if (side.pressure && (side.pressure->depends_on_space() || !options_.gravity.is_zero())) {
+      // At the third points of the face, which exact linear pressures on it follow from.
+      const Point third = (mesh_.nodes[mesh_.face_nodes[f][1]] - mesh_.nodes[mesh_.face_nodes[f][0]]) / 6;
+      const auto value = [&](const Point& x) {
+        return value_in_step(*side.pressure, {x, place.region, 0}, step) - gravity_potential(x);
+      };
+      const double first = value(place.x - third), second = value(place.x + third);
+      boundary_values_[f] = 0.5 * (first + second);
+      boundary_changes_[f] = 3 * (second - first);
+    } else if (side.pressure) {
+      boundary_values_[f] = value_in_step(*side.pressure, place, step);
+    }
     if (side.flux) boundary_values_[f] = value_in_step(*side.flux, place, step) * mesh_.face_length[f];
   }
 }
@@ -283,9 +298,10 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
 void MatrixFlow::apply_boundary() {
   if (boundary_applied_) return;
   boundary_applied_ = true;
-  boundary_fluxes_ = operators_.flux_boundary * boundary_values_;
+  boundary_fluxes_ = operators_.flux_boundary * boundary_values_ + operators_.flux_change * boundary_changes_;
   if (!wall_flux_) return;
-  const Vector trace = operators_.trace_boundary * boundary_values_ - operators_.trace_cell * gravity_potential_cell_ +
+  const Vector trace = operators_.trace_boundary * boundary_values_ + operators_.trace_change * boundary_changes_ -
+                       operators_.trace_cell * gravity_potential_cell_ +
                        gravity_potential_face_;
   wall_pressure_.constant.resize(mesh_.wall_count());
   for (int w = 0; w < mesh_.wall_count(); ++w) wall_pressure_.constant[w] = trace[mesh_.wall_face(w)];

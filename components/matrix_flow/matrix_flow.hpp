@@ -81,6 +81,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   const Vector& face_fluxes() const;
 
  private:
+  double gravity_potential(const Point& x) const;  ///< rho g·x, Pa
   void check_sides() const;
   std::vector<const Data*> properties() const;
   /// What follows from properties that have changed.
@@ -131,6 +132,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   SparseMatrix flux_of_wall_flux_;  ///< faces × walls
   Operator outflow_of_wall_flux_;   ///< cells × walls, an exchange
   Vector boundary_values_;          ///< one a face, see FluxOperators
+  Vector boundary_changes_;         ///< of the prescribed pressures, one a face, see FluxOperators
   Vector boundary_fluxes_;          ///< what the boundary values alone make flow through each face, m^2/s
   LinearExpression wall_pressure_;
   Vector source_;  ///< m^2/s, one a cell

@@ -39,8 +39,10 @@ Rediscretized rediscretize(Discretize discretize, const FlowInputs& before, cons
   constexpr auto face = KeptRegions::Entity::face, cell = KeptRegions::Entity::cell;
   result.flux_cell = kept.merge(operators.flux_cell, result.flux_cell, face, cell);
   result.flux_boundary = kept.merge(operators.flux_boundary, result.flux_boundary, face, face);
+  result.flux_change = kept.merge(operators.flux_change, result.flux_change, face, face);
   result.trace_cell = kept.merge(operators.trace_cell, result.trace_cell, face, cell);
   result.trace_boundary = kept.merge(operators.trace_boundary, result.trace_boundary, face, face);
+  result.trace_change = kept.merge(operators.trace_change, result.trace_change, face, face);
   return {std::move(result), kept.nodes_computed(), kept.cells_computed()};
 }
 

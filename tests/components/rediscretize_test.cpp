@@ -38,6 +38,8 @@ bool same_bits(const SparseMatrix& a, const SparseMatrix& b) {
 void expect_same(const FluxOperators& a, const FluxOperators& b) {
   EXPECT_TRUE(same_bits(a.flux_cell, b.flux_cell));
   EXPECT_TRUE(same_bits(a.flux_boundary, b.flux_boundary));
+  EXPECT_TRUE(same_bits(a.flux_change, b.flux_change));
+  EXPECT_TRUE(same_bits(a.trace_change, b.trace_change));
   EXPECT_TRUE(same_bits(a.trace_cell, b.trace_cell));
   EXPECT_TRUE(same_bits(a.trace_boundary, b.trace_boundary));
 }

@@ -82,6 +82,46 @@ class CellColumns {
   std::vector<double> values_;
 };
 
+/// The faces of every node at which the pressure is prescribed, in ascending order.
+Adjacency pressure_faces_of_nodes(const Mesh& mesh, const std::vector<FlowCondition>& conditions) {
+  Adjacency faces;
+  faces.offsets.reserve(mesh.node_count() + 1);
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    for (const int face : mesh.node_faces[node])
+      if (conditions[face] == FlowCondition::pressure) faces.items.push_back(face);
+    faces.offsets.push_back(static_cast<int>(faces.items.size()));
+  }
+  return faces;
+}
+
+/// Coefficients with respect to the changes of prescribed pressures along their faces, from those with respect to the
+/// pressures at the continuity points.
+class ChangeColumns {
+ public:
+  void assign(const Mesh& mesh, int node, const InteractionRegion& region, const LocalFluxes& local,
+              const std::vector<FlowCondition>& conditions) {
+    columns_.clear();
+    int column = region.subcell_count();
+    for (int f = 0; f < region.subface_count(); ++f) {
+      if (region.is_inner(f)) continue;
+      const int face = region.faces[f];
+      if (conditions[face] == FlowCondition::pressure)
+        columns_.emplace_back(column, 0.5 * (mesh.face_nodes[face][0] == node ? -1 : 1) * local.towards_node(f));
+      ++column;
+    }
+    values_.resize(columns_.size());
+  }
+
+  const double* of(const double* local) {
+    for (std::size_t i = 0; i < columns_.size(); ++i) values_[i] = columns_[i].second * local[columns_[i].first];
+    return values_.data();
+  }
+
+ private:
+  std::vector<std::pair<int, double>> columns_;  ///< of the local problem, with their place along the face
+  std::vector<double> values_;
+};
+
 }  // namespace
 
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
@@ -96,20 +136,25 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   const Adjacency outer_faces = outer_faces_of_nodes(mesh);
   const NodeStencil face_cells(all, node_cells), face_outer(all, outer_faces);
   const NodeStencil outer_cells(outer, node_cells), outer_outer(outer, outer_faces);
+  const Adjacency pressure_faces = pressure_faces_of_nodes(mesh, conditions);
+  const NodeStencil face_changes(all, pressure_faces), outer_changes(outer, pressure_faces);
   StencilMatrix flux_cell(face_cells, 1, mesh.cell_count(), 1), flux_boundary(face_outer, 1, mesh.face_count(), 1);
   StencilMatrix trace_cell(outer_cells, 1, mesh.cell_count(), 1), trace_boundary(outer_outer, 1, mesh.face_count(), 1);
+  StencilMatrix flux_change(face_changes, 1, mesh.face_count(), 1), trace_change(outer_changes, 1, mesh.face_count(), 1);
 
   InteractionRegion region;
   LocalFluxes local;
   CellColumns columns;
-  std::vector<int> cell_slots, outer_slots;
+  ChangeColumns changes;
+  std::vector<int> cell_slots, outer_slots, change_slots;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
-    local.solve(region, mobility, conditions);
+    local.solve(mesh, node, region, mobility, conditions);
+    changes.assign(mesh, node, region, local, conditions);
     const TipFlow* flow = flows.at(node);
     std::optional<TipCorrection> tip;
-    if (flow) tip.emplace(*flow, mesh, region, node, mobility, conditions);
+    if (flow) tip.emplace(*flow, mesh, region, local, node, mobility, conditions);
     columns.assign(mesh.node_cells[node], node_cells[node], flow);
     const TipFlow::Modes nothing = TipFlow::Modes::Zero();
     int outer_index = 0;
@@ -120,19 +165,24 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
         flux_boundary.add(face, 0, outer_slots[outer_index], 0, 0.5);
       } else {
         face_cells.find_slots(face, node, cell_slots);
-        flux_cell.add(face, 0, cell_slots, columns.with(local.flux(f), tip ? tip->of_flux(local, f) : nothing), 1);
+        flux_cell.add(face, 0, cell_slots, columns.with(local.flux(f), tip ? tip->of_flux(f) : nothing), 1);
         flux_boundary.add(face, 0, outer_slots, local.flux(f) + region.subcell_count(), 1);
+        face_changes.find_slots(face, node, change_slots);
+        flux_change.add(face, 0, change_slots, changes.of(local.flux(f)), 1);
       }
       if (region.is_inner(f)) continue;
       ++outer_index;
       outer_cells.find_slots(face, node, cell_slots);
       outer_outer.find_slots(face, node, outer_slots);
-      trace_cell.add(face, 0, cell_slots, columns.with(local.pressure(f), tip ? tip->of_pressure(local, f) : nothing),
+      trace_cell.add(face, 0, cell_slots, columns.with(local.pressure(f), tip ? tip->of_pressure(f) : nothing),
                      0.5);
       trace_boundary.add(face, 0, outer_slots, local.pressure(f) + region.subcell_count(), 0.5);
+      outer_changes.find_slots(face, node, change_slots);
+      trace_change.add(face, 0, change_slots, changes.of(local.pressure(f)), 0.5);
     }
   }
-  return {flux_cell.take(), flux_boundary.take(), trace_cell.take(), trace_boundary.take()};
+  return {flux_cell.take(),  flux_boundary.take(),  flux_change.take(),
+          trace_cell.take(), trace_boundary.take(), trace_change.take()};
 }
 
 }  // namespace sprekk::matrix_flow

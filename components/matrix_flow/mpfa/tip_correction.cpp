@@ -2,9 +2,10 @@
 
 namespace sprekk::matrix_flow {
 
-TipCorrection::TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, int node,
-                             const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions)
-    : flow_(flow), mesh_(mesh), region_(region), mobility_(mobility), node_(mesh.nodes[node]) {
+TipCorrection::TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region,
+                             const LocalFluxes& local, int node, const std::vector<Tensor>& mobility,
+                             const std::vector<FlowCondition>& conditions)
+    : flow_(flow), mesh_(mesh), region_(region), local_(local), mobility_(mobility), node_(mesh.nodes[node]) {
   const TipFrame& frame = flow.frame();
   if (node_ != frame.tip()) {
     side_ = frame.side_of(node_);
@@ -17,7 +18,7 @@ TipCorrection::TipCorrection(const TipFlow& flow, const Mesh& mesh, const Intera
     if (region.is_inner(f)) continue;
     const int face = region.faces[f], side = frame.side_of_wall(mesh, face);
     const auto& [a, b] = mesh.face_nodes[face];
-    inputs_.push_back(conditions[face] == FlowCondition::pressure ? flow.pressure(mesh.face_center[face], side)
+    inputs_.push_back(conditions[face] == FlowCondition::pressure ? flow.pressure(continuity_point(f), side)
                                                                   : flux(face, mesh.nodes[a], mesh.nodes[b], side));
   }
 }
@@ -35,14 +36,22 @@ TipFlow::Modes TipCorrection::flux(int face, const Point& from, const Point& to,
   return Point(-along.y(), along.x()).dot(mesh_.face_normal[face]) > 0 ? to_left : TipFlow::Modes(-to_left);
 }
 
-TipFlow::Modes TipCorrection::of_flux(const LocalFluxes& local, int subface) const {
-  const int face = region_.faces[subface];
-  return missing(local.flux(subface), flux(face, node_, mesh_.face_center[face], side_));
+Point TipCorrection::continuity_point(int subface) const {
+  const Point& middle = mesh_.face_center[region_.faces[subface]];
+  return middle + local_.towards_node(subface) * (node_ - middle);
 }
 
-TipFlow::Modes TipCorrection::of_pressure(const LocalFluxes& local, int subface) const {
+TipFlow::Modes TipCorrection::of_flux(int subface) const {
+  const int face = region_.faces[subface];
+  return missing(local_.flux(subface), flux(face, node_, mesh_.face_center[face], side_));
+}
+
+TipFlow::Modes TipCorrection::of_pressure(int subface) const {
+  // The wall's pressure is the mean over the continuity points of its two halves, and shall be that at its centre.
   const int face = region_.faces[subface], side = flow_.frame().side_of_wall(mesh_, face);
-  return missing(local.pressure(subface), flow_.pressure(mesh_.face_center[face], side));
+  const Point &middle = mesh_.face_center[face], here = continuity_point(subface), there = 2 * middle - here;
+  const auto pressure = [&](const Point& x) { return flow_.pressure(x, side); };
+  return missing(local_.pressure(subface), pressure(middle) + 0.5 * (pressure(here) - pressure(there)));
 }
 
 TipFlow::Modes TipCorrection::missing(const double* coefficients, TipFlow::Modes exact) const {

@@ -14,21 +14,24 @@ namespace sprekk::matrix_flow {
 /// of TipFlow. Linear pressures contain none of it and stay exact.
 class TipCorrection {
  public:
-  TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, int node,
-                const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
+  TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region,
+                const LocalFluxes& local, int node, const std::vector<Tensor>& mobility,
+                const std::vector<FlowCondition>& conditions);
 
   /// What a flux through an inner subface (m^2/s), and the pressure at a wall (Pa), lack for amounts of 1.
-  TipFlow::Modes of_flux(const LocalFluxes& local, int subface) const;
-  TipFlow::Modes of_pressure(const LocalFluxes& local, int subface) const;
+  TipFlow::Modes of_flux(int subface) const;
+  TipFlow::Modes of_pressure(int subface) const;
 
  private:
   /// The flux through a part of a face out of its first cell, m^2/s. The mobility is the mean of its cells.
   TipFlow::Modes flux(int face, const Point& from, const Point& to, int side) const;
+  Point continuity_point(int subface) const;
   TipFlow::Modes missing(const double* coefficients, TipFlow::Modes exact) const;
 
   const TipFlow& flow_;
   const Mesh& mesh_;
   const InteractionRegion& region_;
+  const LocalFluxes& local_;
   const std::vector<Tensor>& mobility_;
   Point node_;
   int side_ = 0;  ///< of the region; 0 at the tip itself

@@ -51,8 +51,9 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   };
-  return {assemble(flux_cell, mesh.cell_count()), assemble(flux_boundary, mesh.face_count()),
-          assemble(trace_cell, mesh.cell_count()), assemble(trace_boundary, mesh.face_count())};
+  const auto nothing = [&] { return SparseMatrix(mesh.face_count(), mesh.face_count()); };
+  return {assemble(flux_cell, mesh.cell_count()),  assemble(flux_boundary, mesh.face_count()),  nothing(),
+          assemble(trace_cell, mesh.cell_count()), assemble(trace_boundary, mesh.face_count()), nothing()};
 }
 
 }  // namespace sprekk::matrix_flow

@@ -30,6 +30,15 @@ Vector boundary_values(const Mesh& mesh, const std::vector<FlowCondition>& condi
   return values;
 }
 
+/// Of a prescribed pressure along the faces.
+template <class Pressure>
+Vector boundary_changes(const Mesh& mesh, Pressure pressure) {
+  Vector changes = Vector::Zero(mesh.face_count());
+  for (int f = 0; f < mesh.face_count(); ++f)
+    changes[f] = pressure(mesh.nodes[mesh.face_nodes[f][1]]) - pressure(mesh.nodes[mesh.face_nodes[f][0]]);
+  return changes;
+}
+
 Vector at_centers(const Mesh& mesh, const std::function<double(const Point&)>& function) {
   Vector values(mesh.cell_count());
   for (int c = 0; c < mesh.cell_count(); ++c) values[c] = function(mesh.cell_center[c]);
@@ -48,8 +57,9 @@ TEST(Mpfa, IsExactForLinearPressuresInAnisotropicRock) {
     const auto conditions = mixed_conditions(mesh);
     const auto operators = discretize_mpfa(mesh, std::vector<Tensor>(mesh.cell_count(), mobility), conditions);
     const Vector p = at_centers(mesh, pressure), b = boundary_values(mesh, conditions, pressure, flux);
-    const Vector fluxes = operators.flux_cell * p + operators.flux_boundary * b;
-    const Vector traces = operators.trace_cell * p + operators.trace_boundary * b;
+    const Vector s = boundary_changes(mesh, pressure);
+    const Vector fluxes = operators.flux_cell * p + operators.flux_boundary * b + operators.flux_change * s;
+    const Vector traces = operators.trace_cell * p + operators.trace_boundary * b + operators.trace_change * s;
     for (int f = 0; f < mesh.face_count(); ++f) {
       EXPECT_NEAR(fluxes[f], flux(f), 1e-12);
       EXPECT_NEAR(traces[f], is_outer(mesh, f) ? pressure(mesh.face_center[f]) : 0, 1e-12);
@@ -78,8 +88,9 @@ TEST_P(MpfaLayers, AreExact) {
   const auto conditions = mixed_conditions(mesh);
   const auto operators = discretize_mpfa(mesh, mobility, conditions);
   const Vector p = at_centers(mesh, pressure), b = boundary_values(mesh, conditions, pressure, flux);
-  const Vector fluxes = operators.flux_cell * p + operators.flux_boundary * b;
-  const Vector traces = operators.trace_cell * p + operators.trace_boundary * b;
+  const Vector s = boundary_changes(mesh, pressure);
+  const Vector fluxes = operators.flux_cell * p + operators.flux_boundary * b + operators.flux_change * s;
+  const Vector traces = operators.trace_cell * p + operators.trace_boundary * b + operators.trace_change * s;
   // Pressures reach 1/2 above and 1 / (2 contrast) below the interface, so that fluxes are of the order of 1 in both.
   for (int f = 0; f < mesh.face_count(); ++f) {
     EXPECT_NEAR(fluxes[f], flux(f), 1e-11) << "face at " << mesh.face_center[f].transpose();
@@ -100,7 +111,8 @@ TEST(Mpfa, AlongLayersIsExact) {
   const auto conditions = mixed_conditions(mesh);
   const auto operators = discretize_mpfa(mesh, mobility, conditions);
   const Vector p = at_centers(mesh, pressure), b = boundary_values(mesh, conditions, pressure, flux);
-  const Vector fluxes = operators.flux_cell * p + operators.flux_boundary * b;
+  const Vector fluxes =
+      operators.flux_cell * p + operators.flux_boundary * b + operators.flux_change * boundary_changes(mesh, pressure);
   for (int f = 0; f < mesh.face_count(); ++f) {
     const double scale = mobility[mesh.face_cells[f][0]](0, 0);
     EXPECT_NEAR(fluxes[f], flux(f), 1e-12 * scale);
@@ -134,6 +146,8 @@ TEST(Mpfa, ChosenNodesGiveTheSameRows) {
     ++compared;
     EXPECT_EQ(test::row_difference(all.flux_cell, some.flux_cell, f), 0);
     EXPECT_EQ(test::row_difference(all.flux_boundary, some.flux_boundary, f), 0);
+    EXPECT_EQ(test::row_difference(all.flux_change, some.flux_change, f), 0);
+    EXPECT_EQ(test::row_difference(all.trace_change, some.trace_change, f), 0);
     EXPECT_EQ(test::row_difference(all.trace_cell, some.trace_cell, f), 0);
     EXPECT_EQ(test::row_difference(all.trace_boundary, some.trace_boundary, f), 0);
   }

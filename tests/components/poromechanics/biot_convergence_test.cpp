@@ -73,6 +73,7 @@ Errors solve(const Mesh& mesh) {
     step.mechanical_conditions[f] = {MechanicalCondition::displacement, MechanicalCondition::displacement};
     const Exact exact(mesh.face_center[f]);
     step.flow_boundary[f] = exact.p;
+    step.flow_change[f] = Exact(mesh.nodes[mesh.face_nodes[f][1]]).p - Exact(mesh.nodes[mesh.face_nodes[f][0]]).p;
     step.mechanical_boundary.segment<2>(2 * f) = exact.displacement();
   }
   for (int c = 0; c < mesh.cell_count(); ++c) {

@@ -20,7 +20,7 @@ struct BiotStep {
   std::vector<matrix_flow::FlowCondition> flow_conditions;
   std::vector<std::array<poromechanics::MechanicalCondition, 2>> mechanical_conditions;
   double alpha = 1, storage = 0, time_step = 1;
-  Vector flow_boundary, mechanical_boundary;  ///< as the operators take them
+  Vector flow_boundary, flow_change, mechanical_boundary;  ///< as the operators take them
   Vector force, source;                       ///< on every cell, integrated: body force (N/m) and fluid volume (m^2)
   Vector old_fluid;                           ///< alpha div u + S p before the step, integrated over every cell (m^2)
 
@@ -32,6 +32,7 @@ struct BiotStep {
         mechanical_conditions(m.face_count(),
                               {poromechanics::MechanicalCondition::none, poromechanics::MechanicalCondition::none}),
         flow_boundary(Vector::Zero(m.face_count())),
+        flow_change(Vector::Zero(m.face_count())),
         mechanical_boundary(Vector::Zero(2 * m.face_count())),
         force(Vector::Zero(2 * m.cell_count())),
         source(Vector::Zero(m.cell_count())),
@@ -78,11 +79,11 @@ class BiotSystem {
     Vector right(3 * cells);
     right.head(2 * cells) = -step.force - force_sum_ * (stress_.force_boundary * step.mechanical_boundary);
     right.tail(cells) = step.source + step.old_fluid - step.alpha * stress_.volume_boundary * step.mechanical_boundary -
-                        step.time_step * (flux_sum_ * (flow_.flux_boundary * step.flow_boundary));
+                        step.time_step * (flux_sum_ * flow_of_sides(step));
     const Vector solution = solver_.solve(right);
     BiotState state{solution.head(2 * cells), solution.tail(cells), {}, {}, {}};
     const Vector s = step.alpha * state.pressure;
-    state.fluxes = flow_.flux_cell * state.pressure + flow_.flux_boundary * step.flow_boundary;
+    state.fluxes = flow_.flux_cell * state.pressure + flow_of_sides(step);
     state.forces = stress_.force_displacement * state.displacement + stress_.force_stress * s +
                    stress_.force_boundary * step.mechanical_boundary;
     state.fluid = step.alpha * (stress_.volume_displacement * state.displacement + stress_.volume_stress * s +
@@ -92,6 +93,10 @@ class BiotSystem {
   }
 
  private:
+  Vector flow_of_sides(const BiotStep& step) const {
+    return flow_.flux_boundary * step.flow_boundary + flow_.flux_change * step.flow_change;
+  }
+
   matrix_flow::FluxOperators flow_;
   poromechanics::StressOperators stress_;
   SparseMatrix force_sum_, flux_sum_;

@@ -1,0 +1,144 @@
+// Fluid in a closed box only loses energy, whatever the rock, the mesh and the fractures in it.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include "components/matrix_flow/mpfa/mpfa.hpp"
+#include "tests/components/meshes.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+/// Random geometry and rock: a fracture that crosses the edge of a region at any angle, another that may touch it, an
+/// open end, tensors of up to 1e4:1 in any direction, of another size in each region.
+class RandomRock {
+ public:
+  RandomRock(unsigned seed, const MeshOptions& options) : random_(seed) {
+    Geometry geometry = test::box(1, 1);
+    RegionGeometry lower;
+    lower.name = "lower";
+    const double left = between(0.35, 0.65), right = between(0.35, 0.65);
+    lower.polygon = {Point(0, 0), Point(1, 0), Point(1, right), Point(0, left)};
+    geometry.regions = {lower};
+    const Point center(between(0.35, 0.65), 0);
+    const double height = left + (right - left) * center.x(), length = between(0.1, 0.4);
+    const Point arm = 0.5 * length * direction(between(0, std::numbers::pi));
+    const Point middle = center + Point(0, height + between(-0.03, 0.03));
+    FractureGeometry across, other;
+    across.name = "across";
+    across.points = {middle - arm, middle + arm};
+    other.name = "other";
+    other.points = {middle, middle + between(0.1, 0.3) * direction(std::atan2(arm.y(), arm.x()) + between(0.7, 2.4))};
+    geometry.fractures = {across};
+    if (between(0, 1) < 0.4) geometry.fractures.push_back(other);
+    if (between(0, 1) < 0.3) geometry.fractures.push_back({.name = "open", .points = {Point(0, 0.1), Point(0.2, 0.2)}});
+    MeshOptions with_size = options;
+    if (options.kind == MeshOptions::Kind::unstructured) {
+      with_size.size = between(0.12, 0.3);
+      with_size.fracture_size = between(0.05, 0.12);
+      with_size.growth = between(0.1, 0.5);
+    } else {
+      geometry.fractures.resize(1);
+      geometry.fractures[0].points = {Point(0.25, 0.5), Point(0.5, 0.5)};
+      geometry.regions[0].polygon = {Point(0, 0), Point(0.375, 0), Point(0.375, 1), Point(0, 1)};
+      with_size.distortion = between(0, options.distortion);
+    }
+    mesh = generate_mesh(geometry, with_size);
+    const bool is_even = between(0, 1) < 0.2;  // as corrected around tips
+    const std::array<Tensor, 2> tensors = {tensor(is_even), tensor(is_even)};
+    for (int c = 0; c < mesh.cell_count(); ++c) mobility.push_back(tensors[is_even ? 0 : mesh.cell_region[c]]);
+  }
+
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+
+  Mesh mesh;
+  std::vector<Tensor> mobility;
+  std::string text;
+
+ private:
+  static Point direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+  Tensor tensor(bool is_isotropic) {
+    const double size = std::pow(10, between(-2, 2)), ratio = is_isotropic ? 1 : std::pow(10, between(-4, 0));
+    const Point along = direction(between(0, std::numbers::pi)), across(-along.y(), along.x());
+    text += " " + std::to_string(size) + " x " + std::to_string(ratio) + " at " +
+            std::to_string(std::atan2(along.y(), along.x()) * 180 / std::numbers::pi);
+    return size * (along * along.transpose() + ratio * across * across.transpose());
+  }
+
+  std::mt19937 random_;
+};
+
+/// The power that is lost is a quadratic form of the pressures of cells and of what flows out through the boundary: of
+/// the flows out of the cells times their pressures, less what leaves times the pressure there.
+Eigen::MatrixXd lost_power(const Mesh& mesh, const FluxOperators& operators,
+                           const std::vector<FlowCondition>& conditions) {
+  std::vector<int> outer;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (conditions[f] == FlowCondition::flux) outer.push_back(f);
+  const int cells = mesh.cell_count(), size = cells + static_cast<int>(outer.size());
+  const SparseMatrix divergence = test::divergence(mesh, 1);
+  const Eigen::MatrixXd of_cells = divergence * operators.flux_cell, of_sides = divergence * operators.flux_boundary;
+  const Eigen::MatrixXd trace_cells = operators.trace_cell, trace_sides = operators.trace_boundary;
+  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(size, size);
+  form.topLeftCorner(cells, cells) = of_cells;
+  for (int i = 0; i < static_cast<int>(outer.size()); ++i) {
+    form.col(cells + i).head(cells) = of_sides.col(outer[i]);
+    form.row(cells + i).head(cells) = -trace_cells.row(outer[i]);
+    for (int j = 0; j < static_cast<int>(outer.size()); ++j)
+      form(cells + i, cells + j) = -trace_sides(outer[i], outer[j]);
+  }
+  return form;
+}
+
+std::vector<FlowCondition> conditions_of(const Mesh& mesh, bool is_closed) {
+  std::vector<FlowCondition> conditions(mesh.face_count(), FlowCondition::none);
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (test::is_outer(mesh, f))
+      conditions[f] = is_closed || test::is_wall(mesh, f) || mesh.face_side[f] > 1 ? FlowCondition::flux
+                                                                                   : FlowCondition::pressure;
+  return conditions;
+}
+
+/// Of the symmetric part, with scaled unknowns.
+double smallest_eigenvalue(const Eigen::MatrixXd& form) {
+  const Eigen::MatrixXd symmetric = 0.5 * (form + form.transpose());
+  const Eigen::VectorXd scale = symmetric.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * symmetric * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
+/// SPREKK_RANDOM_CASES=5000 looks at as many.
+int cases(int usual) {
+  const char* asked = std::getenv("SPREKK_RANDOM_CASES");
+  return asked ? std::atoi(asked) : usual;
+}
+
+void look_at(const MeshOptions& options, int count) {
+  double smallest = 0;
+  int below=0;
+  for (int seed = 1; seed <= count; ++seed) {
+    const RandomRock rock(seed, options);
+    for (const bool is_closed : {true, false}) {
+      const auto conditions = conditions_of(rock.mesh, is_closed);
+      const auto form = lost_power(rock.mesh, discretize_mpfa(rock.mesh, rock.mobility, conditions), conditions);
+      const double eigenvalue = smallest_eigenvalue(form);
+      smallest = std::min(smallest, eigenvalue);
+      if(eigenvalue<-1e-10){++below; if(below<12) std::cout<<seed<<" "<<is_closed<<" "<<eigenvalue<<rock.text<<std::endl;}
+    }
+  }
+  std::cout<<"smallest "<<smallest<<" below "<<below<<" of "<<2*count<<std::endl;
+  EXPECT_GE(smallest, -1e-10);
+}
+
+TEST(ClosedBoxEnergy, TrianglesLoseIt) { look_at(test::unstructured(0.2), cases(60)); }
+TEST(ClosedBoxEnergy, RectanglesLoseIt) { look_at(test::rectangles(8, 8), cases(60)); }
+TEST(ClosedBoxEnergy, DistortedQuadrilateralsLoseIt) { look_at(test::rectangles(8, 8, 0.4), cases(60)); }
+TEST(ClosedBoxEnergy, MixedCellsLoseIt) { look_at(test::mixed(0.2), cases(60)); }
+
+}  // namespace
+}  // namespace sprekk::matrix_flow
