@@ -14,7 +14,7 @@ namespace {
 /// to rounding.
 constexpr double smallest_flatness = 1e-10;
 
-void require_area(const std::vector<Point>& nodes, const Ring& cell) {
+void require_triangle(const std::vector<Point>& nodes, const Ring& cell) {
   const Point &p = nodes[cell[0]], &q = nodes[cell[1]], &r = nodes[cell[2]];
   const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
   // Negated, so that NaN is refused too.
@@ -41,6 +41,10 @@ void require_convex(const std::vector<Point>& nodes, const Ring& cell) {
 
 }  // namespace
 
+void require_area(const std::vector<Point>& nodes, const Ring& cell) {
+  cell.size() == 3 ? require_triangle(nodes, cell) : require_convex(nodes, cell);
+}
+
 std::vector<Ring> counter_clockwise(const RawMesh& raw) {
   std::vector<Ring> cells = raw.cells;
   const int count = static_cast<int>(raw.nodes.size());
@@ -48,7 +52,7 @@ std::vector<Ring> counter_clockwise(const RawMesh& raw) {
     if (*std::min_element(cell.begin(), cell.end()) < 0 || *std::max_element(cell.begin(), cell.end()) >= count) {
       throw InputError("a cell names a node that does not exist (there are " + std::to_string(count) + " nodes)");
     }
-    cell.size() == 3 ? require_area(raw.nodes, cell) : require_convex(raw.nodes, cell);
+    require_area(raw.nodes, cell);
     if (signed_area(raw.nodes, cell) < 0) cell.turn();
   }
   return cells;

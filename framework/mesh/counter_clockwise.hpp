@@ -11,4 +11,7 @@ namespace sprekk {
 /// there, a triangle without an area, a quadrilateral that is not convex.
 std::vector<Ring> counter_clockwise(const RawMesh& raw);
 
+/// Throws InputError for a triangle without an area and for a quadrilateral that is not convex.
+void require_area(const std::vector<Point>& nodes, const Ring& cell);
+
 }  // namespace sprekk

@@ -1,34 +1,31 @@
 #include "framework/mesh/read_msh.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
+#include <sstream>
 
 #include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/counter_clockwise.hpp"
 #include "framework/mesh/geometry.hpp"
-#include "framework/mesh/gmsh_model.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "framework/mesh/msh_file.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
 namespace {
 
-constexpr int two_node_line = 1, three_node_triangle = 2, four_node_quadrilateral = 3;  // gmsh's element types
+/// m. What is farther away, or smaller as a whole, is a mistake, and its squares would leave the range of numbers.
+constexpr double farthest = 1e12, smallest_extent = 1e-12;
 
 struct CurveGroup {
   std::string name;
   std::vector<std::array<int, 2>> lines;
 };
-
-std::string group_name(int dim, int tag) {
-  std::string name;
-  gmsh::model::getPhysicalName(dim, tag, name);
-  return name.empty() ? "group_" + std::to_string(tag) : name;
-}
 
 /// Orders lines into one path.
 class Path {
@@ -80,8 +77,9 @@ class Path {
 
 class Reader {
  public:
-  RawMesh read(const std::string& file) {
-    gmsh::merge(file);
+  explicit Reader(std::string_view bytes) : file_(parse_msh(bytes)) {}
+
+  RawMesh read() {
     read_nodes();
     read_cells();
     if (mesh_.cells.empty()) throw InputError("the file holds no triangles and no quadrilaterals");
@@ -90,117 +88,141 @@ class Reader {
   }
 
  private:
+  [[noreturn]] void fail(std::size_t place, const std::string& problem) const {
+    throw InputError(file_.where(place) + ": " + problem);
+  }
+
+  std::string group_name(int dim, int tag) const {
+    const auto found = file_.names.find({dim, tag});
+    return found == file_.names.end() || found->second.empty() ? "group_" + std::to_string(tag) : found->second;
+  }
+
   void read_nodes() {
-    std::vector<std::size_t> tags;
-    std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
-    number_.assign(tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()) + 1, none);
-    double extent = 0, height = 0;
-    for (std::size_t i = 0; i < tags.size(); ++i) {
-      number_[tags[i]] = static_cast<int>(i);
-      mesh_.nodes.emplace_back(coordinates[3 * i], coordinates[3 * i + 1]);
-      extent = std::max(extent, (mesh_.nodes.back() - mesh_.nodes.front()).norm());
-      height = std::max(height, std::abs(coordinates[3 * i + 2]));
+    mesh_.nodes.reserve(file_.nodes.size());
+    Point low = Point::Zero(), high = Point::Zero();
+    double height = 0;
+    for (const MshFile::Node& node : file_.nodes) {
+      const auto& [x, y, z] = node.position;
+      if (std::max({std::abs(x), std::abs(y), std::abs(z)}) > farthest) {
+        fail(node.place, "node " + std::to_string(node.number) + " is farther than 1e12 m from the origin");
+      }
+      mesh_.nodes.emplace_back(x, y);
+      if (mesh_.nodes.size() == 1) low = high = mesh_.nodes[0];
+      low = low.cwiseMin(mesh_.nodes.back());
+      high = high.cwiseMax(mesh_.nodes.back());
+      height = std::max(height, std::abs(z));
     }
+    const double extent = (high - low).norm();
+    if (extent < smallest_extent) throw InputError("all nodes are at one place (their distance is below 1e-12 m)");
     if (height > 1e-9 * extent) throw InputError("the mesh leaves the x-y plane");
   }
 
-  int node(std::size_t tag) const {
-    if (tag >= number_.size() || number_[tag] == none) {
-      throw InputError("an element names node " + std::to_string(tag) + ", which the file does not hold");
+  int node(const MshFile::Element& element, int k) const {
+    const std::uint64_t number = element.nodes[k];
+    const auto found =
+        std::lower_bound(file_.nodes.begin(), file_.nodes.end(), number,
+                         [](const MshFile::Node& node, std::uint64_t wanted) { return node.number < wanted; });
+    if (found == file_.nodes.end() || found->number != number) {
+      fail(element.place, "an element names node " + std::to_string(number) + ", which the file does not hold: save the mesh with all of its nodes");
     }
-    return number_[tag];
+    return static_cast<int>(found - file_.nodes.begin());
   }
 
-  [[noreturn]] static void refuse(int type, const std::string& wanted) {
-    throw InputError("the file holds elements that are no " + wanted + " (gmsh type " + std::to_string(type) + ")");
+  /// The group of a cell, or none.
+  int group_of(const MshFile::Element& cell) const {
+    const std::vector<int>& groups = file_.group_lists[cell.group_list];
+    if (groups.size() > 1) {
+      fail(cell.place, "a surface belongs to two groups ('" + group_name(2, groups[0]) + "' and '" +
+                           group_name(2, groups[1]) + "')");
+    }
+    return groups.empty() ? none : groups[0];
   }
 
-  std::vector<std::array<int, 2>> lines_of(int curve) const {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, 1, curve);
-    std::vector<std::array<int, 2>> lines;
-    for (std::size_t i = 0; i < types.size(); ++i) {
-      if (types[i] != two_node_line) refuse(types[i], "two-node lines");
-      for (std::size_t n = 0; n + 2 <= nodes[i].size(); n += 2) {
-        lines.push_back({node(nodes[i][n]), node(nodes[i][n + 1])});
-      }
+  /// Throws InputError when a name is among `names` already.
+  static void add_name(const std::string& name, const std::string& what, std::vector<std::string>& names) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) {
+      throw InputError("two " + what + " are called '" + name + "' (what has no group is called 'boundary' or '" +
+                       default_region + "'), rename one");
     }
-    return lines;
+    names.push_back(name);
   }
 
-  std::vector<Ring> cells_of(int surface) const {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, 2, surface);
-    std::vector<Ring> cells;
-    for (std::size_t i = 0; i < types.size(); ++i) {
-      const auto at = [&](std::size_t n) { return node(nodes[i][n]); };
-      if (types[i] == three_node_triangle) {
-        for (std::size_t n = 0; n + 3 <= nodes[i].size(); n += 3) cells.push_back({at(n), at(n + 1), at(n + 2)});
-      } else if (types[i] == four_node_quadrilateral) {
-        for (std::size_t n = 0; n + 4 <= nodes[i].size(); n += 4) {
-          cells.push_back({at(n), at(n + 1), at(n + 2), at(n + 3)});
-        }
-      } else {
-        refuse(types[i], "three-node triangles or four-node quadrilaterals");
-      }
+  /// Regions in the order of their groups' numbers; what has no group comes last.
+  std::map<int, int> name_regions() {
+    std::set<int> groups;
+    bool has_rest = false;
+    for (const MshFile::Element& cell : file_.cells) {
+      const int group = group_of(cell);
+      group == none ? void(has_rest = true) : void(groups.insert(group));
     }
-    return cells;
+    std::map<int, int> region_of_group;
+    for (const int group : groups) {
+      region_of_group[group] = static_cast<int>(mesh_.region_names.size());
+      add_name(group_name(2, group), "regions", mesh_.region_names);
+    }
+    if (has_rest) {
+      region_of_group[none] = static_cast<int>(mesh_.region_names.size());
+      add_name(default_region, "regions", mesh_.region_names);
+    }
+    return region_of_group;
   }
 
   void read_cells() {
-    std::map<int, int> region_of_group;
-    gmsh::vectorpair groups, surfaces;
-    gmsh::model::getPhysicalGroups(groups, 2);
-    for (const auto& [dim, tag] : groups) {
-      region_of_group[tag] = static_cast<int>(mesh_.region_names.size());
-      mesh_.region_names.push_back(group_name(dim, tag));
-    }
-    gmsh::model::getEntities(surfaces, 2);
-    int rest = none;
-    for (const auto& [dim, surface] : surfaces) {
-      std::vector<int> tags;
-      gmsh::model::getPhysicalGroupsForEntity(dim, surface, tags);
-      if (tags.size() > 1) {
-        throw InputError("a surface belongs to two groups ('" + group_name(2, tags[0]) + "' and '" +
-                         group_name(2, tags[1]) + "')");
+    const std::map<int, int> region_of_group = name_regions();
+    mesh_.cells.reserve(file_.cells.size());
+    for (const MshFile::Element& cell : file_.cells) {
+      Ring ring(node(cell, 0), node(cell, 1), node(cell, 2));
+      if (cell.node_count == 4) ring = Ring(ring[0], ring[1], ring[2], node(cell, 3));
+      try {
+        require_area(mesh_.nodes, ring);
+      } catch (const InputError& error) {
+        fail(cell.place, error.what());
       }
-      const auto cells = cells_of(surface);
-      if (tags.empty() && !cells.empty() && rest == none) {
-        rest = static_cast<int>(mesh_.region_names.size());
-        mesh_.region_names.emplace_back(default_region);
-      }
-      for (const Ring& cell : cells) {
-        mesh_.cells.push_back(cell);
-        if (signed_area(mesh_.nodes, cell) < 0) mesh_.cells.back().turn();
-        mesh_.regions.push_back(tags.empty() ? rest : region_of_group.at(tags[0]));
-      }
+      if (signed_area(mesh_.nodes, ring) < 0) ring.turn();
+      mesh_.cells.push_back(ring);
+      mesh_.regions.push_back(region_of_group.at(group_of(cell)));
     }
   }
 
+  /// In the order of their groups' numbers.
   std::vector<CurveGroup> curve_groups() const {
-    std::vector<CurveGroup> curves;
-    gmsh::vectorpair groups;
-    gmsh::model::getPhysicalGroups(groups, 1);
-    for (const auto& [dim, tag] : groups) {
-      CurveGroup& group = curves.emplace_back(CurveGroup{group_name(dim, tag), {}});
-      std::vector<int> entities;
-      gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
-      for (const int entity : entities) {
-        const auto lines = lines_of(entity);
-        group.lines.insert(group.lines.end(), lines.begin(), lines.end());
-      }
+    std::map<int, CurveGroup> curves;
+    for (const MshFile::Element& line : file_.lines) {
+      const std::array<int, 2> nodes{node(line, 0), node(line, 1)};
+      for (const int group : file_.group_lists[line.group_list]) curves[group].lines.push_back(nodes);
     }
-    return curves;
+    std::vector<CurveGroup> list;
+    for (auto& [group, curve] : curves) list.push_back({group_name(1, group), std::move(curve.lines)});
+    return list;
+  }
+
+  /// Two cells with the same corners, which is how a surface of two groups stands in files of version 2.2.
+  void refuse_doubled_cells() const {
+    std::map<std::vector<int>, std::size_t> first;
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+      std::vector<int> corners(mesh_.cells[c].begin(), mesh_.cells[c].end());
+      std::sort(corners.begin(), corners.end());
+      const auto [known, is_new] = first.try_emplace(corners, c);
+      if (is_new) continue;
+      const MshFile::Element &one = file_.cells[known->second], &other = file_.cells[c];
+      fail(other.place, "a cell is there twice, before at " + file_.where(one.place) +
+                            " (a surface that belongs to two groups?)");
+    }
+  }
+
+  CellEdges cell_edges() const {
+    try {
+      return {mesh_.nodes, mesh_.cells};
+    } catch (const InputError&) {
+      refuse_doubled_cells();
+      throw;
+    }
   }
 
   void read_curves() {
-    const CellEdges edges(mesh_.nodes, mesh_.cells);
+    const CellEdges edges = cell_edges();
     std::vector<bool> has_side(edges.size(), false);
     for (const CurveGroup& group : curve_groups()) {
-      if (group.lines.empty()) continue;
       std::size_t outer = 0;
       for (const auto& [a, b] : group.lines) {
         const int edge = edges.find(a, b);
@@ -214,9 +236,9 @@ class Reader {
         mesh_.boundary_edges.push_back({{a, b}, static_cast<int>(mesh_.side_names.size())});
       }
       if (outer == group.lines.size()) {
-        mesh_.side_names.push_back(group.name);
+        add_name(group.name, "sides", mesh_.side_names);
       } else if (outer == 0) {
-        mesh_.fractures.push_back({group.name, Path(group).nodes()});
+        add_fracture(group);
       } else {
         throw InputError("curve '" + group.name +
                          "' lies partly inside and partly on the boundary (it is neither a side nor a fracture)");
@@ -225,35 +247,50 @@ class Reader {
     add_unnamed_sides(edges, has_side);
   }
 
+  void add_fracture(const CurveGroup& group) {
+    for (const RawMesh::Chain& other : mesh_.fractures) {
+      if (other.name == group.name) throw InputError("two fractures are called '" + group.name + "', rename one");
+    }
+    mesh_.fractures.push_back({group.name, Path(group).nodes()});
+  }
+
   void add_unnamed_sides(const CellEdges& edges, const std::vector<bool>& has_side) {
     int side = none;
     for (int edge = 0; edge < edges.size(); ++edge) {
       if (!edges.is_outer(edge) || has_side[edge]) continue;
       if (side == none) {
         side = static_cast<int>(mesh_.side_names.size());
-        mesh_.side_names.emplace_back("boundary");
+        add_name("boundary", "sides", mesh_.side_names);
       }
       mesh_.boundary_edges.push_back({edges.nodes(edge), side});
     }
   }
 
+  const MshFile file_;
   RawMesh mesh_;
-  std::vector<int> number_;  ///< of the nodes, by gmsh's tags
 };
+
+/// Throws InputError where there is no file that can be read as a whole.
+std::string bytes_of(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw InputError("it does not exist or may not be read");
+  if (!std::filesystem::is_regular_file(file, error)) throw InputError("it is no file");
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  if (!stream) throw InputError("it does not exist or may not be read");
+  return bytes.str();
+}
 
 }  // namespace
 
 RawMesh read_msh(const std::string& file, const Origin& origin) {
-  const std::string problem = "cannot use the mesh file '" + file + "'";
-  if (!std::ifstream(file)) throw InputError(origin, problem, "it does not exist or may not be read");
-  RawMesh mesh;
-  const GmshModel model;
   try {
-    model.run("read the file", [&] { mesh = Reader().read(file); });
-  } catch (const std::exception& error) {
-    throw InputError(origin, problem, error.what());
+    const std::string bytes = bytes_of(file);
+    return Reader(bytes).read();
+  } catch (const InputError& error) {
+    throw InputError(origin, "cannot use the mesh file '" + file + "'", error.what());
   }
-  return mesh;
 }
 
 }  // namespace sprekk

@@ -1,0 +1,52 @@
+// The bytes of a mesh file, read from front to back.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace sprekk {
+
+/// Gives one value after the other and never looks beyond the end. What is asked for and not there is an InputError
+/// that begins with the place: "line 12: …" in text, "byte 345: …" in binary files.
+class MshCursor {
+ public:
+  /// `bytes` must outlive the cursor.
+  explicit MshCursor(std::string_view bytes) : bytes_(bytes) {}
+
+  void set_binary(bool is_binary) { is_binary_ = is_binary; }
+  bool is_binary() const { return is_binary_; }
+  std::size_t position() const { return at_; }
+  std::size_t remaining() const { return bytes_.size() - at_; }
+
+  /// Values of a section, binary or as text. `what` is their name in messages.
+  int integer(const char* what);
+  std::uint64_t number(const char* what);  ///< of a node or an element, or a count, in files of version 4.1
+  double real(const char* what);           ///< finite
+  /// A count of things that take at least `least_bytes` each; refused when the rest of the file cannot hold so many.
+  std::size_t count(const char* what, std::size_t least_bytes, bool is_wide);
+
+  /// Values that are text in binary files, too.
+  int text_integer(const char* what);
+  std::string_view word(const char* what);  ///< up to the next blank or line break
+  std::string_view rest_of_line();          ///< and goes to the next one
+  void skip_blanks();                       ///< line breaks as well
+  void skip_bytes(std::size_t count, const char* what);
+  /// Goes behind the next occurrence of `text`; false, without a move, if there is none.
+  bool skip_past(std::string_view text);
+
+  [[noreturn]] void fail(const std::string& problem) const { fail_at(at_, problem); }
+  [[noreturn]] void fail_at(std::size_t position, const std::string& problem) const;
+
+ private:
+  template <class Value>
+  Value raw(const char* what);
+  template <class Value>
+  Value whole(const char* what);
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  bool is_binary_ = false;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,47 @@
+// What stands in a mesh file, before a mesh is made of it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sprekk {
+
+/// Nodes, lines and cells of a file in gmsh's format MSH, version 2.2 or 4.1, text or binary
+/// (https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format). Points and what stands in other sections is left out.
+struct MshFile {
+  struct Node {
+    std::uint64_t number;
+    std::array<double, 3> position;  ///< m
+    std::size_t place;               ///< bytes before it in the file
+  };
+  /// A line with two nodes, a triangle or a quadrilateral.
+  struct Element {
+    std::array<std::uint64_t, 4> nodes;  ///< by their numbers
+    int node_count;
+    int group_list;  ///< index into group_lists
+    std::size_t place;
+  };
+
+  std::vector<Node> nodes;  ///< ascending by number, none twice
+  std::vector<Element> lines, cells;
+  std::vector<std::vector<int>> group_lists;                ///< positive numbers of groups, each once
+  std::map<std::pair<int, int>, std::string> names;         ///< of groups, by dimension and number
+
+  /// "line 12" or "byte 345" of a place.
+  std::string where(std::size_t place) const;
+  std::string_view bytes;  ///< of the whole file
+  bool is_binary = false;
+};
+
+/// `bytes` must outlive the result. Throws InputError, beginning with the line or the byte, for whatever is not such a
+/// file: another version, a section that ends early, a count or a number that the file does not bear out, numbers that
+/// are not finite, elements of another kind, an element of an entity that the file does not list.
+MshFile parse_msh(std::string_view bytes);
+
+}  // namespace sprekk
