@@ -1,6 +1,7 @@
 // Linear operators of Darcy flow on the matrix, whichever discretization made them.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "framework/mesh/mesh.hpp"
@@ -24,6 +25,7 @@ struct FluxOperators {
   SparseMatrix trace_cell;      ///< faces × cells; rows of inner faces are empty
   SparseMatrix trace_boundary;  ///< faces × faces; rows of inner faces are empty
   SparseMatrix trace_change;    ///< the same
+  int blended_regions = 0;      ///< nodes around which fluxes are not exact for linear pressures
 
   /// To move matrices would copy them.
   void swap(FluxOperators& other) {
@@ -33,6 +35,7 @@ struct FluxOperators {
     trace_cell.swap(other.trace_cell);
     trace_boundary.swap(other.trace_boundary);
     trace_change.swap(other.trace_change);
+    std::swap(blended_regions, other.blended_regions);
   }
 };
 

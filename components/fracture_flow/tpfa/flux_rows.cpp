@@ -6,10 +6,10 @@
 namespace sprekk::fracture_flow {
 
 Conductance FractureFlow::conductance(const Link& link) const {
-  const Transmissivity first = transmissivity(link.first);
+  const Transmissivity first = transmissivity(link.first, link.point);
   const double half = 0.5 * mesh_.fracture_cells[link.first].length;
   if (link.second == none) return {first.value / half, {{link.first, first.by_aperture / half}}};
-  const Transmissivity second = transmissivity(link.second);
+  const Transmissivity second = transmissivity(link.second, link.point);
   const double other_half = 0.5 * mesh_.fracture_cells[link.second].length;
   if (first.value == 0 || second.value == 0) return {0, {}};
   const double value = 1 / (half / first.value + other_half / second.value);
@@ -23,7 +23,7 @@ std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
   for (const Junction& junction : mesh_.junctions) {
     std::vector<JunctionFluxes::Half> halves;
     for (const int cell : junction.cells) {
-      const Transmissivity t = transmissivity(cell);
+      const Transmissivity t = transmissivity(cell, junction.points.front());
       const double half = 0.5 * mesh_.fracture_cells[cell].length;
       halves.push_back({t.value / half, t.by_aperture / half});
     }

@@ -49,8 +49,15 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
   pressure_.set_both(property(options_.initial_pressure).values());
   viscosity_ = property(options_.viscosity);
   compressibility_ = property(options_.fluid_compressibility);
-  if (options_.transmissivity_value) given_transmissivity_ = property(*options_.transmissivity_value);
-  if (options_.normal_permeability_value) given_normal_permeability_ = property(*options_.normal_permeability_value);
+  const double start = context.start_time;
+  if (options_.transmissivity_value) {
+    given_transmissivity_ = {*options_.transmissivity_value, whole_cells(mesh_), Mean::of_values, start};
+    for (int end = 0; end < 2; ++end)
+      transmissivity_of_half_[end] = {*options_.transmissivity_value, half_cells(mesh_, end), Mean::of_reciprocals,
+                                      start};
+  }
+  if (options_.normal_permeability_value)
+    given_normal_permeability_ = {*options_.normal_permeability_value, whole_cells(mesh_), Mean::of_values, start};
 }
 
 std::vector<const Data*> FractureFlow::properties() const {
@@ -114,8 +121,10 @@ void FractureFlow::make_links(const StepTime& step) {
 }
 
 void FractureFlow::evaluate_data(const StepTime& step) {
-  for (Property* property : {&viscosity_, &compressibility_, &given_transmissivity_, &given_normal_permeability_})
-    property->evaluate(step);
+  for (Property* property : {&viscosity_, &compressibility_}) property->evaluate(step);
+  for (MeansAlong* means : {&given_transmissivity_, &transmissivity_of_half_[0], &transmissivity_of_half_[1],
+                            &given_normal_permeability_})
+    means->evaluate(step);
   make_links(step);
   prescribe(step);
 }
@@ -133,9 +142,19 @@ void FractureFlow::look_for_solution(Look look) {
 }
 
 FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
-  const double viscosity = viscosity_[cell];
-  if (options_.transmissivity == "constant") return {given_transmissivity_[cell] / viscosity, 0};
-  const double a = hydraulic_aperture(cell);
+  if (options_.transmissivity == "constant") return {given_transmissivity_[cell] / viscosity_[cell], 0};
+  return cubic_law(cell);
+}
+
+FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) const {
+  if (options_.transmissivity != "constant") return cubic_law(cell);
+  const FractureCell& at = mesh_.fracture_cells[cell];
+  const int end = at.tangent.dot(mesh_.fracture_points[point].position - at.center) < 0 ? 0 : 1;
+  return {transmissivity_of_half_[end][cell] / viscosity_[cell], 0};
+}
+
+FractureFlow::Transmissivity FractureFlow::cubic_law(int cell) const {
+  const double viscosity = viscosity_[cell], a = hydraulic_aperture(cell);
   return {a * a * a / (12 * viscosity), conducts_by_aperture(cell) ? a * a / (4 * viscosity) : 0};
 }
 

@@ -1,6 +1,7 @@
 // Flow in fractures (Eq. 8) by the two-point flux approximation along piecewise linear fractures.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/fracture_flow/tpfa/junction_fluxes.hpp"
+#include "components/fracture_flow/tpfa/mean_along.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
@@ -48,6 +50,9 @@ class FractureFlow : public Component, public FractureFluid {
     double value, by_aperture;
   };
   Transmissivity transmissivity(int cell) const;
+  /// Of the half at one of its points.
+  Transmissivity transmissivity(int cell, int point) const;
+  Transmissivity cubic_law(int cell) const;
   double hydraulic_aperture(int cell) const;  ///< the aperture, not below the floor
   /// Whether the cubic law changes with the aperture.
   bool conducts_by_aperture(int cell) const;
@@ -84,7 +89,9 @@ class FractureFlow : public Component, public FractureFluid {
   Field& books_;  ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_aperture_;
   Vector held_aperture_;  ///< for the cubic law, or empty for the present one
-  Property viscosity_, compressibility_, given_transmissivity_, given_normal_permeability_;
+  Property viscosity_, compressibility_;
+  MeansAlong given_transmissivity_, given_normal_permeability_;  ///< m^3, m/(Pa s), one a cell
+  std::array<MeansAlong, 2> transmissivity_of_half_;             ///< by FractureCell::points
   std::vector<Link> links_;
   Vector source_;  ///< m^2/s, one a cell
   struct Prescribed {

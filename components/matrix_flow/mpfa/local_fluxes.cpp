@@ -6,18 +6,19 @@
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::matrix_flow {
-
 namespace {
 
+bool is_triangle(const Mesh& mesh, int cell) { return mesh.cell_nodes[cell].size() == 3; }
+
 /// Where the pressures of both sides of a subface agree, from the centre of the face (0) to the node (1). At the third
-/// points of a triangle, and at the centres of a parallelogram's faces, what flows out of a subcell is a symmetric
-/// positive definite function of the differences of its pressures, for any tensor: the arms from the centre to the
-/// points are dual to the half faces then. Wherever all subcells are like that, no flow can gain energy. So points lie
-/// there on walls and on the boundary as well: with its centre for the wall's face, a triangle in anisotropic rock may
-/// feed on itself.
+/// points of a triangle, and at the centres of a parallelogram's faces, the arms from the centre of the cell to the
+/// points are dual to the half faces: what flows out of a subcell is a symmetric positive definite function of its
+/// drops of pressure, for any tensor. Wherever all subcells are like that, no flow can gain energy. So points lie there
+/// on walls and on the boundary as well: with its centre for the wall's face, a triangle in anisotropic rock may feed
+/// on itself.
 double continuity_point(const Mesh& mesh, int face) {
   for (const int cell : mesh.face_cells[face])
-    if (cell != none && mesh.cell_nodes[cell].size() == 3) return 1.0 / 3;
+    if (cell != none && is_triangle(mesh, cell)) return 1.0 / 3;
   return 0;
 }
 
@@ -25,33 +26,64 @@ double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0];
 
 }  // namespace
 
-void LocalFluxes::solve(const Mesh& mesh, int node, const InteractionRegion& region,
-                        const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
-  towards_node_.clear();
-  for (const int face : region.faces) towards_node_.push_back(continuity_point(mesh, face));
+void LocalFluxes::find_arms(const Mesh& mesh, int node, const InteractionRegion& region) {
+  arm_.resize(region.subcell_count());
   gradient_.resize(region.subcell_count());
   for (int k = 0; k < region.subcell_count(); ++k) {
-    std::array<Point, 2> arm;
+    auto& arm = arm_[k];
     for (int i = 0; i < 2; ++i) {
       const int f = region.subcells[k].subfaces[i];
       const Point& middle = mesh.face_center[region.faces[f]];
-      arm[i] =
-          middle + towards_node_[f] * (mesh.nodes[node] - middle) - mesh.cell_center[region.subcells[k].cell];
+      arm[i] = middle + towards_node_[f] * (mesh.nodes[node] - middle) - mesh.cell_center[region.subcells[k].cell];
     }
     const double determinant = cross(arm[0], arm[1]);
     gradient_[k] = {Point(arm[1][1], -arm[1][0]) / determinant, Point(-arm[0][1], arm[0][0]) / determinant};
   }
-  solve(region, mobility, conditions);
 }
 
-void LocalFluxes::solve(const InteractionRegion& region, const std::vector<Tensor>& mobility,
-                        const std::vector<FlowCondition>& conditions) {
+LocalFluxes::Weights LocalFluxes::consistent(const Subcell& subcell, const Tensor& mobility, int k) const {
+  Weights weights;
+  for (int i = 0; i < 2; ++i) {
+    const Point conormal = mobility.transpose() * subcell.half_face[i];
+    for (int j = 0; j < 2; ++j) weights[i][j] = conormal.dot(gradient_[k][j]);
+  }
+  return weights;
+}
+
+/// The same where the half faces are dual to the arms.
+LocalFluxes::Weights LocalFluxes::symmetric(const Subcell& subcell, const Tensor& mobility, int k) const {
+  const double area = 0.5 * (arm_[k][0].dot(subcell.half_face[0]) + arm_[k][1].dot(subcell.half_face[1]));
+  Weights weights;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) weights[i][j] = area * gradient_[k][i].dot(mobility * gradient_[k][j]);
+  return weights;
+}
+
+LocalFluxes::Cure LocalFluxes::solve(const Mesh& mesh, int node, const InteractionRegion& region,
+                                     const std::vector<Tensor>& mobility,
+                                     const std::vector<FlowCondition>& conditions) {
+  towards_node_.clear();
+  bool has_triangles_only = true;
+  for (const int face : region.faces) towards_node_.push_back(continuity_point(mesh, face));
+  for (const Subcell& subcell : region.subcells)
+    has_triangles_only = has_triangles_only && is_triangle(mesh, subcell.cell);
+  find_arms(mesh, node, region);
+  solve_with(&LocalFluxes::consistent, region, mobility, conditions);
+  if (has_triangles_only || each_subcell_loses_energy() || loses_energy(region, conditions)) return Cure::none;
+  return cure(mesh, node, region, mobility, conditions);
+}
+
+void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& region,
+                             const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
   const int subcells = region.subcell_count();
   subfaces_ = region.subface_count();
   columns_ = subcells;
   for (int f = 0; f < subfaces_; ++f) columns_ += !region.is_inner(f);
   const int width = subfaces_ + columns_;
   system_.assign(subfaces_ * width, 0);
+  weights_.resize(subcells);
+  for (int k = 0; k < subcells; ++k)
+    weights_[k] = (this->*weights_of)(region.subcells[k], mobility[region.subcells[k].cell], k);
 
   int boundary_column = subfaces_ + subcells;
   for (int f = 0; f < subfaces_; ++f) {
@@ -64,11 +96,9 @@ void LocalFluxes::solve(const InteractionRegion& region, const std::vector<Tenso
     // The fluxes out of the neighbours add up to zero, or to the half of what is prescribed for the face.
     for (const int k : region.neighbours[f]) {
       if (k == none) continue;
-      const Subcell& subcell = region.subcells[k];
-      const Point conormal = mobility[subcell.cell].transpose() * subcell.half_face[region.place(f, k)];
       for (int i = 0; i < 2; ++i) {
-        const double weight = conormal.dot(gradient_[k][i]);
-        row[subcell.subfaces[i]] -= weight;
+        const double weight = weights_[k][region.place(f, k)][i];
+        row[region.subcells[k].subfaces[i]] -= weight;
         row[subfaces_ + k] -= weight;
       }
     }
@@ -77,6 +107,9 @@ void LocalFluxes::solve(const InteractionRegion& region, const std::vector<Tenso
   if (eliminate(system_.data(), subfaces_, width) < 1e-14)
     throw std::runtime_error("MPFA: singular local problem at a node of cell " +
                              std::to_string(region.subcells[0].cell) + " (is its mobility positive definite?)");
+  pressures_.resize(subfaces_ * columns_);
+  for (int f = 0; f < subfaces_; ++f)
+    std::copy_n(system_.data() + f * width + subfaces_, columns_, pressures_.data() + f * columns_);
 
   fluxes_.assign(subfaces_ * columns_, 0);
   for (int f = 0; f < subfaces_; ++f) {
@@ -87,13 +120,10 @@ void LocalFluxes::solve(const InteractionRegion& region, const std::vector<Tenso
       side = trace(1) < trace(0) ? 1 : 0;
     }
     const int k = region.neighbours[f][side];
-    const Subcell& subcell = region.subcells[k];
-    const Point conormal =
-        (side == 0 ? -1.0 : 1.0) * (mobility[subcell.cell].transpose() * subcell.half_face[region.place(f, k)]);
     double* flux = fluxes_.data() + f * columns_;
     for (int i = 0; i < 2; ++i) {
-      const double weight = conormal.dot(gradient_[k][i]);
-      const double* face_pressure = pressure(subcell.subfaces[i]);
+      const double weight = (side == 0 ? -1.0 : 1.0) * weights_[k][region.place(f, k)][i];
+      const double* face_pressure = pressure(region.subcells[k].subfaces[i]);
       for (int j = 0; j < columns_; ++j) flux[j] += weight * face_pressure[j];
       flux[k] -= weight;
     }

@@ -1,6 +1,7 @@
 // The fluxes around one node: the local problem of the MPFA-O method.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
 
@@ -13,27 +14,53 @@ namespace sprekk::matrix_flow {
 /// (Aavatsmark 2002, sec. 3). Coefficients are with respect to the pressures of the region's subcells and the values of
 /// its subfaces with one cell (their boundary values for whole faces), in this order. The value of a face with a given
 /// pressure is meant at its continuity point.
+///
+/// No flow of a region gains energy: the sum over subcells of flux times drop of pressure is not negative. With
+/// triangles and parallelograms alone that is so by the choice of the continuity points, for any tensor. Where other
+/// quadrilaterals spoil it, the region is cured (see Cure).
 class LocalFluxes {
  public:
+  /// How a region lost the energy that it would have gained. `points`: by other continuity points; `damping`: what is
+  /// not linear in the pressures flows by the symmetric fluxes of `blend`; both stay exact for linear pressures.
+  /// `blend`: all that flows is mixed with fluxes that are symmetric and positive definite in each subcell, and exact
+  /// for linear pressures in parallelograms only.
+  enum class Cure { none, points, damping, blend };
+
   /// Throws std::runtime_error if the local system is singular.
-  void solve(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
+  Cure solve(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
              const std::vector<FlowCondition>& conditions);
 
   /// The pressure at the continuity point of a subface.
-  const double* pressure(int subface) const { return system_.data() + subface * (subfaces_ + columns_) + subfaces_; }
+  const double* pressure(int subface) const { return pressures_.data() + subface * columns_; }
   /// The flux through a subface out of its first cell (m^2/s).
   const double* flux(int subface) const { return fluxes_.data() + subface * columns_; }
   /// Where the continuity point lies, from the centre of the face (0) to the node (1).
   double towards_node(int subface) const { return towards_node_[subface]; }
 
  private:
-  void solve(const InteractionRegion& region, const std::vector<Tensor>& mobility,
-             const std::vector<FlowCondition>& conditions);
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Weights = std::array<std::array<double, 2>, 2>;  ///< of a subcell: flux into it by both drops of pressure
+
+  void find_arms(const Mesh& mesh, int node, const InteractionRegion& region);
+  Weights consistent(const Subcell& subcell, const Tensor& mobility, int k) const;
+  Weights symmetric(const Subcell& subcell, const Tensor& mobility, int k) const;
+  using WeightsOf = Weights (LocalFluxes::*)(const Subcell&, const Tensor&, int) const;
+  void solve_with(WeightsOf weights_of, const InteractionRegion& region, const std::vector<Tensor>& mobility,
+                  const std::vector<FlowCondition>& conditions);
+  Cure cure(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
+            const std::vector<FlowCondition>& conditions);
+  bool each_subcell_loses_energy() const;
+  bool loses_energy(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
+  Matrix lost_power(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
+  /// The jumps of the gradient along the inner subfaces, times these, Pa.
+  Matrix kinks(const Mesh& mesh, int node, const InteractionRegion& region) const;
 
   int subfaces_ = 0, columns_ = 0;
-  std::vector<double> system_, fluxes_;
+  std::vector<double> system_, pressures_, fluxes_;
   std::vector<double> towards_node_;
+  std::vector<std::array<Point, 2>> arm_;       ///< of the subcells, from the centre to the continuity points, m
   std::vector<std::array<Point, 2>> gradient_;  ///< of the subcells, as Subcell::gradient
+  std::vector<Weights> weights_;                ///< of the subcells
 };
 
 }  // namespace sprekk::matrix_flow

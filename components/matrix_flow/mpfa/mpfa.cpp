@@ -147,10 +147,11 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   CellColumns columns;
   ChangeColumns changes;
   std::vector<int> cell_slots, outer_slots, change_slots;
+  int blended_regions = 0;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
-    local.solve(mesh, node, region, mobility, conditions);
+    blended_regions += local.solve(mesh, node, region, mobility, conditions) == LocalFluxes::Cure::blend;
     changes.assign(mesh, node, region, local, conditions);
     const TipFlow* flow = flows.at(node);
     std::optional<TipCorrection> tip;
@@ -182,7 +183,7 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     }
   }
   return {flux_cell.take(),  flux_boundary.take(),  flux_change.take(),
-          trace_cell.take(), trace_boundary.take(), trace_change.take()};
+          trace_cell.take(), trace_boundary.take(), trace_change.take(), blended_regions};
 }
 
 }  // namespace sprekk::matrix_flow

@@ -28,18 +28,20 @@ class RandomRock {
     const double height = left + (right - left) * center.x(), length = between(0.1, 0.4);
     const Point arm = 0.5 * length * direction(between(0, std::numbers::pi));
     const Point middle = center + Point(0, height + between(-0.03, 0.03));
-    FractureGeometry across, other;
+    FractureGeometry across, other, open;
+    open.name = "open";
+    open.points = {Point(0, 0.1), Point(0.2, 0.2)};
     across.name = "across";
     across.points = {middle - arm, middle + arm};
     other.name = "other";
     other.points = {middle, middle + between(0.1, 0.3) * direction(std::atan2(arm.y(), arm.x()) + between(0.7, 2.4))};
     geometry.fractures = {across};
     if (between(0, 1) < 0.4) geometry.fractures.push_back(other);
-    if (between(0, 1) < 0.3) geometry.fractures.push_back({.name = "open", .points = {Point(0, 0.1), Point(0.2, 0.2)}});
+    if (between(0, 1) < 0.3) geometry.fractures.push_back(open);
     MeshOptions with_size = options;
     if (options.kind == MeshOptions::Kind::unstructured) {
-      with_size.size = between(0.12, 0.3);
-      with_size.fracture_size = between(0.05, 0.12);
+      with_size.size = between(0.2, 0.4);
+      with_size.fracture_size = between(0.08, 0.2);
       with_size.growth = between(0.1, 0.5);
     } else {
       geometry.fractures.resize(1);
@@ -118,27 +120,63 @@ int cases(int usual) {
   return asked ? std::atoi(asked) : usual;
 }
 
-void look_at(const MeshOptions& options, int count) {
-  double smallest = 0;
-  int below=0;
-  for (int seed = 1; seed <= count; ++seed) {
-    const RandomRock rock(seed, options);
-    for (const bool is_closed : {true, false}) {
-      const auto conditions = conditions_of(rock.mesh, is_closed);
-      const auto form = lost_power(rock.mesh, discretize_mpfa(rock.mesh, rock.mobility, conditions), conditions);
-      const double eigenvalue = smallest_eigenvalue(form);
-      smallest = std::min(smallest, eigenvalue);
-      if(eigenvalue<-1e-10){++below; if(below<12) std::cout<<seed<<" "<<is_closed<<" "<<eigenvalue<<rock.text<<std::endl;}
-    }
+/// What is left of the energy after a step of any length with fluid in the fractures, too: a dense system of the
+/// pressures of cells, of lambda at the walls and of the pressures in the fractures.
+double energy_left(RandomRock& rock, const FluxOperators& operators) {
+  const Mesh& mesh = rock.mesh;
+  const int cells = mesh.cell_count(), walls = mesh.wall_count(), fracture_cells = mesh.fracture_cell_count();
+  const double dt = std::pow(10, rock.between(-4, 4)), kappa = std::pow(10, rock.between(-4, 4)),
+               along = std::pow(10, rock.between(-4, 4)), storage = std::pow(10, rock.between(-3, 0));
+  const SparseMatrix divergence = test::divergence(mesh, 1);
+  const Eigen::MatrixXd outflow = divergence * operators.flux_cell, of_sides = divergence * operators.flux_boundary;
+  const Eigen::MatrixXd trace_cells = operators.trace_cell, trace_sides = operators.trace_boundary;
+  const int size = cells + walls + fracture_cells;
+  Eigen::VectorXd capacity = Eigen::VectorXd::Zero(size), before(size);
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size, size);
+  for (int c = 0; c < cells; ++c) capacity[c] = mesh.cell_area[c];
+  system.topLeftCorner(cells, cells) = dt * outflow;
+  for (int w = 0; w < walls; ++w) {
+    const int face = mesh.wall_face(w), row = cells + w, in = cells + walls + w / 2;
+    const double length = mesh.face_length[face];
+    system.col(row).head(cells) = -dt * length * of_sides.col(face);
+    // lambda / kappa + trace = pressure in the fracture
+    system.row(row).head(cells) = trace_cells.row(face);
+    for (int v = 0; v < walls; ++v)
+      system(row, cells + v) = -trace_sides(face, mesh.wall_face(v)) * mesh.face_length[mesh.wall_face(v)];
+    system(row, row) += 1 / kappa;
+    system(row, in) = -1;
+    system(in, row) += dt * length;
+    capacity[in] = storage * length;
   }
-  std::cout<<"smallest "<<smallest<<" below "<<below<<" of "<<2*count<<std::endl;
-  EXPECT_GE(smallest, -1e-10);
+  for (const FracturePoint& point : mesh.fracture_points)
+    if (point.cells.size() == 2)
+      for (int i = 0; i < 2; ++i) {
+        system(cells + walls + point.cells[i], cells + walls + point.cells[i]) += dt * along;
+        system(cells + walls + point.cells[i], cells + walls + point.cells[1 - i]) -= dt * along;
+      }
+  system.diagonal() += capacity;
+  for (double& value : before) value = rock.between(-1, 1);
+  const Eigen::VectorXd stored = capacity.cwiseProduct(before), after = system.partialPivLu().solve(stored);
+  return after.dot(capacity.cwiseProduct(after)) / before.dot(stored);
 }
 
-TEST(ClosedBoxEnergy, TrianglesLoseIt) { look_at(test::unstructured(0.2), cases(60)); }
-TEST(ClosedBoxEnergy, RectanglesLoseIt) { look_at(test::rectangles(8, 8), cases(60)); }
-TEST(ClosedBoxEnergy, DistortedQuadrilateralsLoseIt) { look_at(test::rectangles(8, 8, 0.4), cases(60)); }
-TEST(ClosedBoxEnergy, MixedCellsLoseIt) { look_at(test::mixed(0.2), cases(60)); }
+void look_at(const MeshOptions& options, int count) {
+  for (int seed = 1; seed <= count; ++seed) {
+    RandomRock rock(seed, options);
+    for (const bool is_closed : {true, false}) {
+      const auto conditions = conditions_of(rock.mesh, is_closed);
+      const FluxOperators operators = discretize_mpfa(rock.mesh, rock.mobility, conditions);
+      EXPECT_GE(smallest_eigenvalue(lost_power(rock.mesh, operators, conditions)), -1e-10) << seed << rock.text;
+      if (!is_closed) continue;
+      EXPECT_LE(energy_left(rock, operators), 1 + 1e-9) << seed << rock.text;
+    }
+  }
+}
+
+TEST(ClosedBoxEnergy, TrianglesLoseIt) { look_at(test::unstructured(0.2), cases(30)); }
+TEST(ClosedBoxEnergy, RectanglesLoseIt) { look_at(test::rectangles(8, 8), cases(30)); }
+TEST(ClosedBoxEnergy, DistortedQuadrilateralsLoseIt) { look_at(test::rectangles(8, 8, 0.4), cases(30)); }
+TEST(ClosedBoxEnergy, MixedCellsLoseIt) { look_at(test::mixed(0.2), cases(30)); }
 
 }  // namespace
 }  // namespace sprekk::matrix_flow

@@ -1,0 +1,71 @@
+#include "components/fracture_flow/tpfa/mean_along.hpp"
+
+#include <array>
+#include <utility>
+
+namespace sprekk::fracture_flow {
+
+const EndRule& end_rule() {
+  static const EndRule rule = [] {
+    // Abramowitz and Stegun, table 25.4.
+    constexpr std::array<double, 5> place = {0.148874338981631211, 0.433395394129247191, 0.679409568299024406,
+                                             0.865063366688984511, 0.973906528517171720};
+    constexpr std::array<double, 5> weight = {0.295524224714752870, 0.269266719309996355, 0.219086362515982044,
+                                              0.149451349150580593, 0.066671344308688138};
+    EndRule made;
+    for (int i = 0; i < EndRule::count; ++i) {
+      const int k = i % 5;
+      const double u = i < 5 ? -place[k] : place[k];
+      made.x[i] = 0.5 * u * (3 - u * u);
+      made.weight[i] = 0.75 * (1 - u * u) * weight[k];
+    }
+    return made;
+  }();
+  return rule;
+}
+
+std::vector<Piece> whole_cells(const Mesh& mesh) {
+  std::vector<Piece> pieces;
+  for (const FractureCell& cell : mesh.fracture_cells) {
+    const Point half = 0.5 * cell.length * cell.tangent;
+    pieces.push_back({cell.center - half, cell.center + half, mesh.cell_region[mesh.face_cells[cell.faces[0]][0]]});
+  }
+  return pieces;
+}
+
+std::vector<Piece> half_cells(const Mesh& mesh, int end) {
+  std::vector<Piece> pieces = whole_cells(mesh);
+  for (Piece& piece : pieces) {
+    const Point center = 0.5 * (piece.from + piece.to);
+    (end == 0 ? piece.to : piece.from) = center;
+  }
+  return pieces;
+}
+
+MeansAlong::MeansAlong(const Data& data, std::vector<Piece> pieces, Mean mean, double start)
+    : data_(data), pieces_(std::move(pieces)), mean_(mean) {
+  set([&](const Point& x, int region) { return data_.at({x, region, start}); });
+}
+
+void MeansAlong::evaluate(const StepTime& step) {
+  if (data_.depends_on_time())
+    set([&](const Point& x, int region) { return value_in_step(data_, {x, region, 0}, step); });
+}
+
+template <typename At>
+void MeansAlong::set(const At& at) {
+  Vector values(pieces_.size());
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    if (!data_.depends_on_space()) {
+      values[i] = at(0.5 * (piece.from + piece.to), piece.region);
+    } else if (mean_ == Mean::of_values) {
+      values[i] = mean_along(piece, [&](const Point& x) { return at(x, piece.region); });
+    } else {
+      values[i] = 1 / mean_along(piece, [&](const Point& x) { return 1 / at(x, piece.region); });
+    }
+  }
+  values_ = std::move(values);
+}
+
+}  // namespace sprekk::fracture_flow

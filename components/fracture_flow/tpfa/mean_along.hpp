@@ -1,0 +1,69 @@
+// Means of a datum along pieces of fractures.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "framework/assembly/property.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::fracture_flow {
+
+/// A straight piece of a fracture, in rock of one region.
+struct Piece {
+  Point from, to;  ///< m
+  int region;
+};
+
+/// The cells of the fractures, and the halves of them at FractureCell::points[end].
+std::vector<Piece> whole_cells(const Mesh& mesh);
+std::vector<Piece> half_cells(const Mesh& mesh, int end);
+
+enum class Mean {
+  of_values,      ///< of what lies side by side
+  of_reciprocals  ///< of what lies in series: 1 over the mean of 1 over the values
+};
+
+/// The mean of a datum on each piece, as a step takes it (value_in_step). A datum that does not depend on the position
+/// is evaluated once for a piece, and one that does not depend on time once in all.
+class MeansAlong {
+ public:
+  /// Without values.
+  MeansAlong() = default;
+  /// With the values at `start` (s). Throws DataError.
+  MeansAlong(const Data& data, std::vector<Piece> pieces, Mean mean, double start);
+
+  /// Takes the values of this step. Throws DataError.
+  void evaluate(const StepTime& step);
+  double operator[](int i) const { return values_[i]; }
+
+ private:
+  template <typename At>
+  void set(const At& at);
+
+  Data data_;
+  std::vector<Piece> pieces_;
+  Mean mean_ = Mean::of_values;
+  Vector values_;
+};
+
+/// Points in (-1, 1) and their weights, which add up to 1: Gauss' rule with 10 points for u, where x = (3 u - u^3) / 2.
+/// Near the ends 1 - |x| is of the order of (1 - |u|)^2, so that roots of it become smooth.
+struct EndRule {
+  static constexpr int count = 10;
+  std::array<double, count> x, weight;
+};
+const EndRule& end_rule();
+
+/// The mean over the piece: exact for polynomials of fifth order, and to 1e-7 for a root or an inverse root of the
+/// distance from one or both ends. The ends themselves are not evaluated.
+template <typename Function>
+double mean_along(const Piece& piece, const Function& value) {
+  const EndRule& rule = end_rule();
+  double sum = 0;
+  for (int i = 0; i < EndRule::count; ++i)
+    sum += rule.weight[i] * value(Point(0.5 * (1 - rule.x[i]) * piece.from + 0.5 * (1 + rule.x[i]) * piece.to));
+  return sum;
+}
+
+}  // namespace sprekk::fracture_flow

@@ -1,0 +1,123 @@
+// Interaction regions with quadrilaterals whose flow would gain energy.
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "components/matrix_flow/mpfa/local_fluxes.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+constexpr double round_off = 1e-12;
+
+/// Makes the diagonal of a form 1.
+Eigen::VectorXd scale_of(const Eigen::MatrixXd& form) {
+  Eigen::VectorXd scale = form.diagonal().cwiseAbs().cwiseSqrt();
+  for (double& value : scale) value = value > 0 ? 1 / value : 0;
+  return scale;
+}
+
+}  // namespace
+
+LocalFluxes::Matrix LocalFluxes::lost_power(const InteractionRegion& region,
+                                            const std::vector<FlowCondition>& conditions) const {
+  Matrix power = Matrix::Zero(columns_, columns_);
+  int column = region.subcell_count();
+  for (int f = 0; f < subfaces_; ++f) {
+    const Eigen::Map<const Eigen::RowVectorXd> flux(this->flux(f), columns_), pressure(this->pressure(f), columns_);
+    const auto [first, second] = region.neighbours[f];
+    if (region.is_inner(f)) {
+      power.row(first) += flux;
+      power.row(second) -= flux;
+    } else if (conditions[region.faces[f]] == FlowCondition::flux) {
+      power(first, column) += 0.5;
+      power.row(column++) -= 0.5 * pressure;
+    } else {
+      power.row(first) += flux;
+      power.row(column++) -= flux;
+    }
+  }
+  return 0.5 * (power + power.transpose());
+}
+
+bool LocalFluxes::each_subcell_loses_energy() const {
+  return std::all_of(weights_.begin(), weights_.end(), [](const Weights& w) {
+    const double mean = 0.5 * (w[0][1] + w[1][0]);
+    return w[0][0] > 0 && w[0][0] * w[1][1] > mean * mean;
+  });
+}
+
+bool LocalFluxes::loses_energy(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const {
+  const Matrix power = lost_power(region, conditions);
+  const Eigen::VectorXd scale = scale_of(power);
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * power * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] >= -round_off * columns_;
+}
+
+LocalFluxes::Matrix LocalFluxes::kinks(const Mesh& mesh, int node, const InteractionRegion& region) const {
+  Matrix kinks = Matrix::Zero(subfaces_, columns_);
+  for (int f = 0; f < subfaces_; ++f) {
+    if (!region.is_inner(f)) continue;
+    const Point along = mesh.nodes[node] - mesh.face_center[region.faces[f]];
+    for (int side = 0; side < 2; ++side) {
+      const int k = region.neighbours[f][side];
+      for (int i = 0; i < 2; ++i) {
+        const double part = (side == 0 ? 1 : -1) * along.dot(gradient_[k][i]);
+        kinks.row(f) +=
+            part * Eigen::Map<const Eigen::RowVectorXd>(pressure(region.subcells[k].subfaces[i]), columns_);
+        kinks(f, k) -= part;
+      }
+    }
+  }
+  return kinks;
+}
+
+LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const InteractionRegion& region,
+                                    const std::vector<Tensor>& mobility,
+                                    const std::vector<FlowCondition>& conditions) {
+  const std::vector<double> points = towards_node_;
+  // Those of walls and sides are not free: their other halves have the same.
+  for (const double other : {0.15, 0.0, 1.0 / 3, 0.5}) {
+    for (int f = 0; f < subfaces_; ++f)
+      if (region.is_inner(f)) towards_node_[f] = other;
+    find_arms(mesh, node, region);
+    solve_with(&LocalFluxes::consistent, region, mobility, conditions);
+    if (loses_energy(region, conditions)) return Cure::points;
+  }
+  towards_node_ = points;
+  find_arms(mesh, node, region);
+  solve_with(&LocalFluxes::consistent, region, mobility, conditions);
+  const std::vector<double> exact_pressures = pressures_, exact_fluxes = fluxes_;
+  const Eigen::MatrixXd kinks = this->kinks(mesh, node, region);
+  solve_with(&LocalFluxes::symmetric, region, mobility, conditions);
+  const std::vector<double> symmetric_pressures = pressures_, symmetric_fluxes = fluxes_;
+  const Eigen::VectorXd scale = scale_of(lost_power(region, conditions));
+
+  // What is not linear: orthogonal to all that has no kinks, in units of equal energy.
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(kinks * scale.asDiagonal(), Eigen::ComputeFullV);
+  const auto& size = svd.singularValues();
+  const Eigen::MatrixXd turned = svd.matrixV().leftCols((size.array() > 1e-9 * size[0]).count());
+  const Eigen::MatrixXd bent =
+      scale.asDiagonal() * turned * turned.transpose() * scale.cwiseInverse().asDiagonal();
+  const auto map = [this](const std::vector<double>& values) {
+    return Eigen::Map<const Matrix>(values.data(), subfaces_, columns_);
+  };
+  const auto take = [&](const Matrix& pressures, const Matrix& fluxes) {
+    Eigen::Map<Matrix>(pressures_.data(), subfaces_, columns_) = pressures;
+    Eigen::Map<Matrix>(fluxes_.data(), subfaces_, columns_) = fluxes;
+    return loses_energy(region, conditions);
+  };
+  const Eigen::MatrixXd straight = Eigen::MatrixXd::Identity(columns_, columns_) - bent;
+  for (const double damping : {1.0, 2.0, 4.0, 8.0, 16.0})
+    if (take(map(exact_pressures) * straight + damping * map(symmetric_pressures) * bent,
+             map(exact_fluxes) * straight + damping * map(symmetric_fluxes) * bent))
+      return Cure::damping;
+  for (const double share : {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0})
+    if (take((1 - share) * map(exact_pressures) + share * map(symmetric_pressures),
+             (1 - share) * map(exact_fluxes) + share * map(symmetric_fluxes)))
+      return Cure::blend;
+  return Cure::blend;
+}
+
+}  // namespace sprekk::matrix_flow

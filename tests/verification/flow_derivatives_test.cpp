@@ -1,0 +1,90 @@
+// The whole Jacobian of flow in rock and fractures, of the exchange between them and of their aperture.
+#include "tests/verification/derivatives.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+/// Fractures that cross, touch, end in the rock and on two sides; gravity; units without any scale. `conduit` has the
+/// laws.
+std::string scene(const std::string& conduit) {
+  return R"(
+geometry:
+  box: {x: [-1, 1], y: [-1, 1]}
+  fractures: {a: {points: [[-1, 0.1], [0.7, 0]]}, b: {points: [[0, -0.5], [0.1, 1]]}, c: {points: [[0.4, -0.6], [0.5, -0.2]]}}
+mesh: {size: 0.6, fracture_size: 0.4}
+materials:
+  young_modulus: 1 Pa
+  poisson_ratio: 0.25
+  biot_coefficient: 0.5
+  friction: 0.6
+  permeability: {along: 1 m^2, across: 0.1 m^2, angle: 30 deg}
+  viscosity: 1 Pa*s
+  fluid_density: 2 kg/m^3
+components:
+  pore: {type: matrix_flow/mpfa, storage: 0.7 1/Pa, gravity: [0.3 m/s^2, -1 m/s^2], boundary: {left: {pressure: "1 + y"}, top: {flux: 0.1 m/s}}}
+  rock:
+    type: poromechanics/mpsa
+    boundary: {left: {displacement_x: 0 m, displacement_y: 0 m}}
+  conduit:
+    type: fracture_flow/tpfa
+    fluid_compressibility: 0.1 1/Pa
+    initial_aperture: 1 m
+    gravity: [0.3 m/s^2, -1 m/s^2]
+    boundary: {left: {pressure: 1 Pa}, top: {pressure: -1 Pa}}
+)" + conduit +
+         R"(
+  contact: {type: contact/coulomb}
+couplers:
+  - {type: biot, between: [pore, rock]}
+  - {type: wall_exchange, between: [pore, conduit]}
+  - {type: wall_traction, between: [rock, contact, conduit]}
+  - {type: aperture, between: [contact, conduit]}
+schedule: [{solve: [pore, rock, conduit, contact]}]
+time: {end: 1 s, step: 1 s}
+)";
+}
+
+const std::vector<Spread> spreads = {{"pore.pressure", -1, 1},    {"pore.wall_flux", -1, 1},
+                                     {"conduit.pressure", -1, 1}, {"conduit.flux", -1, 1},
+                                     {"conduit.aperture", 0.5, 1.5}, {"contact.jump", -1, 1}};
+constexpr int rows = 5;  // the jump's equation is that of the walls' traction
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+const Pairs of_all_laws = {{"pore.pressure", "pore.pressure"},       {"pore.pressure", "pore.wall_flux"},
+                           {"pore.wall_flux", "pore.pressure"},      {"pore.wall_flux", "pore.wall_flux"},
+                           {"pore.wall_flux", "conduit.pressure"},   {"conduit.pressure", "pore.wall_flux"},
+                           {"conduit.pressure", "conduit.pressure"}, {"conduit.pressure", "conduit.flux"},
+                           {"conduit.pressure", "conduit.aperture"}, {"conduit.flux", "conduit.pressure"},
+                           {"conduit.flux", "conduit.flux"},         {"conduit.aperture", "conduit.aperture"},
+                           {"conduit.aperture", "contact.jump"}};
+
+Pairs with(Pairs pairs, const Pairs& more) {
+  pairs.insert(pairs.end(), more.begin(), more.end());
+  return pairs;
+}
+
+TEST(FlowDerivatives, OfTheCubicLaw) {
+  SceneRun run = SceneRun::from_text(scene("    aperture_floor: 1 mm"));
+  expect_derivatives(run, spreads, rows,
+                     with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
+}
+
+TEST(FlowDerivatives, OfTheCubicLawAboveAndBelowItsFloor) {
+  SceneRun run = SceneRun::from_text(scene("    aperture_floor: 0.9 m"));
+  expect_derivatives(run, spreads, rows,
+                     with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
+}
+
+TEST(FlowDerivatives, OfAGivenTransmissivity) {
+  // kappa = 2 K / (mu a^2) depends on the aperture.
+  SceneRun run = SceneRun::from_text(scene("    transmissivity: constant\n    transmissivity_value: 2 + x"));
+  expect_derivatives(run, spreads, rows, with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}}));
+}
+
+TEST(FlowDerivatives, OfAGivenNormalPermeability) {
+  SceneRun run = SceneRun::from_text(scene("    normal_permeability: constant\n    normal_permeability_value: 2 + y"));
+  expect_derivatives(run, spreads, rows, with(of_all_laws, {{"conduit.flux", "conduit.aperture"}}));
+}
+
+}  // namespace
+}  // namespace sprekk::testing
