@@ -12,7 +12,7 @@ class MatrixFluid {
  public:
   static constexpr const char* promise = "determines the pressure of the matrix";
   virtual ~MatrixFluid() = default;
-  /// Pa, one a cell. Its equation is the volume of fluid that entered each cell during the step, less what it stores
+  /// Pa, one a cell. Its equation is the volume of fluid that each cell stores during the step, less what entered it
   /// (m^2).
   virtual Field& pressure() = 0;
   /// The pressure (Pa) of the reference state, one a cell: the initial one.

@@ -64,6 +64,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   void balance(std::map<std::string, Balance>& balances) const override;
   std::vector<double> switch_times() const override;
   void relate_levels(Levels& levels) const override;
+  /// Where pressures leave the bounds that fluid at rest or in motion sets them, and where fluxes are not exact.
+  void note_step(Notes& notes, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
   std::map<std::string, long> counts() const override {
     return {{"flux discretizations", discretizations_},

@@ -44,8 +44,8 @@ time: {end: 1 s, step: 1 s}
 )";
 }
 
-const std::vector<Spread> spreads = {{"pore.pressure", -1, 1},    {"pore.wall_flux", -1, 1},
-                                     {"conduit.pressure", -1, 1}, {"conduit.flux", -1, 1},
+const std::vector<Spread> spreads = {{"pore.pressure", -1, 1},       {"pore.wall_flux", -1, 1},
+                                     {"conduit.pressure", -1, 1},    {"conduit.flux", -1, 1},
                                      {"conduit.aperture", 0.5, 1.5}, {"contact.jump", -1, 1}};
 constexpr int rows = 5;  // the jump's equation is that of the walls' traction
 

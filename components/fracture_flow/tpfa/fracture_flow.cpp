@@ -122,8 +122,8 @@ void FractureFlow::make_links(const StepTime& step) {
 
 void FractureFlow::evaluate_data(const StepTime& step) {
   for (Property* property : {&viscosity_, &compressibility_}) property->evaluate(step);
-  for (MeansAlong* means : {&given_transmissivity_, &transmissivity_of_half_[0], &transmissivity_of_half_[1],
-                            &given_normal_permeability_})
+  for (MeansAlong* means :
+       {&given_transmissivity_, &transmissivity_of_half_[0], &transmissivity_of_half_[1], &given_normal_permeability_})
     means->evaluate(step);
   make_links(step);
   prescribe(step);

@@ -64,8 +64,7 @@ LocalFluxes::Matrix LocalFluxes::kinks(const Mesh& mesh, int node, const Interac
       const int k = region.neighbours[f][side];
       for (int i = 0; i < 2; ++i) {
         const double part = (side == 0 ? 1 : -1) * along.dot(gradient_[k][i]);
-        kinks.row(f) +=
-            part * Eigen::Map<const Eigen::RowVectorXd>(pressure(region.subcells[k].subfaces[i]), columns_);
+        kinks.row(f) += part * Eigen::Map<const Eigen::RowVectorXd>(pressure(region.subcells[k].subfaces[i]), columns_);
         kinks(f, k) -= part;
       }
     }
@@ -74,8 +73,7 @@ LocalFluxes::Matrix LocalFluxes::kinks(const Mesh& mesh, int node, const Interac
 }
 
 LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const InteractionRegion& region,
-                                    const std::vector<Tensor>& mobility,
-                                    const std::vector<FlowCondition>& conditions) {
+                                    const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
   const std::vector<double> points = towards_node_;
   // Those of walls and sides are not free: their other halves have the same.
   for (const double other : {0.15, 0.0, 1.0 / 3, 0.5}) {
@@ -98,8 +96,7 @@ LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const Interactio
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(kinks * scale.asDiagonal(), Eigen::ComputeFullV);
   const auto& size = svd.singularValues();
   const Eigen::MatrixXd turned = svd.matrixV().leftCols((size.array() > 1e-9 * size[0]).count());
-  const Eigen::MatrixXd bent =
-      scale.asDiagonal() * turned * turned.transpose() * scale.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd bent = scale.asDiagonal() * turned * turned.transpose() * scale.cwiseInverse().asDiagonal();
   const auto map = [this](const std::vector<double>& values) {
     return Eigen::Map<const Matrix>(values.data(), subfaces_, columns_);
   };

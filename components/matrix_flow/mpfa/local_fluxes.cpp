@@ -73,8 +73,8 @@ LocalFluxes::Cure LocalFluxes::solve(const Mesh& mesh, int node, const Interacti
   return cure(mesh, node, region, mobility, conditions);
 }
 
-void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& region,
-                             const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
+void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& region, const std::vector<Tensor>& mobility,
+                             const std::vector<FlowCondition>& conditions) {
   const int subcells = region.subcell_count();
   subfaces_ = region.subface_count();
   columns_ = subcells;

@@ -140,7 +140,8 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   const NodeStencil face_changes(all, pressure_faces), outer_changes(outer, pressure_faces);
   StencilMatrix flux_cell(face_cells, 1, mesh.cell_count(), 1), flux_boundary(face_outer, 1, mesh.face_count(), 1);
   StencilMatrix trace_cell(outer_cells, 1, mesh.cell_count(), 1), trace_boundary(outer_outer, 1, mesh.face_count(), 1);
-  StencilMatrix flux_change(face_changes, 1, mesh.face_count(), 1), trace_change(outer_changes, 1, mesh.face_count(), 1);
+  StencilMatrix flux_change(face_changes, 1, mesh.face_count(), 1),
+      trace_change(outer_changes, 1, mesh.face_count(), 1);
 
   InteractionRegion region;
   LocalFluxes local;
@@ -175,15 +176,14 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
       ++outer_index;
       outer_cells.find_slots(face, node, cell_slots);
       outer_outer.find_slots(face, node, outer_slots);
-      trace_cell.add(face, 0, cell_slots, columns.with(local.pressure(f), tip ? tip->of_pressure(f) : nothing),
-                     0.5);
+      trace_cell.add(face, 0, cell_slots, columns.with(local.pressure(f), tip ? tip->of_pressure(f) : nothing), 0.5);
       trace_boundary.add(face, 0, outer_slots, local.pressure(f) + region.subcell_count(), 0.5);
       outer_changes.find_slots(face, node, change_slots);
       trace_change.add(face, 0, change_slots, changes.of(local.pressure(f)), 0.5);
     }
   }
-  return {flux_cell.take(),  flux_boundary.take(),  flux_change.take(),
-          trace_cell.take(), trace_boundary.take(), trace_change.take(), blended_regions};
+  return {flux_cell.take(),      flux_boundary.take(), flux_change.take(), trace_cell.take(),
+          trace_boundary.take(), trace_change.take(),  blended_regions};
 }
 
 }  // namespace sprekk::matrix_flow

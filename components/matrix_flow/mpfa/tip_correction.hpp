@@ -14,9 +14,8 @@ namespace sprekk::matrix_flow {
 /// of TipFlow. Linear pressures contain none of it and stay exact.
 class TipCorrection {
  public:
-  TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region,
-                const LocalFluxes& local, int node, const std::vector<Tensor>& mobility,
-                const std::vector<FlowCondition>& conditions);
+  TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, const LocalFluxes& local,
+                int node, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
 
   /// What a flux through an inner subface (m^2/s), and the pressure at a wall (Pa), lack for amounts of 1.
   TipFlow::Modes of_flux(int subface) const;

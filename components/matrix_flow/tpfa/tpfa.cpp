@@ -52,8 +52,13 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     return matrix;
   };
   const auto nothing = [&] { return SparseMatrix(mesh.face_count(), mesh.face_count()); };
-  return {assemble(flux_cell, mesh.cell_count()),  assemble(flux_boundary, mesh.face_count()),  nothing(),
-          assemble(trace_cell, mesh.cell_count()), assemble(trace_boundary, mesh.face_count()), nothing(), 0};
+  return {assemble(flux_cell, mesh.cell_count()),
+          assemble(flux_boundary, mesh.face_count()),
+          nothing(),
+          assemble(trace_cell, mesh.cell_count()),
+          assemble(trace_boundary, mesh.face_count()),
+          nothing(),
+          0};
 }
 
 }  // namespace sprekk::matrix_flow

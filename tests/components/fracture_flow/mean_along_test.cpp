@@ -27,8 +27,8 @@ TEST(MeanAlong, CountsRootsAtTheEndsInFull) {
       EXPECT_NEAR(mean, std::pow(0.5, power) / (power + 1), 1e-7) << power;
     }
   // Of 1 / sqrt(s (L - s)) it is pi / L.
-  const double both = mean_along(
-      piece, [&](const Point& x) { return 1 / std::sqrt(distance(x, piece.from) * distance(x, piece.to)); });
+  const double both =
+      mean_along(piece, [&](const Point& x) { return 1 / std::sqrt(distance(x, piece.from) * distance(x, piece.to)); });
   EXPECT_NEAR(both, std::acos(-1.0) / 0.5, 1e-6);
 }
 

@@ -101,8 +101,8 @@ std::vector<FlowCondition> conditions_of(const Mesh& mesh, bool is_closed) {
   std::vector<FlowCondition> conditions(mesh.face_count(), FlowCondition::none);
   for (int f = 0; f < mesh.face_count(); ++f)
     if (test::is_outer(mesh, f))
-      conditions[f] = is_closed || test::is_wall(mesh, f) || mesh.face_side[f] > 1 ? FlowCondition::flux
-                                                                                   : FlowCondition::pressure;
+      conditions[f] =
+          is_closed || test::is_wall(mesh, f) || mesh.face_side[f] > 1 ? FlowCondition::flux : FlowCondition::pressure;
   return conditions;
 }
 

@@ -21,8 +21,8 @@ struct BiotStep {
   std::vector<std::array<poromechanics::MechanicalCondition, 2>> mechanical_conditions;
   double alpha = 1, storage = 0, time_step = 1;
   Vector flow_boundary, flow_change, mechanical_boundary;  ///< as the operators take them
-  Vector force, source;                       ///< on every cell, integrated: body force (N/m) and fluid volume (m^2)
-  Vector old_fluid;                           ///< alpha div u + S p before the step, integrated over every cell (m^2)
+  Vector force, source;  ///< on every cell, integrated: body force (N/m) and fluid volume (m^2)
+  Vector old_fluid;      ///< alpha div u + S p before the step, integrated over every cell (m^2)
 
   explicit BiotStep(const Mesh& m)
       : mesh(m),
