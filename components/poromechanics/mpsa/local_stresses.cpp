@@ -16,6 +16,10 @@ namespace {
 /// Below this, relative to others, what a single subcell's own balance tells is left to its neighbour.
 constexpr double weak = 1e-3;
 
+/// Of what holds the rotations of neighbours together, relative to their shear modulus. Between an eighth and a half
+/// errors change little (docs/numerics/poromechanics.md); far below, rotations are loose.
+constexpr double rotation_strength = 0.25;
+
 /// target += factor * source, both of `count` values.
 inline void add_scaled(double* target, double factor, const double* source, int count) {
   for (int j = 0; j < count; ++j) target[j] += factor * source[j];
@@ -58,22 +62,26 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
     column_[k] =
         static_cast<int>(std::lower_bound(cells.begin(), cells.end(), region.subcells[k].cell) - cells.begin());
   subfaces_ = region.subface_count();
-  int outer = 0;
-  for (int f = 0; f < subfaces_; ++f) outer += !region.is_inner(f);
-  columns_ = 3 * cells_ + 2 * outer;
+  columns_ = 3 * cells_;
+  load_column_.assign(subfaces_, none);
+  for (int f = 0; f < subfaces_; ++f) {
+    if (conditions[region.faces[f]][0] == MechanicalCondition::none) continue;
+    load_column_[f] = columns_;
+    columns_ += 2;
+  }
   width_ = 2 * subfaces_ + columns_;
 
-  split_.resize(subcells_);
-  for (int k = 0; k < subcells_; ++k) split_[k] = split_stiffness(stiffness[region.subcells[k].cell]);
-  weigh_means(region, stiffness, 1);
+  stress_.resize(subcells_);
+  for (int k = 0; k < subcells_; ++k) stress_[k] = stress_map(stiffness[region.subcells[k].cell]);
+  find_jumps(region, stiffness, 0);
 
   assemble(region, conditions);
   const auto smallest_pivot = [&] { return eliminate(system_.data(), 2 * subfaces_, width_); };
   double pivot = smallest_pivot();
   if (subcells_ > 1 && pivot < 1e-6) {
-    // A stiff subcell among very soft ones, free to turn: it has to follow their mean gradient a little. The forces on
-    // it are theirs, and small.
-    weigh_means(region, stiffness, 0.9);
+    // A stiff subcell among very soft ones, free to turn: it has to turn with them a little. The forces on it are
+    // theirs, and small.
+    find_jumps(region, stiffness, 0.1);
     assemble(region, conditions);
     pivot = smallest_pivot();
   }
@@ -98,88 +106,87 @@ void LocalStresses::correct(const InteractionRegion& region, const TipCorrection
   for (int k = 0; k < subcells_; ++k) tip.of_volume_change(volumes_.data() + k * columns_, k);
 }
 
-void LocalStresses::weigh_means(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
-                                double most_own_share) {
-  const auto stiffness_of = [&](int k) -> const Stiffness& { return stiffness[region.subcells[k].cell]; };
-  bool is_even = true;
-  for (int k = 1; k < subcells_ && is_even; ++k) is_even = stiffness_of(k) == stiffness_of(0);
-  means_ = is_even ? 1 : subcells_;
-  share_.assign(means_ * subcells_, 0);
-  mean_weight_.assign(means_ * subfaces_, Point::Zero());
-  for (int m = 0; m < means_; ++m) {
-    double* share = share_.data() + m * subcells_;
-    double others = 0;
-    for (int k = 0; k < subcells_; ++k) {
-      const double ratio = stiffness_of(k)(2, 2) / stiffness_of(m)(2, 2);
-      share[k] = region.subcells[k].area * std::min(ratio * ratio, 1 / (ratio * ratio));
-      if (k != m) others += share[k];
-    }
-    double sum = share[m] + others;
-    if (!is_even && share[m] > most_own_share * sum) {
-      // The others together count for the rest, by their areas.
-      double area = 0;
-      for (int k = 0; k < subcells_; ++k) area += k == m ? 0 : region.subcells[k].area;
-      for (int k = 0; k < subcells_; ++k)
-        share[k] = k == m ? most_own_share : (1 - most_own_share) * region.subcells[k].area / area;
-      sum = 1;
-    }
-    for (int k = 0; k < subcells_; ++k) share[k] /= sum;
-    for (int k = 0; k < subcells_; ++k)
-      for (int i = 0; i < 2; ++i)
-        mean_weight_[m * subfaces_ + region.subcells[k].subfaces[i]] += share[k] * region.subcells[k].gradient[i];
+void LocalStresses::find_jumps(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
+                               double least_strength) {
+  jump_.resize(subfaces_);
+  for (int f = 0; f < subfaces_; ++f) {
+    if (!region.is_inner(f)) continue;
+    const auto [first, second] = region.neighbours[f];
+    const Subcell &one = region.subcells[first], &other = region.subcells[second];
+    jump_[f] = RotationJump::across(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
+    // The softer rock's: with more, what it misses of a field that is not linear would load the stiffer one.
+    const double strengths[2] = {one.area * shear_modulus(stiffness[one.cell]),
+                                 other.area * shear_modulus(stiffness[other.cell])};
+    const double both = 2 * strengths[0] * strengths[1] / (strengths[0] + strengths[1]);
+    for (int side = 0; side < 2; ++side)
+      jump_[f].strength[side] = rotation_strength * std::max(both, least_strength * strengths[side]);
   }
 }
 
 void LocalStresses::assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions) {
   system_.assign(2 * subfaces_ * width_, 0);
   const int u_columns = 2 * subfaces_, s_columns = u_columns + 2 * cells_;
-  int b_column = s_columns + cells_;
-  for (int f = 0; f < subfaces_; ++f) {
-    double* rows[2] = {system_.data() + 2 * f * width_, system_.data() + (2 * f + 1) * width_};
-    // The forces out of the neighbours add up to zero, or to the half of what is prescribed for the face.
-    ForceMap of_mean[2] = {ForceMap::Zero(), ForceMap::Zero()};
-    for (int side = 0; side < 2; ++side) {
-      const int k = region.neighbours[f][side];
-      if (k == none) continue;
-      const Subcell& subcell = region.subcells[k];
-      const Point& half_face = subcell.half_face[region.place(f, k)];
-      const ForceMap own = force_map(split_[k].own, half_face);
-      of_mean[means_ == 1 ? 0 : side] += force_map(split_[k].mean, half_face);
+  // A row: factor times the function of a subcell's gradient, that is weight · G. What stands at the columns of given
+  // values is on the other side of the equation.
+  const auto add_gradient = [&](double* row, int k, const GradientRow& weight) {
+    const Subcell& subcell = region.subcells[k];
+    for (int i = 0; i < 2; ++i)
+      for (int e = 0; e < 2; ++e) {
+        const double value = weight[2 * e] * subcell.gradient[i][0] + weight[2 * e + 1] * subcell.gradient[i][1];
+        row[2 * subcell.subfaces[i] + e] += value;
+        row[u_columns + 2 * column(k) + e] += value;
+      }
+  };
+  // The forces out of the neighbours add up to zero, or to the half of what is prescribed for the face.
+  for (int k = 0; k < subcells_; ++k) {
+    const Subcell& subcell = region.subcells[k];
+    for (int i = 0; i < 2; ++i) {
+      const Point& half_face = subcell.half_face[i];
+      const ForceMap own = force_map(stress_[k], half_face);
+      double* rows[2] = {system_.data() + 2 * subcell.subfaces[i] * width_,
+                         system_.data() + (2 * subcell.subfaces[i] + 1) * width_};
       for (int c = 0; c < 2; ++c) {
-        for (int i = 0; i < 2; ++i)
-          for (int e = 0; e < 2; ++e) {
-            const double weight = own(c, 2 * e) * subcell.gradient[i][0] + own(c, 2 * e + 1) * subcell.gradient[i][1];
-            rows[c][2 * subcell.subfaces[i] + e] += weight;
-            rows[c][u_columns + 2 * column(k) + e] += weight;
-          }
+        add_gradient(rows[c], k, own.row(c));
         rows[c][s_columns + column(k)] += half_face[c];
       }
-    }
-    // In an even medium the shares of the mean gradient cancel between the neighbours.
-    for (int side = 0; side < 2; ++side) {
-      if (of_mean[side].isZero(0)) continue;
-      const int m = mean_of(region.neighbours[f][side]);
-      for (int c = 0; c < 2; ++c)
-        for (int e = 0; e < 2; ++e) {
-          const Point weight(of_mean[side](c, 2 * e), of_mean[side](c, 2 * e + 1));
-          for (int g = 0; g < subfaces_; ++g) rows[c][2 * g + e] += weight.dot(mean_weight_[m * subfaces_ + g]);
-          for (int k = 0; k < subcells_; ++k) {
-            const Subcell& subcell = region.subcells[k];
-            rows[c][u_columns + 2 * column(k) + e] +=
-                share_[m * subcells_ + k] * weight.dot(subcell.gradient[0] + subcell.gradient[1]);
-          }
+      for (const int f : subcell.subfaces) {
+        if (!region.is_inner(f)) continue;
+        const RotationJump& jump = jump_[f];
+        const Point couple = couple_on(region, f, k, half_face);
+        const auto [first, second] = region.neighbours[f];
+        for (int c = 0; c < 2; ++c) {
+          add_gradient(rows[c], first, couple[c] * jump.of_gradient[0]);
+          add_gradient(rows[c], second, couple[c] * jump.of_gradient[1]);
+          rows[c][s_columns + column(first)] -= couple[c] * jump.of_stress;
+          rows[c][s_columns + column(second)] += couple[c] * jump.of_stress;
+          if (load_column_[f] != none)
+            for (int e = 0; e < 2; ++e) rows[c][u_columns + load_column_[f] + e] -= couple[c] * jump.of_load[e];
         }
-    }
-    if (region.is_inner(f)) continue;
-    for (int c = 0; c < 2; ++c, ++b_column) {
-      if (conditions[region.faces[f]][c] == MechanicalCondition::displacement) {
-        std::fill_n(rows[c], width_, 0.0);
-        rows[c][2 * f + c] = rows[c][b_column] = 1;
-      } else {
-        rows[c][b_column] = 0.5;
       }
     }
   }
+  for (int f = 0; f < subfaces_; ++f) {
+    if (load_column_[f] == none) continue;
+    for (int c = 0; c < 2; ++c) {
+      double* row = system_.data() + (2 * f + c) * width_;
+      const int b_column = u_columns + load_column_[f] + c;
+      if (conditions[region.faces[f]][c] == MechanicalCondition::displacement) {
+        std::fill_n(row, width_, 0.0);
+        row[2 * f + c] = row[b_column] = 1;
+      } else {
+        row[b_column] += 0.5;
+      }
+    }
+  }
+}
+
+Point LocalStresses::couple_on(const InteractionRegion& region, int subface, int subcell,
+                               const Point& half_face) const {
+  const int side = region.neighbours[subface][0] == subcell ? 0 : 1;
+  const GradientRow& stress = jump_[subface].of_gradient[side];
+  return jump_[subface].strength[side] / region.subcells[subcell].area *
+         Point(half_face[0] * stress[0] + half_face[1] * stress[1],
+               half_face[0] * stress[2] + half_face[1] * stress[3]);
 }
 
 void LocalStresses::solve_singular(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells) {
@@ -219,9 +226,8 @@ void LocalStresses::solve_singular(const Mesh& mesh, const InteractionRegion& re
 }
 
 void LocalStresses::find_gradients(const InteractionRegion& region) {
-  gradients_.assign(4 * (subcells_ + means_) * columns_, 0);
+  gradients_.assign(4 * subcells_ * columns_, 0);
   volumes_.assign(subcells_ * columns_, 0);
-  double* means = gradients_.data() + 4 * subcells_ * columns_;
   for (int k = 0; k < subcells_; ++k) {
     const Subcell& subcell = region.subcells[k];
     for (int c = 0; c < 2; ++c)
@@ -230,13 +236,25 @@ void LocalStresses::find_gradients(const InteractionRegion& region) {
         for (int i = 0; i < 2; ++i)
           add_scaled(gradient, subcell.gradient[i][d], displacement(subcell.subfaces[i], c), columns_);
         gradient[2 * column(k) + c] -= subcell.gradient[0][d] + subcell.gradient[1][d];
-        for (int m = 0; m < means_; ++m)
-          add_scaled(means + (4 * m + 2 * c + d) * columns_, share_[m * subcells_ + k], gradient, columns_);
       }
     const double* gradient = gradients_.data() + 4 * k * columns_;
     double* volume = volumes_.data() + k * columns_;
     add_scaled(volume, subcell.area, gradient, columns_);
     add_scaled(volume, subcell.area, gradient + 3 * columns_, columns_);
+  }
+  turns_.assign(subfaces_ * columns_, 0);
+  for (int f = 0; f < subfaces_; ++f) {
+    if (!region.is_inner(f)) continue;
+    const RotationJump& jump = jump_[f];
+    double* turn = turns_.data() + f * columns_;
+    for (int side = 0; side < 2; ++side) {
+      const int k = region.neighbours[f][side];
+      for (int e = 0; e < 4; ++e)
+        add_scaled(turn, jump.of_gradient[side][e], gradients_.data() + (4 * k + e) * columns_, columns_);
+      turn[stress_column() + column(k)] += side == 0 ? jump.of_stress : -jump.of_stress;
+    }
+    if (load_column_[f] != none)
+      for (int e = 0; e < 2; ++e) turn[load_column_[f] + e] += jump.of_load[e];
   }
 }
 
@@ -250,17 +268,19 @@ void LocalStresses::find_forces(const InteractionRegion& region, const std::vect
       side = trace(1) < trace(0) ? 1 : 0;
     }
     const int k = region.neighbours[f][side];
-    const Point half_face = (side == 0 ? 1.0 : -1.0) * region.subcells[k].half_face[region.place(f, k)];
-    const ForceMap own = force_map(split_[k].own, half_face), mean = force_map(split_[k].mean, half_face);
+    const Subcell& subcell = region.subcells[k];
+    const Point half_face = (side == 0 ? 1.0 : -1.0) * subcell.half_face[region.place(f, k)];
+    const ForceMap own = force_map(stress_[k], half_face);
     const double* gradient = gradients_.data() + 4 * k * columns_;
-    const double* mean_gradient = gradients_.data() + 4 * (subcells_ + mean_of(k)) * columns_;
     for (int c = 0; c < 2; ++c) {
       double* force = forces_.data() + (2 * f + c) * columns_;
-      for (int e = 0; e < 4; ++e) {
-        add_scaled(force, own(c, e), gradient + e * columns_, columns_);
-        add_scaled(force, mean(c, e), mean_gradient + e * columns_, columns_);
-      }
+      for (int e = 0; e < 4; ++e) add_scaled(force, own(c, e), gradient + e * columns_, columns_);
+      for (const int turning : subcell.subfaces)
+        if (region.is_inner(turning))
+          add_scaled(force, couple_on(region, turning, k, half_face)[c], turns_.data() + turning * columns_, columns_);
       force[stress_column() + column(k)] -= half_face[c];
+      // That of the first side, which bears with the second what loads the face.
+      if (side == 1 && load_column_[f] != none) force[load_column_[f] + c] += 0.5;
     }
   }
 }

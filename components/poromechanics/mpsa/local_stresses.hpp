@@ -21,18 +21,21 @@ using FaceConditions = std::array<MechanicalCondition, 2>;
 Adjacency local_cells(const Mesh& mesh, const std::vector<int>& tips);
 
 /// In every subcell the displacement is linear; displacements agree at the continuity points and forces, C : grad u - s
-/// I times the normal, agree on the subfaces. Coefficients are with respect to, in this order: the displacements of the
-/// local cells (x, y each), their isotropic stresses s, and the boundary values of the subfaces with one cell (x, y
-/// each; for whole faces). Nordbotten 2016, sec. 3; Keilegavlen and Nordbotten 2017, sec. 2.
+/// I times the normal, agree on the subfaces, or differ by the load on the face. Coefficients are with respect to, in
+/// this order: the displacements of the local cells (x, y each), their isotropic stresses s, and the boundary values of
+/// the subfaces with one cell or a load (x, y each; for whole faces). Nordbotten 2016, sec. 3.
 ///
-/// The mean gradient that a subcell uses (see SplitStiffness) weighs the others by area and by the square of the ratio
-/// of their shear moduli, the smaller over the larger. The published method weighs by area alone; then a soft
-/// neighbour's strain loads a stiff cell with its own large modulus: in sheared layers forces are wrong by a quarter of
-/// the contrast. With this weight they are exact up to 1 / contrast, and in even rock both are the same.
+/// A symmetric stress alone leaves subcells too free to turn. What holds their rotations together is an energy of a
+/// half strength rho^2 for each inner subface, where rho (see RotationJump) is the jump of the rotation without what
+/// two rocks in contact differ by. It is zero for displacements that are linear in each of two layers, whatever their
+/// stiffness, pressure and direction; nothing depends on the direction of the axes; and as each face turns its two
+/// subcells by opposite couples, the moments of the forces around a node are those of symmetric stresses. Keilegavlen
+/// and Nordbotten 2017 take the transposed gradient from its mean around the node, which such layers do not have in
+/// common.
 ///
 /// Near the tip of a crack the displacement is not linear but like sqrt(r): see TipCorrection.
 ///
-/// A region of a single subcell has no weak symmetry: its mean gradient is its own. A rotation of the subcell about its
+/// Nothing holds the rotation of a region of a single subcell. A rotation of the subcell about its
 /// centre then costs nothing unless a prescribed displacement stops it, and two rollers leave a mixture of shear and
 /// stretching free. Such freedom is used to continue the displacement of the cell across (of a quadrilateral: of both
 /// cells across, by least squares), which keeps the method exact for linear displacements; a cell that has no
@@ -60,22 +63,25 @@ class LocalStresses {
   const double* volume_change(int subcell) const { return volumes_.data() + subcell * columns_; }
 
  private:
-  void weigh_means(const InteractionRegion& region, const std::vector<Stiffness>& stiffness, double most_own_share);
+  void find_jumps(const InteractionRegion& region, const std::vector<Stiffness>& stiffness, double least_strength);
   void assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
   void solve_singular(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells);
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
 
-  int column(int subcell) const { return column_[subcell]; }
-  int mean_of(int subcell) const { return means_ == 1 ? 0 : subcell; }
+  /// The force on a half face of what a unit jump of rotations across a subface makes of the stress of a subcell.
+  Point couple_on(const InteractionRegion& region, int subface, int subcell, const Point& half_face) const;
 
-  int subcells_ = 0, cells_ = 0, means_ = 1, subfaces_ = 0, columns_ = 0, width_ = 0;
-  std::vector<int> column_;            ///< of the subcells: places of their cells among the local ones
-  std::vector<SplitStiffness> split_;  ///< of the subcells
-  std::vector<double> share_;          ///< of the subcells in every mean gradient
-  std::vector<Point> mean_weight_;     ///< of the subfaces in every mean: d<G>_cd / d displacement_c
-  std::vector<double> system_;         ///< the rows of [A B], then of [I A^-1 B]
-  std::vector<double> gradients_;      ///< four rows a subcell, and four a mean
+  int column(int subcell) const { return column_[subcell]; }
+
+  int subcells_ = 0, cells_ = 0, subfaces_ = 0, columns_ = 0, width_ = 0;
+  std::vector<int> column_;          ///< of the subcells: places of their cells among the local ones
+  std::vector<GradientMap> stress_;  ///< of the subcells
+  std::vector<RotationJump> jump_;   ///< of the subfaces; of inner ones only
+  std::vector<int> load_column_;     ///< of the subfaces: place of their boundary values, or none
+  std::vector<double> system_;       ///< the rows of [A B], then of [I A^-1 B]
+  std::vector<double> gradients_;    ///< four rows a subcell
+  std::vector<double> turns_;        ///< rho of the subfaces
   std::vector<double> forces_, volumes_;
 };
 

@@ -15,6 +15,10 @@ namespace sprekk::poromechanics {
 
 namespace {
 
+bool has_load(const FaceConditions& conditions) {
+  return conditions[0] == MechanicalCondition::load || conditions[1] == MechanicalCondition::load;
+}
+
 void check_arguments(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
                      const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes) {
   if (static_cast<int>(stiffness.size()) != mesh.cell_count())
@@ -23,43 +27,60 @@ void check_arguments(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
     throw std::invalid_argument("MPSA: one pair of conditions a face is needed");
   if (!nodes.empty() && static_cast<int>(nodes.size()) != mesh.node_count())
     throw std::invalid_argument("MPSA: one flag a node is needed, or none at all");
-  for (int face = 0; face < mesh.face_count(); ++face)
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    const bool is_loaded = has_load(conditions[face]);
+    if (is_loaded && conditions[face][0] != conditions[face][1])
+      throw std::invalid_argument("MPSA: face " + std::to_string(face) + " is loaded in one direction only");
     for (const MechanicalCondition condition : conditions[face])
-      if ((condition == MechanicalCondition::none) != (mesh.face_cells[face][1] != none))
+      if ((condition == MechanicalCondition::none || is_loaded) != (mesh.face_cells[face][1] != none))
         throw std::invalid_argument("MPSA: face " + std::to_string(face) +
                                     (condition == MechanicalCondition::none ? " has one cell and lacks a condition"
+                                     : is_loaded                            ? " has one cell and a load"
                                                                             : " has two cells and a condition"));
+  }
+}
+
+/// The faces at every node that have boundary values: those with one cell, or with a load.
+Adjacency faces_with_values(const Mesh& mesh, const std::vector<FaceConditions>& conditions) {
+  Adjacency faces;
+  faces.offsets.reserve(mesh.node_count() + 1);
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    for (const int face : mesh.node_faces[node])
+      if (conditions[face][0] != MechanicalCondition::none) faces.items.push_back(face);
+    faces.offsets.push_back(static_cast<int>(faces.items.size()));
+  }
+  return faces;
 }
 
 /// The three matrices of one quantity: by displacement, isotropic stress and boundary value.
 struct Coefficients {
-  NodeStencil cells, outer;
+  NodeStencil cells, valued;
   StencilMatrix displacement, stress, boundary;
 
-  Coefficients(const Mesh& mesh, const Adjacency& row_nodes, const Adjacency& node_cells, const Adjacency& outer_faces,
+  Coefficients(const Mesh& mesh, const Adjacency& row_nodes, const Adjacency& node_cells, const Adjacency& valued_faces,
                int components)
       : cells(row_nodes, node_cells),
-        outer(row_nodes, outer_faces),
+        valued(row_nodes, valued_faces),
         displacement(cells, components, mesh.cell_count(), 2),
         stress(cells, components, mesh.cell_count(), 1),
-        boundary(outer, components, mesh.face_count(), 2) {}
+        boundary(valued, components, mesh.face_count(), 2) {}
 
   void find_slots(int entity, int node) {
     cells.find_slots(entity, node, cell_slots_);
-    outer.find_slots(entity, node, outer_slots_);
+    valued.find_slots(entity, node, valued_slots_);
   }
   /// To be called for the entity and node that find_slots was called for last.
   void add(int entity, int component, const double* values, const LocalStresses& local, double factor) {
     displacement.add(entity, component, cell_slots_, values, factor);
     stress.add(entity, component, cell_slots_, values + local.stress_column(), factor);
-    boundary.add(entity, component, outer_slots_, values + local.boundary_column(), factor);
+    boundary.add(entity, component, valued_slots_, values + local.boundary_column(), factor);
   }
-  void add_boundary(int entity, int component, int outer_index, double value) {
-    boundary.add(entity, component, outer_slots_[outer_index], component, value);
+  void add_boundary(int entity, int component, int valued_index, double value) {
+    boundary.add(entity, component, valued_slots_[valued_index], component, value);
   }
 
  private:
-  std::vector<int> cell_slots_, outer_slots_;
+  std::vector<int> cell_slots_, valued_slots_;
 };
 
 /// The fields of all tips, for the nodes near them.
@@ -110,14 +131,14 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
   const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
   const auto any = [&](int, int node) { return is_wanted(node); };
   const std::vector<int> tips = tips_nearby(mesh);
-  const Adjacency node_cells = local_cells(mesh, tips), outer_faces = outer_faces_of_nodes(mesh);
-  Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, outer_faces, 2);
-  Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), node_cells, outer_faces, 1);
+  const Adjacency node_cells = local_cells(mesh, tips), valued_faces = faces_with_values(mesh, conditions);
+  Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, valued_faces, 2);
+  Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), node_cells, valued_faces, 1);
   Coefficients trace(
       mesh,
       contributing_nodes(mesh.face_nodes,
                          [&](int face, int node) { return mesh.face_cells[face][1] == none && is_wanted(node); }),
-      node_cells, outer_faces, 2);
+      node_cells, valued_faces, 2);
 
   InteractionRegion region;
   LocalStresses local;
@@ -136,19 +157,19 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
         if (region.is_inner(f) && fields.at(ends[ends[0] == node ? 1 : 0]) == tip) correction.add_moment(moments, f);
       }
     }
-    int outer_index = 0;
+    int valued_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {
       const int face = region.faces[f];
       force.find_slots(face, node);
       for (int c = 0; c < 2; ++c) {
         // What is prescribed holds to the last digit, whatever the local problem makes of it.
         if (conditions[face][c] == MechanicalCondition::traction)
-          force.add_boundary(face, c, outer_index, 0.5);
+          force.add_boundary(face, c, valued_index, 0.5);
         else
           force.add(face, c, local.force(f, c), local, 1);
       }
+      if (conditions[face][0] != MechanicalCondition::none) ++valued_index;
       if (region.is_inner(f)) continue;
-      ++outer_index;
       trace.find_slots(face, node);
       for (int c = 0; c < 2; ++c) trace.add(face, c, local.displacement(f, c), local, 0.5);
     }

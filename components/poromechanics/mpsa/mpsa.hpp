@@ -1,4 +1,4 @@
-// The multi-point stress approximation with weak symmetry (MPSA-W) on triangles and convex quadrilaterals, with the
+// The multi-point stress approximation with weakly held rotations on triangles and convex quadrilaterals, with the
 // Biot terms and the pressure stabilization that come from the same local problems.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace sprekk::poromechanics {
 
-enum class MechanicalCondition { none, displacement, traction };  ///< of one direction of a face; walls are `traction`
+/// Of one direction of a face. Walls are `traction`; `load`: of a face with two cells, in both directions.
+enum class MechanicalCondition { none, displacement, traction, load };
 
 /// Plane-strain stiffness in Voigt form: (xx, yy, xy) stress = C · (xx, yy, 2 xy) strain, Pa. Symmetric positive
 /// definite.
@@ -20,7 +21,8 @@ Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus);
 /// With displacements u (x, y of every cell, m), isotropic stress s (one a cell, Pa; sigma = C : grad u - s I, so s is
 /// the Biot coefficient times the pressure) and boundary values b (x, y of every face: displacement of the face centre
 /// (m) on `displacement` directions, the force on the face, i.e. the traction sigma·n integrated over it (N/m), n out
-/// of the rock, on `traction` directions, ignored inside), with 2 f + c the index of direction c of face f:
+/// of the rock, on `traction` directions; on `load` directions what both cells of the face bear together, the sum of
+/// their sigma·n, n out of each; ignored elsewhere), with 2 f + c the index of direction c of face f:
 ///   force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m): force_displacement u + force_stress s +
 ///   force_boundary b displacement at the centre of boundary and wall faces (m):               trace_displacement u +
 ///   trace_stress s + trace_boundary b volume change, div u integrated over every cell (m^2): volume_displacement u +
@@ -38,12 +40,10 @@ struct StressOperators {
   void swap(StressOperators& other);
 };
 
-/// `conditions`: [f][direction]. `nodes` as for MPFA. Exact for linear displacements with constant s, and for layers
-/// whose displacement is linear in each, on any mesh; where layers of another stiffness also shear
-/// differently, the relative error of the force next to the interface is of the order of the ratio of their
-/// stiffnesses. Keilegavlen and Nordbotten 2017 (weak symmetry; the weights of the mean differ, see LocalStresses);
-/// Nordbotten 2016 (Biot terms and stabilization). Throws std::invalid_argument for arguments that do not fit the mesh
-/// and std::runtime_error for a stiffness that is not positive definite.
+/// `conditions`: [f][direction]. `nodes` as for MPFA. Exact for linear displacements with constant s, and for two
+/// layers that each have a linear displacement, stress s and stiffness of their own, in any direction, on any mesh: see
+/// LocalStresses. Nordbotten 2016 (Biot terms and stabilization). Throws std::invalid_argument for arguments that do
+/// not fit the mesh and std::runtime_error for a stiffness that is not positive definite.
 StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
                                 const std::vector<std::array<MechanicalCondition, 2>>& conditions,
                                 const std::vector<char>& nodes = {});

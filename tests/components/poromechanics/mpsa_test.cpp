@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
+#include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "tests/components/meshes.hpp"
 
@@ -44,14 +48,14 @@ Comparison compare(const Mesh& mesh, const std::vector<Stiffness>& stiffness, co
                    const Function& displacement, const std::function<Tensor(int)>& gradient,
                    const std::function<double(int)>& isotropic_stress) {
   const auto operators = discretize_mpsa(mesh, stiffness, conditions);
-  const auto force = [&](int f) -> Point {
-    const int c = mesh.face_cells[f][0];
+  const auto force_of = [&](int f, int c) -> Point {
     const Tensor g = gradient(c);
     const Eigen::Vector3d sigma = stiffness[c] * Eigen::Vector3d(g(0, 0), g(1, 1), g(0, 1) + g(1, 0));
     const Point n = test::face_vector(mesh, f);
     return {sigma[0] * n[0] + sigma[2] * n[1] - isotropic_stress(c) * n[0],
             sigma[2] * n[0] + sigma[1] * n[1] - isotropic_stress(c) * n[1]};
   };
+  const auto force = [&](int f) { return force_of(f, mesh.face_cells[f][0]); };
   Vector u(2 * mesh.cell_count()), s(mesh.cell_count()), b = Vector::Zero(2 * mesh.face_count());
   for (int c = 0; c < mesh.cell_count(); ++c) {
     u.segment<2>(2 * c) = displacement(mesh.cell_center[c]);
@@ -61,6 +65,8 @@ Comparison compare(const Mesh& mesh, const std::vector<Stiffness>& stiffness, co
     for (int d = 0; d < 2; ++d) {
       if (conditions[f][d] == MechanicalCondition::displacement) b[2 * f + d] = displacement(mesh.face_center[f])[d];
       if (conditions[f][d] == MechanicalCondition::traction) b[2 * f + d] = force(f)[d];
+      if (conditions[f][d] == MechanicalCondition::load)
+        b[2 * f + d] = force(f)[d] - force_of(f, mesh.face_cells[f][1])[d];
     }
   const Vector forces = operators.force_displacement * u + operators.force_stress * s + operators.force_boundary * b;
   const Vector traces = operators.trace_displacement * u + operators.trace_stress * s + operators.trace_boundary * b;
@@ -201,6 +207,105 @@ TEST(Mpsa, ShearedLayersKeepTheirStrains) {
   EXPECT_LT(errors.force, 1 / contrast);
   EXPECT_LT(errors.trace, 1e-12);
   EXPECT_LT(errors.volume, 1e-13);
+}
+
+/// Two layers in contact along a line through the middle of the unit square, each with a uniform gradient, stress s and
+/// stiffness of its own, and a load on the line.
+struct Layers {
+  Point along, across;
+  Stiffness stiffness[2];
+  Tensor gradient[2];
+  double isotropic_stress[2] = {0.3, -0.9};
+  bool is_loaded = false;
+
+  Point middle() const { return {0.5, 0.5}; }
+  int at(const Point& x) const { return across.dot(x - middle()) < 0 ? 0 : 1; }
+  Point displacement(const Point& x) const { return Point(0.1, -0.2) + gradient[at(x)] * (x - middle()); }
+
+  /// The gradient on one side is given; on the other it differs by a ⊗ n, so that the tractions agree, or differ by
+  /// `load`.
+  Layers(double angle, const Stiffness& lower, const Stiffness& upper, const Point& load)
+      : along(std::cos(angle), std::sin(angle)), across(-along[1], along[0]), stiffness{lower, upper} {
+    is_loaded = !load.isZero(0);
+    const bool is_upper_stiff = upper.trace() > lower.trace();
+    const int given = is_upper_stiff ? 0 : 1, found = 1 - given;
+    gradient[given] = linear_gradient;
+    const double jump = isotropic_stress[found] - isotropic_stress[given];
+    // traction(found) − traction(given) on the normal `across` = ± load
+    const Point missing = traction(stiffness[given], linear_gradient) - traction(stiffness[found], linear_gradient) +
+                          jump * across + (found == 1 ? -1 : 1) * load;
+    Tensor acoustic;
+    for (int i = 0; i < 2; ++i) acoustic.col(i) = traction(stiffness[found], Point::Unit(i) * across.transpose());
+    gradient[found] = linear_gradient + acoustic.inverse() * missing * across.transpose();
+  }
+  Point traction(const Stiffness& c, const Tensor& g) const {
+    const Eigen::Vector3d sigma = c * Eigen::Vector3d(g(0, 0), g(1, 1), g(0, 1) + g(1, 0));
+    return {sigma[0] * across[0] + sigma[2] * across[1], sigma[2] * across[0] + sigma[1] * across[1]};
+  }
+
+  Mesh mesh(const MeshOptions& options) const {
+    Geometry geometry = test::box(1, 1);
+    // The square below the line: its corners, and where the line leaves it.
+    RegionGeometry lower;
+    lower.name = "lower";
+    const std::vector<Point> corners = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int i = 0; i < 4; ++i) {
+      const Point &a = corners[i], &b = corners[(i + 1) % 4];
+      const double from = across.dot(a - middle()), to = across.dot(b - middle());
+      if (from < 0) lower.polygon.push_back(a);
+      if (from * to < 0) lower.polygon.push_back(a + from / (from - to) * (b - a));
+    }
+    geometry.regions = {lower};
+    return generate_mesh(geometry, options);
+  }
+
+  Comparison compare_on(const Mesh& mesh) const {
+    const auto of_cell = [&](int c) { return at(mesh.cell_center[c]); };
+    std::vector<Stiffness> rock;
+    for (int c = 0; c < mesh.cell_count(); ++c) rock.push_back(stiffness[of_cell(c)]);
+    Conditions conditions = mixed_conditions(mesh);
+    if (is_loaded)
+      for (int f = 0; f < mesh.face_count(); ++f)
+        if (!is_outer(mesh, f) && of_cell(mesh.face_cells[f][0]) != of_cell(mesh.face_cells[f][1]))
+          conditions[f] = {MechanicalCondition::load, MechanicalCondition::load};
+    return compare(
+        mesh, rock, conditions, [&](const Point& x) { return displacement(x); },
+        [&](int c) { return gradient[of_cell(c)]; }, [&](int c) { return isotropic_stress[of_cell(c)]; });
+  }
+};
+
+constexpr double layer_angles[] = {0, 1e-6, 0.3, 0.7, 1.1, std::numbers::pi / 2, 2.2};
+
+/// s alone jumps: the gradient does by a multiple of n ⊗ n.
+TEST(MpsaInclinedLayers, AJumpOfPressureIsExact) {
+  for (const double angle : layer_angles)
+    for (const Stiffness& c : {isotropic_stiffness(1.4, 0.8), anisotropic_stiffness()}) {
+      const Layers layers(angle, c, c, Point::Zero());
+      for (const MeshOptions& options : {test::unstructured(0.12, 0.3), test::mixed(0.12, 0.2)}) {
+        const Comparison errors = layers.compare_on(layers.mesh(options));
+        EXPECT_LT(errors.force, 1e-12) << angle;
+        EXPECT_LT(errors.trace, 1e-12) << angle;
+        EXPECT_LT(errors.volume, 1e-13) << angle;
+      }
+    }
+}
+
+/// Layers are sheared, stretched and turned, s jumps, and there is a load on the line between them.
+TEST(MpsaInclinedLayers, AnyContrastIsExact) {
+  for (const double angle : layer_angles)
+    for (const double contrast : {1 + 1e-9, 0.5, 3.0, 1e-3, 1e4, 1e10})
+      for (const Point& load : {Point(0, 0), Point(0.4, -0.7)})
+        for (const Stiffness& c : {isotropic_stiffness(0.2, 0.9), anisotropic_stiffness()}) {
+          const Layers layers(angle, isotropic_stiffness(1.4, 0.8), contrast * c, load);
+          for (const MeshOptions& options : {test::unstructured(0.25, 0.3), test::mixed(0.25, 0.2)}) {
+            const Comparison errors = layers.compare_on(layers.mesh(options));
+            // Against what the stress along the layers is made of.
+            const double softest = std::max(1.0, 1 / contrast), stiffest = std::max(1.0, contrast);
+            EXPECT_LT(errors.force, 1e-12 * stiffest) << "angle " << angle << ", contrast " << contrast;
+            EXPECT_LT(errors.trace, 1e-12 * softest) << "angle " << angle << ", contrast " << contrast;
+            EXPECT_LT(errors.volume, 1e-12 * softest) << "angle " << angle << ", contrast " << contrast;
+          }
+        }
 }
 
 /// A soft surrounding leaves a stiff triangle free to turn; forces and displacements stay of the size of their causes.
