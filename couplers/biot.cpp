@@ -79,9 +79,14 @@ class Biot : public Coupler {
       assembly.add(pressure, grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()));
       assembly.compare_round_off(pressure, grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
       assembly.derivative(pressure, pressure, grains_);
+      assembly.turn_over(pressure, grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()));
     }
     assembly.linear(pressure, rock_.volume_change(), 1, &alpha_.values());
     assembly.add(pressure, -alpha_.values().cwiseProduct(counted_volume_.accepted()));
+    Vector change = rock_.volume_change().constant - counted_volume_.accepted();
+    for (const LinearExpression::Term& term : rock_.volume_change().terms)
+      change += assembly.product(term.matrix, *term.field);
+    assembly.turn_over(pressure, alpha_.values().cwiseProduct(change));
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime&) override {

@@ -5,6 +5,7 @@
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
+#include "framework/field/ownership.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -65,6 +66,7 @@ class WallExchange : public Coupler {
           const double resistance = term.matrix.entries().coeff(w, w);
           if (resistance > 0) matrix_conductance_[w] = 1 / resistance;
         }
+    replicate(mesh_, Location::wall, 1, matrix_conductance_);
   }
 
   void assemble(Assembly& assembly, const StepTime& step) const override {
@@ -72,7 +74,9 @@ class WallExchange : public Coupler {
     const Field& pressure = fracture_.pressure();
     if (assembly.has_row(pressure)) {
       const Vector& received = assembly.has_row(flux) ? exchanged_.accepted() : exchanged_.now();
-      assembly.add(pressure, of_both_walls_ * (received - counted_.accepted()));
+      const Vector uncounted = of_both_walls_ * (received - counted_.accepted());
+      assembly.add(pressure, uncounted);
+      assembly.turn_over(pressure, uncounted);
       if (assembly.has_row(flux)) assembly.linear(pressure, inflow_, flux, step.dt);
     }
     if (!assembly.has_row(flux)) return;

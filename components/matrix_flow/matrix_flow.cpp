@@ -349,8 +349,12 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
                                          step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * largest_before);
+  assembly.turn_over(pressure_, capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()));
+  assembly.turn_over(pressure_, step.dt * flows.leaving);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
-  if (!source_.isZero(0)) assembly.add(pressure_, -step.dt * source_);
+  if (source_.isZero(0)) return;
+  assembly.add(pressure_, -step.dt * source_);
+  assembly.turn_over(pressure_, step.dt * source_);
 }
 
 void MatrixFlow::forget_flow() {

@@ -273,6 +273,7 @@ Vector Rock::outer_displacement() const {
   Vector displacement = operators_.trace_displacement * displacement_.now() + operators_.trace_boundary * values;
   for (const Load& load : loads_)
     displacement += operators_.trace_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  replicate(mesh_, Location::face, 2, displacement);
   return displacement;
 }
 

@@ -8,6 +8,7 @@
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "couplers/two_level/along_fracture.hpp"
 #include "couplers/two_level/nodal_values.hpp"
+#include "framework/field/ownership.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -64,6 +65,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
     pore_stress_.set(1, rock_.pore_stress(), {});
     traction_ = walls_.wall_traction().now();
     jump_ = is_cell_centred() ? jump_between_cells() : walls_.displacement_jump().now();
+    replicate(mesh_, Location::fracture_cell, 2, jump_);
   }
 
   std::uint64_t version() const override {

@@ -29,12 +29,17 @@ void Assembly::conserve(const Field& row, const std::string& quantity) {
   if (found == index_.end()) return;
   const int i = found->second;
   if (sums_[i].residual.size() > 0) throw std::logic_error(row.name() + " is conserved: this was said twice");
-  sums_[i].residual = Vector::Zero(row.size());
+  sums_[i].residual = sums_[i].turnover = Vector::Zero(row.size());
   sums_[i].add(residuals_[i]);
   auto conserved = std::find_if(conserved_.begin(), conserved_.end(),
                                 [&](const Conserved& one) { return one.quantity == quantity; });
   if (conserved == conserved_.end()) conserved = conserved_.insert(conserved_.end(), {quantity, {}});
   conserved->rows.push_back(i);
+}
+
+void Assembly::turn_over(const Field& row, const Vector& amounts) {
+  const auto found = index_.find(&row);
+  if (found != index_.end()) sums_[found->second].turnover += amounts.cwiseAbs();
 }
 
 void Assembly::add(const Field& row, const Vector& values) { exchange(row, values, values); }

@@ -32,6 +32,10 @@ class Assembly {
   /// The rows are balances of a quantity. With those of other fields that say the same, in the same unit, they may be
   /// added up; then only what leaves all of them stays of exchanges.
   void conserve(const Field& row, const std::string& quantity);
+  /// What balances turn over in the step: what each row stores, what is brought in, what leaves all rows of the
+  /// quantity; the sign does not matter. Errors of the balances are to be small against its sum, and not only against
+  /// what rows exchange, which may be any multiple of it.
+  void turn_over(const Field& row, const Vector& amounts);
   /// Something else that the residual is to be small against, in the units of the equation.
   void compare_with(const Field& row, double magnitude);
   /// A bound of the numbers whose differences make up the residual: they leave round-off of their own size in it.
@@ -102,10 +106,13 @@ class Assembly {
   const Vector& in_sum(int unknown) const { return sums_[unknown].residual; }
   double magnitude_of_sum(int unknown) const { return sums_[unknown].magnitude; }
   double round_off_base_of_sum(int unknown) const { return sums_[unknown].round_off_base; }
+  /// Of each row, not negative; as wrong as a residual where the row is another process's.
+  const Vector& turnover(int unknown) const { return sums_[unknown].turnover; }
 
  private:
   struct InSum {
     Vector residual;  ///< empty where nothing is conserved
+    Vector turnover;
     double magnitude = 0, round_off_base = 0;
     void add(const Vector& values);
   };

@@ -200,13 +200,19 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
   return summed_.empty() ? system_ : with_sums_;
 }
 
+void BlockSystem::use_answered_sums(bool wanted) {
+  if (uses_answered_sums_ == wanted) return;
+  uses_answered_sums_ = wanted;
+  system_.number = 0;  // the last matrix is not what the next is to be, though its blocks may be the same
+}
+
 void BlockSystem::sum_balances(const Assembly& assembly) {
   summed_.clear();
   if (!uses_sums_) return;
   std::map<int, SumRow> rows;  // by their place
   std::vector<int> sums;
   for (const Assembly::Conserved& conserved : assembly.conserved()) {
-    if (!is_weak(assembly, conserved)) continue;
+    if (!puts_sum_for(assembly, conserved)) continue;
     SumRow sum = sum_of_rows(assembly, conserved, owned_, first_);
     if (sum.columns.empty()) continue;  // a level that nothing holds, as the solver will find
     const int row = row_to_replace(assembly, conserved, owned_, first_);

@@ -30,10 +30,19 @@ class BlockSystem {
   /// (is_weak). Direct solvers only: the row of a sum is no elliptic one.
   void use_sums(bool wanted) { uses_sums_ = wanted; }
   bool uses_sums() const { return uses_sums_; }
+  /// Also where other unknowns of a bulk answer to the level. Costs a row that feels all of them.
+  void use_answered_sums(bool wanted);
+  bool uses_answered_sums() const { return uses_answered_sums_; }
+  /// Whether the sum of these balances takes the place of one of them.
+  bool puts_sum_for(const Assembly& assembly, const Assembly::Conserved& conserved) const {
+    return uses_sums_ && is_weak(assembly, conserved, uses_answered_sums_);
+  }
   /// Of all processes: the sum of the residuals of conserved rows, without round-off of what is exchanged.
   double residual_of_sum(const Assembly& assembly, int unknown) const {
     return sum_of_residuals(assembly, unknown, owned_[unknown]);
   }
+  /// Of every row of an unknown: whether it is this process's.
+  const std::vector<char>& owned(int unknown) const { return owned_[unknown]; }
   /// The balances of which one row of the last matrix is the sum, and its place among the owned rows, -1 where another
   /// process has it.
   struct Summed {
@@ -72,7 +81,7 @@ class BlockSystem {
   int size_ = 0;
   std::vector<std::vector<char>> owned_;  ///< [unknown][row of the field]
   LinearSystem system_;
-  bool uses_sums_ = false;
+  bool uses_sums_ = false, uses_answered_sums_ = false;
   std::vector<Summed> summed_;
   LinearSystem with_sums_;                       ///< instead of system_, where there are any
   std::vector<int> destinations_;                ///< of every kept entry of every block, in order

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "framework/parallel/parallel.hpp"
@@ -31,7 +32,7 @@ void for_entries(const Assembly::Block& block, const SparseMatrix& entries, cons
 
 }  // namespace
 
-bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved) {
+bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved, bool also_answered) {
   constexpr double weak = 1e-6;
   for (const Assembly::Fixed& fixed : assembly.fixed())
     if (has(conserved, fixed.unknown)) return false;
@@ -47,7 +48,7 @@ bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved) {
           is_answered || std::any_of(values, values + block.matrix->nonZeros(), [](double v) { return v != 0; });
     }
   }
-  if (parallel::any(is_answered)) return false;
+  if (!also_answered && parallel::any(is_answered)) return false;
   exchanged = parallel::max(exchanged);
   if (exchanged == 0) return false;
   double held = 0;
@@ -70,13 +71,21 @@ SumRow sum_of_rows(const Assembly& assembly, const Assembly::Conserved& conserve
       });
   columns = parallel::gather(columns);
   values = parallel::gather(values);
-  std::map<int, double> total;
-  for (std::size_t k = 0; k < columns.size(); ++k) total[columns[k]] += values[k];
+  struct Total {
+    double value = 0, size = 0;
+  };
+  std::map<int, Total> totals;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    Total& total = totals[columns[k]];
+    total.value += values[k];
+    total.size += std::abs(values[k]);
+  }
+  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
   SumRow sum;
-  for (const auto& [column, value] : total) {
-    if (value == 0) continue;
+  for (const auto& [column, total] : totals) {
+    if (std::abs(total.value) <= round_off * total.size) continue;  // what cancels is no entry
     sum.columns.push_back(column);
-    sum.values.push_back(value);
+    sum.values.push_back(total.value);
   }
   return sum;
 }

@@ -8,10 +8,10 @@
 namespace sprekk {
 
 /// Whether little holds the level of what balances exchange: less than 1e-6 of the exchange itself. Their rows, whose
-/// entries are rounded, then have lost it, and their sum has not. Not where other unknowns of a bulk answer to the
-/// level: how much they hold is known with the solution only; nor where values are fixed in place of balances.
-/// Collective; needs the derivatives.
-bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved);
+/// entries are rounded, then have lost it, and their sum has not. Where other unknowns of a bulk answer to the level,
+/// how much they hold is known with the solution only: there `also_answered` decides, which who has seen the level lost
+/// sets. Never where values are fixed in place of balances. Collective; needs the derivatives.
+bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved, bool also_answered = false);
 
 /// The sum of all rows of the derivatives.
 struct SumRow {

@@ -14,6 +14,8 @@ int entity_rank(const Mesh& mesh, Location location, int entity) {
       return mesh.fracture_cell_rank(mesh.fracture_points[entity].cells[0]);
     case Location::wall:
       return mesh.fracture_cell_rank(entity / 2);
+    case Location::face:
+      return mesh.cell_rank[mesh.face_cells[entity][0]];
     default:
       return 0;
   }

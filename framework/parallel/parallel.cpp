@@ -2,6 +2,8 @@
 
 #include <mpi.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
@@ -49,6 +51,9 @@ void start_mpi() {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     setenv("OMPI_MCA_pml", "ob1", 0);
     setenv("OMPI_MCA_mpi_yield_when_idle", "0", 1);
+    // Nor does it need a folder for them in the one that all runs of a user share, and remove under one another.
+    setenv("OMPI_MCA_btl", "self", 0);
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   }
   MPI_Init(nullptr, nullptr);
   std::atexit(finalize_at_exit);
@@ -96,6 +101,18 @@ void max(Vector& values) {
 
 std::vector<int> gather(const std::vector<int>& mine) { return gather_values(mine, MPI_INT); }
 std::vector<double> gather(const std::vector<double>& mine) { return gather_values(mine, MPI_DOUBLE); }
+
+bool is_same_everywhere(const std::vector<double>& values) {
+  if (!several()) return true;
+  std::vector<double> first = values;
+  unsigned long long count = values.size();
+  MPI_Bcast(&count, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
+  first.resize(count);
+  MPI_Bcast(first.data(), static_cast<int>(count), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  const bool is_same = std::equal(values.begin(), values.end(), first.begin(), first.end(),
+                                  [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
+  return !any(!is_same);
+}
 
 void barrier() {
   if (several()) MPI_Barrier(MPI_COMM_WORLD);

@@ -21,6 +21,8 @@ void max(Vector& values);  ///< entrywise over all ranks
 /// What every rank gives, one after the other in order of rank. Lengths may differ.
 std::vector<int> gather(const std::vector<int>& mine);
 std::vector<double> gather(const std::vector<double>& mine);
+/// Whether all ranks give the same numbers, to the bit or both not a number. Collective.
+bool is_same_everywhere(const std::vector<double>& values);
 void barrier();
 void start_mpi();  ///< idempotent; solvers that always need MPI call it
 /// Ends every process of the run after an error on one of them.

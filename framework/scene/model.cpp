@@ -1,6 +1,7 @@
 #include "framework/scene/model.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/partition.hpp"
@@ -96,9 +97,23 @@ void Model::check_levels() const {
   levels.require_held();
 }
 
+namespace {
+
+/// What a run decides by must be the same on all of its processes. Where somebody took for whole what only the owner of
+/// an entity has, processes would go on with different steps: a wrong answer, or none.
+void require_agreement(const std::string& what, const std::vector<double>& values) {
+  if (!parallel::is_same_everywhere(values))
+    throw std::logic_error("processes differ in " + what + " (a value that its owner only has was taken for whole)");
+}
+
+}  // namespace
+
 StepStatus Model::attempt(const StepTime& step) {
   begin_step(parts_, step);
-  return schedule_->run(step);
+  const StepStatus status = schedule_->run(step);
+  require_agreement("how a step ended",
+                    {step.start, step.dt, status.converged ? 1.0 : 0.0, status.retry_dt, double(status.iterations)});
+  return status;
 }
 
 void Model::accept() {
@@ -143,6 +158,7 @@ std::vector<Quantity> Model::quantities() const {
     if (!balance.is_closed) continue;
     quantities.push_back({name + "_balance_error", balance.unit, balance.stored + balance.outflow - balance.injected});
   }
+  for (const Quantity& quantity : quantities) require_agreement(quantity.name, {quantity.value});
   return quantities;
 }
 

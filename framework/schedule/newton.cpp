@@ -76,7 +76,7 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
   Vector right = -system_.residual(*assembly_);
   const std::vector<int>& rows = system_.rows();
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    if (!check.is_round_off[u]) continue;
+    if (!check.is_round_off[u] || check.is_unbalanced[u]) continue;
     const int first = system_.first(static_cast<int>(u)), end = first + unknowns_[u]->size();
     const auto begin = std::lower_bound(rows.begin(), rows.end(), first);
     right.segment(begin - rows.begin(), std::lower_bound(begin, rows.end(), end) - begin).setZero();
@@ -84,7 +84,8 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
   for (const BlockSystem::Summed& summed : system_.summed()) {
     double total = 0;
     for (const int u : summed.conserved.rows)
-      if (!check.is_round_off[u] || !check.is_round_off_in_sum[u]) total += system_.residual_of_sum(*assembly_, u);
+      if (!check.is_round_off[u] || !check.is_round_off_in_sum[u] || check.is_unbalanced[u])
+        total += system_.residual_of_sum(*assembly_, u);
     if (summed.place >= 0) right[summed.place] = -total;
   }
   return right;
@@ -170,6 +171,7 @@ ResidualCheck Newton::look(const StepTime& step) {
 StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilization) {
   stabilization_ = &stabilization;
   products_.forget_unused();
+  system_.use_answered_sums(false);
   start_.clear();
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
   const std::vector<Vector> start = values();
@@ -193,7 +195,8 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
     restart();
     StepStatus path = follow_path(step, look);
     status.iterations += path.iterations;
-    if (path.converged && look == Look::in_linear_pieces) {  // and now with the coefficients that belong to it
+    // And now with the coefficients that belong to it, and with balances that hold.
+    if (path.converged) {
       path = attempt(step, options_.undamped);
       status.iterations += path.iterations;
     }
@@ -208,13 +211,24 @@ StepStatus Newton::attempt(const StepTime& step, int undamped) {
   std::multiset<std::uint64_t> seen_states;
   std::uint64_t last_state = 0;
   bool factored = false, cycling = false;
-  double length = 1;
+  double length = 1, last_imbalance = std::numeric_limits<double>::infinity();
   ResidualCheck check = look(step);
   recent_ = {check};
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1});
   for (int iteration = 0;; ++iteration) {
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
-    if (check.converged) {
+    bool holds = check.converged;
+    if (check.rows_hold && !check.balances_hold && factored) {
+      // What another iteration does not improve is lost in the matrix. Sums of balances may have it; what they do not
+      // give is as much as round-off allows.
+      const bool stalls = check.imbalance > 0.5 * last_imbalance;
+      last_imbalance = check.imbalance;
+      if (stalls && system_.uses_sums() && !system_.uses_answered_sums())
+        system_.use_answered_sums(true);
+      else
+        holds = stalls;
+    }
+    if (holds) {
       const std::vector<char> settled = is_settled(check);
       const bool is_exact = std::all_of(settled.begin(), settled.end(), [](char c) { return c; });
       if (!factored || is_exact) return {true, "", iteration};

@@ -79,7 +79,7 @@ void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
 }
 
 bool Newton::is_solution(const ResidualCheck& check) {
-  if (!check.converged) return false;
+  if (!check.rows_hold) return false;
   Vector next;
   const LinearReport report = linear_->solve(right_hand_side(check), next);
   return report.solved && relative_size(next, check) <= options_.update;

@@ -21,12 +21,12 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   check.magnitudes.resize(2 * unknowns, 0);
   check.fixed_errors.resize(2 * unknowns, 0);
   for (const Assembly::Conserved& conserved : assembly.conserved()) {
-    if (!system.uses_sums() || !is_weak(assembly, conserved)) continue;
+    if (!system.puts_sum_for(assembly, conserved)) continue;
     for (const int u : conserved.rows) {
       const double value = std::abs(system.residual_of_sum(assembly, u));
       const double magnitude = parallel::max(assembly.magnitude_of_sum(u));
       const double noise = round_off * parallel::max(assembly.round_off_base_of_sum(u));
-      if (value > tolerance * magnitude + noise) check.converged = false;
+      if (value > tolerance * magnitude + noise) check.rows_hold = false;
       check.magnitudes[unknowns + u] = magnitude;
       if (value <= noise) continue;
       check.is_round_off_in_sum[u] = 0;
@@ -38,11 +38,49 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   }
 }
 
+/// Whether what is conserved is there in the end.
+void check_balances(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
+  constexpr double looser = 100;
+  check.is_unbalanced.assign(assembly.unknowns().size(), 0);
+  for (const Assembly::Conserved& conserved : assembly.conserved()) {
+    if (std::ranges::any_of(assembly.fixed(), [&](const Assembly::Fixed& fixed) {
+          return std::ranges::find(conserved.rows, fixed.unknown) != conserved.rows.end();
+        }))
+      continue;
+    enum { rows, total, turnover, noise_of_total, count };
+    Vector sums = Vector::Zero(count);
+    for (const int u : conserved.rows) {
+      const std::vector<char>& owned = system.owned(u);
+      const double noise = round_off * parallel::max(assembly.round_off_base(u));
+      const Vector &residual = assembly.residual(u), &in_sum = assembly.in_sum(u), &amounts = assembly.turnover(u);
+      for (int row = 0; row < residual.size(); ++row) {
+        if (!owned[row]) continue;
+        sums[rows] += std::max(0.0, std::abs(residual[row]) - noise);
+        sums[total] += in_sum[row];
+        sums[turnover] += amounts[row];
+      }
+      sums[noise_of_total] += round_off * assembly.round_off_base_of_sum(u);
+    }
+    parallel::sum(sums);
+    if (sums[turnover] == 0) continue;
+    const double error = std::max(sums[rows], std::abs(sums[total]) - sums[noise_of_total]);
+    if (error <= looser * tolerance * sums[turnover]) continue;
+    check.balances_hold = false;
+    for (const int u : conserved.rows) check.is_unbalanced[u] = 1;
+    const double relative = error / sums[turnover];
+    if (relative <= check.imbalance) continue;
+    check.imbalance = relative;
+    if (!check.rows_hold) continue;  // else the row that is worst tells more
+    check.largest = relative;
+    check.equation = "the balance of " + conserved.quantity;
+  }
+}
+
 }  // namespace
 
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance) {
   ResidualCheck check;
-  check.converged = true;
+  check.rows_hold = true;
   const Vector owned = system.residual(assembly);
   const std::vector<int>& rows = system.rows();
   std::size_t next = 0;
@@ -81,12 +119,12 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
     squares = parallel::sum(squares);
     count = std::max(1.0, parallel::sum(count));
     if (!std::isfinite(largest) || !std::isfinite(magnitude)) {
-      check.finite = check.converged = false;
+      check.finite = check.rows_hold = false;
       check.equation = assembly.unknowns()[u]->name();
       check.largest = std::numeric_limits<double>::infinity();
       return check;
     }
-    if (largest > tolerance * magnitude + noise || fixed_error > tolerance) check.converged = false;
+    if (largest > tolerance * magnitude + noise || fixed_error > tolerance) check.rows_hold = false;
     const bool is_round_off = largest <= noise || magnitude == 0;
     check.is_round_off.push_back(is_round_off && fixed_error <= tolerance);
     double relative = fixed_error;
@@ -100,6 +138,8 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
     }
   }
   check_sums(assembly, system, tolerance, check);
+  check_balances(assembly, system, tolerance, check);
+  check.converged = check.rows_hold && check.balances_hold;
   return check;
 }
 

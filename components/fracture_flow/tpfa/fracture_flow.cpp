@@ -197,6 +197,8 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.diagonal(pressure_, pressure_, capacity);
   assembly.diagonal(pressure_, aperture_, stored_by_aperture);
   assembly.add(pressure_, -step.dt * source_);
+  assembly.turn_over(pressure_, stored);
+  assembly.turn_over(pressure_, step.dt * source_);
 
   std::vector<Triplet> outflow;
   Vector leaving = Vector::Zero(count);
@@ -210,6 +212,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   SparseMatrix divergence(count, flux_.size());
   divergence.setFromTriplets(outflow.begin(), outflow.end());
   assembly.exchange(pressure_, divergence * flux_.now(), leaving);
+  assembly.turn_over(pressure_, leaving);
   // In a steady flow nothing else is left than what fluxes leave of one another.
   assembly.compare_round_off_of_exchange(pressure_, step.dt * flux_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, flux_, std::move(divergence));

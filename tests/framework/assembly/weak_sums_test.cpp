@@ -114,6 +114,11 @@ TEST_F(Ring, IsWeakWhereOnlyLittleHoldsTheLevel) {
   is_fixed = false;
   is_answered = true;
   EXPECT_FALSE(is_weak_now());
+  const auto answered = assemble();
+  EXPECT_TRUE(is_weak(*answered, answered->conserved()[0], true));
+  exchange = ring(0.1);
+  const auto held = assemble();
+  EXPECT_FALSE(is_weak(*held, held->conserved()[0], true));
 }
 
 TEST_F(Ring, KeepsItsLevelInASystemWithSums) {

@@ -71,6 +71,92 @@ TEST(Newton, ASecondAttemptStartsFromTheSamePlaceAndAsksForDescent) {
   EXPECT_GT(status.iterations, iterations);  // those of both
 }
 
+/// 1 - 1 + c (x^2 - 2) = 0: the residual is small against its terms long before x is the root of 2.
+class HiddenRoot : public Part {
+ public:
+  explicit HiddenRoot(const Field& x) : x_(x) {}
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly& assembly, const StepTime&) const override {
+    constexpr double c = 1e-8;
+    const Eigen::ArrayXd x = x_.now().array();
+    assembly.add(x_, Vector::Ones(x.size()));
+    assembly.add(x_, (c * (x * x - 2) - 1).matrix());
+    assembly.diagonal(x_, x_, (2 * c * x).matrix());
+  }
+
+ private:
+  const Field& x_;
+};
+
+// A residual of 1e-10 leaves 2e-3 of x open. What the next update would change does not: 1e-8 of x, squared by then.
+TEST(Newton, GoesOnUntilTheNextUpdateIsSmall) {
+  Equation equation;
+  HiddenRoot part(equation.x);
+  const StepStatus status =
+      Newton(equation.mesh, {&equation.x}, {&part}, {}, NewtonOptions(), "solve", {}).solve({0, 1, 1});
+  EXPECT_TRUE(status.converged) << status.reason;
+  for (const double x : equation.x.now()) EXPECT_NEAR(x, std::sqrt(2), 1e-6);
+}
+
+/// Cells that store c x each and exchange very much more with one another, into which a source flows.
+class Exchange : public Part {
+ public:
+  Exchange(const Field& x, double exchanged, bool tells) : x_(x), tells_(tells) {
+    SparseMatrix entries(2, 2), leaving(2, 2);
+    const std::vector<Triplet> both = {
+        {0, 0, exchanged}, {0, 1, -exchanged}, {1, 0, -exchanged}, {1, 1, exchanged}};
+    entries.setFromTriplets(both.begin(), both.end());
+    exchange_ = Operator(entries, leaving);
+  }
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly& assembly, const StepTime&) const override {
+    assembly.conserve(x_, "quantity");
+    const Vector stored = capacity * (x_.now() - x_.accepted()), source = Vector::Unit(2, 0);
+    assembly.add(x_, stored);
+    assembly.add(x_, -source);
+    assembly.diagonal(x_, x_, Vector::Constant(2, capacity));
+    assembly.linear(x_, exchange_, x_);
+    // What flows in a circle, say: it does not change, and is no part of any sum.
+    assembly.compare_with(x_, 1e12);
+    if (!tells_) return;
+    assembly.turn_over(x_, stored);
+    assembly.turn_over(x_, source);
+  }
+  static constexpr double capacity = 2;
+
+ private:
+  const Field& x_;
+  bool tells_;
+  Operator exchange_;
+};
+
+// All of what flows in is 1e-12 of what the equation is compared with. It is stored none the less: c (x0 + x1) = 1.
+TEST(Newton, BalancesHoldAgainstWhatIsStoredAndBroughtIn) {
+  for (const double exchanged : {1.0, 1e3}) {
+    Equation equation;
+    equation.x.set_both(Vector::Constant(2, 3));
+    Exchange part(equation.x, exchanged, true);
+    const StepStatus status =
+        Newton(equation.mesh, {&equation.x}, {&part}, {}, NewtonOptions(), "solve", {}).solve({0, 1, 1});
+    EXPECT_TRUE(status.converged) << status.reason;
+    EXPECT_EQ(status.iterations, 1);
+    const Vector change = equation.x.now() - equation.x.accepted();
+    EXPECT_NEAR(Exchange::capacity * change.sum(), 1, 1e-8);
+    EXPECT_NEAR((Exchange::capacity + 2 * exchanged) * (change[0] - change[1]), 1, 1e-8 * (1 + exchanged));
+  }
+}
+
+// Nothing is asked for where nothing has been told: the test above would notice.
+TEST(Newton, WithoutTurnoverBalancesAreEquationsAsOthers) {
+  Equation equation;
+  equation.x.set_both(Vector::Constant(2, 3));
+  Exchange part(equation.x, 1, false);
+  const StepStatus status =
+      Newton(equation.mesh, {&equation.x}, {&part}, {}, NewtonOptions(), "solve", {}).solve({0, 1, 1});
+  EXPECT_TRUE(status.converged);
+  EXPECT_EQ(status.iterations, 0);
+}
+
 /// A continuous, piecewise linear function of the first value, given by its corners, and of slope `slope` behind the
 /// last one.
 class Polyline : public Part {
