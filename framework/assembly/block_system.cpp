@@ -98,8 +98,16 @@ bool BlockSystem::has_same_fixed(const Assembly& assembly) const {
                     });
 }
 
+/// Where equations say that they are balances, the others are none.
+void BlockSystem::mark_balances(const Assembly& assembly) {
+  for (UnknownBlock& block : system_.blocks) block.may_store = assembly.conserved().empty();
+  for (const Assembly::Conserved& conserved : assembly.conserved())
+    for (const int unknown : conserved.rows) system_.blocks[unknown].may_store = true;
+}
+
 void BlockSystem::build_pattern(const Assembly& assembly) {
   ++patterns_built_;
+  mark_balances(assembly);
   /// A block of a row, with the place of its next entry among all destinations.
   struct Source {
     const Assembly::Block* block;

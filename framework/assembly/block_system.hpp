@@ -71,6 +71,7 @@ class BlockSystem {
   /// By unknown: whether its rows have the values that they are to have.
   std::vector<char> known_rows(const Assembly& assembly) const;
   void build_pattern(const Assembly& assembly);
+  void mark_balances(const Assembly& assembly);
   void apply_fixed(const Assembly& assembly);
   /// Puts sums of balances in the place of one of them, or leaves none.
   void sum_balances(const Assembly& assembly);

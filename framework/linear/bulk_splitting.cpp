@@ -44,6 +44,21 @@ Vector least_sizes(const SparseMatrix& a, const Vector& size) {
   return least;
 }
 
+/// The entities of a block whose unknowns are of one kind, as a block of its own.
+UnknownBlock chosen_entities(const UnknownBlock& block, const std::vector<char>& is_local, bool local,
+                             const std::vector<int>& place) {
+  UnknownBlock chosen = block;
+  chosen.entities = 0;
+  chosen.coordinates.clear();
+  for (int entity = 0; entity < block.entities; ++entity) {
+    const int unknown = block.first + entity * block.components;
+    if (static_cast<bool>(is_local[unknown]) != local) continue;
+    if (chosen.entities++ == 0) chosen.first = place[unknown];
+    if (!block.coordinates.empty()) chosen.coordinates.push_back(block.coordinates[entity]);
+  }
+  return chosen;
+}
+
 double largest_by_block(const std::vector<UnknownBlock>& blocks, const Vector& residual, const Vector& size) {
   double largest = 0;
   for (const UnknownBlock& block : blocks) {
@@ -68,9 +83,10 @@ bool take_values(SparseMatrix& matrix, const double* values, const std::vector<i
   return has_changed;
 }
 
-BulkSplitting::BulkSplitting(const LinearSystem& system)
+BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
     : outer_(system.local.outerIndexPtr(), system.local.outerIndexPtr() + system.local.rows() + 1),
       inner_(system.local.innerIndexPtr(), system.local.innerIndexPtr() + system.local.nonZeros()),
+      held_(std::move(held)),
       is_local_(system.local.cols(), 1),
       place_(system.local.cols(), 0) {
   for (UnknownBlock block : system.blocks) {
@@ -79,13 +95,14 @@ BulkSplitting::BulkSplitting(const LinearSystem& system)
     if (block.kind != UnknownBlock::Kind::local)
       std::fill_n(is_local_.begin() + block.first, block.entities * block.components, 0);
   }
+  for (std::size_t i = 0; i < held_.size(); ++i) is_local_[i] |= held_[i];
   int bulk = 0, local = 0;
   for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = is_local_[i] ? local++ : bulk++;
-  for (UnknownBlock block : blocks_) {
-    if (block.entities == 0) continue;
-    block.first = place_[block.first];
-    (block.kind == UnknownBlock::Kind::local ? local_blocks_ : bulk_blocks_).push_back(block);
-  }
+  for (const UnknownBlock& block : blocks_)
+    for (const bool is_local : {false, true}) {
+      UnknownBlock chosen = chosen_entities(block, is_local_, is_local, place_);
+      if (chosen.entities > 0) (is_local ? local_blocks_ : bulk_blocks_).push_back(std::move(chosen));
+    }
   bb = extract(system.local, false, false);
   bf = extract(system.local, false, true);
   fb = extract(system.local, true, false);
@@ -132,6 +149,14 @@ bool BulkSplitting::fits(const SparseMatrix& matrix) const {
   return static_cast<int>(inner_.size()) == matrix.nonZeros() && static_cast<int>(outer_.size()) == matrix.rows() + 1 &&
          std::equal(outer_.begin(), outer_.end(), matrix.outerIndexPtr()) &&
          std::equal(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
+}
+
+bool BulkSplitting::update(const SparseMatrix& matrix) {
+  const double* values = matrix.valuePtr();
+  const bool has_changed = bb.update(values) | bf.update(values);
+  fb.update(values);
+  ff.update(values);
+  return has_changed;
 }
 
 Vector BulkSplitting::part(const Vector& whole, bool local, int size) const {

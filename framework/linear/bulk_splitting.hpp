@@ -21,12 +21,14 @@ struct SubMatrix {
 };
 
 /// Splits the unknowns of a system in one process into B (bulk) and F (UnknownBlock::Kind::local), each in their order,
-/// and the matrix into four. It stays while the pattern does.
+/// and the matrix into four. It stays while the pattern does. `held`: of every unknown, whether it belongs to F though
+/// it is one of the bulk (unknowns_that_fractures_hold): all those of an entity, or none; empty for none.
 class BulkSplitting {
  public:
-  explicit BulkSplitting(const LinearSystem& system);
+  explicit BulkSplitting(const LinearSystem& system, std::vector<char> held = {});
   bool fits(const SparseMatrix& matrix) const;
 
+  const std::vector<char>& held() const { return held_; }
   int bulk_size() const { return bb.matrix.rows(); }
   int local_size() const { return ff.matrix.rows(); }
   Vector bulk_part(const Vector& whole) const { return part(whole, false, bulk_size()); }
@@ -36,6 +38,8 @@ class BulkSplitting {
   LinearSystem bulk_system() const;
   LinearSystem local_system(SparseMatrix matrix) const;
   LinearSystem whole_system() const;
+  /// Takes the values of a matrix that fits. True if the bits of one in A_BB or A_BF have changed.
+  bool update(const SparseMatrix& matrix);
   /// Which rows are sums of balances (LinearSystem::sums); belongs to the values, not to the pattern.
   void take_sums(const std::vector<int>& sums) { sums_ = sums; }
   /// The largest over the blocks of max |b − A x| / max (|A| |x| + |b|), the maxima taken over a block's rows. Where
@@ -53,6 +57,7 @@ class BulkSplitting {
   SubMatrix extract(const SparseMatrix& matrix, bool local_rows, bool local_columns) const;
 
   std::vector<int> outer_, inner_;
+  std::vector<char> held_;
   std::vector<char> is_local_;  ///< of every unknown
   std::vector<int> place_;      ///< of every unknown: its number among those of its kind
   std::vector<UnknownBlock> blocks_, bulk_blocks_, local_blocks_;

@@ -6,6 +6,7 @@
 
 #include "framework/linear/bulk_response.hpp"
 #include "framework/linear/bulk_splitting.hpp"
+#include "framework/linear/floating_parts.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -117,12 +118,18 @@ LinearReport CondensedSolver::factor_whole(const LinearSystem& system) {
 
 LinearReport CondensedSolver::condense(const LinearSystem& system) {
   const auto is_same = [](std::uint64_t number, std::uint64_t last) { return number != 0 && number == last; };
-  if (!splitting_ || !(is_same(system.pattern_number, pattern_number_) || splitting_->fits(system.local))) {
-    for (const Bulk& bulk : bulks_) retired_ += bulk.solver->counts();
-    bulks_.clear();
-    splitting_ = std::make_unique<BulkSplitting>(system);
-    reduced_pattern_ = SparseMatrix();
-    number_ = reduced_number_ = 0;
+  const bool fits = splitting_ && (is_same(system.pattern_number, pattern_number_) || splitting_->fits(system.local));
+  if (!fits) split_anew(system, unknowns_that_fractures_hold(system));
+  bool has_changed = false;
+  if (!is_same(system.number, number_)) {
+    has_changed = splitting_->update(system.local);
+    if (has_changed && fits) {
+      std::vector<char> held = unknowns_that_fractures_hold(system);
+      if (held != splitting_->held()) {
+        split_anew(system, std::move(held));
+        splitting_->update(system.local);
+      }
+    }
   }
   BulkSplitting& split = *splitting_;
   split.take_sums(system.sums);
@@ -130,13 +137,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   const double felt = split.felt.size();
   if ((kept_bulks * split.near.size() + 6 * felt) * felt > largest_felt)
     return LinearReport::failure("too many unknowns on fractures to condense the bulk");
-  if (!is_same(system.number, number_)) {
-    const double* values = system.local.valuePtr();
-    const bool has_changed = split.bb.update(values) | split.bf.update(values);
-    split.fb.update(values);
-    split.ff.update(values);
-    if (has_changed) choose_bulk();
-  }
+  if (has_changed) choose_bulk();
   pattern_number_ = system.pattern_number;
   number_ = system.number;
   Bulk& bulk = bulks_.front();
@@ -158,6 +159,14 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
                LinearReport::failure("the bulk could not be factorized for equations on fractures that have changed");
   reduced_number_ = system.number;
   return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix(split, reduced_pattern_, *felt_rows)));
+}
+
+void CondensedSolver::split_anew(const LinearSystem& system, std::vector<char> held) {
+  for (const Bulk& bulk : bulks_) retired_ += bulk.solver->counts();
+  bulks_.clear();
+  splitting_ = std::make_unique<BulkSplitting>(system, std::move(held));
+  reduced_pattern_ = SparseMatrix();
+  number_ = reduced_number_ = 0;
 }
 
 void CondensedSolver::choose_bulk() {

@@ -23,8 +23,9 @@ class BulkSplitting;
 /// bulks of the last two time steps are kept.
 ///
 /// Goes to the solver of the whole system where there is nothing to condense, where S costs more than the whole, while
-/// X would cost more than it could have saved so far, where the bulk alone is singular (a block of rock that only
-/// fractures hold), and where the first solution with a bulk turns out to be inaccurate.
+/// X would cost more than it could have saved so far, and where the first solution with a bulk turns out to be
+/// inaccurate. A block of rock that only fractures hold leaves a cell or two of the bulk to F, with which the rest of
+/// it is held (unknowns_that_fractures_hold).
 class CondensedSolver final : public LinearSolver {
  public:
   explicit CondensedSolver(const LinearOptions& options);
@@ -38,6 +39,7 @@ class CondensedSolver final : public LinearSolver {
  private:
   struct Bulk;  ///< a factorization of A_BB, with X
   LinearReport condense(const LinearSystem& system);
+  void split_anew(const LinearSystem& system, std::vector<char> held);
   void choose_bulk();
   LinearReport solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk, Vector& local);
   bool proves(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local);

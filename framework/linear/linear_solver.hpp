@@ -25,8 +25,9 @@ struct UnknownBlock {
     local
   } kind = Kind::local;            ///< local: few, on fractures; solve exactly
   std::vector<Point> coordinates;  ///< one an entity, for rigid-body modes and partitioning
-  Vector stabilization;  ///< one an unknown: diagonal to add to the block in a preconditioner or split (fixed stress),
-                         ///< or empty
+  Vector stabilization;   ///< one an unknown: diagonal to add to the block in a preconditioner or split (fixed stress),
+                          ///< or empty
+  bool may_store = true;  ///< whether its rows may be balances; false where it is known that they are not
 };
 
 /// A square system of which this process holds some rows. `rows` are global row numbers in ascending order; column

@@ -83,12 +83,23 @@ int root_of(std::vector<int>& parent, int row) {
   return row;
 }
 
-/// What is left of the sum of rows: entries that cancel are no entries.
+/// What is left of the sum of rows: entries that cancel are no entries. One that is zero by itself stays, so that the
+/// pattern does not follow the values.
 std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows) {
-  std::map<int, double> sum;
+  struct Total {
+    double value = 0;
+    int entries = 0;
+  };
+  std::map<int, Total> totals;
   for (const int row : rows)
-    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) sum[static_cast<int>(entry.col())] += entry.value();
-  for (auto entry = sum.begin(); entry != sum.end();) entry = entry->second == 0 ? sum.erase(entry) : std::next(entry);
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
+      Total& total = totals[static_cast<int>(entry.col())];
+      total.value += entry.value();
+      ++total.entries;
+    }
+  std::map<int, double> sum;
+  for (const auto& [column, total] : totals)
+    if (total.value != 0 || total.entries == 1) sum.emplace_hint(sum.end(), column, total.value);
   return sum;
 }
 
@@ -99,7 +110,7 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
   std::vector<std::vector<int>> groups;
   std::vector<Column> columns(rows.cols());
   for (const UnknownBlock& block : blocks) {
-    if (block.kind != UnknownBlock::Kind::local) continue;
+    if (block.kind != UnknownBlock::Kind::local || !block.may_store) continue;
     const int first = block.first, size = block.entities * block.components;
     std::vector<int> parent(size);
     std::iota(parent.begin(), parent.end(), 0);

@@ -126,7 +126,7 @@ TEST_P(Condensed, KeepsTheBulksOfTwoTimeStepsAndRepeatsItsBits) {
 }
 
 // The Laplacian of a block that nothing holds but one spring to a local unknown.
-TEST_P(Condensed, TakesTheWholeSystemWhereTheBulkAloneFloats) {
+TEST_P(Condensed, KeepsACellOfABulkThatFloats) {
   constexpr int n = 9;
   LinearSystem floating = test::poisson(n, true);
   std::vector<Triplet> entries;
@@ -140,7 +140,9 @@ TEST_P(Condensed, TakesTheWholeSystemWhereTheBulkAloneFloats) {
   const LinearSystem held = test::make_system(n * n + 1, entries, blocks);
   const Vector exact = test::random_vector(n * n + 1, 5);
   EXPECT_LT((solve(held, held.local * exact) - exact).norm(), 1e-9);
-  EXPECT_EQ(solver.name(), GetParam());
+  EXPECT_EQ(solver.name(), std::string("condensed ") + GetParam());
+  EXPECT_EQ(solver.counts().orderings, 1);
+  EXPECT_EQ(solver.counts().factorizations, 1);
 }
 
 // The Laplacian of n × n nodes, the first `count` of which each feel a local unknown and are felt by it.
@@ -155,6 +157,29 @@ LinearSystem with_local_unknowns(int n, int count) {
   std::vector<UnknownBlock> blocks = bulk.blocks;
   blocks.push_back({"springs.force", n * n, count, 1, UnknownBlock::Kind::local, {}, {}});
   return test::make_system(n * n + count, entries, blocks);
+}
+
+// As a step after another one: what held the bulk by itself is gone, and comes back. Bits do not depend on the path.
+TEST_P(Condensed, AnswersAlikeWhateverFloatedBefore) {
+  LinearSystem held = with_local_unknowns(9, 3), floating = held;
+  for (int i = 0; i < 81; ++i) {
+    double others = 0;
+    for (SparseMatrix::InnerIterator entry(floating.local, i); entry; ++entry)
+      if (entry.col() != i && entry.col() < 81) others -= entry.value();
+    floating.local.coeffRef(i, i) = others;
+  }
+  const Vector exact = test::random_vector(84, 9);
+  for (const LinearSystem* system : {&held, &floating, &held, &floating}) {
+    const Vector b = system->local * exact;
+    const Vector x = solve(*system, b);
+    EXPECT_LT((x - exact).norm(), 1e-9);
+    LinearOptions options;
+    options.type = GetParam();
+    CondensedSolver fresh(options);
+    Vector alone;
+    ASSERT_TRUE(fresh.factor(*system).solved && fresh.solve(b, alone).solved);
+    EXPECT_EQ(x, alone);
+  }
 }
 
 // 144 columns of 400 unknowns: more than 7 sqrt(400).

@@ -55,6 +55,39 @@ TEST(ExchangingRows, AreThoseThatStoreLittle) {
   EXPECT_THAT(exchanging_rows(strong.local, strong.blocks), testing::IsEmpty());
 }
 
+// Contents that store much less than they exchange are, turned round, fluxes that resist little: they are no contents,
+// and which of them resist little changes with each iteration.
+TEST(ExchangingRows, AreNoneOfWhatIsKnownToBeNoBalance) {
+  LinearSystem chain = test::Exchange{6, 1e-12, 1e4}.build();
+  for (int flux = 6; flux < 11; ++flux) chain.local.coeffRef(flux, flux) = flux % 2 ? 1e-4 : 1e9;
+  EXPECT_GT(exchanging_rows(chain.local, chain.blocks).size(), 0U);
+  chain.blocks[1].may_store = false;
+  for (const std::vector<int>& group : exchanging_rows(chain.local, chain.blocks)) EXPECT_LT(group.back(), 6);
+}
+
+// The pattern of what is solved follows no values: derivatives that happen to be zero are entries.
+TEST_P(SummedBalancesOf, OrdersOnce) {
+  LinearSystem chain = test::Exchange{30, 1e-14, 1}.build();
+  chain.blocks[1].may_store = false;
+  std::vector<Triplet> entries;
+  const int aperture = static_cast<int>(chain.local.cols());
+  for (int row = 0; row < aperture; ++row)
+    for (SparseMatrix::InnerIterator entry(chain.local, row); entry; ++entry)
+      entries.emplace_back(row, static_cast<int>(entry.col()), entry.value());
+  for (int i = 0; i < 30; ++i) entries.insert(entries.end(), {{i, aperture + i, 1}, {aperture + i, aperture + i, 1}});
+  std::vector<UnknownBlock> blocks = chain.blocks;
+  blocks.push_back({"conduit.aperture", aperture, 30, 1, UnknownBlock::Kind::local, {}, {}});
+  blocks.back().may_store = false;
+  LinearSystem system = test::make_system(aperture + 30, entries, blocks);
+  const auto solver = make();
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    for (int i = 0; i < 30; ++i) system.local.coeffRef(i, aperture + i) = (i + iteration) % 3 - 1.0;
+    ASSERT_TRUE(solver->factor(system).solved);
+  }
+  EXPECT_EQ(solver->counts().factorizations, 4);
+  EXPECT_EQ(solver->counts().orderings, 1);
+}
+
 // The last flux leaves what the chain has: the level is given from outside.
 TEST(ExchangingRows, DoNotLeadOut) {
   LinearSystem open = test::Exchange{4, 1e-12, 1}.build();

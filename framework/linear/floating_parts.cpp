@@ -1,0 +1,193 @@
+#include "framework/linear/floating_parts.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sprekk {
+namespace {
+
+constexpr int most_modes = 3;
+using Modes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
+using OfMode = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_modes>;
+
+/// A connected set of entities, and how it may move as a whole: as one level, or shifted and turned.
+struct Part {
+  std::vector<int> entities;
+  Point centre = Point::Zero();
+  double radius = 0;  ///< largest distance from the centre; 0 where nothing can turn
+  int modes = 0;
+  Modes triangle;  ///< R^T R = sum of w^T w: what the modes do to the balances, each over the size of its terms
+};
+
+class Parts {
+ public:
+  Parts(const LinearSystem& system, const UnknownBlock& block, const std::vector<char>& is_balance)
+      : block_(block), a_(system.local), part_of_(block.entities, -1) {
+    find(is_balance);
+    for (Part& part : parts_) prepare(part);
+    for (int row = 0; row < a_.rows(); ++row)
+      if (is_balance[row]) take(row);
+  }
+
+  /// Entities that fix the motions which nothing resists; `preferred` first.
+  std::vector<int> to_fix(const std::vector<char>& preferred) const {
+    std::vector<int> chosen;
+    for (const Part& part : parts_) {
+      constexpr double resists = 1e-8;
+      const Eigen::JacobiSVD<Modes> svd(part.triangle, Eigen::ComputeFullU | Eigen::ComputeFullV);
+      const int held = static_cast<int>((svd.singularValues().array() > resists).count());
+      Modes left = svd.matrixV().rightCols(part.modes - held);
+      while (left.cols() > 0) {
+        int best = -1;
+        double most = 1e-6;  // of the largest motion of a mode
+        for (const int entity : part.entities) {
+          const double moves = (motion(part, entity) * left).norm() * (preferred[entity] ? 1e3 : 1);
+          if (moves > most) {
+            most = moves;
+            best = entity;
+          }
+        }
+        if (best < 0) break;
+        chosen.push_back(best);
+        const Modes fixed = motion(part, best) * left;
+        const Eigen::JacobiSVD<Modes> of_fixed(fixed, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        const auto& sizes = of_fixed.singularValues();
+        const int rank = static_cast<int>((sizes.array() > 0.1 * sizes[0]).count());
+        left = Modes(left * of_fixed.matrixV().rightCols(left.cols() - rank));
+      }
+    }
+    return chosen;
+  }
+
+ private:
+  int entity_of(int unknown) const {
+    const int place = unknown - block_.first;
+    return place >= 0 && place < block_.entities * block_.components ? place / block_.components : -1;
+  }
+
+  /// Joins what one row reads.
+  void find(const std::vector<char>& is_balance) {
+    std::vector<int> parent(block_.entities);
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int entity) {
+      while (parent[entity] != entity) entity = parent[entity] = parent[parent[entity]];
+      return entity;
+    };
+    for (int row = 0; row < a_.rows(); ++row) {
+      if (!is_balance[row]) continue;
+      int first = entity_of(row);
+      for (SparseMatrix::InnerIterator entry(a_, row); entry; ++entry) {
+        const int entity = entry.value() == 0 ? -1 : entity_of(static_cast<int>(entry.col()));
+        if (entity < 0 || entity == first) continue;
+        if (first < 0) first = entity;
+        parent[root(entity)] = root(first);
+      }
+    }
+    for (int entity = 0; entity < block_.entities; ++entity) {
+      int& number = part_of_[root(entity)];
+      if (number < 0) {
+        number = static_cast<int>(parts_.size());
+        parts_.emplace_back();
+      }
+      part_of_[entity] = number;
+      parts_[number].entities.push_back(entity);
+    }
+  }
+
+  void prepare(Part& part) {
+    part.modes = block_.components;
+    const bool can_turn = block_.kind == UnknownBlock::Kind::elasticity && block_.components == 2 &&
+                          static_cast<int>(block_.coordinates.size()) == block_.entities;
+    if (can_turn) {
+      for (const int entity : part.entities) part.centre += block_.coordinates[entity] / part.entities.size();
+      for (const int entity : part.entities)
+        part.radius = std::max(part.radius, (block_.coordinates[entity] - part.centre).norm());
+    }
+    if (part.entities.size() > 1 && part.radius > 0) ++part.modes;
+    part.triangle = Modes::Zero(part.modes, part.modes);
+  }
+
+  /// How the modes move an entity, a row for each component.
+  Modes motion(const Part& part, int entity) const {
+    Modes motion = Modes::Zero(block_.components, part.modes);
+    motion.leftCols(block_.components).setIdentity();
+    if (part.modes > block_.components) {
+      const Point arm = (block_.coordinates[entity] - part.centre) / part.radius;
+      motion(0, 2) = -arm.y();
+      motion(1, 2) = arm.x();
+    }
+    return motion;
+  }
+
+  void take(int row) {
+    OfMode w;
+    double size = 0;
+    Part* part = nullptr;
+    for (SparseMatrix::InnerIterator entry(a_, row); entry; ++entry) {
+      const int entity = entry.value() == 0 ? -1 : entity_of(static_cast<int>(entry.col()));
+      if (entity < 0) continue;
+      if (part == nullptr) {
+        part = &parts_[part_of_[entity]];
+        w = OfMode::Zero(part->modes);
+      }
+      const int component = (static_cast<int>(entry.col()) - block_.first) % block_.components;
+      w[component] += entry.value();
+      if (part->modes > block_.components) {
+        const Point& at = block_.coordinates[entity];
+        w[2] += entry.value() * (component == 0 ? part->centre.y() - at.y() : at.x() - part->centre.x()) / part->radius;
+      }
+      size += std::abs(entry.value());
+    }
+    if (part == nullptr || size == 0) return;
+    w /= size;
+    // Givens rotations keep small motions apart from large ones, where a matrix of products would lose them.
+    Modes& r = part->triangle;
+    for (int k = 0; k < part->modes; ++k) {
+      const double length = std::hypot(r(k, k), w[k]);
+      if (length == 0) continue;
+      const double c = r(k, k) / length, s = w[k] / length;
+      for (int j = k; j < part->modes; ++j) {
+        const double upper = r(k, j), lower = w[j];
+        r(k, j) = c * upper + s * lower;
+        w[j] = c * lower - s * upper;
+      }
+    }
+  }
+
+  const UnknownBlock& block_;
+  const SparseMatrix& a_;
+  std::vector<int> part_of_;  ///< of every entity
+  std::vector<Part> parts_;
+};
+
+bool are_at_the_same_places(const UnknownBlock& a, const UnknownBlock& b) {
+  return &a == &b || (a.entities == b.entities && !a.coordinates.empty() && a.coordinates == b.coordinates);
+}
+
+}  // namespace
+
+std::vector<char> unknowns_that_fractures_hold(const LinearSystem& system) {
+  const auto unknowns = static_cast<std::size_t>(system.local.cols());
+  const auto is_bulk = [](const UnknownBlock& block) { return block.kind != UnknownBlock::Kind::local; };
+  std::vector<char> is_balance(unknowns, 0), held(unknowns, 0);
+  for (const UnknownBlock& block : system.blocks)
+    if (is_bulk(block)) std::fill_n(is_balance.begin() + block.first, block.entities * block.components, 1);
+  for (const int sum : system.sums) is_balance[sum] = 0;
+  for (const UnknownBlock& block : system.blocks) {
+    if (!is_bulk(block) || block.entities == 0 || block.components >= most_modes) continue;
+    std::vector<char> is_sum(block.entities, 0);
+    for (const int sum : system.sums)
+      if (sum >= block.first && sum < block.first + block.entities * block.components)
+        is_sum[(sum - block.first) / block.components] = 1;
+    for (const int entity : Parts(system, block, is_balance).to_fix(is_sum))
+      for (const UnknownBlock& other : system.blocks)
+        if (is_bulk(other) && are_at_the_same_places(block, other))
+          std::fill_n(held.begin() + other.first + entity * other.components, other.components, 1);
+  }
+  return held;
+}
+
+}  // namespace sprekk
