@@ -84,7 +84,10 @@ void Rock::map_walls() {
 void Rock::find_conditions() {
   conditions_.assign(mesh_.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
   for (int f = 0; f < mesh_.face_count(); ++f) {
-    if (mesh_.face_cells[f][1] != none) continue;
+    if (mesh_.face_cells[f][1] != none) {
+      if (!initial_load(f).isZero(0)) conditions_[f] = {MechanicalCondition::load, MechanicalCondition::load};
+      continue;
+    }
     conditions_[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
     const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
@@ -168,10 +171,16 @@ void Rock::use_loads() {
   }
 }
 
-Point Rock::initial_traction(int face, const Point& normal) const {
+Point Rock::initial_traction(int face, int side) const {
   if (options_.initial_stress.is_zero()) return Point::Zero();
-  const Place place{mesh_.face_center[face], mesh_.cell_region[mesh_.face_cells[face][0]], 0};
-  return options_.initial_stress.at(place) * normal;
+  const Place place{mesh_.face_center[face], mesh_.cell_region[mesh_.face_cells[face][side]], 0};
+  return options_.initial_stress.at(place) * mesh_.face_normal[face];
+}
+
+Point Rock::initial_load(int face) const {
+  const auto [one, other] = mesh_.face_cells[face];
+  if (other == none || mesh_.cell_region[one] == mesh_.cell_region[other]) return Point::Zero();
+  return mesh_.face_length[face] * (initial_traction(face, 1) - initial_traction(face, 0));
 }
 
 bool Rock::depends_on_time() const {
@@ -193,9 +202,12 @@ void Rock::evaluate_data(const StepTime& step) {
   initial_forces_ = Vector::Zero(2 * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const double length = mesh_.face_length[f];
-    const Point initial = initial_traction(f, mesh_.face_normal[f]);
+    const Point initial = initial_traction(f, 0);
     initial_forces_.segment<2>(2 * f) = length * initial;
-    if (mesh_.face_cells[f][1] != none) continue;
+    if (mesh_.face_cells[f][1] != none) {
+      boundary_values_.segment<2>(2 * f) = initial_load(f);
+      continue;
+    }
     // What tractions prescribe is the total; the stress that deformation makes is the total less the initial one.
     boundary_values_.segment<2>(2 * f) = -length * initial;
     const SideCondition* condition = condition_of(options_, mesh_, f);
@@ -263,7 +275,7 @@ Vector Rock::face_forces() const {
   for (const Load& load : loads_)
     forces += operators_.force_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
   for (int f = 0; f < mesh_.face_count(); ++f)
-    forces.segment<2>(2 * f) += mesh_.face_length[f] * initial_traction(f, mesh_.face_normal[f]);
+    forces.segment<2>(2 * f) += mesh_.face_length[f] * initial_traction(f, 0);
   return forces;
 }
 

@@ -16,7 +16,8 @@ namespace sprekk::poromechanics {
 
 /// Unknown: the displacement u of every cell, from the reference state with the initial stress and pressure:
 ///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
-/// with C and alpha as they are at the end of the step: the rock remembers none that it had.
+/// with C and alpha as they are at the end of the step: the rock remembers none that it had. An initial stress that is
+/// not at rest loads the rock: u is counted from the state before equilibrium.
 /// Each pair of rows balances the forces on one cell (N/m): −(sum of the forces on its faces) − body force = 0.
 class Rock : public Component, public PoroelasticRock, public RockWalls, public RockState {
  public:
@@ -73,7 +74,10 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void map_walls();
   bool depends_on_time() const;
   void apply_boundary();
-  Point initial_traction(int face, const Point& normal) const;
+  /// Of the initial stress of the cell on that side of a face, on its normal, Pa.
+  Point initial_traction(int face, int side) const;
+  /// What the initial stress of two regions leaves to the deformation of both, N/m: zero if it is at rest.
+  Point initial_load(int face) const;
 
   const Mesh& mesh_;
   Options options_;
