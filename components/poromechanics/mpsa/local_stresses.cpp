@@ -1,8 +1,10 @@
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -13,8 +15,9 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-/// Below this, relative to others, what a single subcell's own balance tells is left to its neighbour.
-constexpr double weak = 1e-3;
+/// How far what is prescribed on the two faces of a single subcell tells its gradient, as the sine of an angle: below
+/// the first nothing is taken from it, above the second all.
+constexpr double vague = 0.1, certain = 0.5;
 
 /// Of what holds the rotations of neighbours together, relative to their shear modulus. Between an eighth and a half
 /// errors change little (docs/numerics/poromechanics.md); far below, rotations are loose.
@@ -76,22 +79,24 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
   find_jumps(region, stiffness, 0);
 
   assemble(region, conditions);
+  if (subcells_ == 1) {
+    solve_single(mesh, region, cells, stiffness, conditions);
+    find_gradients(region);
+    find_forces(region, stiffness);
+    return;
+  }
   const auto smallest_pivot = [&] { return eliminate(system_.data(), 2 * subfaces_, width_); };
   double pivot = smallest_pivot();
-  if (subcells_ > 1 && pivot < 1e-6) {
+  if (pivot < 1e-6) {
     // A stiff subcell among very soft ones, free to turn: it has to turn with them a little. The forces on it are
     // theirs, and small.
     find_jumps(region, stiffness, 0.1);
     assemble(region, conditions);
     pivot = smallest_pivot();
   }
-  if (subcells_ > 1 && pivot < 1e-12)
+  if (pivot < 1e-12)
     throw std::runtime_error("MPSA: singular local problem at a node of cell " +
                              std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
-  if (subcells_ == 1 && pivot < weak) {
-    assemble(region, conditions);
-    solve_singular(mesh, region, cells);
-  }
   find_gradients(region);
   find_forces(region, stiffness);
 }
@@ -189,40 +194,95 @@ Point LocalStresses::couple_on(const InteractionRegion& region, int subface, int
                half_face[0] * stress[2] + half_face[1] * stress[3]);
 }
 
-void LocalStresses::solve_singular(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells) {
+void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
+                                 const std::vector<Stiffness>& stiffness,
+                                 const std::vector<FaceConditions>& conditions) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const int n = 2 * subfaces_;
-  Eigen::Map<RowMajor> system(system_.data(), n, width_);
-  for (int i = 0; i < n; ++i) system.row(i) /= system.row(i).head(n).cwiseAbs().maxCoeff();
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.leftCols(n), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(weak);
-  Eigen::MatrixXd solution = svd.solve(system.rightCols(columns_));
-  if (cells_ > 1) {
-    // What is free is chosen so that the subcell's linear displacement, continued to the centres of the cells across,
-    // comes as near as it can to their displacements.
-    const Subcell& subcell = region.subcells[0];
-    const int targets = 2 * (cells_ - 1);
-    Eigen::MatrixXd continuation = Eigen::MatrixXd::Zero(targets, n);
-    Eigen::MatrixXd target = Eigen::MatrixXd::Zero(targets, columns_);
-    int row = 0;
-    for (int other = 0; other < cells_; ++other) {
-      if (other == column(0)) continue;
-      const Point arm = mesh.cell_center[cells[other]] - mesh.cell_center[subcell.cell];
-      for (int c = 0; c < 2; ++c, ++row) {
-        target(row, 2 * other + c) = 1;
-        target(row, 2 * column(0) + c) = -1;
-        for (int i = 0; i < 2; ++i) {
-          const double weight = subcell.gradient[i].dot(arm);
-          continuation(row, 2 * subcell.subfaces[i] + c) += weight;
-          target(row, 2 * column(0) + c) += weight;
-        }
+  const Subcell& subcell = region.subcells[0];
+  const Stiffness& rock = stiffness[subcell.cell];
+  Eigen::Map<RowMajor> system(system_.data(), 4, width_);
+
+  // In place of the displacements of the faces: q, the strain and the rotation, each as the root of its energy. Then
+  // angles between what is known do not depend on axes, shape or moduli.
+  Eigen::Matrix4d strain_and_rotation;  // (xx, yy, 2 xy; yx − xy) of the gradient
+  strain_and_rotation << 1, 0, 0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 0, -1, 1, 0;
+  Eigen::Matrix4d root = Eigen::Matrix4d::Zero();
+  root.topLeftCorner<3, 3>() = Eigen::LLT<Stiffness>(rock).matrixU();
+  root(3, 3) = std::sqrt(shear_modulus(rock));
+  const Eigen::Matrix4d gradient = (root * strain_and_rotation).inverse();  // of q
+  Eigen::Matrix4d arms = Eigen::Matrix4d::Zero();  // displacements of the faces less the cell's, of the gradient
+  for (int i = 0; i < 2; ++i) {
+    const Point arm = mesh.face_center[region.faces[subcell.subfaces[i]]] - mesh.cell_center[subcell.cell];
+    for (int c = 0; c < 2; ++c) arms.block<1, 2>(2 * subcell.subfaces[i] + c, 2 * c) = arm.transpose();
+  }
+  Eigen::MatrixXd of_cell = Eigen::MatrixXd::Zero(4, columns_);  // the cell's displacement, on either face
+  for (int i = 0; i < 4; ++i) of_cell(i, 2 * column(0) + i % 2) = 1;
+  Eigen::Matrix4d known = system.leftCols<4>() * arms * gradient;
+  Eigen::MatrixXd value = system.rightCols(columns_) - system.leftCols<4>() * of_cell;
+  for (int i = 0; i < 4; ++i) {
+    const double norm = known.row(i).norm();
+    known.row(i) /= norm;
+    value.row(i) /= norm;
+  }
+
+  // Prescribed displacements hold. In what they leave free, forces tell q along the singular vectors, each as far as
+  // its singular value is large: two faces that nearly agree in a force say next to nothing of the stress along them,
+  // and the normal of a curved side is wrong by more than that. The rest continues the displacement of the cells across
+  // to their centres, by least squares.
+  std::vector<int> held, forces;
+  for (int i = 0; i < 4; ++i)
+    (conditions[region.faces[i / 2]][i % 2] == MechanicalCondition::displacement ? held : forces).push_back(i);
+  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(4, columns_);
+  Eigen::MatrixXd free = Eigen::MatrixXd::Identity(4, 4);
+  if (!held.empty()) {
+    const Eigen::MatrixXd rows = known(held, Eigen::all);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    q = svd.solve(Eigen::MatrixXd(value(held, Eigen::all)));
+    free = svd.matrixV().rightCols(forces.size()).eval();
+  }
+  if (!forces.empty()) {
+    const Eigen::MatrixXd rows = known(forces, Eigen::all);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows * free, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::MatrixXd along = svd.matrixU().transpose() * (value(forces, Eigen::all) - rows * q);
+    const Eigen::MatrixXd directions = free * svd.matrixV();
+    std::vector<int> open;
+    Eigen::VectorXd weight = Eigen::VectorXd::Zero(forces.size());
+    for (int i = 0; i < weight.size(); ++i) {
+      const double sine = svd.singularValues()[i];
+      const double part = std::clamp((sine - vague) / (certain - vague), 0.0, 1.0);
+      if (part < 1) {
+        open.push_back(i);
+        weight[i] = std::sqrt(part / (1 - part));
+      } else {
+        q += directions.col(i) * along.row(i) / sine;
       }
     }
-    const Eigen::MatrixXd free = svd.matrixV().rightCols(n - svd.rank());
-    const Eigen::MatrixXd response = continuation * free;
-    solution += free * response.completeOrthogonalDecomposition().solve(target - continuation * solution);
+    if (!open.empty()) {
+      const int count = static_cast<int>(open.size()), targets = 2 * (cells_ - 1);
+      const Eigen::MatrixXd opened = directions(Eigen::all, open);
+      Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(targets + count, count);
+      Eigen::MatrixXd target = Eigen::MatrixXd::Zero(targets + count, columns_);
+      int row = 0;
+      for (int other = 0; other < cells_; ++other) {
+        if (other == column(0)) continue;
+        const Point arm = mesh.cell_center[cells[other]] - mesh.cell_center[subcell.cell];
+        const double scale = root(3, 3) / arm.norm();
+        for (int c = 0; c < 2; ++c, ++row) {
+          const Eigen::RowVector4d reached = scale * (arm[0] * gradient.row(2 * c) + arm[1] * gradient.row(2 * c + 1));
+          matrix.row(row) = reached * opened;
+          target.row(row) = -reached * q;
+          target(row, 2 * other + c) += scale;
+          target(row, 2 * column(0) + c) -= scale;
+        }
+      }
+      for (int i = 0; i < count; ++i, ++row) {
+        matrix(row, i) = weight[open[i]];
+        if (weight[open[i]] > 0) target.row(row) = weight[open[i]] / svd.singularValues()[open[i]] * along.row(open[i]);
+      }
+      q += opened * matrix.completeOrthogonalDecomposition().solve(target);
+    }
   }
-  system.rightCols(columns_) = solution;
+  system.rightCols(columns_) = of_cell + arms * gradient * q;
 }
 
 void LocalStresses::find_gradients(const InteractionRegion& region) {

@@ -35,11 +35,11 @@ Adjacency local_cells(const Mesh& mesh, const std::vector<int>& tips);
 ///
 /// Near the tip of a crack the displacement is not linear but like sqrt(r): see TipCorrection.
 ///
-/// Nothing holds the rotation of a region of a single subcell. A rotation of the subcell about its
-/// centre then costs nothing unless a prescribed displacement stops it, and two rollers leave a mixture of shear and
-/// stretching free. Such freedom is used to continue the displacement of the cell across (of a quadrilateral: of both
-/// cells across, by least squares), which keeps the method exact for linear displacements; a cell that has no
-/// neighbour at all gets the least displacement of its subfaces.
+/// A region of a single subcell knows what is prescribed on its two faces only. That may leave it free to turn or to
+/// shear, or tell a stress by the difference of nearly equal forces: at a corner between a roller and the chord of a
+/// loaded curved side the normal of the chord, wrong by as much, would tell the stress along the side. What is not told
+/// well continues the displacement of the cells across (one of a triangle, two of a quadrilateral), which keeps the
+/// method exact for linear displacements; a cell that has no neighbour at all is neither strained nor turned so.
 class LocalStresses {
  public:
   /// Throws std::runtime_error if the local system is singular for another reason.
@@ -65,7 +65,8 @@ class LocalStresses {
  private:
   void find_jumps(const InteractionRegion& region, const std::vector<Stiffness>& stiffness, double least_strength);
   void assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
-  void solve_singular(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells);
+  void solve_single(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
+                    const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions);
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
 

@@ -324,6 +324,75 @@ TEST(Mpsa, AStiffTriangleInSoftRockIsHarmless) {
   }
 }
 
+/// A quarter of a thick ring under pressure in its bore (Lamé), n by n quadrilaterals along rays and circles: one cell
+/// alone at each corner, between a roller and a chord that is off the right angle by 45°/n.
+struct Ring {
+  static constexpr double inner = 1, outer = 2, lambda = 1, shear = 1;
+  Point displacement(const Point& x) const {
+    // u_r = A r + B / r with sigma_rr = −1 at the bore and 0 outside.
+    const double a = inner * inner / (outer * outer - inner * inner);
+    return x * (a / (2 * (lambda + shear)) + a * outer * outer / (2 * shear) / x.squaredNorm());
+  }
+  /// sigma_xx at the angle where x is along the circle, i.e. sigma_tt.
+  static double hoop(double r) {
+    return inner * inner / (outer * outer - inner * inner) * (1 + outer * outer / (r * r));
+  }
+  Mesh mesh(int n) const {
+    RawMesh raw;
+    raw.region_names = {"rock"};
+    raw.side_names = {"floor", "outer", "wall", "bore"};
+    const auto node = [n](int i, int j) { return i + (n + 1) * j; };
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) {
+        const double angle = std::numbers::pi / 2 * j / n, r = inner + (outer - inner) * i / n;
+        raw.nodes.emplace_back(r * std::cos(angle), r * std::sin(angle));
+      }
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) raw.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+    raw.regions.assign(raw.cells.size(), 0);
+    for (int i = 0; i < n; ++i) {
+      raw.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 0});
+      raw.boundary_edges.push_back({{node(n, i), node(n, i + 1)}, 1});
+      raw.boundary_edges.push_back({{node(i, n), node(i + 1, n)}, 2});
+      raw.boundary_edges.push_back({{node(0, i), node(0, i + 1)}, 3});
+    }
+    return build_mesh(raw);
+  }
+
+  /// The largest error of the hoop stress on the faces of the wall, from exact displacements of the cells.
+  double error_of_reaction(int n) const {
+    const Mesh rock = mesh(n);
+    Conditions conditions = traction_everywhere(rock);
+    Vector u(2 * rock.cell_count()), b = Vector::Zero(2 * rock.face_count());
+    for (int c = 0; c < rock.cell_count(); ++c) u.segment<2>(2 * c) = displacement(rock.cell_center[c]);
+    for (int f = 0; f < rock.face_count(); ++f) {
+      if (!is_outer(rock, f)) continue;
+      const std::string& side = rock.side_names[rock.face_side[f]];
+      if (side == "bore") b.segment<2>(2 * f) = -test::face_vector(rock, f);
+      if (side == "wall") conditions[f][0] = MechanicalCondition::displacement;
+      if (side == "floor") conditions[f][1] = MechanicalCondition::displacement;
+    }
+    const auto operators = discretize_mpsa(
+        rock, std::vector<Stiffness>(rock.cell_count(), isotropic_stiffness(lambda, shear)), conditions);
+    const Vector forces = operators.force_displacement * u + operators.force_boundary * b;
+    double error = 0;
+    for (int f = 0; f < rock.face_count(); ++f)
+      if (is_outer(rock, f) && rock.side_names[rock.face_side[f]] == "wall")
+        error = std::max(error, std::abs(-forces[2 * f] / rock.face_length[f] - hoop(rock.face_center[f].norm())));
+    return error;
+  }
+};
+
+TEST(Mpsa, AQuadrilateralAloneAtACornerOfARollerAndACurvedLoadedSide) {
+  const Ring ring;
+  const double coarse = ring.error_of_reaction(8), fine = ring.error_of_reaction(16),
+               finest = ring.error_of_reaction(64);
+  // The stress is 1.67 there.
+  EXPECT_LT(coarse, 0.03);
+  EXPECT_LT(fine, 0.5 * coarse);
+  EXPECT_LT(finest, 0.2 * fine);
+}
+
 TEST(Mpsa, PrescribedForcesAreKeptToTheLastDigit) {
   const Mesh mesh = test::fractured_square();
   const auto conditions = mixed_conditions(mesh);
