@@ -72,11 +72,20 @@ void Newton::move(const std::vector<Vector>& from, const Vector& update, double 
   }
 }
 
+namespace {
+
+/// Then round-off of its rows, too, is worth an update.
+bool only_balance_fails(const ResidualCheck& check, std::size_t equation) {
+  return check.rows_hold && check.is_unbalanced[equation];
+}
+
+}  // namespace
+
 Vector Newton::right_hand_side(const ResidualCheck& check) const {
   Vector right = -system_.residual(*assembly_);
   const std::vector<int>& rows = system_.rows();
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    if (!check.is_round_off[u] || check.is_unbalanced[u]) continue;
+    if (!check.is_round_off[u] || only_balance_fails(check, u)) continue;
     const int first = system_.first(static_cast<int>(u)), end = first + unknowns_[u]->size();
     const auto begin = std::lower_bound(rows.begin(), rows.end(), first);
     right.segment(begin - rows.begin(), std::lower_bound(begin, rows.end(), end) - begin).setZero();
@@ -84,7 +93,7 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
   for (const BlockSystem::Summed& summed : system_.summed()) {
     double total = 0;
     for (const int u : summed.conserved.rows)
-      if (!check.is_round_off[u] || !check.is_round_off_in_sum[u] || check.is_unbalanced[u])
+      if (!check.is_round_off[u] || !check.is_round_off_in_sum[u] || only_balance_fails(check, u))
         total += system_.residual_of_sum(*assembly_, u);
     if (summed.place >= 0) right[summed.place] = -total;
   }

@@ -103,8 +103,7 @@ class Exchange : public Part {
  public:
   Exchange(const Field& x, double exchanged, bool tells) : x_(x), tells_(tells) {
     SparseMatrix entries(2, 2), leaving(2, 2);
-    const std::vector<Triplet> both = {
-        {0, 0, exchanged}, {0, 1, -exchanged}, {1, 0, -exchanged}, {1, 1, exchanged}};
+    const std::vector<Triplet> both = {{0, 0, exchanged}, {0, 1, -exchanged}, {1, 0, -exchanged}, {1, 1, exchanged}};
     entries.setFromTriplets(both.begin(), both.end());
     exchange_ = Operator(entries, leaving);
   }
