@@ -13,8 +13,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tools"))
 import results  # noqa: E402
-from stress_suite import (check_balance, check_contact, check_finite, check_pressure, compare, fractures, physics, ranges,  # noqa: E402
-                          scene, summary, twisted_mesh, written)
+from stress_suite import (check_balance, check_contact, check_finite, check_growing, check_pressure, compare,  # noqa: E402
+                          fractures, growing, physics, ranges, scene, summary, twisted_mesh, written)
 
 P = {"young": 2.5e9, "poisson": 0.25, "alpha": 0.0, "permeability": 1e-15, "viscosity": 1e-3, "storage": 1e-10,
      "compressibility": 1e-9, "friction": 0.5, "dilation": 10.0, "aperture": 1e-3, "width": 4.0, "height": 4.0,
@@ -129,6 +129,79 @@ class Checks(unittest.TestCase):
         bad = change("matrix", "pore.pressure[Pa]", 3, np.nan)
         self.found(check_finite.failures(bad, {}), "not finite")
         self.found(check_finite.failures([], {"a": np.array([1.0, np.inf])}), "not finite")
+
+
+class Growing(unittest.TestCase):
+    """A state at rest, as of a scene that grows, and the books of a run that has injected twice and drawn out once."""
+    P = {**P, "family": "growing", "lines": {"f0": ((1.0, 2.0), (3.0, 2.0))}, "gravity": True, "toughness": 1e6, "fracture_size": 0.05,
+         "source": [(2e-8, 0.0, 3600.0), (1e-8, 7200.0, 10800.0), (-1e-8, 10800.0, 14400.0)]}
+
+    def history(self):
+        time = np.array([1800.0, 3600.0, 7200.0, 10800.0, 14400.0])
+        injected = np.array([3.6e-5, 7.2e-5, 7.2e-5, 1.08e-4, 7.2e-5])
+        outflow = 0.25 * injected
+        return {"time[s]": time, "fluid_injected[m^2]": injected, "fluid_outflow[m^2]": outflow,
+                "fluid_stored[m^2]": injected - outflow, "tips.f0_last.K_eq[Pa*m^0.5]": np.array([1e6, 9e5, np.nan, 1e6, 8e5]),
+                "tips.f0_last.length[m]": np.array([2.0, 2.05, 2.05, 2.1, 2.1])}
+
+    def test_nothing_is_found_where_all_is_well(self):
+        self.assertEqual(check_growing.failures(self.P, [at_rest()], self.history()), [])
+
+    def found(self, instants, history, text):
+        failures = check_growing.failures(self.P, instants, history)
+        self.assertTrue(any(text in failure for failure in failures), failures)
+
+    def test_fluid(self):
+        for column, place, part, text in (("stored", 2, 1e-5, "the balance"), ("stored", -1, -1e-5, "the balance"),
+                                          ("outflow", 0, 1e-5, "the balance"), ("injected", 3, 1e-5, "what was injected")):
+            history = self.history()
+            history[f"fluid_{column}[m^2]"] = history[f"fluid_{column}[m^2]"].copy()
+            history[f"fluid_{column}[m^2]"][place] += part * 1e-4
+            self.found([at_rest()], history, text)
+            history[f"fluid_{column}[m^2]"][place] -= 0.999 * part * 1e-4
+            self.assertEqual(check_growing.fluid(self.P, history), [])
+        both = self.history()  # a rate that was left out, with books that close
+        for column in ("injected", "stored"):
+            both[f"fluid_{column}[m^2]"] = both[f"fluid_{column}[m^2]"] - 3.6e-5 * (both["time[s]"] > 7200)
+        self.found([at_rest()], both, "what was injected")
+
+    def test_pressures_beyond_reach(self):
+        for value in (1e9, -1e9):
+            self.found(change("matrix", "pore.pressure[Pa]", 3, value), self.history(), "in the rock, beyond")
+            moved = change("fractures", "conduit.pressure[Pa]", 2, value)
+            self.found(moved, self.history(), "in the fractures, beyond")
+
+    def test_nothing_is_negative_and_nothing_heals(self):
+        self.found(change("fractures", "conduit.aperture[m]", 1, -0.1), self.history(), "an aperture")
+        for column, change_of, text in (("K_eq[Pa*m^0.5]", -2e6, "K_eq"), ("length[m]", -3.0, "length"), ("length[m]", -0.01, "growth")):
+            history = self.history()
+            history["tips.f0_last." + column] = history["tips.f0_last." + column] + np.array([0, 0, 0, 0, change_of])
+            self.found([at_rest()], history, text)
+
+    def test_contact_and_numbers(self):
+        self.found(change("fractures", "contact.jump.normal[m]", 0, -1e-9), self.history(), "overlap")
+        self.found(change("matrix", "pore.pressure[Pa]", 3, np.nan), self.history(), "not finite")
+        self.found([at_rest()], {**self.history(), "fluid_stored[m^2]": np.full(5, np.nan)}, "not finite")
+
+    def test_slip_is_not_compared_across_a_growth(self):
+        before, after = at_rest(), at_rest()
+        lines = after.fractures
+        lines.cells = lines.cells[1:]
+        lines.cell_data = {name: values[1:] for name, values in lines.cell_data.items()}
+        self.assertEqual([i.follows for i in check_growing.with_growth([before, after])], [True, False])
+        self.assertEqual(check_growing.failures(self.P, [before, after], self.history()), [])
+
+    def test_scenes_have_what_the_family_promises(self):
+        drawn = [ranges.draw(1, number, "growing") for number in range(300)]
+        self.assertEqual({len(p["lines"]) for p in drawn}, {2, 3, 4, 5, 6})
+        self.assertEqual({p["scheme"] for p in drawn}, {"monolithic", "iterated", "subcycled"})
+        self.assertTrue(any(p["gravity"] for p in drawn) and any(len(p["source"]) > 1 for p in drawn))
+        for p in drawn:
+            self.assertGreater(max(growing.injected(p, 0, t * 3600) for t in range(1, 5)), 0)
+            names = list(p["lines"])
+            for name in names:
+                others = [p["lines"][other] for other in names if other != name]
+                self.assertTrue(growing.are_apart(p["lines"][name], others, 0.7 * p["fracture_size"]), p["number"])
 
 
 class Processes(unittest.TestCase):

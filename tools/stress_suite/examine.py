@@ -2,10 +2,12 @@
 
 import shutil
 
-from . import check_balance, check_contact, check_end, check_finite, check_pressure, physics, ranges, run, scene, written
+from . import check_balance, check_contact, check_end, check_finite, check_growing, check_pressure, growing, physics, ranges, run, scene, written
 
 
 def describe(p):
+    if p["family"] == "growing":
+        return growing.describe(p)
     return (f"dt = {p['relative_step']:.0e} of diffusion, k = {p['permeability']:.0e}, alpha = {p['alpha']:.2f}, "
             f"S = {p['storage']:.0e}, nu = {p['poisson']:.4f}, friction = {p['friction']:.2f}, "
             f"dilation = {p['dilation']:.0f} deg, a = {p['aperture']:.0e} m, {p['history']}, {p['well']}, {p['mesh']}, "
@@ -21,6 +23,8 @@ def reasons_of_cuts(stderr):
 
 def check_fields(p, folder):
     instants, history = written.instants(folder), written.history(folder)
+    if p["family"] == "growing":
+        return check_growing.failures(p, instants, history)
     found = check_finite.failures(instants, history)
     if found or not instants:
         return found

@@ -70,6 +70,8 @@ def meeting(p, ends, scale=1.0):
 
 def segments(p):
     """{name: [[x, y], [x, y]]}; others than the first one are left out where the box has no room for them at all."""
+    if p["family"] == "growing":
+        return p["lines"]
     found = {"main": first(p)}
     if p["family"] == "meeting":
         for scale in (1, 0.5, 0.25, 0.125):  # as long as the box has room for them

@@ -3,6 +3,8 @@
 import math
 import random
 
+from . import growing
+
 
 def log_uniform(rng, low, high):
     return 10 ** rng.uniform(math.log10(low), math.log10(high))
@@ -94,11 +96,13 @@ def meeting(rng):
     }
 
 
-FAMILIES = ("separate", "meeting")
+FAMILIES = ("separate", "meeting", "growing")
 
 
 def draw(seed, number, family="separate"):
     rng = random.Random(f"{seed}:{number}" if family == "separate" else f"{family}:{seed}:{number}")
+    if family == "growing":
+        return {"seed": seed, "number": number, "family": family, **growing.draw(rng)}
     p = {"seed": seed, "number": number, "family": family, **material(rng), **geometry(rng), **loading(rng), **fluid(rng),
          **time(rng)}
     return p if family == "separate" else {**p, **meeting(rng)}

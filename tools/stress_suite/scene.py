@@ -2,7 +2,7 @@
 
 import math
 
-from . import fractures, physics, twisted_mesh
+from . import fractures, growing, physics, twisted_mesh
 
 
 def box_and_mesh(p):
@@ -50,6 +50,8 @@ def wells(p):
 def write(p, folder):
     """folder/scene.yaml; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
+    if p["family"] == "growing":
+        return growing.write(p, folder / "scene.yaml")
     if p["mesh"] == "twisted":
         twisted_mesh.write(p, folder / "mesh.msh")
         shape = "geometry: {file: mesh.msh}"
