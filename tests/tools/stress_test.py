@@ -227,6 +227,18 @@ class Summary(unittest.TestCase):
         self.assertFalse(summary.cuts_too_often(reports(10, 10)))
 
 
+    def test_what_makes_the_exit_code_of_scenes_that_grow(self):
+        def failing(text):
+            return [{"failures": ["pressure: too high", text]}, {"failures": []}]
+        for text, count in (("crash: signal 11", 1), ("fluid: the balance is wrong", 1), ("negative: an aperture", 1), ("contact: walls pull", 0)):
+            self.assertEqual(len(summary.count_as_failed(failing(text), "growing")), count)
+            self.assertEqual(len(summary.count_as_failed(failing(text), "meeting")), 1)
+        many = [{"iterations": [1], "accepted": 1, "rejected": 1, "outcome": "answer", "balance": 0.0,
+                 "cuts": {"singular": 0, "not converged": 1}, "seconds": 1.0}] * 40
+        self.assertTrue(summary.cuts_too_often(many, "meeting"))
+        self.assertFalse(summary.cuts_too_often(many, "growing"))
+
+
 class Scenes(unittest.TestCase):
     def test_a_number_gives_the_same_scene(self):
         with tempfile.TemporaryDirectory() as temporary:

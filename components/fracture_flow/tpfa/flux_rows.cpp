@@ -56,6 +56,7 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
     }
     const JunctionFluxes::Flux flux = at_junctions[link.junction].flux(link.place);
     flux.parts.empty() ? add_row(link, flux.conductance, rows) : add_row(link, flux, rows);
+    add_pattern(link, rows);
   }
   assembly.add(flux_, rows.of_flux.cwiseProduct(flux_.now()));
   assembly.add(flux_, rows.drop);
@@ -91,6 +92,16 @@ void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& row
   // d/da of scale (q − C dp), with the scale's own derivative −scale^2 C'.
   for (const auto& [cell, by] : c.by_aperture)
     rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
+}
+
+/// The cell of a junction that conducts best may be another one in the next iteration, and the pattern is to stay:
+/// entries of zero wherever some hub would have one.
+void FractureFlow::add_pattern(const Link& link, FluxRows& rows) const {
+  const Junction& junction = mesh_.junctions[link.junction];
+  for (const int cell : {link.first, link.second}) rows.by_pressure.emplace_back(link.point, cell, 0);
+  for (const int cell : junction.cells) rows.by_aperture.emplace_back(link.point, cell, 0);
+  for (const int point : junction.points)
+    if (point != link.point) rows.by_flux.emplace_back(link.point, point, 0);
 }
 
 void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const {

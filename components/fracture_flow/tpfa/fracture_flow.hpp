@@ -73,6 +73,7 @@ class FractureFlow : public Component, public FractureFluid {
   void assemble_fluxes(Assembly& assembly, const StepTime& step) const;
   void add_row(const Link& link, const Conductance& conductance, FluxRows& rows) const;
   void add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const;
+  void add_pattern(const Link& link, FluxRows& rows) const;
   double scale_of_row(const Link& link, double conductance, double dt) const;
   void check_names() const;
   int region_of(int cell) const;
