@@ -34,17 +34,21 @@ Spec GrowthOptions::spec() {
                 {.range = strictly_between(0, 1), .doc = "Largest |K_eq/K_IC − 1| at the end of growth."});
   spec.quantity("largest_turn", largest_turn,
                 {.unit = "rad", .range = between(0.1, 1.55), .doc = "Largest angle between two increments."});
-  spec.quantity("smallest", smallest,
-                {.range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false},
-                 .doc = "Shortest increment over the longest; a tip that would grow less waits."});
+  spec.quantity(
+      "smallest", smallest,
+      {.range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false},
+       .doc = "Shortest increment over the longest; a tip that would grow less waits, or less than a tenth of it where "
+              "K_eq is above the toughness by two tolerances."});
   spec.quantity(
       "longest", longest,
       {.unit = "m", .range = positive(), .doc = "Most that a tip adds at once; without it there is no limit."});
   spec.integer("at_most", at_most, {.range = between(1, 10000), .doc = "Most increments that a tip adds at once."});
-  spec.integer("tries", tries,
-               {.range = between(2, 100),
-                .doc = "Evaluations of the fine level for one increment, then the best direction so far is taken, or, "
-                       "where that is bad, the explicit one."});
+  spec.integer(
+      "tries", tries,
+      {.range = between(2, 100),
+       .doc = "Evaluations of the fine level for one length of an increment. Then a shorter one is tried, four "
+              "times as many in all, or, with whole increments, the best direction so far is taken, and where "
+              "that is bad the explicit one."});
   return spec;
 }
 

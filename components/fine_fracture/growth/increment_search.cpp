@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "components/fine_fracture/growth/kink.hpp"
 
@@ -19,6 +21,12 @@ bool turns_away(const Sifs& sifs, double length) {
   return 4 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) > 0.5 * equivalent_sif(sifs);
 }
 
+/// abs(phi) up to which estimates for the right direction hold.
+constexpr double nearly_right = 0.5;
+
+/// How often one increment is evaluated in all, over how often it is with one length.
+constexpr int lengths_tried = 4;
+
 }  // namespace
 
 IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start, double toughness, double full_length,
@@ -28,10 +36,8 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
       toughness_(toughness),
       experience_(before),
       full_length_(full_length),
-      length_(full_length),
-      best_{0, std::numbers::pi},
-      shorter_{0, excess(equivalent_sif(start))},
-      longer_{full_length, 0} {
+      length_(full_length) {
+  forget_lengths();
   length_ = first_length();
   if (!options_.is_implicit()) {
     angle_ = clamp_turn(options_.relaxation * maximum_tangential_angle(start_));
@@ -44,12 +50,20 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
 }
 
 double IncrementSearch::first_length() const {
+  if (!options_.seeks_arrest()) return full_length_;
   // Only where the whole length is much too long: near the toughness a small part of K_eq is a large one of the length,
   // and whole increments are what tips that grow together have in common.
   constexpr double tolerances = 5;
   const double excess_of_whole = shorter_.excess + experience_.release * full_length_;
-  if (!options_.seeks_arrest() || excess_of_whole < tolerances * options_.arrest_tolerance) return full_length_;
-  return std::clamp(-shorter_.excess / experience_.release, options_.smallest_length(), full_length_);
+  if (excess_of_whole < tolerances * options_.arrest_tolerance) return full_length_;
+  return std::clamp(-shorter_.excess / experience_.release, shortest_length(), full_length_);
+}
+
+/// A tip waits rather than grow by very little, but not where that would leave it well above the toughness.
+double IncrementSearch::shortest_length() const {
+  constexpr double tolerances = 2, part = 0.1;
+  const bool may_wait = -excess(equivalent_sif(start_)) <= tolerances * options_.arrest_tolerance;
+  return (options_.seeks_arrest() && !may_wait ? part : 1) * options_.smallest_length();
 }
 
 double IncrementSearch::clamp_turn(double angle) const {
@@ -59,7 +73,7 @@ double IncrementSearch::clamp_turn(double angle) const {
 void IncrementSearch::limit_length(double free_length) {
   if (free_length >= length_) return;
   is_limited_ = true;
-  if (free_length < options_.smallest_length()) {
+  if (free_length < shortest_length()) {
     full_length_ = 0;
     return stay();
   }
@@ -69,9 +83,10 @@ void IncrementSearch::limit_length(double free_length) {
 
 void IncrementSearch::forget_lengths() {
   length_ = full_length_;
-  shorter_ = {0, excess(equivalent_sif(start_))};
-  longer_ = {full_length_, 0};
-  has_longer_ = false;
+  shorter_ = {0, excess(equivalent_sif(start_)), 0};
+  longer_.reset();
+  good_.reset();
+  ceiling_ = std::numeric_limits<double>::infinity();
   directions_.clear();
 }
 
@@ -91,7 +106,22 @@ bool IncrementSearch::is_direction_met(const Sifs& end) const {
 bool IncrementSearch::is_length_met(double k_eq) const {
   if (!options_.seeks_arrest() || phase_ == Phase::as_it_is) return true;
   const double tolerance = options_.arrest_tolerance * toughness_;
-  return k_eq >= toughness_ - tolerance && (length_ == full_length_ || k_eq <= toughness_ + tolerance);
+  // Where no direction is known for twice the length, the next increment goes on from here.
+  const bool is_as_long_as_can_be = length_ == full_length_ || 2 * length_ >= ceiling_;
+  return k_eq >= toughness_ - tolerance && (is_as_long_as_can_be || k_eq <= toughness_ + tolerance);
+}
+
+bool IncrementSearch::tells_of_length(const Sifs& end) const {
+  if (phase_ != Phase::searching) return true;
+  const double phi = phase_of(end);
+  return std::abs(phi) < nearly_right && std::abs(excess_in_right_direction(end)) >= phi * phi;
+}
+
+/// K_eq is about K (1 + phi^2), with K_eq = K in the right direction (Eq. 10 to second order), and about as wrong for a
+/// kink whose length plays a part.
+double IncrementSearch::excess_in_right_direction(const Sifs& end) const {
+  const double phi = phase_ == Phase::searching ? phase_of(end) : 0;
+  return excess(equivalent_sif(end)) + phi * phi;
 }
 
 double IncrementSearch::excess(double k_eq) const {
@@ -124,10 +154,12 @@ double IncrementSearch::root_of_phi() {
     const double secant = (last.phi - before.phi) / (last.angle - before.angle);
     if (secant > 0.02 && secant < 100) {
       slope = secant;
-      experience_.stiffness_ratio = std::clamp(secant / estimated_slope(last.angle), 0.1, 20.0);
+      if (std::max(std::abs(last.phi), std::abs(before.phi)) < nearly_right)
+        experience_.stiffness_ratio = std::clamp(secant / estimated_slope(last.angle), 0.1, 20.0);
     }
   }
-  double root = clamp_turn(last.angle - last.phi / slope);
+  constexpr double longest_step = 0.5;  // as long as the root is not between two angles
+  double root = clamp_turn(last.angle - std::clamp(last.phi / slope, -longest_step, longest_step));
   double low = -options_.largest_turn, high = options_.largest_turn;
   for (const Direction& tried : directions_) {
     if (tried.phi < 0) low = std::max(low, tried.angle);
@@ -142,71 +174,82 @@ void IncrementSearch::learn(const Sifs& end) {
     is_settled_ = true;
     return;
   }
-  ++tries_;
-  const double phi = phase_of(end), k_eq = equivalent_sif(end);
-  if (std::abs(phi) < std::abs(best_.phi)) best_ = {angle_, phi};
-  const bool is_length_met_now = is_length_met(k_eq);
-  is_settled_ = is_direction_met(end) && is_length_met_now;
+  // What was found for other places of the other tips no longer binds.
   if (is_settled_) {
-    experience_.release = (excess(k_eq) - excess(equivalent_sif(start_))) / length_;
-    // Other tips may move yet, and what was found for their old places no longer binds.
-    directions_.clear();
-    return;
+    const double length = length_;
+    forget_lengths();
+    length_ = length;
   }
-  if (tries_ >= options_.tries && phase_ == Phase::direction_fixed) {
-    // An increment that ends far below the toughness is more than the tip has grown.
-    if (options_.seeks_arrest() && k_eq < 0.9 * toughness_) return fall_back();
-    return accept_as_it_is();
-  }
+  ++tries_;
+  const double k_eq = equivalent_sif(end);
+  is_settled_ = is_direction_met(end) && is_length_met(k_eq);
+  if (is_settled_) return settle(k_eq);
+  if (std::abs(end.k2) <= options_.direction_tolerance * end.k1 && k_eq >= toughness_ &&
+      (!good_ || length_ > good_->length))
+    good_ = Length{length_, excess(k_eq), angle_};
+  if (tries_ >= options_.tries * (options_.seeks_arrest() ? lengths_tried : 1)) return settle_for_less(k_eq);
+  if (phase_ == Phase::searching) directions_.push_back({angle_, phase_of(end)});
+  if (tells_of_length(end) && !is_length_met(k_eq))
+    change_length(excess_in_right_direction(end));
+  else
+    correct_direction(end);
+}
 
-  const bool tells_direction = end.k1 > 0 || is_length_met_now;
-  if (tries_ >= options_.tries && !tells_direction) {
-    // Lengths have closed in on a jump of K, beyond which the tip is closed: with one direction for all of them it
-    // ends.
+void IncrementSearch::settle(double k_eq) {
+  experience_.release = (excess(k_eq) - excess(equivalent_sif(start_))) / length_;
+  directions_.clear();
+}
+
+void IncrementSearch::settle_for_less(double k_eq) {
+  if (good_) {
+    phase_ = Phase::as_it_is;
+    length_ = good_->length;
+    angle_ = good_->angle;
+  } else if (phase_ == Phase::searching) {
     fix_direction("K_II did not vanish within the tries");
-    return forget_lengths();
-  }
-  const double present = angle_;
-  double root = angle_;
-  if (phase_ == Phase::searching && tells_direction) {
-    directions_.push_back({angle_, phi});
-    root = root_of_phi();
-    if (tries_ >= options_.tries && is_direction_met(end))
-      keep_direction();
-    else if (tries_ >= options_.tries)
-      fix_direction("K_II did not vanish within the tries");
-    else if (is_reversed())
-      fix_direction("K_II grows with the turn that should remove it");
-    else if (root == present && !is_direction_met(end))
-      fix_direction("no direction within the largest turn makes K_II vanish");
-    if (phase_ == Phase::direction_fixed) root = angle_;
-  }
-  // Where shear prevails the tip may be loaded too little only because it points the wrong way; where it is closed it
-  // is too long.
-  constexpr double far = 1;
-  if (is_length_met_now || (std::abs(phi) >= far && end.k1 > 0 && root != present)) {
-    angle_ = root;
-    is_settled_ = is_length_met_now && root == present;
+  } else if (options_.seeks_arrest() && k_eq < 0.9 * toughness_) {
+    // An increment that ends far below the toughness is more than the tip has grown.
+    fall_back();
   } else {
-    change_length(k_eq, root);
+    accept_as_it_is();
   }
 }
 
+void IncrementSearch::correct_direction(const Sifs& end) {
+  // Beyond, the tip is closed and K_II tells nothing about where it should go.
+  constexpr double closed = 0.75 * std::numbers::pi;
+  const bool may_shorten = options_.seeks_arrest();
+  if (may_shorten && std::abs(directions_.back().phi) >= closed) {
+    const double linear = shorter_.excess / (shorter_.excess - excess(end.k1));
+    directions_.clear();
+    return shorten(std::clamp(linear, 0.1, 0.7));
+  }
+  const double present = angle_, root = root_of_phi();
+  if (is_reversed()) return fix_direction("K_II grows with the turn that should remove it");
+  if (root == present && !may_shorten) return fix_direction("no direction within the largest turn makes K_II vanish");
+  constexpr double near_the_root = 0.2;
+  const int tries_with_one_length =
+      std::abs(directions_.back().phi) < near_the_root ? options_.tries : std::max(2, options_.tries / 2);
+  if (may_shorten && (root == present || static_cast<int>(directions_.size()) >= tries_with_one_length))
+    return shorten(0.35);
+  angle_ = root;
+}
+
 double IncrementSearch::next_length(const std::optional<Length>& third) const {
-  const double width = longer_.length - shorter_.length, middle = shorter_.length + width / 2;
-  const double a = shorter_.excess, b = longer_.excess;
+  const double width = longer_->length - shorter_.length, middle = shorter_.length + width / 2;
+  const double a = shorter_.excess, b = longer_->excess;
   if (!(a < 0 && b > 0)) return middle;
   double next = shorter_.length + width * a / (a - b);
   if (third && third->excess != a && third->excess != b) {
     // The parabola of the length over the excess through three points, as in Brent's method.
     const double c = third->excess;
     const double through_three = shorter_.length * b * c / ((a - b) * (a - c)) +
-                                 longer_.length * a * c / ((b - a) * (b - c)) +
+                                 longer_->length * a * c / ((b - a) * (b - c)) +
                                  third->length * a * b / ((c - a) * (c - b));
-    if (through_three > shorter_.length && through_three < longer_.length) next = through_three;
+    if (through_three > shorter_.length && through_three < longer_->length) next = through_three;
   }
   const double margin = 2e-3 * width;
-  return std::clamp(next, shorter_.length + margin, longer_.length - margin);
+  return std::clamp(next, shorter_.length + margin, longer_->length - margin);
 }
 
 /// No increment that is too long is known yet.
@@ -214,54 +257,98 @@ double IncrementSearch::longer_length() const {
   constexpr double nearly = 0.7;
   const double slope = (shorter_.excess - excess(equivalent_sif(start_))) / shorter_.length;
   const double next = shorter_.length - shorter_.excess / slope;
-  return slope > 0 && next < nearly * full_length_ ? next : full_length_;
+  const double longest = std::min(full_length_, 0.5 * (shorter_.length + ceiling_));
+  return slope > 0 && next < nearly * longest ? next : longest;
 }
 
-void IncrementSearch::change_length(double k_eq, double root) {
-  const Length here = {length_, excess(k_eq)};
-  if (here.excess > 0 && length_ <= options_.smallest_length() * (1 + 1e-12)) return stay();
-  Length& replaced = here.excess > 0 ? longer_ : shorter_;
-  const std::optional<Length> third = has_longer_ ? std::optional(replaced) : std::nullopt;
-  has_longer_ = has_longer_ || here.excess > 0;
-  replaced = here;
-  const double next = has_longer_ ? std::max(next_length(third), options_.smallest_length()) : longer_length();
+void IncrementSearch::change_length(double excess_here) {
+  const Length here = {length_, excess_here, angle_};
+  if (here.excess > 0 && length_ <= shortest_length() * (1 + 1e-12)) {
+    experience_.release = (here.excess - excess(equivalent_sif(start_))) / length_;
+    return stay();
+  }
+  std::optional<Length> third;
+  if (here.excess > 0) {
+    third = std::exchange(longer_, here);
+  } else {
+    if (longer_) third = shorter_;
+    shorter_ = here;
+  }
+  if (has_closed(here.excess)) {
+    // On nothing: what has just been tried holds, and the other end does not.
+    if (here.excess > 0)
+      shorter_ = {0, excess(equivalent_sif(start_)), 0};
+    else
+      longer_.reset();
+    third.reset();
+  }
+  go_to(longer_ ? std::max(next_length(third), shortest_length()) : longer_length());
+}
+
+/// Whether the bracket is narrower than K_eq allows, as where one of its ends no longer holds: K_eq would change with
+/// more than the fifth power of the length.
+bool IncrementSearch::has_closed(double excess_here) const {
+  constexpr double steepest = 5;
+  return phase_ == Phase::searching && longer_ &&
+         steepest * (longer_->length - shorter_.length) < std::abs(excess_here) * longer_->length;
+}
+
+void IncrementSearch::shorten(double by) {
+  if (length_ <= shortest_length() * (1 + 1e-12))
+    return fix_direction("no direction makes K_II vanish, of the shortest increment neither");
+  ceiling_ = length_;
+  longer_.reset();
+  const double shorter = std::max(by * length_, 0.5 * (shorter_.length + length_) * (shorter_.length > 0));
+  go_to(std::max(shorter, shortest_length()));
+}
+
+/// With the direction that what was tried with the present length makes likely for the new one.
+void IncrementSearch::go_to(double length) {
   if (phase_ == Phase::searching) {
     // By how much the estimate is wrong vanishes with the length, where the estimate is exact.
+    const double root = directions_.empty() ? angle_ : root_of_phi();
     const double wrong = root - local_symmetry_angle(start_, length_, options_.largest_turn);
-    angle_ = clamp_turn(local_symmetry_angle(start_, next, options_.largest_turn) + wrong * next / length_);
+    angle_ = clamp_turn(local_symmetry_angle(start_, length, options_.largest_turn) + wrong * length / length_);
   }
-  length_ = next;
+  length_ = length;
   directions_.clear();
 }
+
+void IncrementSearch::add_note(const std::string& note) { note_ += (note_.empty() ? "" : "; ") + note; }
 
 void IncrementSearch::accept_as_it_is() {
   phase_ = Phase::as_it_is;
   is_settled_ = true;
-  note_ += std::string(note_.empty() ? "" : "; ") + "the length of arrest was not found within the tries";
+  add_note("the length of arrest was not found within the tries");
 }
 
 void IncrementSearch::fall_back() {
-  note_ += std::string(note_.empty() ? "" : "; ") + "the length of arrest was not found: the tip waits where it can";
-  if (shorter_.length < options_.smallest_length()) return stay();
+  add_note("the length of arrest was not found: the tip waits where it can");
+  if (shorter_.length < shortest_length()) return stay();
   phase_ = Phase::as_it_is;
   length_ = shorter_.length;
+  angle_ = shorter_.angle;
 }
 
-void IncrementSearch::keep_direction() {
+/// From here on all lengths are tried in this direction.
+void IncrementSearch::fix_direction(const std::string& why) {
   phase_ = Phase::direction_fixed;
   tries_ = 0;
-}
-
-void IncrementSearch::fix_direction(const std::string& why) {
-  keep_direction();
+  const auto best =
+      std::min_element(directions_.begin(), directions_.end(),
+                       [](const Direction& a, const Direction& b) { return std::abs(a.phi) < std::abs(b.phi); });
   // Nearly symmetric is better than explicit, which is unstable.
-  if (std::abs(std::tan(best_.phi)) <= 10 * options_.direction_tolerance && std::cos(best_.phi) > 0) {
-    angle_ = best_.angle;
-    note_ = why + ": the best direction was taken";
+  if (best != directions_.end() && std::abs(std::tan(best->phi)) <= 10 * options_.direction_tolerance &&
+      std::cos(best->phi) > 0) {
+    angle_ = best->angle;
+    add_note(why + ": the best direction was taken");
   } else {
     angle_ = clamp_turn(maximum_tangential_angle(start_));
-    note_ = why + ": the direction of the maximum tangential stress was taken";
+    add_note(why + ": the direction of the maximum tangential stress was taken");
   }
+  const double length = length_;
+  forget_lengths();
+  length_ = length;
 }
 
 }  // namespace sprekk::fine_fracture

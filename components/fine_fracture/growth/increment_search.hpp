@@ -20,8 +20,13 @@ struct Experience {
 ///   phi(angle) = atan2(K_II, K_I) = 0       (direction: implicit), and
 ///   K_eq(length) = K_IC, or length = the full length and K_eq >= K_IC       (length: arrest).
 /// Each is solved by its own secants while the other changes too: K_eq is stationary in the angle where phi = 0
-/// (Amestoy and Leblond 1992), so one hardly disturbs the other. phi is used, and not K_II, because it stays nearly
-/// linear for large turns and tells a closed tip, phi = pi, from mode I.
+/// (Amestoy and Leblond 1992), so one hardly disturbs the other as long as phi is small. phi is used, and not K_II,
+/// because it stays nearly linear for large turns and tells a closed tip, phi = pi, from mode I.
+///
+/// Whether an increment is too short or too long is known only for the direction that it was tried in. So a length
+/// becomes an end of the bracket only where its direction was right, up to an error that K_eq does not feel. Elsewhere
+/// the direction is corrected first; if that fails the increment is made shorter, since the estimate of the direction
+/// is exact in the limit, and the next increment goes on from its end.
 ///
 ///   IncrementSearch search(…);
 ///   while (!search.is_settled()) search.learn(sifs at the end of the increment search.angle(), search.length());
@@ -50,28 +55,37 @@ class IncrementSearch {
     double angle, phi;
   };
   struct Length {
-    double length, excess;
+    double length, excess, angle;
   };
   enum class Phase { searching, direction_fixed, as_it_is };
 
   bool is_direction_met(const Sifs& end) const;
   bool is_length_met(double k_eq) const;
+  bool tells_of_length(const Sifs& end) const;
   double excess(double k_eq) const;
+  double excess_in_right_direction(const Sifs& end) const;
   double estimated_slope(double angle) const;
   double clamp_turn(double angle) const;
   bool is_reversed() const;
   double root_of_phi();
   double first_length() const;
+  double shortest_length() const;
   double next_length(const std::optional<Length>& third) const;
   double longer_length() const;
-  void change_length(double k_eq, double root);
+  void correct_direction(const Sifs& end);
+  void change_length(double excess_here);
+  bool has_closed(double excess_here) const;
+  void shorten(double by);
+  void go_to(double length);
+  void settle(double k_eq);
+  void settle_for_less(double k_eq);
   void accept_as_it_is();
   /// The longest length known to end at the toughness or above, or none.
   void fall_back();
-  void keep_direction();
   void fix_direction(const std::string& why);
   void forget_lengths();
   void stay();
+  void add_note(const std::string& note);
 
   const GrowthOptions options_;
   const Sifs start_;
@@ -83,9 +97,10 @@ class IncrementSearch {
   Phase phase_ = Phase::searching;
   int tries_ = 0;
   std::vector<Direction> directions_;  ///< tried with the present length
-  Direction best_;
-  Length shorter_, longer_;  ///< too short and too long an increment
-  bool has_longer_ = false;
+  Length shorter_;                     ///< too short an increment
+  std::optional<Length> longer_;       ///< too long a one
+  std::optional<Length> good_;  ///< the longest one that meets all conditions, but that it may have to be followed
+  double ceiling_;              ///< m: no direction was found for this length, and longer ones are not tried
   std::string note_;
 };
 
