@@ -41,5 +41,35 @@ TEST(Kgd, LengthPressureAndOpeningFollowTheClosedForm) {
     EXPECT_NEAR(cell.center[1], 0, cell.grown ? 0.01 * (cell.center[0] - start) : 1e-12);
 }
 
+/// The fracture's own opening conducts, and begins with nothing or next to nothing in cells that have grown. With a
+/// viscosity of 1e-6 Pa s 12 mu E'^3 Q/(4 sqrt(2/pi) K_IC)^4 = 4e-4: the toughness regime still.
+class KgdByTheCubicLaw : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(KgdByTheCubicLaw, OpensIntoCellsThatAreClosed) {
+  constexpr double start = 15;
+  SceneRun run("verification/kgd.yaml", {{"geometry.fractures.main.points", "[[0 m, 0 m], [15 m, 0 m]]"},
+                                         {"components.conduit.transmissivity", "cubic_law"},
+                                         {"components.conduit.transmissivity_value", "null"},
+                                         {"components.conduit.viscosity", "1e-6 Pa*s"},
+                                         {"components.conduit.grown.aperture", GetParam()}});
+  run.run_until(30);  // the fluid loses pressure along the fracture while it hardly is open
+  run.run_until(68, [&] {
+    const double grown = run.quantity("tips.main_last.length");
+    const double expected = std::max(start, half_length(run.time()));
+    const double pressure = grown > 0 ? toughness / std::sqrt(M_PI * expected)
+                                      : plane_modulus * rate * run.time() / (2 * M_PI * start * start);
+    EXPECT_NEAR((start + grown) / expected, 1, 0.03) << run.time();
+    EXPECT_NEAR(run.quantity("pressure") / pressure, 1, 0.03) << run.time();
+    EXPECT_NEAR(run.quantity("opening.n") / (4 * pressure * expected / plane_modulus), 1, 0.03) << run.time();
+    EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-9 * run.quantity("fluid_injected"));
+    // No suction anywhere, and no more than one pressure: it is less in narrow cells at the tip only.
+    EXPECT_GT(run.field("conduit.pressure").minCoeff(), 0) << run.time();
+    EXPECT_LT(run.field("conduit.pressure").maxCoeff(), 1.05 * pressure) << run.time();
+  });
+  EXPECT_GT(run.mesh_changes(), 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kgd, KgdByTheCubicLaw, ::testing::Values("0 m", "1 um"));
+
 }  // namespace
 }  // namespace sprekk::testing

@@ -1,21 +1,44 @@
 // The rows of the fluxes along fractures: through a point of two cells, at an open end, where fractures meet.
 #include <algorithm>
+#include <array>
 
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
+#include "components/fracture_flow/tpfa/half_cell_apertures.hpp"
 
 namespace sprekk::fracture_flow {
 
 Conductance FractureFlow::conductance(const Link& link) const {
-  const Transmissivity first = transmissivity(link.first, link.point);
   const double half = 0.5 * mesh_.fracture_cells[link.first].length;
-  if (link.second == none) return {first.value / half, {{link.first, first.by_aperture / half}}};
-  const Transmissivity second = transmissivity(link.second, link.point);
+  if (link.second == none) {
+    const Transmissivity first = transmissivity(link.first, link.point);
+    return {first.value / half, {{link.first, first.by_aperture / half}}};
+  }
   const double other_half = 0.5 * mesh_.fracture_cells[link.second].length;
+  if (options_.transmissivity == "cubic_law") return conductance_by_opening(link, half, other_half);
+  const Transmissivity first = transmissivity(link.first, link.point), second = transmissivity(link.second, link.point);
   if (first.value == 0 || second.value == 0) return {0, {}};
-  const double value = 1 / (half / first.value + other_half / second.value);
-  return {value,
-          {{link.first, value * value * half / (first.value * first.value) * first.by_aperture},
-           {link.second, value * value * other_half / (second.value * second.value) * second.by_aperture}}};
+  return {1 / (half / first.value + other_half / second.value), {}};
+}
+
+Conductance FractureFlow::conductance_by_opening(const Link& link, double half, double other_half) const {
+  const Vector& aperture = is_held() ? held_aperture_ : aperture_.now();
+  const auto at = [&](int cell, double half_length) {
+    return CellAperture{half_length, aperture[cell], aperture[cell] - initial_aperture_[cell]};
+  };
+  const std::array<HalfCellAperture, 2> halves = half_cell_apertures(at(link.first, half), at(link.second, other_half));
+  const std::array<double, 2> lengths = {half, other_half};
+  const std::array<int, 2> cells = {link.first, link.second};
+  double resistance = 0;
+  std::array<double, 2> by_aperture = {0, 0};
+  for (int i = 0; i < 2; ++i) {
+    const double a = std::max(halves[i].value, options_.aperture_floor);
+    const double own = 12 * viscosity_[cells[i]] * lengths[i] / (a * a * a);
+    resistance += own;
+    if (is_held() || halves[i].value < options_.aperture_floor) continue;
+    for (int k = 0; k < 2; ++k) by_aperture[k] -= 3 * own / a * halves[i].by_aperture[k];
+  }
+  const double value = 1 / resistance;
+  return {value, {{link.first, -value * value * by_aperture[0]}, {link.second, -value * value * by_aperture[1]}}};
 }
 
 std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {

@@ -19,9 +19,10 @@ namespace sprekk::fracture_flow {
 /// Unknowns: the pressure p of every fracture cell, and the flux Q through every point between them, from its first to
 /// its second cell (m^2/s). Each row of p balances the volume of fluid of one cell over the step (m^2):
 ///   L (a − a_old) + L a c_p (p − p_old) + dt (sum of Q out of it) − dt q = 0,
-/// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series. Keeping Q lets
-/// a fracture conduct 1e12 times better than rock does without loss of digits: Q is not a difference of nearly equal
-/// pressures, and what leaves one cell enters the next to the bit. Properties are those of the end of the step.
+/// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series
+/// (half_cell_apertures.hpp). Keeping Q lets a fracture conduct 1e12 times better than rock does without loss of
+/// digits: Q is not a difference of nearly equal pressures, and what leaves one cell enters the next to the bit.
+/// Properties are those of the end of the step.
 class FractureFlow : public Component, public FractureFluid {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
@@ -67,6 +68,8 @@ class FractureFlow : public Component, public FractureFluid {
     double gravity = 0;            ///< rho g·(x_first − x_second), Pa
   };
   Conductance conductance(const Link& link) const;
+  /// By the cubic law, from the apertures of the half cells.
+  Conductance conductance_by_opening(const Link& link, double half, double other_half) const;
   std::vector<JunctionFluxes> junction_fluxes() const;
   double pressure_drop(const Link& link) const;
   struct FluxRows;
