@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
@@ -25,7 +26,9 @@ std::string csv_text(std::string text) {
 }
 
 std::string csv_value(const TableWriter::Value& value) {
-  if (const double* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
+  // What is not known has an empty cell.
+  if (const double* number = std::get_if<double>(&value))
+    return std::isnan(*number) ? std::string() : fmt::format("{}", *number);
   return csv_text(std::get<std::string>(value));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "framework/config/units.hpp"
 #include "framework/output/vtu_writer.hpp"
@@ -29,19 +30,31 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
   return nothing;
 }
 
+/// Cells may be empty: the value before the next is then the last one that is known.
 double first_time_of(const std::vector<double>& times, const std::vector<double>& values, double level) {
+  std::optional<std::size_t> before;
   for (std::size_t i = 0; i < times.size(); ++i) {
+    if (std::isnan(values[i])) continue;
     if (values[i] == level) return times[i];
-    if (i == 0 || (values[i - 1] < level) == (values[i] < level)) continue;
-    return times[i - 1] + (times[i] - times[i - 1]) * (level - values[i - 1]) / (values[i] - values[i - 1]);
+    if (before && (values[*before] < level) != (values[i] < level))
+      return times[*before] + (times[i] - times[*before]) * (level - values[*before]) / (values[i] - values[*before]);
+    before = i;
   }
   return nothing;
 }
 
+/// Over the steps whose value is known; nothing without any.
 double integral(const std::vector<double>& steps, const std::vector<double>& values) {
-  double sum = 0;
-  for (std::size_t i = 0; i < values.size() && i < steps.size(); ++i) sum += steps[i] * values[i];
+  double sum = nothing;
+  for (std::size_t i = 0; i < values.size() && i < steps.size(); ++i)
+    if (!std::isnan(values[i])) sum = (std::isnan(sum) ? 0 : sum) + steps[i] * values[i];
   return sum;
+}
+
+double mean(const std::vector<double>& steps, const std::vector<double>& values) {
+  std::vector<double> known;
+  for (const double value : values) known.push_back(std::isnan(value) ? nothing : 1.0);
+  return integral(steps, values) / integral(steps, known);
 }
 
 double extreme(const std::vector<double>& values, const std::string& take) {
@@ -111,7 +124,7 @@ double Figure::of(const CsvTable& history) const {
   if (take_.empty()) return values.back();
   const std::vector<double> steps = history.numbers("step[s]");
   if (take_ == "integral") return integral(steps, values);
-  if (take_ == "mean") return integral(steps, values) / integral(steps, std::vector<double>(values.size(), 1.0));
+  if (take_ == "mean") return mean(steps, values);
   return extreme(values, take_);
 }
 

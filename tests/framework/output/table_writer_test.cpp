@@ -24,6 +24,13 @@ TEST_F(TableWriterTest, TheFirstRowFixesTheColumns) {
   EXPECT_THROW(table.append(3, {{"new[m]", 1.0}}), std::logic_error);
 }
 
+TEST_F(TableWriterTest, WhatIsNotKnownIsAnEmptyCell) {
+  TableWriter table(file);
+  table.append(1, {{"x[m]", std::nan("")}, {"y[m]", 2.0}});
+  table.append(2, {{"x[m]", 1.0}, {"y[m]", -std::nan("")}});
+  EXPECT_EQ(read_text(file), "time[s],x[m],y[m]\n1,,2\n2,1,\n");
+}
+
 TEST_F(TableWriterTest, NumbersComeBackToTheBit) {
   const std::vector<double> values = {1.0 / 3, M_PI * 1e-300, 0.1, 5e-324, -1e22 / 7, 123456789.123456789};
   TableWriter table(file);

@@ -32,6 +32,21 @@ std::string refusal(const std::string& yaml) {
   return "accepted";
 }
 
+TEST(Figure, takes_no_part_of_empty_cells) {
+  const CsvTable gaps("time[s],step[s],slip.t[m],count[1]\n1,1,,\n2,1,-2,\n4,2,,\n5,1,-6,\n6,1,,\n");
+  const auto of = [&](const std::string& yaml) { return figure(yaml).of(gaps); };
+  EXPECT_DOUBLE_EQ(of("{of: slip.t, reaches: -4 m}"), 3.5);  // between the values that are known
+  EXPECT_EQ(of("{of: slip.t, reaches: -6 m}"), 5);
+  EXPECT_EQ(of("{of: slip.t, take: smallest}"), -6);
+  EXPECT_EQ(of("{of: slip.t, take: integral}"), -8);
+  EXPECT_EQ(of("{of: slip.t, take: mean}"), -4);
+  EXPECT_TRUE(std::isnan(of("{of: slip.t, at: end}")));
+  EXPECT_TRUE(std::isnan(of("{of: slip.t, at: 3 s}")));
+  for (const std::string take : {"largest", "mean", "integral"})
+    EXPECT_TRUE(std::isnan(of("{of: count, take: " + take + "}"))) << take;
+  EXPECT_TRUE(std::isnan(of("{of: count, reaches: 1}")));
+}
+
 TEST(Figure, at_the_end_or_a_time_is_linear_between_steps) {
   EXPECT_EQ(value("{of: slip.t, at: end}"), -6);
   EXPECT_EQ(value("{of: slip.t, at: 2 s}"), -2);
