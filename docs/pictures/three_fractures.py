@@ -44,7 +44,7 @@ for tip in tips:
     axes[2].plot(hours, length * 100, label=tip.replace("_", ", "))
     print(f"{tip}: {length[-1] * 1e3:.1f} mm, first growth at "
           f"{hours[np.flatnonzero(length > 0)[0]] if length[-1] > 0 else np.nan:.2f} h, stopped "
-          f"{history[f'tips.{tip}.stopped[1]'][-1]:.0f}, largest K_eq {history[f'tips.{tip}.K_eq[Pa*m^0.5]'].max() / 1e6:.3f} MPa√m")
+          f"{history[f'tips.{tip}.stopped[1]'][-1]:.0f}, largest K_eq {np.nanmax(history[f'tips.{tip}.K_eq[Pa*m^0.5]'], initial=0) / 1e6:.3f} MPa√m")
 axes[2].set(xlabel="t [h]", ylabel="length of wing [cm]")
 axes[2].grid(alpha=0.3)
 axes[2].legend(title="fracture, end", fontsize=8)

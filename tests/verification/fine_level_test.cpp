@@ -15,7 +15,7 @@ struct Factors {
 Factors factors_after_loading(const std::vector<Override>& overrides) {
   SceneRun run("paper/onset.yaml", overrides);
   run.step();
-  return {run.quantity("tips.main_first.K_II"), run.quantity("tips.main_first.K_error")};
+  return {run.quantity("tips.main_first.K_II"), run.quantity("tips.main_first.K_error_fine_mesh")};
 }
 
 // Two ways to a finer mesh: one that is fine everywhere (four times), and one that the estimate makes from a coarse

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "components/fine_fracture/quarter_point/adapt.hpp"
@@ -179,45 +180,59 @@ double Tips::load(const Sifs& sifs) const {
   return options_.toughness ? equivalent_sif(sifs) / *options_.toughness : 0;
 }
 
-bool Tips::is_safe(const Tip& tip) const {
-  if (!options_.toughness || options_.skip_below == 0) return false;
+double Tips::estimated_load(const Tip& tip) const {
   // Williams' field: the jump at a distance r behind the tip is (8/E') sqrt(r/(2 pi)) K.
   const LameParameters lame = surroundings_->stiffness(position(tip, {}));
   const double distance = 0.5 * end_cell(mesh_, tip.end).length;
   const double estimate = Elasticity{lame.lambda, lame.shear}.plane_modulus() / 8 *
                           std::sqrt(2 * std::numbers::pi / distance) *
                           surroundings_->jump_at_tip(tip.end.fracture, tip.end.at_end);
-  constexpr double shear_to_equivalent = 1.25, safety = 2;
-  return safety * shear_to_equivalent * estimate < options_.skip_below * *options_.toughness;
+  constexpr double shear_to_equivalent = 1.25;
+  return shear_to_equivalent * estimate / *options_.toughness;
 }
 
 Growing::Load Tips::examine(const StepTime&) {
   surroundings_->update();
+  notes_.clear();
+  constexpr double safety = 2;  // of the estimate
+  const bool may_rule_out = options_.toughness && options_.skip_below > 0;
   Load loads;
   const std::vector<TipPath> paths = paths_now();
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
-    if (tip.now.is_stopped) continue;
+    if (tip.now.is_stopped) {
+      tip.now.is_evaluated = false;
+      continue;
+    }
     const double now = surroundings_->fluid_pressure(tip.end.fracture, tip.end.at_end);
     const double before = surroundings_->accepted_fluid_pressure(tip.end.fracture, tip.end.at_end);
     if (now != before) loads.unsettled = std::max(loads.unsettled, std::abs(now - before) / std::max(now, before));
+    const double estimate = may_rule_out && tip.now.path.added.empty() ? estimated_load(tip) : 0;
     if (tip.answered_for == surroundings_->version()) {
       ++kept_;
-    } else if (tip.now.path.added.empty() && is_safe(tip)) {
+    } else if (may_rule_out && tip.now.path.added.empty() && safety * estimate < options_.skip_below) {
       ++skipped_;
+      tip.now.is_evaluated = false;
+      tip.now.load = estimate;
     } else {
-      tip.now.sifs = evaluate(i, paths);
+      set_factors(tip, evaluate(i, paths));
       tip.answered_for = surroundings_->version();
     }
     // At the end of an increment the load is 1 to within its tolerance: that is no reason to grow again.
     const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
-    loads.now = std::max(loads.now, load(tip.now.sifs) / (1 + rest));
-    loads.accepted = std::max(loads.accepted, load(tip.accepted.sifs) / (1 + rest));
+    loads.now = std::max(loads.now, tip.now.load / (1 + rest));
+    loads.accepted = std::max(loads.accepted, tip.accepted.load / (1 + rest));
     if (tip.now.has_started) continue;
-    loads.onset = std::max(loads.onset, load(tip.now.sifs));
-    loads.onset_accepted = std::max(loads.onset_accepted, load(tip.accepted.sifs));
+    loads.onset = std::max(loads.onset, tip.now.load);
+    loads.onset_accepted = std::max(loads.onset_accepted, tip.accepted.load);
   }
   return loads;
+}
+
+void Tips::set_factors(Tip& tip, const Sifs& sifs) const {
+  tip.now.sifs = sifs;
+  tip.now.load = load(sifs);
+  tip.now.is_evaluated = true;
 }
 
 bool Tips::is_near(const Tip& tip, const Tip& other) const {
@@ -260,15 +275,17 @@ Growing::Growth Tips::grow(const StepTime&) {
   std::vector<std::size_t> blocked;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
-    tip.now.has_started = tip.now.has_started || load(tip.now.sifs) >= 1;
+    tip.now.has_started = tip.now.has_started || tip.now.load >= 1;
     const TipOutcome& outcome = outcomes[i];
     increments_ += outcome.increments;
-    tip.now.is_stopped = tip.now.is_stopped || outcome.blocked;
+    const bool was_stopped = tip.now.is_stopped;
+    tip.now.is_stopped = was_stopped || outcome.blocked;
     if (outcome.increments > 0) {
       tip.now.path = outcome.path;
-      tip.now.sifs = outcome.end;
-      tip.now.experience = outcome.experience;
+      set_factors(tip, outcome.end);
     }
+    if (!was_stopped) note_end(tip, outcome);
+    tip.now.experience = outcome.experience;
     if (outcome.blocked && options_.meeting == "join") blocked.push_back(i);
     if (outcome.increments == 0) continue;
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
@@ -277,6 +294,7 @@ Growing::Growth Tips::grow(const StepTime&) {
     if (length < 0.95 * surroundings_->propagation_threshold() * tip.coarse_size) continue;
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
   }
+  stop_refused(extensions, outcomes);
   // When it is known where all others go. A path that goes on to another fracture takes the place of the one before.
   for (const std::size_t i : blocked) {
     Tip& tip = tips_[i];
@@ -327,6 +345,7 @@ void Tips::rewound() {
     tip.answered_for = 0;
     tip.answer.reset();
   }
+  notes_.clear();
 }
 
 void Tips::carry_over(const Part& before, const MeshChange& change) {
@@ -353,7 +372,7 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
 
 namespace {
 
-constexpr int state_size = 9;  ///< without the path
+constexpr int state_size = 11;  ///< without the path
 
 }  // namespace
 
@@ -362,7 +381,8 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     const State& kept = tip.accepted;
     Vector values(state_size + 2 * kept.path.added.size());
     values.head<state_size>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped,
-        kept.has_started, kept.sif_error, kept.experience.stiffness_ratio, kept.experience.release;
+        kept.has_started, kept.sif_error, kept.experience.stiffness_ratio, kept.experience.release, kept.is_evaluated,
+        kept.load;
     for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(state_size + 2 * i) = kept.path.added[i];
     state[name() + "." + tip.name] = std::move(values);
   }
@@ -381,6 +401,8 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.has_started = values[5] != 0;
     kept.sif_error = values[6];
     kept.experience = {values[7], values[8]};
+    kept.is_evaluated = values[9] != 0;
+    kept.load = values[10];
     for (int i = state_size; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
   }
@@ -406,10 +428,13 @@ void Tips::report(std::vector<Quantity>& quantities) const {
 void Tips::report_end(const std::string& end, const State& state, double length,
                       std::vector<Quantity>& quantities) const {
   const std::string prefix = name() + "." + end + ".";
-  quantities.push_back({prefix + "K_I", "Pa*m^0.5", state.sifs.k1});
-  quantities.push_back({prefix + "K_II", "Pa*m^0.5", state.sifs.k2});
-  quantities.push_back({prefix + "K_eq", "Pa*m^0.5", equivalent_sif(state.sifs)});
-  quantities.push_back({prefix + "K_error", "Pa*m^0.5", state.sif_error});
+  const auto known = [&state](double value) {
+    return state.is_evaluated ? value : std::numeric_limits<double>::quiet_NaN();
+  };
+  quantities.push_back({prefix + "K_I", "Pa*m^0.5", known(state.sifs.k1)});
+  quantities.push_back({prefix + "K_II", "Pa*m^0.5", known(state.sifs.k2)});
+  quantities.push_back({prefix + "K_eq", "Pa*m^0.5", known(equivalent_sif(state.sifs))});
+  quantities.push_back({prefix + "K_error_fine_mesh", "Pa*m^0.5", known(state.sif_error)});
   quantities.push_back({prefix + "stopped", "1", state.is_stopped ? 1.0 : 0.0});
   quantities.push_back({prefix + "length", "m", length});
 }

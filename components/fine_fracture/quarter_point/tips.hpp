@@ -46,6 +46,7 @@ class Tips : public Component, public FractureTips, public Growing {
   void report(std::vector<Quantity>& quantities) const override;
   std::map<std::string, long> counts() const override;
   std::vector<Profile::Entry> efforts() const override;
+  void note_step(Notes& notes, const StepTime& step) const override;
 
   void accept_surroundings(TipSurroundings& surroundings) override { surroundings_ = &surroundings; }
 
@@ -56,13 +57,15 @@ class Tips : public Component, public FractureTips, public Growing {
  private:
   /// What a step may change and a rewind takes back.
   struct State {
-    TipPath path;  ///< not yet known to the coarse level
-    Sifs sifs;
-    double sif_error = 0;      ///< Pa m^0.5, estimated
-    double grown = 0;          ///< m, handed over to the coarse level
-    bool has_started = false;  ///< was asked to grow: its onset is over
-    Experience experience;     ///< with its last increment
-    bool is_stopped = false;   ///< at or before another fracture, or before the boundary: it grows no more
+    TipPath path;               ///< not yet known to the coarse level
+    Sifs sifs;                  ///< if they are known
+    double sif_error = 0;       ///< Pa m^0.5, estimated: what the mesh of the fine level is worth
+    bool is_evaluated = false;  ///< whether the factors are those of this state; else they are not known
+    double load = 0;            ///< K_eq over the toughness; of a tip that is ruled out what rules it out
+    double grown = 0;           ///< m, handed over to the coarse level
+    bool has_started = false;   ///< was asked to grow: its onset is over
+    Experience experience;      ///< with its last increment
+    bool is_stopped = false;    ///< at or before another fracture, or before the boundary: it grows no more
   };
   struct Tip {
     TipEnd end;
@@ -101,8 +104,13 @@ class Tips : public Component, public FractureTips, public Growing {
   Sifs factors_of(Tip& tip, const FineSolution& solution) const;
   /// The same, and keeps them as the tip's answer.
   Sifs noted(Tip& tip, const FineSolution& solution) const;
-  bool is_safe(const Tip& tip) const;
+  /// The load by the coarse level's jump beside the tip, without a fine level.
+  double estimated_load(const Tip& tip) const;
   double load(const Sifs& sifs) const;
+  void set_factors(Tip& tip, const Sifs& sifs) const;
+  void note_end(const Tip& tip, const TipOutcome& outcome);
+  /// Tips whose path the mesh cannot take stay where they were at the start of the step, for good.
+  void stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes);
   /// How far a tip may be from what the coarse level knows of, m.
   double longest_path(const Tip& tip) const;
   /// Whether an increment of the other tip is seen at once; farther ones are seen from the next step on.
@@ -125,6 +133,11 @@ class Tips : public Component, public FractureTips, public Growing {
   TipSurroundings* surroundings_ = nullptr;
   std::vector<Tip> tips_;
   std::vector<Joint> joints_;
+  struct EndNote {
+    std::string topic, text;
+    double measure;  ///< of how bad it is
+  };
+  std::vector<EndNote> notes_;                                      ///< of the growth in this step
   std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();  ///< of all fine levels
   long solves_ = 0, meshes_ = 0, kept_ = 0, skipped_ = 0, increments_ = 0;
 };

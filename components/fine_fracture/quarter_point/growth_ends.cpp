@@ -1,0 +1,75 @@
+// How growth ends that does not end as it should: what a run says about it, and tips that cannot go on.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/fine_fracture/quarter_point/tips.hpp"
+#include "framework/assembly/notes.hpp"
+
+namespace sprekk::fine_fracture {
+
+void Tips::note_end(const Tip& tip, const TipOutcome& outcome) {
+  const GrowthOptions& growth = options_.growth;
+  const double k_eq = equivalent_sif(outcome.end) / *options_.toughness, excess = k_eq - 1;
+  const double shear = outcome.end.k2 / outcome.end.k1;
+  const bool has_grown = outcome.increments > 0;
+  // Twice and three times what is aimed at: the length and the direction of the last increment, and a rest that is
+  // shorter than the shortest one.
+  const double most_excess = 2 * growth.arrest_tolerance, most_shear = 3 * growth.direction_tolerance;
+  const bool is_off = growth.seeks_arrest() && (excess > most_excess || (has_grown && excess < -most_excess));
+  const bool is_sheared =
+      growth.is_implicit() && has_grown && !(std::abs(outcome.end.k2) <= most_shear * outcome.end.k1);
+  if (!is_off && !is_sheared) return;
+  std::string why = outcome.reason;
+  for (const std::string& note : outcome.notes) why += "; " + note;
+  const std::string name = this->name() + "." + tip.name;
+  const std::string state = fmt::format("at K_eq/K_IC = {:.3g} and K_II/K_I = {:.3g} ({})", k_eq, shear, why);
+  if (is_off && outcome.blocked)
+    notes_.push_back({name + " is stopped above its toughness",
+                      fmt::format("{} stops {} it grows no more", name, state), std::abs(excess)});
+  else if (is_off && !outcome.arrested)
+    notes_.push_back(
+        {name + " grows on in the next step",
+         fmt::format("{} is still growing at the end of a step, {} smaller time steps follow it closer", name, state),
+         std::abs(excess)});
+  else if (is_off)
+    notes_.push_back({name + " rests off its toughness",
+                      fmt::format("{} has come to rest {} try a smaller 'growth.increment', or a smaller "
+                                  "'growth.smallest'",
+                                  name, state),
+                      std::abs(excess)});
+  if (is_sheared)
+    notes_.push_back({name + " has grown into shear",
+                      fmt::format("{} has grown to an end that is {} try a smaller 'growth.increment'", name, state),
+                      std::abs(shear)});
+}
+
+void Tips::note_step(Notes& notes, const StepTime&) const {
+  for (const EndNote& note : notes_) notes.add(note.topic, note.text, note.measure);
+}
+
+void Tips::stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes) {
+  while (!extensions.empty()) {
+    try {
+      check_extensions(mesh_, extensions, cavity().size);
+      return;
+    } catch (const ExtensionError& error) {
+      const PathExtension refused = extensions[error.extension()];
+      extensions.erase(extensions.begin() + error.extension());
+      for (std::size_t i = 0; i < tips_.size(); ++i) {
+        Tip& tip = tips_[i];
+        if (tip.end.fracture != refused.fracture || tip.end.at_end != refused.at_end) continue;
+        tip.now.path = tip.accepted.path;
+        tip.now.is_stopped = true;
+        set_factors(tip, outcomes[i].start);
+        notes_.push_back({name() + "." + tip.name + " is stopped: the mesh cannot follow",
+                          fmt::format("{}.{} stays where it is for good (the mesh cannot follow it: {})", name(),
+                                      tip.name, error.what()),
+                          0});
+      }
+    }
+  }
+}
+
+}  // namespace sprekk::fine_fracture

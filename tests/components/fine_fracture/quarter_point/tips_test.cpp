@@ -1,0 +1,206 @@
+// What tips ask of the coarse level: pressures of their own ends on walls that have grown, and whether they can be
+// ruled out without a fine level.
+#include "components/fine_fracture/quarter_point/tips.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "framework/assembly/notes.hpp"
+#include "framework/field/field.hpp"
+#include "framework/mesh/generate_mesh.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double toughness = 1e6, half_box = 20, crack_half_length = 1, young = 40e9, poisson = 0.2;
+constexpr double shear = young / (2 * (1 + poisson)), plane_modulus = young / (1 - poisson * poisson);
+
+/// Rock that is held at rest far away and walls without traction, but for the fluid in what has grown.
+class Fluid : public TipSurroundings {
+ public:
+  double pressure[2] = {0, 0};  ///< at the first and the last end
+  double jump[2] = {1, 1};      ///< m
+  std::uint64_t state = 1;
+
+  void update() override {}
+  std::uint64_t version() const override { return state; }
+  LameParameters stiffness(const Point&) const override { return {2 * shear * poisson / (1 - 2 * poisson), shear}; }
+  Point displacement(const Point&, const Point&) const override { return Point::Zero(); }
+  StressOffsets stress_offsets(const std::vector<Point>& places) const override {
+    return [count = places.size()] { return Eigen::Matrix3Xd(Eigen::Matrix3Xd::Zero(3, count)); };
+  }
+  bool gives_jumps() const override { return false; }
+  Point wall_traction(int, double) const override { return Point::Zero(); }
+  Point wall_jump(int, double) const override { return Point::Zero(); }
+  double fluid_pressure(int, bool at_end) const override { return pressure[at_end]; }
+  double accepted_fluid_pressure(int, bool at_end) const override { return pressure[at_end]; }
+  double jump_at_tip(int, bool at_end) const override { return jump[at_end]; }
+  double propagation_threshold() const override { return 0.5; }
+};
+
+/// A straight fracture of length 2 in the middle of a wide box.
+struct Setting {
+  explicit Setting(double angle, bool is_reversed = false)
+      : along((is_reversed ? -1 : 1) * std::cos(angle), (is_reversed ? -1 : 1) * std::sin(angle)),
+        mesh(make_mesh(along)),
+        tips({"tips", mesh, fields, 0, {}}, options()) {
+    tips.accept_surroundings(fluid);
+  }
+  static Mesh make_mesh(const Point& along) {
+    Geometry geometry;
+    geometry.box.low = Point(-half_box, -half_box);
+    geometry.box.high = Point(half_box, half_box);
+    FractureGeometry fracture;
+    fracture.name = "main";
+    fracture.points = {-crack_half_length * along, crack_half_length * along};
+    geometry.fractures = {fracture};
+    MeshOptions options;
+    options.size = 8;
+    options.fracture_size = 0.25;
+    return generate_mesh(geometry, options);
+  }
+  static TipsOptions options() {
+    TipsOptions options;
+    options.size = 2 * half_box;
+    options.toughness = toughness;
+    options.growth.increment = 0.1;
+    return options;
+  }
+  /// Both tips go straight on by so much that the coarse level does not know of, at these ends.
+  void grow(double length, bool first, bool last) {
+    const auto state = [&](bool has_grown, double sign) {
+      Vector values = Vector::Zero(has_grown ? 13 : 11);
+      values[7] = 1;
+      if (has_grown) values.tail<2>() = sign * (crack_half_length + length) * along;
+      return values;
+    };
+    tips.restore({{"tips.main_first", state(first, -1)}, {"tips.main_last", state(last, 1)}});
+  }
+  double quantity(const std::string& name) const {
+    std::vector<Quantity> quantities;
+    tips.report(quantities);
+    for (const Quantity& quantity : quantities)
+      if (quantity.name == "tips." + name) return quantity.value;
+    ADD_FAILURE() << "no quantity " << name;
+    return 0;
+  }
+
+  Point along;
+  Mesh mesh;
+  FieldStore fields;
+  Fluid fluid;
+  Tips tips;
+};
+
+/// Int of sqrt((a + x)/(a − x)) from one place to another.
+double weight(double a, double from, double to) {
+  const auto primitive = [a](double x) { return a * std::asin(x / a) - std::sqrt(a * a - x * x); };
+  return primitive(to) - primitive(from);
+}
+
+TEST(Tips, GrownWallsCarryThePressureOfTheirOwnEnd) {
+  // K_I = Int p(x) sqrt((a + x)/(a − x)) dx/sqrt(pi a) (Tada, Paris and Irwin), with p on the last 0.2 m of each end.
+  const double grown = 0.2, a = crack_half_length + grown;
+  const double own = weight(a, a - grown, a) / std::sqrt(pi * a), other = weight(a, -a, -a + grown) / std::sqrt(pi * a);
+  for (const bool is_reversed : {false, true})
+    for (const double angle : {0.0, 0.6, 0.6 + 1e-9}) {
+      Setting setting(angle, is_reversed);
+      setting.fluid.pressure[0] = 1e6;
+      setting.fluid.pressure[1] = 3e6;
+      setting.grow(grown, true, true);
+      setting.tips.examine({});
+      // A crack that is held at 20 times its half-length: 1 % at most.
+      EXPECT_NEAR(setting.quantity("main_first.K_I") / (1e6 * own + 3e6 * other), 1, 0.01) << angle;
+      EXPECT_NEAR(setting.quantity("main_last.K_I") / (3e6 * own + 1e6 * other), 1, 0.01) << angle;
+    }
+}
+
+TEST(Tips, AreRuledOutByTheJumpBesideThem) {
+  // The jump (8/E') sqrt(r/(2 pi)) K_II at r = 0.125 m behind the tip, where K_eq is 1.1547 K_II (estimated: 1.25). A
+  // tip is ruled out while twice its K_eq is below half of the toughness: K_II below 0.2 of it.
+  const double jump = 8 / plane_modulus * std::sqrt(0.125 / (2 * pi)) * toughness;
+  for (const double part : {0.1, 0.19, 0.21, 0.5, 0.95}) {
+    Setting setting(0.6);
+    setting.fluid.jump[0] = part * jump;
+    setting.fluid.jump[1] = (1.15 - part) * jump;
+    const Growing::Load load = setting.tips.examine({});
+    const bool has_first = !std::isnan(setting.quantity("main_first.K_eq"));
+    const bool has_last = !std::isnan(setting.quantity("main_last.K_eq"));
+    EXPECT_EQ(has_first, part > 0.2) << part;
+    EXPECT_EQ(has_last, 1.15 - part > 0.2) << part;
+    EXPECT_EQ(setting.tips.counts().at("tips: ruled out"), int(!has_first) + int(!has_last)) << part;
+    EXPECT_LT(load.now, 0.25);  // fine levels without a load have no factors
+  }
+}
+
+TEST(Tips, WithAPathOfTheirOwnAreNeverRuledOut) {
+  // The jump beside the coarse tip says nothing about what has grown from it.
+  Setting setting(0.3);
+  setting.fluid.jump[0] = setting.fluid.jump[1] = 0;
+  setting.fluid.pressure[1] = 3e6;
+  setting.grow(0.1, false, true);
+  const Growing::Load load = setting.tips.examine({});
+  EXPECT_TRUE(std::isnan(setting.quantity("main_first.K_eq")));
+  const double a = 1.05;  // of the crack that is longer at one end
+  EXPECT_NEAR(setting.quantity("main_last.K_I"), 3e6 * weight(a, a - 0.1, a) / std::sqrt(pi * a), 0.01e6);
+  EXPECT_NEAR(load.now * 1.01 * toughness, setting.quantity("main_last.K_eq"), 1);
+}
+
+TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
+  // What has grown from the tip, and the coarse level does not know of, turns by 100 degrees: when it is long enough to
+  // be handed over the mesh refuses it.
+  Setting setting(0.3);
+  setting.fluid.jump[0] = 0;
+  setting.fluid.pressure[1] = 30e6;
+  setting.grow(0.1, false, true);
+  Vector values(13);
+  values << 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0;
+  const double turn = 100 * pi / 180;
+  const Point tip = crack_half_length * setting.along;
+  values.tail<2>() = tip + 0.1 * (std::cos(turn) * setting.along +
+                                  std::sin(turn) * Point(-setting.along.y(), setting.along.x()));
+  setting.tips.restore({{"tips.main_last", values}});
+  ASSERT_GT(setting.tips.examine({}).now, 1);
+  const Growing::Growth growth = setting.tips.grow({});
+  for (const PathExtension& extension : growth.extensions) EXPECT_FALSE(extension.at_end);
+  EXPECT_EQ(setting.quantity("main_last.stopped"), 1);
+  EXPECT_EQ(setting.quantity("main_first.stopped"), 0);
+  EXPECT_NEAR(setting.quantity("main_last.length"), 0.1, 1e-12);
+  Notes notes;
+  setting.tips.note_step(notes, {});
+  const auto is_said = [](const Notes::Note& note) {
+    return note.text.find("main_last") != std::string::npos && note.text.find("turns back") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(notes.all().begin(), notes.all().end(), is_said), 1);
+  // The next step has no more of it.
+  setting.tips.accepted();
+  setting.fluid.state = 2;
+  setting.tips.examine({});
+  EXPECT_TRUE(std::isnan(setting.quantity("main_last.K_I")));
+  Notes later;
+  setting.tips.note_step(later, {});
+  EXPECT_TRUE(later.empty());
+}
+
+TEST(Tips, AreEmptyAgainOnceTheyAreRuledOut) {
+  Setting setting(0.3);
+  setting.tips.examine({});
+  setting.tips.accepted();
+  EXPECT_FALSE(std::isnan(setting.quantity("main_last.K_II")));
+  setting.fluid.jump[1] = 0;
+  setting.fluid.state = 2;
+  setting.tips.examine({});
+  for (const std::string name : {"K_I", "K_II", "K_eq", "K_error_fine_mesh"}) {
+    EXPECT_FALSE(std::isnan(setting.quantity("main_first." + name))) << name;
+    EXPECT_TRUE(std::isnan(setting.quantity("main_last." + name))) << name;
+  }
+  EXPECT_EQ(setting.quantity("main_last.length"), 0);
+}
+
+}  // namespace
+}  // namespace sprekk::fine_fracture
