@@ -18,8 +18,9 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome) {
   // shorter than the shortest one.
   const double most_excess = 2 * growth.arrest_tolerance, most_shear = 3 * growth.direction_tolerance;
   const bool is_off = growth.seeks_arrest() && (excess > most_excess || (has_grown && excess < -most_excess));
-  const bool is_sheared =
-      growth.is_implicit() && has_grown && !(std::abs(outcome.end.k2) <= most_shear * outcome.end.k1);
+  // A tip that hardly is loaded has no direction.
+  const bool is_sheared = growth.is_implicit() && has_grown && k_eq > growth.direction_tolerance &&
+                          !(std::abs(outcome.end.k2) <= most_shear * outcome.end.k1);
   if (!is_off && !is_sheared) return;
   std::string why = outcome.reason;
   for (const std::string& note : outcome.notes) why += "; " + note;
