@@ -8,6 +8,7 @@
 #include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/mpsa/weak_symmetry.hpp"
 #include "framework/mesh/interaction_region.hpp"
+#include "framework/mesh/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -17,8 +18,8 @@ using FaceConditions = std::array<MechanicalCondition, 2>;
 
 /// The cells whose displacements and stresses a node's local problem reads, in ascending order: those at the node. A
 /// cell that is alone there is joined by those across its faces that do not touch the node, if any; near the tip of a
-/// crack (`tips`: see tips_nearby) there are those at the tip, too.
-Adjacency local_cells(const Mesh& mesh, const std::vector<int>& tips);
+/// crack there are those that tell the strength of its field, too.
+Adjacency local_cells(const Mesh& mesh, const TipZones& zones);
 
 /// In every subcell the displacement is linear; displacements agree at the continuity points and forces, C : grad u - s
 /// I times the normal, agree on the subfaces, or differ by the load on the face. Coefficients are with respect to, in

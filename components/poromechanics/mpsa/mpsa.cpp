@@ -1,5 +1,6 @@
 #include "components/poromechanics/mpsa/mpsa.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -9,7 +10,7 @@
 #include "components/poromechanics/mpsa/tip_correction.hpp"
 #include "framework/mesh/interaction_region.hpp"
 #include "framework/mesh/node_stencil.hpp"
-#include "framework/mesh/tips_nearby.hpp"
+#include "framework/mesh/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -86,14 +87,15 @@ struct Coefficients {
 /// The fields of all tips, for the nodes near them.
 class TipFields {
  public:
-  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const std::vector<int>& tips)
-      : mesh_(mesh), stiffness_(stiffness), tips_(tips) {}
+  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const TipZones& zones)
+      : mesh_(mesh), stiffness_(stiffness), zones_(zones) {}
 
   /// Null where there is none, or the rock is not like the tip's.
   const TipField* at(int node) {
-    if (tips_[node] == none) return nullptr;
-    const auto [found, is_new] = fields_.try_emplace(tips_[node]);
-    if (is_new) found->second = TipField::find(mesh_, tips_[node], stiffness_);
+    const int tip = zones_.tip[node];
+    if (tip == none) return nullptr;
+    const auto [found, is_new] = fields_.try_emplace(tip);
+    if (is_new) found->second = TipField::find(mesh_, tip, zones_.cells.at(tip), stiffness_);
     if (!found->second) return nullptr;
     for (const int cell : mesh_.node_cells[node])
       if (!resembles(stiffness_[cell], found->second->rock())) return nullptr;
@@ -103,7 +105,7 @@ class TipFields {
  private:
   const Mesh& mesh_;
   const std::vector<Stiffness>& stiffness_;
-  const std::vector<int>& tips_;  ///< see tips_nearby
+  const TipZones& zones_;
   std::map<int, std::optional<TipField>> fields_;
 };
 
@@ -130,8 +132,8 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
   check_arguments(mesh, stiffness, conditions, nodes);
   const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
   const auto any = [&](int, int node) { return is_wanted(node); };
-  const std::vector<int> tips = tips_nearby(mesh);
-  const Adjacency node_cells = local_cells(mesh, tips), valued_faces = faces_with_values(mesh, conditions);
+  const TipZones zones = tip_zones(mesh);
+  const Adjacency node_cells = local_cells(mesh, zones), valued_faces = faces_with_values(mesh, conditions);
   Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, valued_faces, 2);
   Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), node_cells, valued_faces, 1);
   Coefficients trace(
@@ -142,19 +144,20 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
 
   InteractionRegion region;
   LocalStresses local;
-  TipFields fields(mesh, stiffness, tips);
+  TipFields fields(mesh, stiffness, zones);
   std::vector<Triplet> moments;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
     local.solve(mesh, region, node_cells[node], stiffness, conditions);
     if (const TipField* tip = fields.at(node)) {
-      const TipCorrection correction(*tip, mesh, region, node, node_cells[node], stiffness);
+      const TipCorrection correction(*tip, zones.weight[node], mesh, region, node, node_cells[node], stiffness);
       local.correct(region, correction);
       // The moments of both halves about the centre of a face belong together: one alone is mostly that of its middle.
       for (int f = 0; f < region.subface_count(); ++f) {
         const auto& ends = mesh.face_nodes[region.faces[f]];
-        if (region.is_inner(f) && fields.at(ends[ends[0] == node ? 1 : 0]) == tip) correction.add_moment(moments, f);
+        if (region.is_inner(f) && fields.at(ends[ends[0] == node ? 1 : 0]) == tip)
+          correction.add_moment(moments, f, std::min(zones.weight[ends[0]], zones.weight[ends[1]]));
       }
     }
     int valued_index = 0;

@@ -3,20 +3,30 @@
 #include <cstring>
 
 #include "framework/mesh/kept_regions.hpp"
-#include "framework/mesh/tips_nearby.hpp"
+#include "framework/mesh/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 
 Rediscretized rediscretize_mpsa(const StressInputs& before, const StressOperators& operators, const StressInputs& after,
                                 const MeshChange& change) {
-  const Adjacency cells_before = local_cells(before.mesh, tips_nearby(before.mesh)),
-                  cells_after = local_cells(after.mesh, tips_nearby(after.mesh));
+  const TipZones zones_before = tip_zones(before.mesh), zones_after = tip_zones(after.mesh);
+  const Adjacency cells_before = local_cells(before.mesh, zones_before),
+                  cells_after = local_cells(after.mesh, zones_after);
+  const auto has_same_zone = [&](int node, int was) {
+    const int tip = zones_after.tip[node], old_tip = zones_before.tip[was];
+    if (tip == none || old_tip == none) return tip == old_tip;
+    return zones_after.weight[node] == zones_before.weight[was] && after.mesh.nodes[tip] == before.mesh.nodes[old_tip];
+  };
   const KeptRegions kept(
       {before.mesh, cells_before}, {after.mesh, cells_after}, change,
       [&](int cell, int was) {
         return std::memcmp(after.stiffness[cell].data(), before.stiffness[was].data(), sizeof(Stiffness)) == 0;
       },
-      [&](int face, int was) { return after.conditions[face] == before.conditions[was]; });
+      [&](int face, int was) {
+        const auto &nodes = after.mesh.face_nodes[face], &old_nodes = before.mesh.face_nodes[was];
+        return after.conditions[face] == before.conditions[was] && has_same_zone(nodes[0], old_nodes[0]) &&
+               has_same_zone(nodes[1], old_nodes[1]);
+      });
   StressOperators result = discretize_mpsa(after.mesh, after.stiffness, after.conditions, kept.nodes_to_compute());
   const auto take_kept = [&](SparseMatrix StressOperators::*matrix, KeptRegions::Entity rows,
                              KeptRegions::Entity columns) {

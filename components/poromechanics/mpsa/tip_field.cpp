@@ -1,13 +1,18 @@
 #include "components/poromechanics/mpsa/tip_field.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
+#include <utility>
 
 namespace sprekk::poromechanics {
 namespace {
 
-constexpr int linear_terms = 6, terms = linear_terms + 2;
+using Complex = std::complex<double>;
+
+constexpr int linear_terms = 6;
 /// Of the fit's smallest singular value to its largest; below, fields and linear displacements are too alike.
 constexpr double well_posed = 1e-3;
 
@@ -17,69 +22,91 @@ bool is_isotropic(const Stiffness& c) {
          std::abs(c(0, 0) - c(0, 1) - 2 * c(2, 2)) < near;
 }
 
+double order(int term) { return term < 2 ? 0.5 : 1.5; }
+/// a of phi = a z^o.
+Complex amplitude(int term) { return term % 2 == 0 ? Complex(0.5, 0) : Complex(0, -0.5); }
+
 }  // namespace
 
 bool resembles(const Stiffness& rock, const Stiffness& other) {
   return (rock - other).lpNorm<Eigen::Infinity>() <= 0.2 * other.lpNorm<Eigen::Infinity>();
 }
 
-std::optional<TipField> TipField::find(const Mesh& mesh, int tip, const std::vector<Stiffness>& stiffness) {
-  const auto cells = mesh.node_cells[tip];
-  if (2 * cells.size() < terms + 2) return std::nullopt;
+std::optional<TipField> TipField::find(const Mesh& mesh, int tip, std::span<const int> cells,
+                                       const std::vector<Stiffness>& stiffness) {
+  const auto at_tip = mesh.node_cells[tip];
   Stiffness rock = Stiffness::Zero();
-  for (const int cell : cells) rock += stiffness[cell] / static_cast<double>(cells.size());
-  for (const int cell : cells)
+  for (const int cell : at_tip) rock += stiffness[cell] / static_cast<double>(at_tip.size());
+  for (const int cell : at_tip)
     if (!resembles(stiffness[cell], rock)) return std::nullopt;
   if (!is_isotropic(rock)) return std::nullopt;
-  TipField field(mesh, tip, rock);
-  if (!field.fit(mesh)) return std::nullopt;
-  return field;
+  std::vector<int> alike;
+  std::ranges::copy_if(cells, std::back_inserter(alike), [&](int cell) { return resembles(stiffness[cell], rock); });
+  TipField field(mesh, tip, std::move(alike), rock);
+  for (const int count : {terms, terms / 2})
+    if (field.fit(mesh, count)) return field;
+  return std::nullopt;
 }
 
-TipField::TipField(const Mesh& mesh, int tip, const Stiffness& rock)
-    : cells_(mesh.node_cells[tip]),
+TipField::TipField(const Mesh& mesh, int tip, std::vector<int> cells, const Stiffness& rock)
+    : tip_(tip),
+      cells_(std::move(cells)),
       rock_(rock),
       shear_(rock(2, 2)),
       poisson_(0.5 * rock(0, 1) / (rock(0, 1) + rock(2, 2))),
       frame_(mesh, tip) {}
 
-bool TipField::fit(const Mesh& mesh) {
-  const int count = static_cast<int>(cells_.size());
+bool TipField::fit(const Mesh& mesh, int count_of_terms) {
+  const int count = static_cast<int>(cells_.size()), all = linear_terms + count_of_terms;
+  if (2 * count < all + 2) return false;
   const double size = frame_.size();
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(2 * count, terms);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(2 * count, all);
+  Eigen::VectorXd weight(2 * count);
+  Amounts unit;
+  for (int k = 0; k < terms; ++k) unit[k] = std::pow(size, order(k));
   for (int k = 0; k < count; ++k) {
     const Point& center = mesh.cell_center[cells_[k]];
     const Eigen::RowVector3d linear(1, (center.x() - frame_.tip().x()) / size, (center.y() - frame_.tip().y()) / size);
     basis.block<1, 3>(2 * k, 0) = basis.block<1, 3>(2 * k + 1, 3) = linear;
-    basis.block<2, 2>(2 * k, linear_terms) = displacement(center, 0) / std::sqrt(size);
+    const Modes modes = displacement(center, frame_.side_of_cell(mesh, cells_[k]));
+    basis.block(2 * k, linear_terms, 2, count_of_terms) =
+        (modes.array().rowwise() / unit.array()).leftCols(count_of_terms).matrix();
+    weight[2 * k] = weight[2 * k + 1] = 1;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  if (svd.singularValues()[terms - 1] < well_posed * svd.singularValues()[0]) return false;
-  const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd::Identity(2 * count, 2 * count));
-  share_ = inverse.bottomRows<2>() / std::sqrt(size);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(weight.asDiagonal() * basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  if (svd.singularValues()[all - 1] < well_posed * svd.singularValues()[0]) return false;
+  const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd(weight.asDiagonal()));
+  share_.setZero(terms, 2 * count);
+  for (int k = 0; k < count_of_terms; ++k) share_.row(k) = inverse.row(linear_terms + k) / unit[k];
   return true;
 }
 
 TipField::Modes TipField::displacement(const Point& x, int side) const {
   const auto [radius, angle] = frame_.polar(x, side);
-  const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle), kolosov = 3 - 4 * poisson_;
+  const double kolosov = 3 - 4 * poisson_;
   Modes modes;
-  modes << c * (kolosov - 1 + 2 * s * s), s * (kolosov + 1 + 2 * c * c),  //
-      s * (kolosov + 1 - 2 * c * c), -c * (kolosov - 1 - 2 * s * s);
-  return std::sqrt(radius) * (frame_.axes() * modes);
+  for (int k = 0; k < terms; ++k) {
+    const double o = order(k);
+    const Complex a = amplitude(k), power = std::polar(std::pow(radius, o), o * angle);
+    // z conj(phi') = o conj(a) conj(z^o) z / conj(z)
+    const Complex u = kolosov * a * power - o * std::conj(a * power) * std::polar(1.0, 2 * angle) -
+                      std::conj((std::conj(a) - o * a) * power);
+    modes.col(k) << u.real(), u.imag();
+  }
+  return frame_.axes() * modes;
 }
 
 TipField::Modes TipField::force(const Point& x, int side) const {
   const auto [radius, angle] = frame_.polar(x, side);
-  const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle);
-  const double c3 = std::cos(1.5 * angle), s3 = std::sin(1.5 * angle);
-  const Point n(-std::sin(angle), std::cos(angle));
-  // Stress times sqrt(r) / (2 G), integrated along the ray from the tip.
   Modes modes;
-  modes.col(0) = Point(c * (1 - s * s3) * n.x() + c * s * c3 * n.y(), c * s * c3 * n.x() + c * (1 + s * s3) * n.y());
-  modes.col(1) =
-      Point(-s * (2 + c * c3) * n.x() + c * (1 - s * s3) * n.y(), c * (1 - s * s3) * n.x() + s * c * c3 * n.y());
-  return 4 * shear_ * std::sqrt(radius) * (frame_.axes() * modes);
+  for (int k = 0; k < terms; ++k) {
+    const double o = order(k);
+    const Complex a = amplitude(k), power = std::polar(std::pow(radius, o), o * angle);
+    const Complex f = Complex(0, 1) * (a * power + o * std::conj(a * power) * std::polar(1.0, 2 * angle) +
+                                       std::conj((std::conj(a) - o * a) * power));
+    modes.col(k) << f.real(), f.imag();
+  }
+  return 2 * shear_ * (frame_.axes() * modes);
 }
 
 TipField::Modes TipField::integrated_force(const Point& a, const Point& b, int side) const {
@@ -96,25 +123,28 @@ TipField::Modes TipField::integrated_force(const Point& a, const Point& b, int s
   return (b - a).norm() * sum;
 }
 
-Eigen::RowVector2d TipField::volume_change(const std::array<Point, 4>& corners, int side) const {
-  // div u = 2 (1 - 2 nu) (Re, Im) 1/sqrt(z), and the integral of f' is i/2 times that of f along the boundary, d conj
-  // z.
-  using Complex = std::complex<double>;
-  const auto primitive = [&](const Point& x) {  // of sqrt(z)
-    const auto [radius, angle] = frame_.polar(x, side);
-    return std::polar(2.0 / 3 * std::pow(radius, 1.5), 1.5 * angle);
-  };
-  Complex integral = 0;
+TipField::Amounts TipField::volume_change(const std::array<Point, 4>& corners, int side) const {
+  // div u = (1 - 2 nu) 4 Re phi', and the integral of phi' is i/2 times that of phi along the boundary, d conj z.
+  std::array<std::array<Complex, terms>, 4> primitive;  // of z^o
+  for (int i = 0; i < 4; ++i) {
+    const auto [radius, angle] = frame_.polar(corners[i], side);
+    for (int k = 0; k < terms; ++k) {
+      const double next = order(k) + 1;
+      primitive[i][k] = std::polar(std::pow(radius, next) / next, next * angle);
+    }
+  }
+  Amounts sum = Amounts::Zero();
   double area = 0;
   for (int i = 0; i < 4; ++i) {
-    const Point &a = corners[i], &b = corners[(i + 1) % 4];
+    const int j = (i + 1) % 4;
+    const Point &a = corners[i], &b = corners[j];
     const Point edge = frame_.axes().transpose() * (b - a);
     const Complex step(edge.x(), edge.y());
-    integral += Complex(0, 1) * std::conj(step) / step * (primitive(b) - primitive(a));
+    for (int k = 0; k < terms; ++k)
+      sum[k] += (amplitude(k) * Complex(0, 1) * std::conj(step) / step * (primitive[j][k] - primitive[i][k])).real();
     area += a.x() * b.y() - a.y() * b.x();
   }
-  const double factor = 2 * (1 - 2 * poisson_) * (area < 0 ? -1 : 1);
-  return factor * Eigen::RowVector2d(integral.real(), integral.imag());
+  return 2 * (1 - 2 * poisson_) * (area < 0 ? -1 : 1) * sum;
 }
 
 }  // namespace sprekk::poromechanics

@@ -15,18 +15,23 @@ namespace sprekk::poromechanics {
 bool resembles(const Stiffness& rock, const Stiffness& other);
 
 /// Displacement and stress of modes I and II around the tip of a straight crack with free walls, in even isotropic rock
-/// under plane strain: Williams' terms of order sqrt(r) (Anderson, Fracture Mechanics, Tables 2.1 and 2.2), for
-/// stress-intensity factors of 2 G sqrt(2 pi). How much of them there is, the displacements of the cells at the tip
-/// tell: by least squares, beside linear displacements.
-/// `side`: see TipFrame.
+/// under plane strain: Williams' terms of the orders r^(1/2) and r^(3/2), by Muskhelishvili's potentials phi = a z^o
+/// and psi = (conj(a) - o a) z^o with 2 a = 1 (mode I) and -i (mode II), in 2 G u = kappa phi - z conj(phi') -
+/// conj(psi) for 2 G = 1. So those of order r^(1/2) have stress-intensity factors of 2 G sqrt(2 pi). How much of each
+/// there is, the displacements of the cells near the tip tell: by least squares, beside linear displacements. `side`:
+/// see TipFrame.
 class TipField {
  public:
-  /// Of both modes, a column each.
-  using Modes = Eigen::Matrix2d;
+  /// (x, y) of modes I and II of order r^(1/2), and of those of order r^(3/2).
+  static constexpr int terms = 4;
+  using Modes = Eigen::Matrix<double, 2, terms>;
+  using Amounts = Eigen::Matrix<double, 1, terms>;  ///< one value each
 
-  /// None unless the rock at the tip (a node) is isotropic and nearly the same all around (resembles), with cells
-  /// enough to tell the fields from linear displacements.
-  static std::optional<TipField> find(const Mesh& mesh, int tip, const std::vector<Stiffness>& stiffness);
+  /// `cells`: those near the tip (TipZones::cells). None unless the rock at the tip (a node) is isotropic and nearly
+  /// the same all around (resembles), with cells enough to tell the fields from linear displacements. With cells that
+  /// tell those of order r^(1/2) only, the others are taken to be zero.
+  static std::optional<TipField> find(const Mesh& mesh, int tip, std::span<const int> cells,
+                                      const std::vector<Stiffness>& stiffness);
 
   const TipFrame& frame() const { return frame_; }
   /// The displacement, m.
@@ -36,22 +41,24 @@ class TipField {
   /// That force integrated over the line from a to b, N.
   Modes integrated_force(const Point& a, const Point& b, int side) const;
   /// div u integrated over a quadrilateral, m^2.
-  Eigen::RowVector2d volume_change(const std::array<Point, 4>& corners, int side) const;
+  Amounts volume_change(const std::array<Point, 4>& corners, int side) const;
 
-  std::span<const int> cells() const { return cells_; }  ///< those at the tip, ascending
-  /// The modes in displacements (x, y each) of these cells.
-  const Eigen::Matrix2Xd& share() const { return share_; }
-  const Stiffness& rock() const { return rock_; }  ///< the mean of the tip's cells
+  int tip() const { return tip_; }                          ///< the node
+  const std::vector<int>& cells() const { return cells_; }  ///< that tell the amounts, ascending
+  /// The amounts of the modes in displacements (x, y each) of these cells.
+  const Eigen::Matrix<double, terms, Eigen::Dynamic>& share() const { return share_; }
+  const Stiffness& rock() const { return rock_; }  ///< the mean of those at the tip
 
  private:
-  TipField(const Mesh& mesh, int tip, const Stiffness& rock);
-  bool fit(const Mesh& mesh);
+  TipField(const Mesh& mesh, int tip, std::vector<int> cells, const Stiffness& rock);
+  bool fit(const Mesh& mesh, int count_of_terms);
 
-  std::span<const int> cells_;
+  int tip_;
+  std::vector<int> cells_;
   Stiffness rock_;
   double shear_, poisson_;  ///< Pa, 1
   TipFrame frame_;
-  Eigen::Matrix2Xd share_;
+  Eigen::Matrix<double, terms, Eigen::Dynamic> share_;
 };
 
 }  // namespace sprekk::poromechanics
