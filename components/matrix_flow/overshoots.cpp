@@ -33,8 +33,7 @@ double excess(const FlowStep& step, int cell, double sign) {
   double largest = sign * step.potential_before[cell];
   for (const int face : step.mesh.cell_faces[cell])
     if (step.conditions[face] == FlowCondition::pressure)
-      largest =
-          std::max(largest, sign * step.boundary_values[face] + 0.5 * std::abs(step.boundary_changes[face]));
+      largest = std::max(largest, sign * step.boundary_values[face] + 0.5 * std::abs(step.boundary_changes[face]));
   for (const int node : step.mesh.cell_nodes[cell]) {
     if (largest >= own) return 0;
     for (const int other : step.mesh.node_cells[node])

@@ -11,12 +11,12 @@ namespace sprekk::matrix_flow {
 struct FlowStep {
   const Mesh& mesh;
   const std::vector<FlowCondition>& conditions;
-  Vector potential;        ///< at its end, one a cell, Pa
-  Vector potential_before; ///< Pa
-  const Vector& boundary_values, &boundary_changes;  ///< see FluxOperators, Pa
-  const Vector& fluxes;    ///< at its end, one a face, m^2/s
-  const Vector& capacity;  ///< one a cell, m^2/Pa
-  double dt;               ///< s
+  Vector potential;                                  ///< at its end, one a cell, Pa
+  Vector potential_before;                           ///< Pa
+  const Vector &boundary_values, &boundary_changes;  ///< see FluxOperators, Pa
+  const Vector& fluxes;                              ///< at its end, one a face, m^2/s
+  const Vector& capacity;                            ///< one a cell, m^2/Pa
+  double dt;                                         ///< s
 };
 
 struct Overshoots {

@@ -57,7 +57,7 @@ std::filesystem::path find_checkpoint(const std::string& given, const std::strin
   }
   if (!given.empty()) return given;
   if (!folder.empty()) return std::filesystem::path(folder) / "checkpoint.h5";
-  return std::filesystem::path("results") / scene.name / "checkpoint.h5";
+  return OutputFolder::default_path(scene.name) / "checkpoint.h5";
 }
 
 /// Throws InputError for a missing or misspelt command.

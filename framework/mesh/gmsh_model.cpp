@@ -37,6 +37,7 @@ GmshModel::GmshModel() {
     gmsh::option::setNumber("Mesh.Smoothing", 1);
     gmsh::option::setNumber("Mesh.LcIntegrationPrecision", 1e-9);
     gmsh::option::setNumber("Mesh.ElementOrder", 1);
+    gmsh::option::setNumber("Mesh.RandomFactor", 1e-9);
     // Sizes come from the callback alone.
     gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
     gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);

@@ -18,11 +18,16 @@ struct Kind {
 };
 Kind kind_of(int type) {
   switch (type) {
-    case 1: return {1, 2};
-    case 2: return {2, 3};
-    case 3: return {2, 4};
-    case 15: return {0, 1};
-    default: return {0, 0};
+    case 1:
+      return {1, 2};
+    case 2:
+      return {2, 3};
+    case 3:
+      return {2, 4};
+    case 15:
+      return {0, 1};
+    default:
+      return {0, 0};
   }
 }
 
@@ -57,7 +62,8 @@ class Parser {
     const std::size_t begin = cursor_.position();
     const std::string version(cursor_.word("the version"));
     if (version != "2.2" && version != "4.1") {
-      cursor_.fail_at(begin, "the format's version is " + quoted(version) + ", and 2.2 and 4.1 are read: " + save_again);
+      cursor_.fail_at(begin,
+                      "the format's version is " + quoted(version) + ", and 2.2 and 4.1 are read: " + save_again);
     }
     is_new_ = version == "4.1";
     const int kind = cursor_.text_integer("0 (text) or 1 (binary)");
@@ -68,8 +74,7 @@ class Parser {
     file_.is_binary = kind == 1;
     cursor_.set_binary(file_.is_binary);
     if (file_.is_binary && cursor_.integer("the number 1") != 1) {
-      cursor_.fail("the file was written by a computer with another order of bytes: " + save_again +
-                   " there, as text");
+      cursor_.fail("the file was written by a computer with another order of bytes: " + save_again + " there, as text");
     }
     end_section("$MeshFormat");
   }
@@ -123,8 +128,8 @@ class Parser {
       const std::size_t begin = cursor_.position();
       const int number = cursor_.text_integer("a group's number");
       if (dimension < 0 || dimension > 3 || number < 1) {
-        cursor_.fail_at(begin, "there is no group " + std::to_string(number) + " of dimension " +
-                                   std::to_string(dimension));
+        cursor_.fail_at(begin,
+                        "there is no group " + std::to_string(number) + " of dimension " + std::to_string(dimension));
       }
       std::string_view name = cursor_.rest_of_line();
       if (name.size() < 2 || name.front() != '"' || name.back() != '"') {
@@ -132,16 +137,14 @@ class Parser {
       }
       name = name.substr(1, name.size() - 2);
       if (!file_.names.try_emplace({dimension, number}, name).second) {
-        cursor_.fail_at(begin, "group " + std::to_string(number) + " of dimension " + std::to_string(dimension) +
-                                   " has two names");
+        cursor_.fail_at(
+            begin, "group " + std::to_string(number) + " of dimension " + std::to_string(dimension) + " has two names");
       }
     }
   }
 
   /// The least bytes of so many values of so many bytes each.
-  std::size_t bytes_of(std::size_t binary, std::size_t values) const {
-    return file_.is_binary ? binary : 2 * values;
-  }
+  std::size_t bytes_of(std::size_t binary, std::size_t values) const { return file_.is_binary ? binary : 2 * values; }
   std::size_t wide_count(const char* what, std::size_t binary, std::size_t values) {
     return cursor_.count(what, std::max<std::size_t>(1, bytes_of(binary, values)), true);
   }
@@ -188,8 +191,8 @@ class Parser {
     // A partition's entities may repeat the number of one of the whole.
     auto& known = is_partitioned ? partitioned_ : entities_;
     if (!known.try_emplace({dimension, number}, static_cast<int>(file_.group_lists.size())).second) {
-      cursor_.fail_at(begin, "entity " + std::to_string(number) + " of dimension " + std::to_string(dimension) +
-                                 " is there twice");
+      cursor_.fail_at(
+          begin, "entity " + std::to_string(number) + " of dimension " + std::to_string(dimension) + " is there twice");
     }
     file_.group_lists.push_back(std::move(groups));
   }
@@ -226,8 +229,8 @@ class Parser {
       cursor_.integer("an entity's number");
       const int is_parametric = cursor_.integer("0 or 1 (parametric)");
       if (dimension < 0 || dimension > 3 || is_parametric < 0 || is_parametric > 1) {
-        cursor_.fail_at(begin, "a block of nodes has dimension " + std::to_string(dimension) + " and is parametric: " +
-                                   std::to_string(is_parametric));
+        cursor_.fail_at(begin, "a block of nodes has dimension " + std::to_string(dimension) +
+                                   " and is parametric: " + std::to_string(is_parametric));
       }
       const std::size_t size = wide_count("the number of nodes of a block", 32, 4);
       numbers.clear();
@@ -252,10 +255,10 @@ class Parser {
   Kind require_kind(int type, std::size_t place) const {
     const Kind kind = kind_of(type);
     if (kind.node_count > 0) return kind;
-    cursor_.fail_at(place, std::string("the file holds elements that are no ") +
-                               (is_curved_line(type) ? "two-node lines"
-                                                     : "three-node triangles or four-node quadrilaterals") +
-                               " (gmsh type " + std::to_string(type) + "): mesh it with 'gmsh -2 -order 1'");
+    cursor_.fail_at(place,
+                    std::string("the file holds elements that are no ") +
+                        (is_curved_line(type) ? "two-node lines" : "three-node triangles or four-node quadrilaterals") +
+                        " (gmsh type " + std::to_string(type) + "): mesh it with 'gmsh -2 -order 1'");
   }
 
   template <class Number>

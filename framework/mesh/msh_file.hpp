@@ -30,8 +30,8 @@ struct MshFile {
 
   std::vector<Node> nodes;  ///< ascending by number, none twice
   std::vector<Element> lines, cells;
-  std::vector<std::vector<int>> group_lists;                ///< positive numbers of groups, each once
-  std::map<std::pair<int, int>, std::string> names;         ///< of groups, by dimension and number
+  std::vector<std::vector<int>> group_lists;         ///< positive numbers of groups, each once
+  std::map<std::pair<int, int>, std::string> names;  ///< of groups, by dimension and number
 
   /// "line 12" or "byte 345" of a place.
   std::string where(std::size_t place) const;

@@ -123,7 +123,8 @@ class Reader {
         std::lower_bound(file_.nodes.begin(), file_.nodes.end(), number,
                          [](const MshFile::Node& node, std::uint64_t wanted) { return node.number < wanted; });
     if (found == file_.nodes.end() || found->number != number) {
-      fail(element.place, "an element names node " + std::to_string(number) + ", which the file does not hold: save the mesh with all of its nodes");
+      fail(element.place, "an element names node " + std::to_string(number) +
+                              ", which the file does not hold: save the mesh with all of its nodes");
     }
     return static_cast<int>(found - file_.nodes.begin());
   }
@@ -205,8 +206,8 @@ class Reader {
       const auto [known, is_new] = first.try_emplace(corners, c);
       if (is_new) continue;
       const MshFile::Element &one = file_.cells[known->second], &other = file_.cells[c];
-      fail(other.place, "a cell is there twice, before at " + file_.where(one.place) +
-                            " (a surface that belongs to two groups?)");
+      fail(other.place,
+           "a cell is there twice, before at " + file_.where(one.place) + " (a surface that belongs to two groups?)");
     }
   }
 

@@ -96,6 +96,12 @@ double SizeField::lowered(double size, const Source& source, const Point& x) {
   return std::min(size, source.size + source.growth * distance(x, source.segment));
 }
 
+double SizeField::smallest() const {
+  double smallest = far_size_;
+  for (const Source& source : sources_) smallest = std::min(smallest, source.size);
+  return smallest;
+}
+
 double SizeField::at(const Point& x) const {
   double size = far_size_;
   for (const int s : buckets_[bucket(1, x.y()) * buckets_a_side_ + bucket(0, x.x())])

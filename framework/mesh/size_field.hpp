@@ -18,6 +18,7 @@ class SizeField {
   SizeField(const Geometry& geometry, const MeshOptions& options);
 
   double at(const Point& x) const;
+  double smallest() const;  ///< that it asks for anywhere, m
 
   /// An upper estimate of the number of triangles that the size field asks for: the integral of 4 / (sqrt(3) h^2),
   /// separately for the box, the fractures and their ends.

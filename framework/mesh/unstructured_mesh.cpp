@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
+#include "framework/config/input_error.hpp"
 #include "framework/mesh/arrangement.hpp"
+#include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/gmsh_model.hpp"
 #include "framework/mesh/join_triangles.hpp"
 #include "framework/mesh/regions.hpp"
@@ -47,6 +50,21 @@ struct Frame {
   Point inward(const Point& x) const { return (x - origin) / scale; }
   Point outward(double x, double y) const { return origin + scale * Point(x, y); }
 };
+
+/// gmsh moves points by this share of the model's size, so that no four lie on a circle. With its default, 1e-9, it
+/// folds triangles along a line that is oblique where the box is over 30,000 edges wide (measured: from 1e-9 at 5e4,
+/// from 1e-10 at 3e5): the move has to be small against the square of an edge over the box.
+double random_factor(const Geometry& geometry, const SizeField& sizes, const Arrangement& arrangement) {
+  constexpr double standard = 1e-9, least = 1e-14;
+  double edge = sizes.smallest();
+  for (const auto& chain : arrangement.chains) {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      edge = std::min(edge, (arrangement.points[chain[i + 1]] - arrangement.points[chain[i]]).norm());
+    }
+  }
+  const double share = edge / geometry.box.size().maxCoeff();
+  return std::clamp(0.1 * share * share, least, standard);
+}
 
 /// The curves between neighbouring points of an arrangement, numbered as gmsh knows them.
 class Curves {
@@ -154,6 +172,19 @@ void fetch_mesh(const Geometry& geometry, const Arrangement& arrangement, const 
   }
 }
 
+/// Sizes beyond what gmsh can do: measured with lines at all angles, it folds none up to 400,000 edges across a box.
+void refuse_folds(const Geometry& geometry, const SizeField& sizes, const RawMesh& mesh) {
+  try {
+    const CellEdges edges(mesh.nodes, mesh.cells);
+  } catch (const InputError& error) {
+    char figures[128];
+    std::snprintf(figures, sizeof figures, "edges of %.3g m in a box of %.3g m", sizes.smallest(),
+                  geometry.box.size().maxCoeff());
+    throw InputError(geometry.box.origin, "the mesh cannot be made", std::string(figures) + ": " + error.what(),
+                     "choose a smaller box, or larger sizes, so that the box is at most 300,000 edges wide");
+  }
+}
+
 }  // namespace
 
 RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options) {
@@ -166,9 +197,11 @@ RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options) 
     const Curves curves(arrangement, frame);
     gmsh::model::mesh::setSizeCallback(
         [&](int, int, double x, double y, double) { return sizes.at(frame.outward(x, y)) / frame.scale; });
+    gmsh::option::setNumber("Mesh.RandomFactor", random_factor(geometry, sizes, arrangement));
     gmsh::model::mesh::generate(2);
     fetch_mesh(geometry, arrangement, frame, curves, mesh);
   });
+  refuse_folds(geometry, sizes, mesh);
   assign_regions(geometry, mesh);
   if (options.shape == MeshOptions::Shape::quadrilaterals) join_triangles(mesh);
   return mesh;

@@ -29,7 +29,8 @@ void write_atomically(const fs::path& file, std::string_view text) {
     const std::string reason = errno != 0 ? std::strerror(errno) : "the write failed";
     std::error_code ignored;
     fs::remove(partial_name(file), ignored);
-    throw std::runtime_error("cannot write " + file.string() + " (" + reason + ")");
+    throw std::runtime_error("cannot write " + file.string() + " (" + reason + ") make room for it; what it held " +
+                             "before is still there");
   }
   finish_partial(file);
 }

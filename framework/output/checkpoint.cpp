@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/config/input_error.hpp"
-#include "framework/output/atomic_file.hpp"
 #include "framework/output/hdf5_file.hpp"
 #include "framework/output/mesh_record.hpp"
 
@@ -127,15 +126,12 @@ std::string fingerprint(const std::string& text) {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
   try {
-    Hdf5Writer file(partial_name(path));
+    Hdf5Writer file(path);
     write_content(file, checkpoint);
     file.close();
   } catch (const Hdf5Error& error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial_name(path), ignored);
     throw std::runtime_error("cannot write the checkpoint " + path.string() + " (" + error.what() + ")");
   }
-  finish_partial(path);
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {

@@ -3,6 +3,10 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "framework/output/atomic_file.hpp"
 
 namespace sprekk {
 namespace {
@@ -30,18 +34,46 @@ void require(herr_t status, const std::string& what) {
 /// Failures reach the user as our own messages, not as HDF5's stack on the terminal.
 void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-constexpr hsize_t largest_chunk = hsize_t{1} << 20;  // values; the chunks carry the checksums
+constexpr std::size_t memory_step = std::size_t{1} << 22;  // bytes by which a file in memory grows
+constexpr hsize_t largest_chunk = hsize_t{1} << 20;        // values; the chunks carry the checksums
 
 }  // namespace
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) {
+/// The bytes of a file that HDF5 keeps in memory. It lets them go when it closes the file, and this takes them.
+/// H5Fget_file_image would be simpler, but its image has a wrong checksum (HDF5 1.10.8).
+struct Hdf5Writer::Image {
+  void* bytes = nullptr;
+  ~Image() { std::free(bytes); }
+
+  static void* make(std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); }
+  static void* copy(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::memcpy(to, from, size);
+  }
+  static void* resize(void* bytes, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(bytes, size); }
+  static herr_t release(void* bytes, H5FD_file_image_op_t reason, void* image) {
+    if (reason == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
+      static_cast<Image*>(image)->bytes = bytes;
+    else
+      std::free(bytes);
+    return 0;
+  }
+  static void* share(void* image) { return image; }
+  static herr_t keep(void*) { return 0; }
+  H5FD_file_image_callbacks_t callbacks() { return {make, copy, resize, release, share, keep, this}; }
+};
+
+Hdf5Writer::Hdf5Writer(std::filesystem::path file) : path_(std::move(file)), image_(std::make_unique<Image>()) {
   silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "out of memory");
   // The latest format has checksums on its own structures too.
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
-  file_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  // In memory: a library that has failed to write a file does so again when the program ends, and crashes.
+  require(H5Pset_fapl_core(access, memory_step, 0), "out of memory");
+  H5FD_file_image_callbacks_t callbacks = image_->callbacks();
+  require(H5Pset_file_image_callbacks(access, &callbacks), "out of memory");
+  file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (file_ < 0) throw Hdf5Error("the file cannot be made");
 }
 
@@ -49,12 +81,19 @@ Hdf5Writer::~Hdf5Writer() {
   if (file_ >= 0) H5Fclose(file_);
 }
 
-void Hdf5Writer::close() {
-  const bool is_flushed = H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0;
-  const bool is_closed = H5Fclose(file_) >= 0;
+std::string_view Hdf5Writer::finish() {
+  const std::string failed = "the file cannot be finished";
+  hsize_t size = 0;
+  require(H5Fflush(file_, H5F_SCOPE_LOCAL), failed);
+  require(H5Fget_filesize(file_, &size), failed);
+  const herr_t closed = H5Fclose(file_);
   file_ = -1;
-  if (!is_flushed || !is_closed) throw Hdf5Error("the file cannot be finished, is the disk full?");
+  require(closed, failed);
+  if (!image_->bytes) throw Hdf5Error(failed);
+  return {static_cast<const char*>(image_->bytes), size};
 }
+
+void Hdf5Writer::close() { write_atomically(path_, finish()); }
 
 void Hdf5Writer::write(const std::string& path, std::int64_t type, std::size_t count, const void* values) {
   const std::string failed = "array " + path + " cannot be written";

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sprekk {
@@ -15,10 +17,10 @@ struct Hdf5Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Paths are "group/array"; groups are made as needed. Throws Hdf5Error.
+/// Paths are "group/array"; groups are made as needed. Nothing reaches the disk before `close`. Throws Hdf5Error.
 class Hdf5Writer {
  public:
-  explicit Hdf5Writer(const std::filesystem::path& file);
+  explicit Hdf5Writer(std::filesystem::path file);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -26,10 +28,16 @@ class Hdf5Writer {
   void doubles(const std::string& path, std::span<const double> values);
   void integers(const std::string& path, std::span<const int> values);
   void text(const std::string& path, const std::string& value);
-  void close();  ///< throws if not everything reached the file
+  /// Replaces the file at once. Throws std::runtime_error, with the file's name, when it cannot be written; what was
+  /// there before is then whole.
+  void close();
 
  private:
   void write(const std::string& path, std::int64_t type, std::size_t count, const void* values);
+  struct Image;
+  std::string_view finish();  ///< the bytes of the file
+  std::filesystem::path path_;
+  std::unique_ptr<Image> image_;
   std::int64_t file_;
 };
 

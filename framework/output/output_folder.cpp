@@ -12,10 +12,20 @@ namespace sprekk {
 namespace fs = std::filesystem;
 namespace {
 
+InputError unusable(const fs::path& path, const std::string& why) {
+  return InputError("the output folder " + path.string() + " cannot be made (" + why + ") choose another one with -o");
+}
+
+/// Throws InputError where the file system gives no answer, as further names would have none either: a name that is too
+/// long, a folder that may not be searched, links that lead in a circle.
 bool is_free(const fs::path& path) {
   std::error_code error;
-  if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return true;
-  return fs::is_directory(path, error) && fs::is_empty(path, error) && !error;
+  const fs::file_type type = fs::symlink_status(path, error).type();
+  if (type == fs::file_type::not_found) return true;
+  if (type == fs::file_type::none) throw unusable(path, error.message());
+  if (!fs::is_directory(path, error)) return false;
+  const bool is_empty = fs::is_empty(path, error);
+  return is_empty && !error;
 }
 
 std::string folder_name(const std::string& scene_name) {
@@ -46,15 +56,21 @@ void OutputFolder::find_free() {
   }
 }
 
+fs::path OutputFolder::default_path(const std::string& scene_name, const fs::path& parent) {
+  return parent / folder_name(scene_name);
+}
+
 OutputFolder OutputFolder::for_scene(const std::string& scene_name, const fs::path& parent) {
-  OutputFolder folder(parent / folder_name(scene_name), Choice::numbered);
+  OutputFolder folder(default_path(scene_name, parent), Choice::numbered);
   folder.find_free();
   return folder;
 }
 
 OutputFolder OutputFolder::given(const fs::path& path, Purpose purpose) {
   std::error_code error;
-  if (fs::exists(path, error)) {
+  const bool exists = fs::exists(path, error);
+  if (error) throw unusable(path, error.message());
+  if (exists) {
     if (!fs::is_directory(path, error))
       throw InputError("the output folder " + path.string() + " is a file (results need a folder) choose another name");
     if (purpose == Purpose::new_run && !fs::is_empty(path, error))
@@ -76,9 +92,7 @@ const fs::path& OutputFolder::create() {
     // A folder counts as ours when we made it or found it empty; when another run was faster, look for the next one.
     while (!error && !fs::create_directory(path_, error) && !error && !is_free(path_)) find_free();
   }
-  if (error)
-    throw InputError("the output folder " + path_.string() + " cannot be made (" + error.message() +
-                     ") choose another one with -o");
+  if (error) throw unusable(path_, error.message());
   require_writable(path_);
   created_ = true;
   return path_;

@@ -14,8 +14,12 @@ class OutputFolder {
   enum class Purpose { new_run, restart };
 
   /// parent/<scene name>, or the first of <scene name>-2, -3, … that is missing or empty. Characters of the name that
-  /// do not belong into a folder's name become '_'.
+  /// do not belong into a folder's name become '_'. Throws InputError when the file system does not say what is there.
   static OutputFolder for_scene(const std::string& scene_name, const std::filesystem::path& parent = "results");
+
+  /// parent/<scene name>, whether or not it is there.
+  static std::filesystem::path default_path(const std::string& scene_name,
+                                            const std::filesystem::path& parent = "results");
 
   /// The folder that the user asks for (-o), or that holds the checkpoint of a restart. Throws InputError if it is not
   /// a folder, or not writable, or not empty while a new run is to be written into it.

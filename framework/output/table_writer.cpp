@@ -52,10 +52,14 @@ std::vector<std::string> split_row(const std::string& line) {
 
 }  // namespace
 
-TableWriter TableWriter::continued(std::filesystem::path file, double time) {
+TableWriter TableWriter::continued(std::filesystem::path file, double time, std::optional<long> rows) {
   TableWriter table(std::move(file));
   std::ifstream old(table.file_, std::ios::binary);
-  if (!old) return table;
+  if (!old) {
+    if (!rows || *rows == 0) return table;
+    throw InputError("cannot continue " + table.file_.string() + " (it is missing or cannot be read, and the run has " +
+                     "written " + std::to_string(*rows) + " rows) put it back, or start the scene anew with -o");
+  }
   std::ostringstream content;
   content << old.rdbuf();
   const std::string text = content.str();
@@ -70,11 +74,16 @@ TableWriter TableWriter::continued(std::filesystem::path file, double time) {
         throw InputError("cannot continue " + table.file_.string() + " (its first column is not " + time_column +
                          ") move it away and restart again");
       table.columns_.erase(table.columns_.begin());
-    } else if (std::strtod(line.c_str(), nullptr) > time) {
-      continue;
+    } else {
+      if (rows ? table.rows_ >= *rows : std::strtod(line.c_str(), nullptr) > time) continue;
+      ++table.rows_;
     }
     kept += line + '\n';
   }
+  if (rows && table.rows_ < *rows)
+    throw InputError("cannot continue " + table.file_.string() + " (it has " + std::to_string(table.rows_) +
+                     " rows, and the run has written " + std::to_string(*rows) +
+                     ") put the whole table back, or start the scene anew with -o");
   if (kept.size() != text.size()) write_atomically(table.file_, kept);
   return table;
 }
@@ -117,6 +126,7 @@ void TableWriter::append(double time, const Row& row) {
   for (const std::string& cell : cells) stream_ << ',' << cell;
   stream_ << '\n' << std::flush;
   if (!stream_) throw std::runtime_error("cannot write " + file_.string() + " (is the disk full?)");
+  ++rows_;
 }
 
 }  // namespace sprekk

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -20,9 +21,10 @@ class TableWriter {
   /// A new table; the file appears with the first row, which also fixes the columns.
   explicit TableWriter(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// Continues the table in `file`: rows later than `time` (s), and a last row that was cut short, are removed; a
-  /// missing file is a new table. Throws InputError if the file is not a table with a time column.
-  static TableWriter continued(std::filesystem::path file, double time);
+  /// Continues the table in `file` after its first `rows` rows: what follows, and a last row that was cut short, is
+  /// removed. Without `rows`: rows later than `time` (s) are. A missing file is a new table when no row is expected.
+  /// Throws InputError if the file is missing, has fewer rows, or is not a table with a time column.
+  static TableWriter continued(std::filesystem::path file, double time, std::optional<long> rows = std::nullopt);
 
   /// The columns of a table without time[s]; empty if there is none.
   static std::vector<std::string> columns_of(const std::filesystem::path& file);
@@ -32,6 +34,7 @@ class TableWriter {
   void append(double time, const Row& row);
 
   const std::vector<std::string>& columns() const { return columns_; }
+  long rows() const { return rows_; }
 
  private:
   void open();
@@ -39,6 +42,7 @@ class TableWriter {
   std::filesystem::path file_;
   std::ofstream stream_;
   std::vector<std::string> columns_;  ///< without time[s]; empty until there is a row
+  long rows_ = 0;
 };
 
 }  // namespace sprekk

@@ -1,19 +1,75 @@
 #include "framework/scene/run_output.hpp"
 
+#include <exception>
+
+#include "framework/config/input_error.hpp"
 #include "framework/output/build_info.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
 
-void RunOutput::open(const std::optional<double>& continue_from, bool with_fields) {
-  if (!parallel::is_root()) return;
+namespace {
+
+const std::string rows_of_tables = "rows of tables";  // in a checkpoint: of history.csv, of coupling.csv
+
+/// Only the first process touches files; all of them throw when it does.
+template <class Work>
+void on_first_process(const Work& work) {
+  std::exception_ptr failure;
+  if (parallel::is_root()) {
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  const bool has_failed = parallel::any(failure != nullptr);
+  if (failure) std::rethrow_exception(failure);
+  if (has_failed) throw InputError("the first process could not open the output folder");
+}
+
+std::optional<long> history_rows(const std::optional<RunOutput::Rows>& rows) {
+  return rows ? std::optional(rows->history) : std::nullopt;
+}
+std::optional<long> coupling_rows(const std::optional<RunOutput::Rows>& rows) {
+  return rows ? std::optional(rows->coupling) : std::nullopt;
+}
+
+void require_empty(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().filename() != RunLock::file_name)
+      throw InputError("the output folder " + folder.string() +
+                       " is not empty any more (another run was faster) choose another one with -o");
+}
+
+}  // namespace
+
+RunOutput::Continued RunOutput::continued(const Checkpoint& checkpoint) {
+  Continued from{checkpoint.clock.time, std::nullopt};
+  const auto rows = checkpoint.extra.find(rows_of_tables);
+  if (rows != checkpoint.extra.end() && rows->second.size() == 2)
+    from.rows = Rows{static_cast<long>(rows->second[0]), static_cast<long>(rows->second[1])};
+  return from;
+}
+
+void RunOutput::lock() {
+  on_first_process([this] { lock_.emplace(folder_.path()); });
+}
+
+void RunOutput::open(const std::optional<Continued>& from, bool with_fields) {
+  on_first_process([&] { start_writing(from, with_fields); });
+}
+
+void RunOutput::start_writing(const std::optional<Continued>& from, bool with_fields) {
   const std::filesystem::path folder = folder_.create();
-  if (continue_from) {
-    history_ = TableWriter::continued(folder / "history.csv", *continue_from);
-    coupling_ = TableWriter::continued(folder / "coupling.csv", *continue_from);
-    if (with_fields) fields_ = FieldOutput::continued(folder, *continue_from);
+  if (!lock_) lock_.emplace(folder);
+  if (from) {
+    history_ = TableWriter::continued(folder / "history.csv", from->time, history_rows(from->rows));
+    coupling_ = TableWriter::continued(folder / "coupling.csv", from->time, coupling_rows(from->rows));
+    if (with_fields) fields_ = FieldOutput::continued(folder, from->time);
   } else {
+    require_empty(folder);
     history_.emplace(folder / "history.csv");
     coupling_.emplace(folder / "coupling.csv");
     if (with_fields) fields_.emplace(folder);
@@ -42,8 +98,10 @@ void RunOutput::write_fields(double time, int step, const Mesh& mesh, const std:
   if (parallel::is_root() && fields_) fields_->write(time, step, mesh, fields);
 }
 
+RunOutput::Rows RunOutput::rows() const { return {history_ ? history_->rows() : 0, coupling_ ? coupling_->rows() : 0}; }
+
 void RunOutput::write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const Notes& notes,
-                                 const std::string& fingerprint) {
+                                 const Rows& rows, const std::string& fingerprint) {
   if (!parallel::is_root()) return;
   Checkpoint checkpoint;
   checkpoint.scene_name = model.scene().name;
@@ -54,6 +112,8 @@ void RunOutput::write_checkpoint(const Model& model, const Checkpoint::Clock& cl
   checkpoint.mesh = model.mesh();
   checkpoint.fields = field_values(model.fields());
   checkpoint.extra = model.extra_state();
+  checkpoint.extra[rows_of_tables] =
+      Eigen::Vector2d(static_cast<double>(rows.history), static_cast<double>(rows.coupling));
   sprekk::write_checkpoint(checkpoint_path(), checkpoint);
 }
 

@@ -22,7 +22,10 @@ Spec OutputOptions::spec() {
   spec.quantities("times", times, {.unit = "s", .doc = "Further times at which fields are written."});
   spec.flag("fields", fields, {.doc = "Whether fields are written for ParaView."});
   spec.quantity("checkpoint_every", checkpoint_every,
-                {.unit = "s", .range = positive(), .doc = "Wall time between checkpoints; by default 10 minutes."});
+                {.unit = "s",
+                 .range = positive(),
+                 .doc = "Wall time between checkpoints; by default a twentieth of the time since the start, "
+                        "at least 1 and at most 10 minutes."});
   static ProbeOptions example;
   spec.named_sections("probes", example.spec(),
                       [this](const std::string& key, const Origin& origin) {

@@ -16,7 +16,9 @@
 #include "framework/output/parameter_difference.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"
+#include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/scene/checkpoint_interval.hpp"
 #include "framework/scene/interrupt.hpp"
 #include "framework/scene/mesh_growth.hpp"
 #include "framework/scene/run_output.hpp"
@@ -82,14 +84,16 @@ class Run {
   bool follows_growth();  ///< false when the mesh could not
   bool fails_with_growth();
   bool stays_as_it_is(const StepTime& step) const;  ///< of the state that is about to be accepted
-  ExitCode loop();
+  ExitCode loop(const InterruptGuard& interrupt);
   bool advance();  ///< one accepted step; false with reason_ when none is possible
   void finish(ExitCode code);
+  void record_failure(const std::string& reason);
 
   const RunOptions& options_;
   const double processor_at_start_ = processor_now();
   RunOutput output_;
   std::optional<Checkpoint> checkpoint_;  ///< that the run goes on from, until it has been taken over
+  std::optional<RunOutput::Continued> continued_;
   std::unique_ptr<Model> model_;
   StopCondition stop_;
   std::vector<double> output_times_;
@@ -103,6 +107,7 @@ class Run {
   long newton_iterations_ = 0, rejected_ = 0;
   int restored_steps_ = 0;
   bool is_stopped_ = false;
+  bool is_interrupted_ = false;  ///< within a step, which has been rewound
   LinearCounts linear_counts_;
   double settling_seconds_ = 0;  ///< of linear solvers during changes of the mesh
   Profile efforts_;              ///< of parts that are timed inside of steps
@@ -136,8 +141,9 @@ std::vector<RunRecord::Parameter> parameters_of(const Scene& scene) {
   return parameters;
 }
 
-std::optional<Checkpoint> read_if_given(const Scene& scene, const RunOptions& options) {
+std::optional<Checkpoint> read_if_given(const Scene& scene, const RunOptions& options, RunOutput& output) {
   if (!options.checkpoint) return std::nullopt;
+  output.lock();
   Checkpoint checkpoint = read_checkpoint(*options.checkpoint);
   require_scene(checkpoint, *options.checkpoint, scene.name, scene_fingerprint(scene),
                 parameter_difference(options.checkpoint->parent_path() / "run.json", parameters_of(scene)));
@@ -147,7 +153,7 @@ std::optional<Checkpoint> read_if_given(const Scene& scene, const RunOptions& op
 Run::Run(const Scene& scene, const RunOptions& options)
     : options_(options),
       output_(choose_folder(scene, options)),
-      checkpoint_(read_if_given(scene, options)),
+      checkpoint_(read_if_given(scene, options, output_)),
       model_(make_model(scene, checkpoint_, log())),
       stop_(scene, model_->quantities()),
       output_times_(output_times(scene)),
@@ -176,6 +182,7 @@ void Run::restore() {
                        .patience = clock.patience});
   step_notes_.restore(checkpoint_->notes);
   restored_steps_ = clock.step;
+  continued_ = RunOutput::continued(*checkpoint_);
   checkpoint_.reset();
 }
 
@@ -286,16 +293,31 @@ bool Run::follows_growth() {
 }
 
 bool Run::advance() {
+  // On a mesh that has grown within the step the attempt must come to its end: a restart would not know of the change.
+  bool has_grown = false;
   for (;;) {
     const StepTime step = controller_.next();
     StepStatus status;
     try {
       const ScopedTimer timer(profile_, "steps");
+      std::optional<interruption::Allowed> may_be_interrupted;
+      if (!has_grown) may_be_interrupted.emplace();
       status = model_->attempt(step);
     } catch (const DataError& error) {
       model_->rewind();
       reason_ = fmt::format("the step from {} over {} has no data: {}", duration_text(step.start),
                             duration_text(step.dt), error.what());
+      return false;
+    } catch (const Interrupted&) {
+      model_->rewind();
+      reason_ = "interrupted";
+      is_interrupted_ = true;
+      return false;
+    } catch (const std::bad_alloc&) {
+      if (parallel::size() > 1) throw;
+      model_->rewind();
+      reason_ = fmt::format("the step from {} over {} needs more memory than there is", duration_text(step.start),
+                            duration_text(step.dt));
       return false;
     }
     newton_iterations_ += status.iterations;
@@ -304,6 +326,7 @@ bool Run::advance() {
       const MeshGrowth::Outcome outcome = growth_.before_acceptance();
       if (outcome == MeshGrowth::Outcome::changed) {
         count_settling();
+        has_grown = true;
         continue;
       }
       if (outcome == MeshGrowth::Outcome::failed) return fails_with_growth();
@@ -336,48 +359,60 @@ bool Run::advance() {
   }
 }
 
-ExitCode Run::loop() {
-  const InterruptGuard interrupt;
+ExitCode Run::loop(const InterruptGuard& interrupt) {
   Progress progress(Progress::style_for(STDERR_FILENO, parallel::is_root(), options_.quiet), std::cerr,
                     model_->scene().time.start, model_->scene().time.end);
-  const double checkpoint_every = model_->scene().output.checkpoint_every.value_or(600);
-  double last_checkpoint = now();
-  const auto checkpoint = [&] {
+  double last_checkpoint = now(), cost = 0;
+  const auto checkpoint_is_due = [&] {
+    const double due = checkpoint_interval(model_->scene().output.checkpoint_every, now() - began_, cost);
+    return parallel::any(now() - last_checkpoint > due);
+  };
+  const auto clock = [&] {
     const FailedStep& failed = controller_.failed();
     const Recurrence& recurrence = controller_.recurrence();
-    const Checkpoint::Clock clock{.time = controller_.time(),
-                                  .step = controller_.steps(),
-                                  .next_step = controller_.wanted(),
-                                  .held_step = controller_.held(),
-                                  .failed_step = failed.size,
-                                  .failed_wait = failed.wait,
-                                  .failed_patience = failed.patience,
-                                  .released = recurrence.released,
-                                  .level = recurrence.level,
-                                  .pause = recurrence.pause,
-                                  .rise = recurrence.rise,
-                                  .expected = recurrence.expected,
-                                  .patience = recurrence.patience};
-    output_.write_checkpoint(*model_, clock, step_notes_, fingerprint_);
+    return Checkpoint::Clock{.time = controller_.time(),
+                             .step = controller_.steps(),
+                             .next_step = controller_.wanted(),
+                             .held_step = controller_.held(),
+                             .failed_step = failed.size,
+                             .failed_wait = failed.wait,
+                             .failed_patience = failed.patience,
+                             .released = recurrence.released,
+                             .level = recurrence.level,
+                             .pause = recurrence.pause,
+                             .rise = recurrence.rise,
+                             .expected = recurrence.expected,
+                             .patience = recurrence.patience};
+  };
+  const auto checkpoint = [&](const Checkpoint::Clock& at, const RunOutput::Rows& rows) {
+    const double begin = now();
+    output_.write_checkpoint(*model_, at, step_notes_, rows, fingerprint_);
     last_checkpoint = now();
+    cost = last_checkpoint - begin;
   };
   while (!controller_.is_finished() && !is_stopped_) {
     const long rejected_before = rejected_;
+    const Checkpoint::Clock before = clock();
+    const RunOutput::Rows rows_before = output_.rows();
     const bool advanced = advance();
     if (rejected_ > rejected_before) progress.event("step cut: " + reason_);
+    if (is_interrupted_) {
+      checkpoint(before, rows_before);
+      return ExitCode::interrupted;
+    }
     if (!advanced) {
-      checkpoint();
+      checkpoint(clock(), output_.rows());
       return ExitCode::failed;
     }
     progress.reached(controller_.time(), controller_.steps());
     if (interrupt.is_interrupted() && !controller_.is_finished()) {
       reason_ = "interrupted";
-      checkpoint();
+      checkpoint(clock(), output_.rows());
       return ExitCode::interrupted;
     }
-    if (parallel::any(now() - last_checkpoint > checkpoint_every)) checkpoint();
+    if (checkpoint_is_due()) checkpoint(clock(), output_.rows());
   }
-  checkpoint();
+  checkpoint(clock(), output_.rows());
   return ExitCode::done;
 }
 
@@ -439,13 +474,37 @@ void Run::finish(ExitCode code) {
   if (!options_.quiet) std::cout << "results: " << output_.path().string() << "\n";
 }
 
+/// When what a run has found cannot be written any more: its last checkpoint stays, and what it knows of the tables.
+void Run::record_failure(const std::string& reason) {
+  if (!parallel::is_root()) return;
+  record_.exit_code = static_cast<int>(ExitCode::failed);
+  record_.exit_reason = reason;
+  record_.seconds = now() - began_;
+  try {
+    record_.write(output_.path() / "run.json", profile_);
+  } catch (const std::exception&) {
+    // The reason is told by whoever catches what led here.
+  }
+  std::error_code error;
+  if (std::filesystem::exists(output_.checkpoint_path(), error))
+    std::cerr << "the run can go on from its last checkpoint, " << output_.checkpoint_path().string()
+              << ", with --restart\n";
+}
+
 ExitCode Run::execute() {
   record_start();
-  output_.open(options_.checkpoint ? std::optional(controller_.time()) : std::nullopt, model_->scene().output.fields);
+  const InterruptGuard interrupt;
+  output_.open(continued_, model_->scene().output.fields);
   if (parallel::is_root()) record_.write(output_.path() / "run.json", profile_);
   if (parallel::is_root() && !options_.quiet)
     for (const Notes::Note& note : input_notes_.all()) std::cerr << "note: " << described(note) << "\n";
-  const ExitCode code = loop();
+  ExitCode code = ExitCode::failed;
+  try {
+    code = loop(interrupt);
+  } catch (const std::exception& error) {
+    record_failure(error.what());
+    throw;
+  }
   finish(code);
   return code;
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/residual_check.hpp"
 
@@ -173,6 +174,7 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool
 }
 
 ResidualCheck Newton::look(const StepTime& step) {
+  interruption::poll();
   assembly_ = assemble(step);
   return check_residual(*assembly_, system_, options_.residual);
 }

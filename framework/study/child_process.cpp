@@ -17,6 +17,11 @@ volatile std::sig_atomic_t signals_received = 0;
 
 void count_signal(int) { signals_received = signals_received + 1; }
 
+/// A terminal or a reader that goes away is told of more than once.
+void count_loss(int) {
+  if (signals_received == 0) signals_received = 1;
+}
+
 std::vector<std::string> environment(const std::map<std::string, std::string>& settings) {
   std::ifstream file("/proc/self/environ", std::ios::binary);
   std::vector<std::string> variables;
@@ -79,6 +84,8 @@ SignalCounter::SignalCounter() {
   signals_received = 0;
   std::signal(SIGINT, count_signal);
   std::signal(SIGTERM, count_signal);
+  for (const int signal : {SIGHUP, SIGPIPE})
+    if (std::signal(signal, SIG_IGN) != SIG_IGN) std::signal(signal, count_loss);
 }
 
 SignalCounter::~SignalCounter() {

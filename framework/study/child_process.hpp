@@ -29,7 +29,8 @@ class ChildProcess {
   std::optional<int> code_;
 };
 
-/// Counts SIGINT and SIGTERM while it exists, instead of being ended by them.
+/// Counts SIGINT and SIGTERM while it exists, instead of being ended by them. A terminal (SIGHUP) or a reader (SIGPIPE)
+/// that goes away counts as the first of them.
 class SignalCounter {
  public:
   SignalCounter();

@@ -71,6 +71,15 @@ void check_names_differ(const std::vector<StudyRun>& runs) {
                        "name them in 'runs:'");
 }
 
+/// The name of a study is that of a folder in results/.
+void check_study_name(const std::string& name, const Origin& origin) {
+  const bool has_control = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+  if (name.empty() || name[0] == '.' || name.find('/') != std::string::npos || has_control)
+    throw InputError(origin, "a study cannot be called " + quoted(name),
+                     "its name is that of a folder in results/, without '/' and without '.' in front",
+                     "choose another name");
+}
+
 std::vector<std::string> varied_keys(const StudyOptions& options) {
   std::vector<std::string> keys;
   const auto add = [&](const std::string& path) {
@@ -143,6 +152,7 @@ Study read_study(const std::string& file) {
 
   Study study;
   study.name = options.name.value_or(fs::path(file).stem().string());
+  check_study_name(study.name, options.name ? whole.find("name")->origin : Origin{file});
   study.scene_files = scene_files(options, fs::path(file).parent_path());
   study.keys = varied_keys(options);
   study.runs = grid_runs(options);

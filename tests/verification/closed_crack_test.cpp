@@ -108,8 +108,7 @@ TEST(ClosedCrackOnStructuredCells, IsAsGoodAsOnOthers) {
   for (const char* shape : {"quadrilaterals", "triangles"})
     for (const int shift : {0, 1}) {
       const auto errors = [&](int cells, double dilation) {
-        const std::string mesh =
-            fmt::format("{{kind: structured, cells: [{0}, {0}], shape: {1}}}", 6 * cells, shape);
+        const std::string mesh = fmt::format("{{kind: structured, cells: [{0}, {0}], shape: {1}}}", 6 * cells, shape);
         return errors_of({mesh, 0, dilation, 6, Point(shift * 2.0 / cells, 0)});
       };
       const Errors ten = errors(10, 5), twenty = errors(20, 5);

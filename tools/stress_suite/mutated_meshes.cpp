@@ -15,9 +15,7 @@ namespace {
 
 constexpr double longest = 10;  // seconds for a file of some kilobytes, in a program that the sanitizers slow down
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 

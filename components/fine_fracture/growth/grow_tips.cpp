@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/fine_fracture/growth/increments.hpp"
+#include "framework/parallel/interruption.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -81,6 +82,7 @@ class Growth {
   int count() const { return static_cast<int>(tips_.size()); }
 
   Sifs evaluate(int i) {
+    interruption::poll_alone();
     ++outcomes_[i].evaluations;
     states_[i].is_outdated = false;
     return evaluate_(i, paths_);

@@ -42,7 +42,8 @@ Overshoots after_a_step(const Scene& scene, Discretization discretize, std::arra
     if (test::is_wall(mesh, f) || (x > 1e-9 && x < 1 - 1e-9)) continue;
     conditions[f] = FlowCondition::pressure;
     values[f] = x < 0.5 ? scene.left(mesh.face_center[f]) : scene.right;
-    if (x < 0.5) changes[f] = scene.left(mesh.nodes[mesh.face_nodes[f][1]]) - scene.left(mesh.nodes[mesh.face_nodes[f][0]]);
+    if (x < 0.5)
+      changes[f] = scene.left(mesh.nodes[mesh.face_nodes[f][1]]) - scene.left(mesh.nodes[mesh.face_nodes[f][0]]);
   }
   const FluxOperators operators =
       discretize(mesh, std::vector<Tensor>(mesh.cell_count(), scene.mobility), conditions, {});
@@ -57,7 +58,8 @@ Overshoots after_a_step(const Scene& scene, Discretization discretize, std::arra
   for (int c = 0; c < mesh.cell_count(); ++c) system.coeffRef(c, c) += capacity[c];
   const Vector of_sides = operators.flux_boundary * values + operators.flux_change * changes;
   Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(system);
-  const Vector after = solver.solve(Vector(capacity.cwiseProduct(before) + source - scene.dt * (divergence * of_sides)));
+  const Vector after =
+      solver.solve(Vector(capacity.cwiseProduct(before) + source - scene.dt * (divergence * of_sides)));
   const Vector fluxes = operators.flux_cell * after + of_sides;
   if (bounds) *bounds = {after.minCoeff(), after.maxCoeff()};
   return find_overshoots({mesh, conditions, after, before, values, changes, fluxes, capacity, scene.dt});

@@ -132,9 +132,10 @@ TEST(TipField, LocalProblemsNearATipAreExactForBothModesOfBothOrders) {
   const TipCase tip = slanted();
   ASSERT_GT(tip.nearby.size(), 20u);
   const Mesh& mesh = tip.mesh;
-  for (const Singular& field : {Singular{tip.tip, tip.angle, 1.0}, Singular{tip.tip, tip.angle, Complex(0, 1)},
-                               Singular{tip.tip, tip.angle, 1.0, 1.5}, Singular{tip.tip, tip.angle, Complex(0, 1), 1.5},
-                               Singular{tip.tip, tip.angle, Complex(0.6, -0.8)}}) {
+  for (const Singular& field :
+       {Singular{tip.tip, tip.angle, 1.0}, Singular{tip.tip, tip.angle, Complex(0, 1)},
+        Singular{tip.tip, tip.angle, 1.0, 1.5}, Singular{tip.tip, tip.angle, Complex(0, 1), 1.5},
+        Singular{tip.tip, tip.angle, Complex(0.6, -0.8)}}) {
     const Vector u = in_cells(mesh, [&](const Point& x) { return field.displacement(x); });
     int inner = 0, walls = 0;
     for (const int node : tip.nearby) {
@@ -197,7 +198,7 @@ TEST(TipField, MeanStressesNearATipAreExactForBothModesOfBothOrders) {
   const StressOperators operators = discretize_mpsa(mesh, even(mesh), tip.conditions);
   const auto is_near = [&](int node) { return std::ranges::find(tip.nearby, node) != tip.nearby.end(); };
   for (const Singular& field : {Singular{tip.tip, tip.angle, 1.0}, Singular{tip.tip, tip.angle, Complex(0, 1)},
-                               Singular{tip.tip, tip.angle, Complex(0.6, -0.8), 1.5}}) {
+                                Singular{tip.tip, tip.angle, Complex(0.6, -0.8), 1.5}}) {
     const Vector u = in_cells(mesh, [&](const Point& x) { return field.displacement(x); });
     const Vector forces = operators.force_displacement * u, moments = operators.moment_displacement * u;
     int cells = 0, at_tip = 0;

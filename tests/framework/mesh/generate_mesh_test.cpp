@@ -140,6 +140,48 @@ TEST(GenerateMesh, SmallAndLargeBoxesFarFromTheOrigin) {
   }
 }
 
+/// A line of `edges` cells at `angle` (rad) in a box that is `ratio` cells wide.
+Mesh small_line_in_a_large_box(double ratio, int edges, double angle, const Point& offset, double size) {
+  Geometry geometry;
+  geometry.box.low = offset - 0.5 * Point(size, size);
+  geometry.box.high = offset + 0.5 * Point(size, size);
+  const double edge = size / ratio;
+  const Point center = offset + size * Point(0.03, -0.07),
+              along = 0.5 * edges * edge * Point(std::cos(angle), std::sin(angle));
+  geometry.fractures = {fracture("line", {center - along, center + along})};
+  return generate_mesh(geometry, {.size = 0.1 * size, .fracture_size = edge, .growth = 0.3});
+}
+
+TEST(GenerateMesh, SmallObliqueLinesInLargeBoxes) {
+  for (const double ratio : {3e4, 5e4, 1e5, 3e5}) {
+    for (int i = 0; i < 5; ++i) {
+      const double angle = 0.07 + 0.61 * i, size = i % 3 == 0 ? 200 : i % 3 == 1 ? 0.03 : 7e4;
+      const Point offset = i % 2 == 0 ? Point(0, 0) : Point(3.7 * size, -1.1 * size);
+      SCOPED_TRACE(testing::Message() << ratio << " edges wide, " << size << " m, angle " << angle);
+      const Mesh mesh = small_line_in_a_large_box(ratio, 20, angle, offset, size);
+      EXPECT_NEAR(total_area(mesh), size * size, 1e-10 * size * size);
+      EXPECT_NEAR(fracture_length(mesh, 0), 20 * size / ratio, 1e-5 * size / ratio);
+      EXPECT_EQ(euler_characteristic(mesh), 0);
+      EXPECT_GT(mesh_quality(mesh).smallest_angle, 15 * degree);
+    }
+  }
+}
+
+TEST(GenerateMesh, SaysWhenABoxIsTooLargeForItsEdges) {
+  int refused = 0;
+  for (int i = 0; i < 8; ++i) {
+    const auto make = [&] { small_line_in_a_large_box(1e6, 12, 0.3 + 0.37 * i, {0, 0}, 1); };
+    try {
+      make();
+    } catch (const InputError& error) {
+      ++refused;
+      EXPECT_THAT(error.what(), testing::HasSubstr("edges of 1e-06 m in a box of 1 m"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("so that the box is at most 300,000 edges wide"));
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
 TEST(GenerateMesh, IsDeterministic) {
   for (const Kind kind : {Kind::unstructured, Kind::structured}) {
     Geometry geometry = box(0, 2, 0, 2);

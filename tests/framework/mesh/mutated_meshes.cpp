@@ -77,10 +77,11 @@ std::string content_of(const std::string& file) {
   return content.str();
 }
 
-constexpr std::array words{"-1",  "0",   "1",    "2147483648", "4294967297", "18446744073709551615", "1e308", "-1e308",
-                           "nan", "inf", "1e-9", "$EndNodes",  "\"",         "99999999",             "1.5",   "x"};
-constexpr std::array<std::uint64_t, 8> numbers{0, 1, 0x7fffffff, 0x80000000, 0xffffffffffffffff, 0x7ff0000000000000,
-                                               0x7ff8000000000000, 0x100000000};
+constexpr std::array words{"-1",    "0",        "1",   "2147483648", "4294967297", "18446744073709551615",
+                           "1e308", "-1e308",   "nan", "inf",        "1e-9",       "$EndNodes",
+                           "\"",    "99999999", "1.5", "x"};
+constexpr std::array<std::uint64_t, 8> numbers{
+    0, 1, 0x7fffffff, 0x80000000, 0xffffffffffffffff, 0x7ff0000000000000, 0x7ff8000000000000, 0x100000000};
 
 }  // namespace
 
@@ -88,9 +89,12 @@ std::vector<std::string> meshes_of_gmsh() {
   const std::string file =
       (std::filesystem::temp_directory_path() / ("sprekk_mesh_" + std::to_string(getpid()) + ".msh")).string();
   std::vector<std::string> meshes;
-  for (const auto& [version, binary, parametric, has_quadrilaterals] :
-       {Format{2.2, 0, 0, false}, {2.2, 1, 0, true}, {4.1, 0, 0, true}, {4.1, 1, 0, false}, {4.1, 0, 1, false},
-        {4.1, 1, 1, true}}) {
+  for (const auto& [version, binary, parametric, has_quadrilaterals] : {Format{2.2, 0, 0, false},
+                                                                        {2.2, 1, 0, true},
+                                                                        {4.1, 0, 0, true},
+                                                                        {4.1, 1, 0, false},
+                                                                        {4.1, 0, 1, false},
+                                                                        {4.1, 1, 1, true}}) {
     const GmshModel model;
     model.run("write a file", [&] {
       has_quadrilaterals ? draw_quadrilaterals() : draw_triangles();
@@ -112,14 +116,24 @@ std::string mutated(std::string bytes, std::mt19937& random) {
   for (std::size_t i = 0; i < mistakes && !bytes.empty(); ++i) {
     const std::size_t at = below(bytes.size()), length = std::min(bytes.size() - at, 1 + below(40));
     switch (below(9)) {
-      case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8))); break;
-      case 1: bytes[at] = static_cast<char>(below(256)); break;
-      case 2: bytes.erase(at, length); break;
-      case 3: bytes.insert(below(bytes.size()), bytes.substr(at, length)); break;
+      case 0:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(below(256));
+        break;
+      case 2:
+        bytes.erase(at, length);
+        break;
+      case 3:
+        bytes.insert(below(bytes.size()), bytes.substr(at, length));
+        break;
       case 4:
         for (std::size_t k = 0; k < length; ++k) bytes[at + k] = static_cast<char>(below(256));
         break;
-      case 5: bytes.resize(at); break;
+      case 5:
+        bytes.resize(at);
+        break;
       case 6: {
         const std::uint64_t number = numbers[below(numbers.size())];
         std::memcpy(bytes.data() + at, &number, std::min<std::size_t>(below(2) ? 4 : 8, bytes.size() - at));

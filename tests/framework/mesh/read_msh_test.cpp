@@ -269,7 +269,8 @@ TEST(ReadMsh, SaysOnWhichLineAFileIsWrong) {
               AllOf(HasSubstr("line 37: "), HasSubstr("is degenerate")));
   EXPECT_THAT(refusal(changed(text, "$Elements", "20 20 1 6 5", "21 20 1 2 6")),
               HasSubstr("line 38: a cell is there twice, before at line 37"));
-  EXPECT_THAT(refusal(changed(text, "$PhysicalNames", "\"clay\"", "\"sand\"")), HasSubstr("two regions are called 'sand'"));
+  EXPECT_THAT(refusal(changed(text, "$PhysicalNames", "\"clay\"", "\"sand\"")),
+              HasSubstr("two regions are called 'sand'"));
   EXPECT_THAT(refusal(changed(text, "$PhysicalNames", "\"bottom\"", "\"boundary\"")),
               HasSubstr("two sides are called 'boundary'"));
   EXPECT_THAT(refusal(text.substr(0, text.find("$EndNodes") - 4)), HasSubstr("line 29: the file ends where a coord"));

@@ -162,8 +162,8 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
   values << 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0;
   const double turn = 100 * pi / 180;
   const Point tip = crack_half_length * setting.along;
-  values.tail<2>() = tip + 0.1 * (std::cos(turn) * setting.along +
-                                  std::sin(turn) * Point(-setting.along.y(), setting.along.x()));
+  values.tail<2>() =
+      tip + 0.1 * (std::cos(turn) * setting.along + std::sin(turn) * Point(-setting.along.y(), setting.along.x()));
   setting.tips.restore({{"tips.main_last", values}});
   ASSERT_GT(setting.tips.examine({}).now, 1);
   const Growing::Growth growth = setting.tips.grow({});

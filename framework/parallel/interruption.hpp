@@ -1,0 +1,33 @@
+// A run that is asked to end ends soon, also in the middle of a long step.
+#pragma once
+
+namespace sprekk {
+
+/// Thrown between iterations of an attempt that shall not go on. It is no std::exception: nobody takes it for a failure
+/// of the attempt. Whoever catches it rewinds what the attempt has begun.
+struct Interrupted {};
+
+namespace interruption {
+
+/// From now on the run shall end. Safe in signal handlers.
+void request();
+bool is_requested();  ///< in this process
+void forget();
+
+/// `poll` may throw as long as one of these exists.
+class Allowed {
+ public:
+  Allowed();
+  ~Allowed();
+  Allowed(const Allowed&) = delete;
+  Allowed& operator=(const Allowed&) = delete;
+};
+
+/// For loops that all processes go through together: throws Interrupted where that is allowed and any of them has been
+/// asked to end. Collective.
+void poll();
+/// For loops that a process may go through alone: nothing happens in runs of several processes.
+void poll_alone();
+
+}  // namespace interruption
+}  // namespace sprekk
