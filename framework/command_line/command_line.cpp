@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 
 #include "framework/command_line/explain_command.hpp"
@@ -81,6 +82,7 @@ int answer_wrong_input(const InputError& error) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files makes writing fail, as a full disk does
   CLI::App app("Sprekk simulates fractured porous rock: coupled flow, deformation, friction and opening of fractures.");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);

@@ -72,13 +72,13 @@ class TableReader {
 
   Table read() {
     rows_ = split_rows(content());
-    if (rows_.empty()) throw InputError({request_.file}, "the table is empty", "it has no row of numbers");
+    if (rows_.empty()) refuse_empty("it has no row of numbers");
     columns_ = rows_.front().cells.size();
     if (std::none_of(rows_.front().cells.begin(), rows_.front().cells.end(), is_number)) {
       headings_ = headings_of(rows_.front());
       rows_.erase(rows_.begin());
     }
-    if (rows_.empty()) throw InputError({request_.file}, "the table is empty", "it has headings only");
+    if (rows_.empty()) refuse_empty("it has headings only");
     const std::size_t abscissa = abscissa_column();
     const std::size_t ordinate = ordinate_column(abscissa);
     const double abscissa_scale = heading_scale(abscissa, request_.of == "t" ? "s" : "m");
@@ -99,6 +99,11 @@ class TableReader {
   }
 
  private:
+  [[noreturn]] void refuse_empty(const std::string& why) const {
+    throw InputError(request_.where, "the table " + quoted(request_.file) + " is empty", why,
+                     "give it a row for each value");
+  }
+
   std::string content() const {
     const std::filesystem::path path = std::filesystem::path(request_.folder) / request_.file;
     try {

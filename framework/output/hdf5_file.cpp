@@ -45,13 +45,28 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 /// H5Fget_file_image would be simpler, but its image has a wrong checksum (HDF5 1.10.8).
 struct Hdf5Writer::Image {
   void* bytes = nullptr;
+  std::size_t size = 0;  ///< a multiple of memory_step
   ~Image() { std::free(bytes); }
+
+  /// The file's own length, which its first block tells (HDF5 file format 3.0, "Superblock versions 2 and 3"); 0 when
+  /// there is none.
+  std::size_t used() const {
+    constexpr std::size_t version = 8, end_of_file = 28, length = 48;
+    const auto* block = static_cast<const unsigned char*>(bytes);
+    if (!bytes || size < length || (block[version] != 2 && block[version] != 3)) return 0;
+    std::uint64_t end = 0;
+    for (std::size_t i = 8; i-- > 0;) end = end << 8 | block[end_of_file + i];
+    return end <= size ? end : 0;
+  }
 
   static void* make(std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); }
   static void* copy(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
     return std::memcpy(to, from, size);
   }
-  static void* resize(void* bytes, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(bytes, size); }
+  static void* resize(void* bytes, std::size_t size, H5FD_file_image_op_t, void* image) {
+    static_cast<Image*>(image)->size = size;
+    return std::realloc(bytes, size);
+  }
   static herr_t release(void* bytes, H5FD_file_image_op_t reason, void* image) {
     if (reason == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
       static_cast<Image*>(image)->bytes = bytes;
@@ -83,13 +98,11 @@ Hdf5Writer::~Hdf5Writer() {
 
 std::string_view Hdf5Writer::finish() {
   const std::string failed = "the file cannot be finished";
-  hsize_t size = 0;
-  require(H5Fflush(file_, H5F_SCOPE_LOCAL), failed);
-  require(H5Fget_filesize(file_, &size), failed);
   const herr_t closed = H5Fclose(file_);
   file_ = -1;
   require(closed, failed);
-  if (!image_->bytes) throw Hdf5Error(failed);
+  const std::size_t size = image_->used();
+  if (size == 0) throw Hdf5Error(failed);
   return {static_cast<const char*>(image_->bytes), size};
 }
 

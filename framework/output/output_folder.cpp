@@ -50,6 +50,9 @@ OutputFolder::OutputFolder(fs::path wanted, Choice choice)
 
 void OutputFolder::find_free() {
   path_ = wanted_;
+  constexpr std::size_t longest = 240;  // bytes, so that there is room for a number within what file systems allow
+  if (wanted_.filename().native().size() > longest)
+    throw unusable(path_, std::make_error_code(std::errc::filename_too_long).message());
   for (int number = 2; !is_free(path_); ++number) {
     path_ = wanted_;
     path_ += fmt::format("-{}", number);

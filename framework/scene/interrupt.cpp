@@ -46,7 +46,6 @@ InterruptGuard::InterruptGuard() {
   set_handler(SIGTERM, handle);
   for (const int signal : {SIGHUP, SIGPIPE})
     if (!is_ignored(signal)) set_handler(signal, handle_loss);
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {

@@ -5,7 +5,7 @@ namespace sprekk {
 
 /// While it exists, Ctrl-C (SIGINT), SIGTERM, the end of the terminal (SIGHUP) and a reader of the output that went
 /// away (SIGPIPE) request an interruption; a second SIGINT or SIGTERM ends the program at once, whatever it is doing.
-/// SIGHUP stays ignored where it was (nohup). Files that grow over a limit (SIGXFSZ) become failed writes.
+/// SIGHUP stays ignored where it was (nohup).
 class InterruptGuard {
  public:
   InterruptGuard();

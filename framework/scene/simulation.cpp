@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "framework/config/units.hpp"
+#include "framework/linear/blas_memory.hpp"
 #include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/partition.hpp"
 #include "framework/output/checkpoint.hpp"
@@ -492,6 +493,7 @@ void Run::record_failure(const std::string& reason) {
 }
 
 ExitCode Run::execute() {
+  reserve_blas_memory();
   record_start();
   const InterruptGuard interrupt;
   output_.open(continued_, model_->scene().output.fields);

@@ -38,7 +38,9 @@ Program::Program(const std::vector<std::string>& arguments, const std::filesyste
   _exit(127);
 }
 
-void Program::interrupt() const { kill(process_, SIGINT); }
+void Program::interrupt() const { signal(SIGINT); }
+
+void Program::signal(int number) const { kill(process_, number); }
 
 bool Program::is_running() {
   if (!ended_) ended_ = waitpid(process_, &status_, WNOHANG) == process_;
@@ -54,6 +56,15 @@ Outcome Program::wait() {
 
 Outcome sprekk_command(const std::vector<std::string>& arguments, const std::filesystem::path& working_directory) {
   return Program(arguments, working_directory).wait();
+}
+
+Outcome shell_command(const std::string& line, const std::filesystem::path& working_directory) {
+  const Folder output;
+  const std::string whole = "cd '" + working_directory.string() + "' && sprekk='" + SPREKK_PROGRAM + "' && (" + line +
+                            ") >'" + (output / "out").string() + "' 2>'" + (output / "err").string() + "'";
+  const int status = std::system(whole.c_str());
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  return {code, text_of(output / "out"), text_of(output / "err")};
 }
 
 std::string text_of(const std::filesystem::path& file) {

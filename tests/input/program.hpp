@@ -34,6 +34,7 @@ class Program {
  public:
   Program(const std::vector<std::string>& arguments, const std::filesystem::path& working_directory);
   void interrupt() const;  ///< Ctrl-C
+  void signal(int number) const;
   bool is_running();
   Outcome wait();
 
@@ -43,6 +44,9 @@ class Program {
   int status_ = 0;
   bool ended_ = false;
 };
+
+/// Runs a line of the shell in which "$sprekk" is the program.
+Outcome shell_command(const std::string& line, const std::filesystem::path& working_directory);
 
 /// Runs `sprekk arguments…` to its end.
 Outcome sprekk_command(const std::vector<std::string>& arguments, const std::filesystem::path& working_directory);

@@ -52,7 +52,9 @@ TEST_F(Hdf5File, WhatIsMissingOrOfAnotherKindIsAnError) {
   EXPECT_THROW(reader.integers("doubles"), Hdf5Error);
   EXPECT_THROW(reader.text("doubles"), Hdf5Error);
   EXPECT_THROW(Hdf5Reader(folder / "none.h5"), Hdf5Error);
-  EXPECT_THROW(Hdf5Writer(folder / "missing" / "a.h5"), Hdf5Error);
+  Hdf5Writer nowhere(folder / "missing" / "a.h5");
+  nowhere.text("a", "b");
+  EXPECT_THROW(nowhere.close(), std::runtime_error);
 }
 
 TEST_F(Hdf5File, AChangedByteInAnArrayIsNoticed) {

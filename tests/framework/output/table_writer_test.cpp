@@ -92,6 +92,20 @@ TEST_F(TableWriterTest, AMissingOrEmptyTableIsANewOne) {
   EXPECT_EQ(read_text(file), "time[s],x[m]\n2,2\n");
 }
 
+TEST_F(TableWriterTest, KeepsRowsByTheirNumberWhereItIsKnown) {
+  // The second and third row are attempts that ended later than the checkpoint at 1 s, which the fourth belongs to.
+  const std::string head = "time[s],x[m]\n0.5,1\n4,2\n2,3\n1,4\n";
+  write_text(file, head + "3,5\n1,6\n");
+  TableWriter table = TableWriter::continued(file, 1, 4);
+  EXPECT_EQ(table.rows(), 4);
+  table.append(2, {{"x[m]", 7.0}});
+  EXPECT_EQ(table.rows(), 5);
+  EXPECT_EQ(read_text(file), head + "2,7\n");
+  EXPECT_THAT(input_error_of([&] { TableWriter::continued(file, 1, 6); }), testing::HasSubstr("has 5 rows"));
+  EXPECT_THAT(input_error_of([&] { TableWriter::continued(folder / "none.csv", 1, 6); }),
+              testing::HasSubstr("missing"));
+}
+
 TEST_F(TableWriterTest, AnotherKindOfFileIsRefused) {
   write_text(file, "a,b\n1,2\n");
   EXPECT_THAT(input_error_of([&] { TableWriter::continued(file, 1); }), testing::HasSubstr("time[s]"));

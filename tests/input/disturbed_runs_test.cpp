@@ -1,0 +1,301 @@
+// Runs that meet a full disk, another run, signals, and files that are not what they should be.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/input/program.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Clock = std::chrono::steady_clock;
+
+const std::string flow = std::string(SPREKK_SOURCE_DIR) + "/tests/input/base/flow.yaml";
+
+/// The tutorial's scene with a coarser mesh.
+std::vector<std::string> tutorial(const std::vector<std::string>& more, const std::string& sizes = "1.5 m, 0.4 m") {
+  const std::size_t comma = sizes.find(',');
+  std::vector<std::string> arguments = {
+      "run", config("tutorial/first_scene.yaml"), "--set",
+      "mesh={size: " + sizes.substr(0, comma) + ", fracture_size:" + sizes.substr(comma + 1) + "}"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::string tutorial_line(const std::string& more) {
+  return "\"$sprekk\" run " + config("tutorial/first_scene.yaml") +
+         " --set 'mesh={size: 1.5 m, fracture_size: 0.4 m}' --set output.fields=false " + more;
+}
+
+long rows(const fs::path& table) {
+  const std::string text = text_of(table);
+  return std::max<long>(0, std::count(text.begin(), text.end(), '\n') - 1);
+}
+
+template <class Condition>
+void wait_until(Program& program, const Condition& condition) {
+  while (!condition() && program.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+// A limit for files does what a full disk does: every writer fails beyond it.
+
+TEST(FullDisk, EndsARunWithAMessageAndKeepsTheCheckpoint) {
+  for (const std::string trap : {"trap '' XFSZ; ", ""}) {
+    const Folder folder;
+    ASSERT_EQ(shell_command(tutorial_line("-q -o u --set 'time.end=1 day'"), folder.path()).code, 0);
+    const std::string before = text_of(folder / "u/checkpoint.h5");
+    const Outcome full =
+        shell_command(trap + "ulimit -f 40; exec " + tutorial_line("-q -o u --restart"), folder.path());
+    EXPECT_EQ(full.code, 1) << full.err;
+    EXPECT_THAT(full.err, AllOf(HasSubstr("cannot write u/checkpoint.h5 (File too large)"),
+                                HasSubstr("go on from its last checkpoint, u/checkpoint.h5")));
+    EXPECT_EQ(text_of(folder / "u/checkpoint.h5"), before);
+    EXPECT_FALSE(fs::exists(folder / "u/checkpoint.h5.partial"));
+    // With room again the run goes on, and nothing is missing.
+    ASSERT_EQ(shell_command(tutorial_line("-q -o u --restart"), folder.path()).code, 0);
+    ASSERT_EQ(shell_command(tutorial_line("-q -o whole"), folder.path()).code, 0);
+    for (const std::string table : {"/history.csv", "/coupling.csv"})
+      EXPECT_EQ(text_of(folder / ("u" + table)), text_of(folder / ("whole" + table)));
+  }
+}
+
+TEST(FullDisk, EndsARunWhicheverWriterMeetsItFirst) {
+  // In blocks of 512 or 1024 bytes: the record, a table, fields.
+  for (const auto& [blocks, file] : {std::pair(2, "u/"), {26, "u/"}, {40, "u/matrix_"}}) {
+    const Folder folder;
+    const Outcome full = shell_command("ulimit -f " + std::to_string(blocks) + "; exec " +
+                                           tutorial_line("-q -o u --set output.fields=true --set 'time.step=1 h'"),
+                                       folder.path());
+    EXPECT_EQ(full.code, 1) << blocks << ": " << full.err;
+    EXPECT_THAT(full.err, HasSubstr(std::string("cannot write ") + file)) << blocks;
+  }
+}
+
+TEST(RunFolder, BelongsToOneRunAtATime) {
+  const Folder folder;
+  ASSERT_EQ(sprekk_command(tutorial({"-q", "-o", "u", "--set", "time.end=4 h"}), folder.path()).code, 0);
+  Program first(tutorial({"-q", "-o", "u", "--restart", "--set", "time.step=5 min"}), folder.path());
+  // A step of another size is another scene, so that the first restart is refused after it has let go of the folder.
+  EXPECT_EQ(first.wait().code, 2);
+
+  Program holder(tutorial({"-q", "-o", "v", "--set", "time.step=5 min"}), folder.path());
+  wait_until(holder, [&] { return rows(folder / "v/history.csv") > 2; });
+  const std::string held = text_of(folder / "v/.lock");
+  EXPECT_THAT(held, HasSubstr("process "));
+  const std::string table = text_of(folder / "v/history.csv");
+  std::ofstream(folder / "v/checkpoint.h5") << "not yet";
+  const Outcome other =
+      sprekk_command(tutorial({"-q", "-o", "v", "--restart", "--set", "time.step=5 min"}), folder.path());
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("another run is at work in v (" + held.substr(0, held.find('\n')) + ")"),
+                               HasSubstr("choose another folder with -o")));
+  EXPECT_EQ(text_of(folder / "v/history.csv").substr(0, table.size()), table);
+  ASSERT_TRUE(holder.is_running());
+  holder.interrupt();
+  EXPECT_EQ(holder.wait().code, 130);
+  EXPECT_FALSE(fs::exists(folder / "v/.lock"));
+}
+
+TEST(RunFolder, OfADeadRunIsTakenOver) {
+  const Folder folder;
+  const std::vector<std::string> more = {"--set", "time.step=5 min", "--set", "output.checkpoint_every=1 ms"};
+  std::vector<std::string> arguments = {"-q", "-o", "u"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  Program dead(tutorial(arguments), folder.path());
+  wait_until(dead, [&] { return rows(folder / "u/history.csv") > 5; });
+  dead.signal(SIGKILL);
+  EXPECT_EQ(dead.wait().code, -SIGKILL);
+  EXPECT_TRUE(fs::exists(folder / "u/.lock"));
+  arguments.emplace_back("--restart");
+  const Outcome rest = sprekk_command(tutorial(arguments), folder.path());
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_FALSE(fs::exists(folder / "u/.lock"));
+  EXPECT_EQ(sprekk_command(tutorial({"-q", "-o", "whole", "--set", "time.step=5 min"}), folder.path()).code, 0);
+  for (const std::string table : {"/history.csv", "/coupling.csv"})
+    EXPECT_EQ(text_of(folder / ("u" + table)), text_of(folder / ("whole" + table)));
+}
+
+TEST(RunFolder, ThatCannotBeIsRefusedAtOnce) {
+  const Folder folder;
+  const auto refuses = [&](const Outcome& outcome, const std::string& why) {
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("cannot be made (" + why), HasSubstr("choose another one with -o")));
+  };
+  const std::string limit = "exec timeout -s KILL 20 ";
+  refuses(shell_command(limit + tutorial_line("-q --set name=" + std::string(300, 'a')), folder.path()),
+          "File name too long");
+  refuses(shell_command(limit + tutorial_line("-q -o " + std::string(300, 'a')), folder.path()), "File name too long");
+  fs::create_symlink("results", folder / "results");
+  refuses(shell_command(limit + tutorial_line("-q"), folder.path()), "Too many levels of symbolic links");
+  refuses(shell_command(limit + tutorial_line("-q -o results/a"), folder.path()), "Too many levels of symbolic links");
+  fs::remove(folder / "results");
+  std::ofstream(folder / "results") << "a file";
+  refuses(shell_command(limit + tutorial_line("-q"), folder.path()), "Not a directory");
+}
+
+/// From the first step's Newton iterations on, before a row of history.csv: several seconds of work are left then.
+void expect_checkpoint_within_a_step(int signal) {
+  const Folder folder;
+  const std::string sizes = "0.12 m, 0.06 m";
+  const std::vector<std::string> time = {"--set", "time={end: 4 h, step: 4 h}"};
+  std::vector<std::string> arguments = {"-q", "-o", "u"};
+  arguments.insert(arguments.end(), time.begin(), time.end());
+  Program program(tutorial(arguments, sizes), folder.path());
+  wait_until(program, [&] { return rows(folder / "u/coupling.csv") >= 1; });
+  ASSERT_TRUE(program.is_running());
+  program.signal(signal);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  EXPECT_EQ(rows(folder / "u/history.csv"), 0) << "within the first step";
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
+  ASSERT_TRUE(fs::exists(folder / "u/checkpoint.h5"));
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "u/run.json")).at("exit").at("reason"), "interrupted");
+  if (signal != SIGTERM) return;
+  arguments.emplace_back("--restart");
+  const Outcome rest = sprekk_command(tutorial(arguments, sizes), folder.path());
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  arguments = {"-q", "-o", "whole"};
+  arguments.insert(arguments.end(), time.begin(), time.end());
+  ASSERT_EQ(sprekk_command(tutorial(arguments, sizes), folder.path()).code, 0);
+  for (const std::string table : {"/history.csv", "/coupling.csv"})
+    EXPECT_EQ(text_of(folder / ("u" + table)), text_of(folder / ("whole" + table)));
+}
+
+TEST(Signals, EndARunWithinAStepWithACheckpoint) { expect_checkpoint_within_a_step(SIGTERM); }
+TEST(Signals, TheEndOfATerminalLeavesACheckpoint) { expect_checkpoint_within_a_step(SIGHUP); }
+
+TEST(Signals, AReaderThatGoesAwayLeavesACheckpoint) {
+  const Folder folder;
+  // The pipe's reader ends after the first line of progress, while 576 steps are to come.
+  const Outcome outcome = shell_command(
+      "{ " + tutorial_line("-o u --set 'time.step=5 min' 2>&1") + "; echo $? >code; } | head -c 1 >/dev/null",
+      folder.path());
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(text_of(folder / "code"), "130\n");
+  EXPECT_TRUE(fs::exists(folder / "u/checkpoint.h5"));
+  EXPECT_LT(rows(folder / "u/history.csv"), 576);
+  const Outcome rest = shell_command(tutorial_line("-q -o u --restart --set 'time.step=5 min'"), folder.path());
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(rows(folder / "u/history.csv"), 576);
+}
+
+TEST(Signals, ASecondOneEndsTheProgramAtOnce) {
+  const Folder folder;
+  Program program(tutorial({"-q", "-o", "u", "--set", "time={end: 4 h, step: 4 h}"}, "0.12 m, 0.06 m"), folder.path());
+  wait_until(program, [&] { return rows(folder / "u/coupling.csv") >= 1; });
+  program.signal(SIGTERM);
+  program.signal(SIGINT);
+  const Clock::time_point begin = Clock::now();
+  EXPECT_LT(program.wait().code, 0) << "by the signal";
+  EXPECT_LT(seconds_since(begin), 2);
+}
+
+TEST(MemoryLimit, EndsWithAMessage) {
+  // Less and less memory, down to where the program cannot be loaded (127). Whatever lacks it, the run ends by itself.
+  int refused = 0;
+  for (int megabytes = 700; megabytes >= 340; megabytes -= 60) {
+    const Folder folder;
+    const Outcome outcome =
+        shell_command("ulimit -v " + std::to_string(1000 * megabytes) + "; exec timeout -s KILL 60 " +
+                          tutorial_line("-q -o u --set 'time.end=4 h'"),
+                      folder.path());
+    EXPECT_THAT(outcome.code, ::testing::AnyOf(0, 1, 127)) << megabytes << " MB: " << outcome.err;
+    if (outcome.code == 1) {
+      EXPECT_THAT(outcome.err, HasSubstr("memory"));
+    }
+    refused += outcome.code == 1 ? 1 : 0;
+  }
+  EXPECT_GE(refused, 1);
+}
+
+TEST(Restart, WithStepsThatWereCutWritesTheTablesOfAWholeRun) {
+  // Few iterations are allowed, so that attempts fail whose end is later than the checkpoint's time.
+  const Folder folder;
+  const auto arguments = [](std::vector<std::string> more) {
+    for (const std::string setting : {"newton.at_most=3", "newton.pieces=0", "time={end: 8 h, step: 4 h}"})
+      more.insert(more.end(), {"--set", setting});
+    return tutorial(more);
+  };
+  ASSERT_EQ(sprekk_command(arguments({"-q", "-o", "whole"}), folder.path()).code, 0);
+  ASSERT_GT(nlohmann::json::parse(text_of(folder / "whole/run.json")).at("counters").at("steps rejected"), 0);
+  Program program(arguments({"-q", "-o", "u"}), folder.path());
+  wait_until(program, [&] { return rows(folder / "u/history.csv") >= 1; });
+  program.interrupt();
+  ASSERT_EQ(program.wait().code, 130);
+  ASSERT_EQ(sprekk_command(arguments({"-q", "-o", "u", "--restart"}), folder.path()).code, 0);
+  for (const std::string table : {"/history.csv", "/coupling.csv"})
+    EXPECT_EQ(text_of(folder / ("u" + table)), text_of(folder / ("whole" + table)));
+}
+
+TEST(Restart, RefusesTablesThatAreNotThoseOfTheRun) {
+  const Folder folder;
+  ASSERT_EQ(sprekk_command(tutorial({"-q", "-o", "u", "--set", "time.end=1 day"}), folder.path()).code, 0);
+  const std::string history = text_of(folder / "u/history.csv");
+  const auto expect_refusal = [&](const std::string& why) {
+    const Outcome outcome = sprekk_command(tutorial({"-q", "-o", "u", "--restart"}), folder.path());
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("cannot continue u/history.csv (" + why), HasSubstr("put ")));
+  };
+  fs::remove(folder / "u/history.csv");
+  expect_refusal("it is missing or cannot be read, and the run has written 6 rows");
+  std::ofstream(folder / "u/history.csv") << history.substr(0, history.find('\n') + 1);
+  expect_refusal("it has 0 rows, and the run has written 6");
+  std::ofstream(folder / "u/history.csv") << "";
+  expect_refusal("it has 0 rows, and the run has written 6");
+  std::ofstream(folder / "u/history.csv") << history;
+  EXPECT_EQ(sprekk_command(tutorial({"-q", "-o", "u", "--restart"}), folder.path()).code, 0);
+  EXPECT_EQ(rows(folder / "u/history.csv"), 12);
+}
+
+TEST(Sweep, MayNotLeaveTheFolderOfResults) {
+  const Folder folder;
+  fs::create_directory(folder / "inside");
+  for (const std::string name : {"../../outside", "..", ".", "a/b", "/tmp/outside", ".hidden", "''"}) {
+    std::ofstream(folder / "inside/study.yaml")
+        << "name: " << name << "\nscene: " << flow << "\ngrid: {time.step: [1 h, 30 min]}\n";
+    const Outcome outcome = sprekk_command({"sweep", "study.yaml"}, folder / "inside");
+    EXPECT_EQ(outcome.code, 2) << name;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("study.yaml:1:7: a study cannot be called"), HasSubstr("results/")));
+    EXPECT_FALSE(fs::exists(folder / "outside"));
+    EXPECT_FALSE(fs::exists(folder / "inside/results"));
+  }
+}
+
+TEST(MeshFile, RunsNoCommands) {
+  const Folder folder;
+  std::ofstream(folder / "mesh.msh") << "SystemCall \"touch made\";\n";
+  std::ofstream(folder / "scene.yaml") << "geometry: {file: mesh.msh}\n"
+                                          "components: {pore: {type: matrix_flow/tpfa, permeability: 1 mD}}\n"
+                                          "schedule: [{solve: [pore]}]\ntime: {end: 1 h, step: 1 h}\n";
+  for (const std::string command : {"check", "show", "run", "graph"}) {
+    const Outcome outcome = sprekk_command({command, "scene.yaml"}, folder.path());
+    if (command != "show") {
+      EXPECT_EQ(outcome.code, 2);
+      EXPECT_THAT(outcome.err, HasSubstr("scene.yaml:1:18: cannot use the mesh file 'mesh.msh' (line 1: "));
+    }
+    EXPECT_FALSE(fs::exists(folder / "made")) << command;
+  }
+}
+
+TEST(MeshFile, OfALargeBoxAroundASmallFractureIsMade) {
+  const Folder folder;
+  const Outcome outcome = sprekk_command({"check", config("verification/frictional_crack.yaml"), "--set",
+                                          "mesh.fracture_size=0.01 m", "--set", "mesh.growth=0.3"},
+                                         folder.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+}  // namespace
+}  // namespace sprekk::testing
