@@ -1,10 +1,13 @@
 // biot: pore pressure loads the rock, and the rock's volume change stores fluid (Eqs. 5-7).
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/mesh_change.hpp"
+#include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -126,6 +129,20 @@ class Biot : public Coupler {
   /// The level of the pressure loads the rock, and the grains store fluid.
   void relate_levels(Levels& levels) const override {
     if (!decoupled_) levels.hold(fluid_.pressure());
+  }
+
+  void note_step(Notes& notes, const StepTime&) const override {
+    constexpr double much = 2;
+    const double load = rock_.largest_load(), given = fluid_.largest_given_pressure();
+    Eigen::Index largest = 0;
+    const double pressure = fluid_.pressure().now().cwiseAbs().maxCoeff(&largest);
+    if (load == 0 || pressure <= much * std::max(load, given)) return;
+    notes.add(fluid_.pressure().name() + " beyond the loads",
+              fmt::format("{} reaches {:.3g} Pa at {} (the largest stress that is given is {:.3g} Pa, and the largest "
+                          "pressure {:.3g} Pa: rock opens before) look at permeability and rates there",
+                          fluid_.pressure().name(), fluid_.pressure().now()[largest],
+                          to_text(mesh_.cell_center[largest]), load, given),
+              pressure);
   }
 
   std::vector<double> switch_times() const override { return options_.biot_coefficient.switch_times(); }

@@ -136,6 +136,22 @@ class WallExchange : public Coupler {
     if (fluid_) levels.tie(fluid_->pressure(), fracture_.pressure());
   }
 
+  static void note_absence(const std::vector<Component*>& components, Notes& notes) {
+    for (const Component* rock : components) {
+      const auto* walls = dynamic_cast<const MatrixWalls*>(rock);
+      if (!walls || !walls->lets_fluid_through()) continue;
+      for (const Component* fracture : components) {
+        if (!dynamic_cast<const FractureFluid*>(fracture)) continue;
+        const std::string both = rock->name() + " and " + fracture->name();
+        notes.add("no wall_exchange between " + both,
+                  "no fluid flows between " + both +
+                      " (the walls of fractures are sealed without a coupler wall_exchange) add '- {type: "
+                      "wall_exchange, between: [" +
+                      rock->name() + ", " + fracture->name() + "]}' to 'couplers:', unless that is meant");
+      }
+    }
+  }
+
  private:
   static double power_of_two_near(double share) {
     int exponent = 0;

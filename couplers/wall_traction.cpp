@@ -1,4 +1,6 @@
 // wall_traction: forces on the walls of fractures, and the jump that they leave (Eqs. 1 and 4).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,7 @@
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -68,6 +71,22 @@ class WallTraction : public Coupler {
     compliance_ = positive(std::move(compliance));
     if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
     if (loaded_with_ != alpha_.version()) load_with_fluid();
+  }
+
+  /// Below zero against the stress that holds the walls: whatever level pressures count from.
+  void note_step(Notes& notes, const StepTime&) const override {
+    if (!fluid_) return;
+    const Vector& pressure = fluid_->pressure().now();
+    Eigen::Index lowest = 0;
+    const double suction = -pressure.minCoeff(&lowest);
+    constexpr double rounding = 1e-6;
+    if (suction <= rounding * pressure.maxCoeff() || suction <= 0 || alpha_[lowest] == 0) return;
+    notes.add(fluid_->pressure().name() + " suction",
+              fmt::format("{} falls to {:.3g} Pa at {} (suction: it pulls the walls of the fracture together, which a "
+                          "fluid that may boil does not) look at what is extracted there, at fluid that cannot reach a "
+                          "fracture that opens, and at the size of the steps",
+                          fluid_->pressure().name(), -suction, to_text(mesh_.fracture_cells[lowest].center)),
+              suction);
   }
 
   std::vector<double> switch_times() const override { return options_.fracture_biot_coefficient.switch_times(); }

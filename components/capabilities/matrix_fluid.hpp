@@ -17,6 +17,8 @@ class MatrixFluid {
   virtual Field& pressure() = 0;
   /// The pressure (Pa) of the reference state, one a cell: the initial one.
   virtual const Vector& initial_pressure() const = 0;
+  /// Pa, the largest of the initial pressures and of those that are prescribed during a step.
+  virtual double largest_given_pressure() const = 0;
   /// The porosity, one a cell, if the storage is to be completed by the compressibility of the grains, (alpha − phi)/K
   /// (below Eq. 7); nullptr if the storage was given as a whole.
   virtual const Property* porosity_for_storage() const = 0;
@@ -30,6 +32,8 @@ class MatrixWalls {
   virtual ~MatrixWalls() = default;
   /// Input, m/s, one a wall: lambda of Eq. 9, the flux from the fracture into the matrix.
   virtual Field& wall_flux() = 0;
+  /// Whether fluid can flow in the matrix.
+  virtual bool lets_fluid_through() const = 0;
   /// tr p, Pa, one a wall.
   virtual const LinearExpression& wall_pressure() const = 0;
 };

@@ -19,6 +19,9 @@ class PoroelasticRock {
   virtual void change_alpha(const Field& pressure, const Vector& alpha) = 0;
   /// div u integrated over each cell (m^2).
   virtual const LinearExpression& volume_change() const = 0;
+  /// Pa, the largest stress that is prescribed, on sides and at the start; infinite where weight or prescribed
+  /// displacements load the rock as well. To be asked during a step.
+  virtual double largest_load() const = 0;
   /// The drained bulk modulus (Pa), one a cell.
   virtual const Property& bulk_modulus() const = 0;
 };

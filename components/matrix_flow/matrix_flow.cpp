@@ -409,6 +409,7 @@ void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
     fluid.stored += books_.now()[3 * c];
     fluid.injected += books_.now()[3 * c + 1];
     fluid.outflow += books_.now()[3 * c + 2];
+    fluid.throughput += books_.now().segment<3>(3 * c).lpNorm<1>();
   }
 }
 

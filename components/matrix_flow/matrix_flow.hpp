@@ -44,6 +44,7 @@ struct Options {
   Data source;                                ///< 1/s
   std::map<std::string, SideCondition> boundary;
   std::map<std::string, Well> wells;
+  std::map<std::string, std::string> without_effect;  ///< keys of the component that are, and why
   Spec spec(const std::string& type, const std::string& doc);
 };
 
@@ -67,6 +68,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   /// Where pressures leave the bounds that fluid at rest or in motion sets them, and where fluxes are not exact.
   void note_step(Notes& notes, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
+  void note_input(Notes& notes) const override;
+  void note_step(Notes& notes, const StepTime& step) const override;
   std::map<std::string, long> counts() const override {
     return {{"flux discretizations", discretizations_},
             {"flux discretizations: cells", discretized_cells_},
@@ -75,8 +78,10 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
 
   Field& pressure() override { return pressure_; }
   const Vector& initial_pressure() const override { return initial_pressure_; }
+  double largest_given_pressure() const override;
   const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
   Field& wall_flux() override { return *wall_flux_; }
+  bool lets_fluid_through() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
 
   /// The flux through every face, out of face_cells[f][0], integrated over it (m^2/s); for tests and output.

@@ -90,6 +90,8 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                       },
                       {.doc = "Point sources by name."});
   spec.check([this](const Node& node) {
+    for (const char* key : {"porosity", "fluid_compressibility"})
+      if (storage && node.find(key)) without_effect[key] = "'storage' is given as a whole";
     if (!storage && (!porosity || !fluid_compressibility))
       throw InputError(node.origin, "the storage of '" + node.path + "' is not determined",
                        "it is 'storage', or 'porosity' times 'fluid_compressibility'",

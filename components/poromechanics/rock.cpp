@@ -28,6 +28,7 @@ Rock::Rock(const ComponentContext& context, const Options& options)
     : Component(context.name),
       mesh_(context.mesh),
       options_(options),
+      origin_(context.origin),
       displacement_(context.fields.add(mesh_, {.owner = context.name,
                                                .name = "displacement",
                                                .location = Location::cell,

@@ -31,6 +31,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void carry_over(const Part& before, const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
+  void note_input(Notes& notes) const override;
+  void note_step(Notes& notes, const StepTime& step) const override;
   std::vector<double> switch_times() const override;
   std::map<std::string, long> counts() const override {
     return {{"stress discretizations", discretizations_},
@@ -39,6 +41,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   }
 
   void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) override;
+  double largest_load() const override;
   const LinearExpression& volume_change() const override { return volume_change_; }
   void change_alpha(const Field& pressure, const Vector& alpha) override;
   const Property& bulk_modulus() const override { return stiffness_.bulk_modulus(); }
@@ -81,6 +84,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
 
   const Mesh& mesh_;
   Options options_;
+  Origin origin_;
   Field& displacement_;
   Field* wall_traction_ = nullptr;  ///< exists with fractures only
   RockStiffness stiffness_;

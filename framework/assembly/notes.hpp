@@ -41,7 +41,4 @@ class Notes {
   std::vector<Note> notes_;
 };
 
-/// The text, and of a note about steps how many these were and when.
-std::string described(const Notes::Note& note);
-
 }  // namespace sprekk

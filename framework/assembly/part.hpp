@@ -21,6 +21,8 @@ struct MeshChange;
 /// The totals of one conserved quantity since the start of the run: stored + outflow = injected.
 struct Balance {
   double stored = 0, injected = 0, outflow = 0;
+  /// Sum of the amounts over all places where one was stored, injected or flowed out: what errors are small against.
+  double throughput = 0;
   std::string unit;
   bool is_closed = true;  ///< false where values are prescribed instead of the balance: they let an unknown amount in
 };

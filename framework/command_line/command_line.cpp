@@ -1,5 +1,7 @@
 #include "framework/command_line/command_line.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -11,10 +13,13 @@
 #include "framework/command_line/sweep_command.hpp"
 #include "framework/config/resolved_yaml.hpp"
 #include "framework/linear/linear_solver.hpp"
+#include "framework/output/activity.hpp"
 #include "framework/output/build_info.hpp"
 #include "framework/output/output_folder.hpp"
+#include "framework/output/progress.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/report/report.hpp"
+#include "framework/scene/note_records.hpp"
 #include "framework/scene/simulation.hpp"
 #include "framework/scene/stop_condition.hpp"
 
@@ -39,11 +44,18 @@ void print_scene(const Scene& scene) {
 }
 
 void check_scene(const Scene& scene) {
+  const bool is_watched = Progress::style_for(STDERR_FILENO, parallel::is_root(), false) == Progress::Style::bar;
+  Progress progress(is_watched ? Progress::Style::bar : Progress::Style::silent, std::cerr, scene.time.start,
+                    scene.time.end);
+  const ActivityListener listener([&](const std::string& what) { progress.part(what); });
+  progress.watch();
+  progress.phase("building the model");
   const Model model(scene);
+  progress.close();
   StopCondition(scene, model.quantities());
   const Notes notes = model.input_notes();
   if (!parallel::is_root()) return;
-  for (const Notes::Note& note : notes.all()) std::cerr << "note: " << described(note) << "\n";
+  for (const NoteRecord& note : records_of(notes)) std::cerr << "note: " << described(note) << "\n";
   std::cout << scene.name << ": ok, " << model.mesh().cell_count() << " cells, " << model.mesh().fracture_cell_count()
             << " fracture cells\n";
 }

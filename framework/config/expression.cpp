@@ -4,6 +4,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <mutex>
@@ -94,6 +95,21 @@ class Expression {
   bool uses_time() const { return uses_time_; }
   bool uses_space() const { return uses_space_; }
 
+  bool mentions_unit() const {
+    return std::any_of(unit_constants().begin(), unit_constants().end(),
+                       [this](const auto& unit) { return mentions(unit.first); });
+  }
+  /// Its value in units that are `sizes` times as small: of m, kg, s, K and rad.
+  double in_units(const std::array<double, 5>& sizes) {
+    for (const auto& [name, value] : unit_constants()) {
+      const Dimension dimension = parse_unit(name).dimension;
+      double factor = 1;
+      for (std::size_t i = 0; i < sizes.size(); ++i) factor *= std::pow(sizes[i], dimension.exponents[i]);
+      parser_.DefineConst(name, value * factor);
+    }
+    return parser_.Eval();
+  }
+
   double unchecked(const Place& place) {
     const std::lock_guard lock(one_at_a_time_);
     x_ = place.x[0];
@@ -110,6 +126,21 @@ class Expression {
   }
 
  private:
+  /// As a whole word, not as a function.
+  bool mentions(const std::string& name) const {
+    const auto in_word = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+    };
+    for (std::size_t at = text_.find(name); at != std::string::npos; at = text_.find(name, at + 1)) {
+      const std::size_t end = at + name.size();
+      const std::size_t next = text_.find_first_not_of(' ', end);
+      if ((at == 0 || !in_word(text_[at - 1])) && (end == text_.size() || !in_word(text_[end])) &&
+          (next == std::string::npos || text_[next] != '('))
+        return true;
+    }
+    return false;
+  }
+
   [[noreturn]] void fail(const std::string& why, const std::string& suggestion = "") const {
     throw InputError(where_, "malformed expression " + quoted(text_), why, suggestion);
   }
@@ -150,6 +181,23 @@ Data parse_expression(const std::string& text, double scale, const Origin& where
   const double value = expression->unchecked({});
   if (!std::isfinite(value)) throw InputError(where, quoted(text) + " is not finite", fmt::format("it is {}", value));
   return value;
+}
+
+LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, const Origin& where) {
+  Expression expression(text, 1, where);
+  const LackOfUnit lack = expression.mentions_unit() ? LackOfUnit::of_a_term : LackOfUnit::any;
+  if (expression.uses_time() || expression.uses_space())
+    return lack == LackOfUnit::any ? LackOfUnit::any : LackOfUnit::none;
+  const double value = expression.unchecked({});
+  // Any sizes of which no two products of small powers are the same. Angles count as numbers, unless one is asked for.
+  std::array<double, 5> sizes = {1.0137, 1.0171, 1.0193, 1.0229, 1};
+  if (dimension.exponents[4] != 0) sizes[4] = 1.0271;
+  double factor = 1;
+  for (std::size_t i = 0; i < sizes.size(); ++i) factor *= std::pow(sizes[i], dimension.exponents[i]);
+  constexpr double rounding = 1e-9;
+  const double changed = expression.in_units(sizes);
+  const bool differs = std::abs(changed - factor * value) > rounding * std::max(std::abs(changed), std::abs(value));
+  return differs ? lack : LackOfUnit::none;
 }
 
 }  // namespace sprekk

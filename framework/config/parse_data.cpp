@@ -70,6 +70,22 @@ bool has_decimal_comma(const std::string& text) {
   return std::isdigit(static_cast<unsigned char>(text[number->length + 1])) != 0;
 }
 
+/// A length without a unit is in m, and what has no dimension needs none.
+void require_unit(const std::string& expression, const std::string& unit, const Origin& where,
+                  const std::string& name) {
+  const Dimension wanted = parse_unit(unit).dimension;
+  if (unit == "m" || wanted == Dimension{}) return;
+  const LackOfUnit lack = lack_of_unit(expression, wanted, where);
+  if (lack == LackOfUnit::none) return;
+  const std::string whole = quoted(expression) + (name.empty() ? "" : " for " + quoted(name));
+  const std::string needed = "needed is " + wanted.name() + ", in " + unit + " or another unit of it";
+  if (lack == LackOfUnit::of_a_term)
+    throw InputError(where, whole + " has another unit, or a term without one", needed,
+                     "multiply each of its terms by its unit");
+  throw InputError(where, whole + " has no unit", needed,
+                   "write " + quoted("(" + expression + ") " + unit) + ", if that is what it is");
+}
+
 }  // namespace
 
 Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name) {
@@ -81,7 +97,10 @@ Data parse_data(const std::string& text, const std::string& unit, const Origin& 
                      "write decimals with a point");
   }
   const Split split = split_off_unit(content);
-  if (split.unit.empty()) return parse_expression(split.expression, 1, where);
+  if (split.unit.empty()) {
+    require_unit(split.expression, unit, where, name);
+    return parse_expression(split.expression, 1, where);
+  }
   const double scale = scale_to_si(split.unit, unit, content, where, name);
   if (!split.is_single_operand) {
     throw InputError(where, "malformed expression " + quoted(text),

@@ -39,15 +39,15 @@ std::vector<std::string> names_of(const Map& map) {
 std::string field_path(std::size_t i, const char* level) { return fmt::format("fields/{}/{}", i, level); }
 std::string extra_path(std::size_t i) { return fmt::format("extra/{}", i); }
 
-std::string text_of(const std::vector<Notes::Note>& notes) {
+std::string text_of(const std::vector<NoteRecord>& notes) {
   nlohmann::json list = nlohmann::json::array();
-  for (const Notes::Note& note : notes)
+  for (const NoteRecord& note : notes)
     list.push_back({note.topic, note.text, note.first_time, note.last_time, note.steps, note.measure});
   return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::vector<Notes::Note> read_notes(const std::string& text) {
-  std::vector<Notes::Note> notes;
+std::vector<NoteRecord> read_notes(const std::string& text) {
+  std::vector<NoteRecord> notes;
   for (const nlohmann::json& note : nlohmann::json::parse(text))
     notes.push_back({note.at(0), note.at(1), note.at(2), note.at(3), note.at(4), note.at(5)});
   return notes;

@@ -5,9 +5,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "framework/assembly/notes.hpp"
 #include "framework/field/field_store.hpp"
+#include "framework/output/note_record.hpp"
 
 namespace sprekk {
 
@@ -33,7 +34,7 @@ struct Checkpoint {
   std::string scene_fingerprint;  ///< see fingerprint()
   std::string program_version;    ///< of the program that wrote it
   Clock clock;
-  std::vector<Notes::Note> notes;  ///< of all steps so far
+  std::vector<NoteRecord> notes;  ///< of all steps so far
   Mesh mesh;
   std::map<std::string, Values> fields;  ///< by full name
   std::map<std::string, Vector> extra;   ///< state of accelerators, controllers, tips: by a name of their choice

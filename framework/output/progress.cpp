@@ -1,11 +1,15 @@
 #include "framework/output/progress.hpp"
 
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <csignal>
 #include <limits>
 #include <ostream>
 
@@ -13,8 +17,24 @@ namespace sprekk {
 namespace {
 
 constexpr double redraw_interval = 0.1;  // s
+constexpr double short_wait = 0.5;       // s, that nobody on a terminal asks about
+constexpr double long_part = 10;         // s, worth a line
+constexpr double long_silence = 60;      // s
 constexpr int bar_width = 30;
 const std::string clear_line = "\r\x1b[K";
+
+/// Of the terminal; 0 for none.
+std::size_t columns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+/// Signals are for the thread that works.
+void block_signals() {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+}
 
 }  // namespace
 
@@ -47,10 +67,29 @@ Progress::Progress(Style style, std::ostream& out, double start, double end, Clo
       end_(end),
       clock_(std::move(clock)),
       began_(clock_()),
-      last_drawn_(-std::numeric_limits<double>::infinity()) {}
+      last_drawn_(-std::numeric_limits<double>::infinity()),
+      last_line_(began_) {}
 
-Progress::~Progress() {
+Progress::~Progress() { close(); }
+
+void Progress::watch() {
+  if (style_ == Style::silent || watcher_.joinable()) return;
+  watcher_ = std::jthread([this](const std::stop_token& stop) {
+    block_signals();
+    std::mutex mutex;
+    std::condition_variable_any never;
+    std::unique_lock lock(mutex);
+    while (!never.wait_for(lock, stop, std::chrono::milliseconds(500), [&] { return stop.stop_requested(); })) tick();
+  });
+}
+
+void Progress::close() {
+  if (watcher_.joinable()) {
+    watcher_.request_stop();
+    watcher_.join();
+  }
   if (is_bar_shown_) out_ << '\n' << std::flush;
+  is_bar_shown_ = false;
 }
 
 std::string Progress::status(double time, int step) const {
@@ -65,30 +104,97 @@ std::string Progress::status(double time, int step) const {
   return fmt::format("[{:#<{}}{:.<{}}] {}", "", filled, "", bar_width - filled, numbers);
 }
 
+std::string Progress::activity() const {
+  if (phase_.empty()) return "";
+  return phase_ + (part_.empty() ? "" : ": " + part_) + ", " + duration_text(std::floor(clock_() - phase_began_));
+}
+
 void Progress::clear_bar() {
   if (is_bar_shown_) out_ << clear_line;
   is_bar_shown_ = false;
 }
 
+/// What does not fit into the line would be left behind when it is drawn again.
+void Progress::draw_bar() {
+  clear_bar();
+  std::string text = status_;
+  const double now = clock_();
+  if (!phase_.empty() && now - phase_began_ >= short_wait) {
+    text += (text.empty() ? "" : "  ") + activity();
+    if (const std::size_t width = columns(); width > 0 && text.size() >= width)
+      text.resize(std::max(width - 1, std::min(status_.size(), text.size())));
+  }
+  if (text.empty()) return;
+  out_ << text << std::flush;
+  last_drawn_ = now;
+  is_bar_shown_ = true;
+}
+
+void Progress::line(const std::string& text) {
+  clear_bar();  // what follows draws it again, below the line
+  last_drawn_ = -std::numeric_limits<double>::infinity();
+  last_line_ = clock_();
+  out_ << text << std::endl;
+}
+
 void Progress::reached(double time, int step) {
   if (style_ == Style::silent) return;
-  if (style_ == Style::lines) {
-    out_ << status(time, step) << std::endl;
-    return;
-  }
-  const double now = clock_();
-  if (now - last_drawn_ < redraw_interval && time < end_) return;
-  last_drawn_ = now;
-  clear_bar();
-  out_ << status(time, step) << std::flush;
-  is_bar_shown_ = true;
+  const std::lock_guard lock(one_at_a_time_);
+  phase_.clear();
+  part_.clear();
+  status_ = status(time, step);
+  if (style_ == Style::lines) return line(status_);
+  if (clock_() - last_drawn_ >= redraw_interval || time >= end_) draw_bar();
 }
 
 void Progress::event(const std::string& text) {
   if (style_ == Style::silent) return;
-  clear_bar();  // the next step draws it again, below the line
-  last_drawn_ = -std::numeric_limits<double>::infinity();
-  out_ << text << std::endl;
+  const std::lock_guard lock(one_at_a_time_);
+  line(text);
+}
+
+void Progress::stopped(double time, int step, const std::string& why) {
+  if (style_ == Style::silent) return;
+  const std::lock_guard lock(one_at_a_time_);
+  phase_.clear();
+  line(fmt::format("ended after step {} at t = {}: {}", step, duration_text(time), why));
+}
+
+void Progress::end_part() {
+  const double took = clock_() - part_began_;
+  if (style_ == Style::lines && !part_.empty() && !passing_ && took >= long_part)
+    line(phase_ + ": " + part_ + " took " + duration_text(std::round(took)));
+  part_.clear();
+}
+
+void Progress::phase(const std::string& what) {
+  if (style_ == Style::silent) return;
+  const std::lock_guard lock(one_at_a_time_);
+  end_part();
+  phase_ = what;
+  phase_began_ = clock_();
+  is_phase_told_ = false;
+}
+
+void Progress::part(const std::string& what, bool passing) {
+  if (style_ == Style::silent) return;
+  const std::lock_guard lock(one_at_a_time_);
+  end_part();
+  part_ = what;
+  passing_ = passing;
+  part_began_ = clock_();
+}
+
+void Progress::tick() {
+  if (style_ == Style::silent) return;
+  const std::lock_guard lock(one_at_a_time_);
+  if (phase_.empty()) return;
+  if (style_ == Style::bar) return draw_bar();
+  const double now = clock_();
+  const bool is_long = !is_phase_told_ && now - phase_began_ >= long_part && now - last_line_ >= long_part;
+  if (!is_long && now - last_line_ < long_silence) return;
+  is_phase_told_ = true;
+  line("… " + activity());
 }
 
 }  // namespace sprekk

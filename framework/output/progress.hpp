@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <iosfwd>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace sprekk {
 
@@ -27,25 +29,52 @@ class Progress {
 
   /// `start` and `end`: the simulated time (s) of the run. `out` must outlive this object.
   Progress(Style style, std::ostream& out, double start, double end, Clock clock = steady_seconds);
-  ~Progress();  ///< leaves the cursor on a new line
+  ~Progress();  ///< as close()
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+
+  /// Looks after the time from now on, with a thread of its own that calls tick(): so that a single call that takes
+  /// minutes does not take them without a word. Does nothing when silent.
+  void watch();
+  /// Nothing follows: the cursor is left on a new line.
+  void close();
 
   /// Step number `step` has reached the simulated `time`. The bar is redrawn at most ten times a second.
   void reached(double time, int step);
   /// Something worth a line: a step that was cut, a fracture that grew, a warning.
   void event(const std::string& text);
+  /// The run ends before its end, and why.
+  void stopped(double time, int step, const std::string& why);
+
+  /// What begins now: "building the model", "step 12 from 3 h over 1 h". Shown only if it takes long.
+  void phase(const std::string& what);
+  /// What of it, "discretizing rock"; or with `passing`, how far it is: "iteration 7, residual 1e-3". In lines, parts
+  /// that have taken 10 s are told with their time, unless they are passing.
+  void part(const std::string& what, bool passing = false);
+  /// To be called about twice a second: draws the bar again with what goes on since when; among lines, adds one when a
+  /// phase has taken 10 s, and then each time that a minute has passed without one.
+  void tick();
 
  private:
   std::string status(double time, int step) const;
+  std::string activity() const;  ///< what goes on since when, or nothing
   void clear_bar();
+  void draw_bar();
+  void line(const std::string& text);
+  void end_part();
 
   Style style_;
   std::ostream& out_;
   double start_, end_;
   Clock clock_;
-  double began_, last_drawn_;
+  double began_, last_drawn_, last_line_;
   bool is_bar_shown_ = false;
+  std::string status_;  ///< of the last step
+  std::string phase_, part_;
+  bool passing_ = false, is_phase_told_ = false;
+  double phase_began_ = 0, part_began_ = 0;
+  std::mutex one_at_a_time_;
+  std::jthread watcher_;
 };
 
 }  // namespace sprekk

@@ -37,9 +37,9 @@ Json profile_json(const Profile& profile) {
   return objects;
 }
 
-Json notes_json(const std::vector<Notes::Note>& notes) {
+Json notes_json(const std::vector<NoteRecord>& notes) {
   Json list = Json::array();
-  for (const Notes::Note& note : notes)
+  for (const NoteRecord& note : notes)
     list.push_back({{"topic", note.topic},
                     {"text", note.text},
                     {"first_time", note.first_time},

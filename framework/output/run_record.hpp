@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/assembly/notes.hpp"
+#include "framework/output/note_record.hpp"
 #include "framework/output/profile.hpp"
 
 namespace sprekk {
@@ -33,7 +33,7 @@ struct RunRecord {
   std::map<std::string, double> timings;  ///< further times (s): "processor: set-up"
   std::map<std::string, long> counters;   ///< "steps accepted", "steps cut", "newton iterations"
   std::map<std::string, double> results;  ///< "quantity[unit]": the result figures
-  std::vector<Notes::Note> notes;         ///< what the user would not expect
+  std::vector<NoteRecord> notes;          ///< what the user would not expect
 
   /// The record as JSON text, with the versions of the program and its libraries, the kind of host, and the profile.
   /// Numbers that are not finite become null, as JSON has none.

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framework/assembly/notes.hpp"
+#include "framework/output/note_record.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/picture/display_unit.hpp"
 #include "framework/report/html.hpp"
@@ -26,7 +26,7 @@ std::string exit_text(const json& exit) {
   const int code = exit.value("code", -1);
   const std::string reason = exit.value("reason", "");
   const char* const badge = code == 0 ? "good" : code == -1 ? "open" : "bad";
-  const std::string text = code == 0 ? "done" : code == -1 ? "still running, or ended without a word" : reason;
+  const std::string text = code == -1 ? "still running, or ended without a word" : reason;
   return fmt::format("<p><span class=\"badge {}\">{}</span>{}</p>\n", badge, escaped_markup(text),
                      code > 0 ? " exit code " + std::to_string(code) : "");
 }
@@ -85,8 +85,8 @@ std::string noted(const json& notes) {
   std::string text;
   for (const json& note : notes) {
     if (!note.is_object()) continue;
-    const Notes::Note read{note.value("topic", ""), note.value("text", ""), note.value("first_time", 0.0),
-                           note.value("last_time", 0.0), note.value("steps", 0L)};
+    const NoteRecord read{note.value("topic", ""), note.value("text", ""), note.value("first_time", 0.0),
+                          note.value("last_time", 0.0), note.value("steps", 0L)};
     text += "<p class=\"warning\">" + escaped_markup(described(read)) + "</p>\n";
   }
   return text;

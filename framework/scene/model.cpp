@@ -5,6 +5,7 @@
 
 #include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/output/activity.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/schedule_context.hpp"
@@ -14,6 +15,7 @@ namespace sprekk {
 namespace {
 
 Mesh make_mesh(const Scene& scene) {
+  now_doing("the mesh");
   Mesh mesh = generate_mesh(scene.geometry, scene.mesh);
   partition(mesh, parallel::size());
   return mesh;
@@ -35,6 +37,7 @@ Model::Model(const Scene& scene, IterationLog log) : Model(scene, make_mesh(scen
 
 Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), mesh_(std::move(mesh)) {
   for (const Scene::ComponentEntry& entry : scene_.components) {
+    now_doing("component " + entry.name);
     components_.push_back(refusing_bad_data([&] {
       return entry.build({entry.name, mesh_, fields_, scene_.time.start, entry.origin});
     }));
@@ -45,6 +48,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
     for (const std::string& name : entry.between)
       for (const auto& component : components_)
         if (component->name() == name) between.push_back(component.get());
+    now_doing("coupler " + entry.name);
     const CouplerContext context(entry.name, mesh_, fields_, between, scene_.time.start, entry.origin);
     couplers_.push_back(refusing_bad_data([&] { return entry.build(context); }));
     context.check_all_used();
@@ -53,6 +57,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   std::map<std::string, Part*> named;
   for (const auto& component : components_) named[component->name()] = component.get();
   schedule_ = scene_.schedule({mesh_, fields_, parts_, std::move(log), named, scene_.time.step, &growing_});
+  now_doing("the first evaluation of all data");
   check_determined();
   refusing_bad_data([this] { check_data(); });
   check_levels();
@@ -109,7 +114,16 @@ void require_agreement(const std::string& what, const std::vector<double>& value
 }  // namespace
 
 StepStatus Model::attempt(const StepTime& step) {
-  begin_step(parts_, step);
+  for (Part* part : parts_) part->evaluate_data(step);
+  for (const auto& component : components_) {
+    now_doing("discretizing " + component->name());
+    component->begin_step(step);
+  }
+  for (const auto& coupler : couplers_) {
+    now_doing("preparing " + coupler->name());
+    coupler->begin_step(step);
+  }
+  now_doing("assembling and ordering");
   const StepStatus status = schedule_->run(step);
   require_agreement("how a step ended",
                     {step.start, step.dt, status.converged ? 1.0 : 0.0, status.retry_dt, double(status.iterations)});
@@ -145,13 +159,17 @@ std::vector<double> Model::switch_times() const {
   return times;
 }
 
+std::map<std::string, Balance> Model::balances() const {
+  std::map<std::string, Balance> balances;
+  for (const Part* part : parts_) part->balance(balances);
+  return balances;
+}
+
 std::vector<Quantity> Model::quantities() const {
   std::vector<Quantity> quantities;
   for (const Probe& probe : probes_) probe.measure(quantities);
   for (const Part* part : parts_) part->report(quantities);
-  std::map<std::string, Balance> balances;
-  for (const Part* part : parts_) part->balance(balances);
-  for (const auto& [name, balance] : balances) {
+  for (const auto& [name, balance] : balances()) {
     quantities.push_back({name + "_stored", balance.unit, balance.stored});
     quantities.push_back({name + "_injected", balance.unit, balance.injected});
     quantities.push_back({name + "_outflow", balance.unit, balance.outflow});
@@ -166,6 +184,13 @@ Notes Model::input_notes() const {
   Notes notes = scene_.notes;
   notes.of_input(scene_.time.start);
   for (const Part* part : parts_) part->note_input(notes);
+  std::vector<Component*> components;
+  for (const auto& component : components_) components.push_back(component.get());
+  for (const CouplerType& type : Registry::instance().couplers()) {
+    const bool is_there = std::any_of(scene_.couplers.begin(), scene_.couplers.end(),
+                                      [&](const Scene::CouplerEntry& entry) { return entry.type == type.type; });
+    if (type.note_absence && !is_there) type.note_absence(components, notes);
+  }
   return notes;
 }
 

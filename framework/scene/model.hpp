@@ -45,9 +45,10 @@ class Model {
   void restore_extra_state(const std::map<std::string, Vector>& state);
 
   std::vector<double> switch_times() const;
-  std::vector<Quantity> quantities() const;  ///< for history.csv
-  std::vector<OutputField> output() const;   ///< for pictures
-  Notes input_notes() const;                 ///< of the scene and of all parts
+  std::map<std::string, Balance> balances() const;  ///< of conserved quantities, by name
+  std::vector<Quantity> quantities() const;         ///< for history.csv
+  std::vector<OutputField> output() const;          ///< for pictures
+  Notes input_notes() const;                        ///< of the scene and of all parts
 
  private:
   void check_determined() const;

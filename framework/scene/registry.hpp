@@ -22,6 +22,8 @@ struct PartType {
   std::string type;
   std::function<Spec()> spec;  ///< with its defaults, for `explain` and the schema
   std::function<Builder(const Node&, const ReadContext&)> read;
+  /// Of a coupler that a scene has none of: adds what its user may miss between these components.
+  std::function<void(const std::vector<Component*>&, Notes&)> note_absence;
 };
 using ComponentType = PartType<ComponentBuilder>;
 using CouplerType = PartType<CouplerBuilder>;
@@ -42,7 +44,8 @@ class Registry {
   std::vector<CouplerType> couplers_;
 };
 
-/// Options is a struct with `Spec spec()`, whose targets are its own members; T is built from (context, options).
+/// Options is a struct with `Spec spec()`, whose targets are its own members; T is built from (context, options). A
+/// coupler may have a static `note_absence(components, notes)`.
 template <class T, class Options, class Context, class Builder>
 struct RegisterPart {
   explicit RegisterPart(const std::string& type) {
@@ -57,6 +60,7 @@ struct RegisterPart {
       options->spec().read(node, read);
       return Builder([options](const Context& context) { return std::make_unique<T>(context, *options); });
     };
+    if constexpr (requires { &T::note_absence; }) part.note_absence = &T::note_absence;
     Registry::instance().add(std::move(part));
   }
 };

@@ -6,6 +6,7 @@
 #include "framework/output/build_info.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/scene/note_records.hpp"
 
 namespace sprekk {
 
@@ -101,17 +102,18 @@ void RunOutput::write_fields(double time, int step, const Mesh& mesh, const std:
 RunOutput::Rows RunOutput::rows() const { return {history_ ? history_->rows() : 0, coupling_ ? coupling_->rows() : 0}; }
 
 void RunOutput::write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const Notes& notes,
-                                 const Rows& rows, const std::string& fingerprint) {
+                                 const Rows& rows, std::map<std::string, Vector> extra,
+                                 const std::string& fingerprint) {
   if (!parallel::is_root()) return;
   Checkpoint checkpoint;
   checkpoint.scene_name = model.scene().name;
   checkpoint.scene_fingerprint = fingerprint;
   checkpoint.program_version = build_info().version;
   checkpoint.clock = clock;
-  checkpoint.notes = notes.all();
+  checkpoint.notes = records_of(notes);
   checkpoint.mesh = model.mesh();
   checkpoint.fields = field_values(model.fields());
-  checkpoint.extra = model.extra_state();
+  checkpoint.extra = std::move(extra);
   checkpoint.extra[rows_of_tables] =
       Eigen::Vector2d(static_cast<double>(rows.history), static_cast<double>(rows.coupling));
   sprekk::write_checkpoint(checkpoint_path(), checkpoint);

@@ -41,7 +41,7 @@ class RunOutput {
   Rows rows() const;  ///< of the tables as they are; 0 on processes other than the first
   /// `rows`: what the tables had when the state was the one of the checkpoint.
   void write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const Notes& notes, const Rows& rows,
-                        const std::string& fingerprint);
+                        std::map<std::string, Vector> extra, const std::string& fingerprint);
 
   std::filesystem::path path() const { return folder_.path(); }
   std::filesystem::path checkpoint_path() const { return path() / "checkpoint.h5"; }

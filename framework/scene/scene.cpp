@@ -201,6 +201,34 @@ void note_unused_materials(Scene& scene, const std::set<std::string>& used) {
                       entry.origin.text() + ": no component of this scene uses " + quoted(entry.key));
 }
 
+/// Times that nothing comes of.
+void note_times(Scene& scene) {
+  const TimeOptions& time = scene.time;
+  const auto note = [&](const char* section, const std::string& key, const std::string& text) {
+    const Node* given = scene.whole.find(section)->find(key);
+    const Origin& origin = given ? given->origin : scene.whole.find(section)->origin;
+    scene.notes.add(std::string(section) + "." + key + " without effect", origin.text() + ": " + text);
+  };
+  constexpr double rounding = 1e-9;
+  const double duration = time.end - time.start;
+  const std::string duration_text = "the run is " + quantity_text(duration, "s") + " long";
+  if (time.step > duration * (1 + rounding))
+    note("time", "step",
+         "'step' is " + quantity_text(time.step, "s") + " (" + duration_text +
+             ", and is done in one shorter step) lower 'step', or raise 'end'");
+  if (scene.output.every && *scene.output.every > duration * (1 + rounding))
+    note("output", "every",
+         "'every' has no effect: it is " + quantity_text(*scene.output.every, "s") + " (" + duration_text +
+             ", and fields are written at its end anyhow) lower it");
+  std::string outside;
+  for (const double at : scene.output.times)
+    if (at <= time.start || at > time.end) outside += (outside.empty() ? "" : ", ") + quantity_text(at, "s");
+  if (!outside.empty())
+    note("output", "times",
+         "no fields are written at " + outside + " (the run begins at " + quantity_text(time.start, "s") +
+             " and ends at " + quantity_text(time.end, "s") + ") remove these times");
+}
+
 }  // namespace
 
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name) {
@@ -237,6 +265,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   scene.linear.bulk_changes_often = has_step(schedule, "grow");
   scene.schedule = read_schedule(schedule, {component_names(scene), scene.linear, scene.newton, read});
   note_unused_materials(scene, materials_used);
+  note_times(scene);
   return scene;
 }
 

@@ -13,15 +13,18 @@
 #include "framework/linear/blas_memory.hpp"
 #include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/output/activity.hpp"
 #include "framework/output/checkpoint.hpp"
 #include "framework/output/parameter_difference.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/scene/books.hpp"
 #include "framework/scene/checkpoint_interval.hpp"
 #include "framework/scene/interrupt.hpp"
 #include "framework/scene/mesh_growth.hpp"
+#include "framework/scene/note_records.hpp"
 #include "framework/scene/run_output.hpp"
 #include "framework/scene/stop_condition.hpp"
 #include "framework/schedule/relative_change.hpp"
@@ -72,7 +75,12 @@ class Run {
 
  private:
   IterationLog log() {
-    return [this](const IterationRecord& record) { output_.write_iteration(record); };
+    return [this](const IterationRecord& record) {
+      output_.write_iteration(record);
+      progress_.part(fmt::format("{}, iteration {}, residual {:.1e} of {}", record.step, record.iteration,
+                                 record.residual, record.equation),
+                     true);
+    };
   }
   void restore();
   void require_columns() const;
@@ -92,6 +100,8 @@ class Run {
 
   const RunOptions& options_;
   const double processor_at_start_ = processor_now();
+  Progress progress_;
+  ActivityListener activities_{[this](const std::string& what) { progress_.part(what); }};
   RunOutput output_;
   std::optional<Checkpoint> checkpoint_;  ///< that the run goes on from, until it has been taken over
   std::optional<RunOutput::Continued> continued_;
@@ -103,7 +113,10 @@ class Run {
   Profile profile_;
   RunRecord record_;
   Notes input_notes_, step_notes_;
+  Books books_;
+  std::vector<Quantity> last_quantities_;
   std::string fingerprint_, reason_;
+  std::string ends_early_;  ///< why the run is done before its end
   double began_, processor_at_first_step_;
   long newton_iterations_ = 0, rejected_ = 0;
   int restored_steps_ = 0;
@@ -129,7 +142,10 @@ std::vector<double> targets(const std::vector<double>& outputs, std::vector<doub
 }
 
 /// A run that goes on has the mesh of its checkpoint, which may have grown.
-std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Checkpoint>& checkpoint, IterationLog log) {
+std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Checkpoint>& checkpoint, IterationLog log,
+                                  Progress& progress) {
+  progress.watch();
+  progress.phase("building the model");
   if (!checkpoint) return std::make_unique<Model>(scene, std::move(log));
   Mesh mesh = checkpoint->mesh;
   partition(mesh, parallel::size());
@@ -153,9 +169,11 @@ std::optional<Checkpoint> read_if_given(const Scene& scene, const RunOptions& op
 
 Run::Run(const Scene& scene, const RunOptions& options)
     : options_(options),
+      progress_(Progress::style_for(STDERR_FILENO, parallel::is_root(), options.quiet), std::cerr, scene.time.start,
+                scene.time.end),
       output_(choose_folder(scene, options)),
       checkpoint_(read_if_given(scene, options, output_)),
-      model_(make_model(scene, checkpoint_, log())),
+      model_(make_model(scene, checkpoint_, log(), progress_)),
       stop_(scene, model_->quantities()),
       output_times_(output_times(scene)),
       controller_(scene.time, targets(output_times_, model_->switch_times())),
@@ -181,7 +199,8 @@ void Run::restore() {
                        .rise = clock.rise,
                        .expected = clock.expected,
                        .patience = clock.patience});
-  step_notes_.restore(checkpoint_->notes);
+  step_notes_.restore(notes_of(checkpoint_->notes));
+  books_.restore(checkpoint_->extra);
   restored_steps_ = clock.step;
   continued_ = RunOutput::continued(*checkpoint_);
   checkpoint_.reset();
@@ -212,12 +231,13 @@ void Run::note_input(const MeshQuality& quality) {
         fmt::format("the mesh has an angle of {:.2g} degrees, where multi-point fluxes and stresses may overshoot "
                     "(lines that meet at a small angle, or a gap narrower than mesh.gap_size)",
                     angle));
-  record_.notes = input_notes_.all();
+  record_.notes = records_of(input_notes_);
 }
 
 void Run::note_step(const StepTime& step) {
   step_notes_.at_time(step.end);
   for (const Part* part : model_->parts()) part->note_step(step_notes_, step);
+  books_.note_step(*model_, step_notes_);
 }
 
 void Run::record_start() {
@@ -287,6 +307,7 @@ bool Run::fails_with_growth() {
 }
 
 bool Run::follows_growth() {
+  progress_.phase("letting the mesh follow");
   const ScopedTimer timer(profile_, "change of mesh");
   const MeshGrowth::Outcome outcome = growth_.after_acceptance();
   if (outcome == MeshGrowth::Outcome::changed) count_settling();
@@ -299,6 +320,8 @@ bool Run::advance() {
   for (;;) {
     const StepTime step = controller_.next();
     StepStatus status;
+    progress_.phase(fmt::format("step {} from {} over {}", controller_.steps() + 1, duration_text(step.start),
+                                duration_text(step.dt)));
     try {
       const ScopedTimer timer(profile_, "steps");
       std::optional<interruption::Allowed> may_be_interrupted;
@@ -337,8 +360,13 @@ bool Run::advance() {
       const std::vector<Quantity> quantities = model_->quantities();
       note_step(step);
       const bool is_steady = stays_as_it_is(step);
-      is_stopped_ = is_steady || stop_.is_reached(quantities);
       if (is_steady) record_.results["steady_since[s]"] = step.start;
+      if (is_steady) ends_early_ = "steady since " + duration_text(step.start);
+      if (stop_.is_reached(quantities)) {
+        ends_early_ = stop_.text();
+        record_.exit_reason = "stopped: " + ends_early_;
+      }
+      is_stopped_ = !ends_early_.empty();
       const bool writes_fields = is_stopped_ || contains(output_times_, step.end, 1e-9 * model_->scene().time.step);
       const std::vector<OutputField> fields = writes_fields ? model_->output() : std::vector<OutputField>();
       model_->accept();
@@ -346,23 +374,26 @@ bool Run::advance() {
       const ScopedTimer timer(profile_, "output");
       output_.write_history(step, status.iterations, quantities);
       for (const Quantity& q : quantities) record_.results[labelled(q.name, q.unit)] = q.value;
+      last_quantities_ = quantities;
       if (writes_fields) output_.write_fields(step.end, controller_.steps(), model_->mesh(), fields);
       return follows_growth();
     }
     model_->rewind();
     ++rejected_;
-    reason_ = fmt::format("the step from {} over {} did not converge: {}", duration_text(step.start),
-                          duration_text(step.dt), status.reason);
+    // A step that asks for another size has not failed.
+    const bool has_failed = status.retry_dt <= 0;
+    reason_ = fmt::format("the step from {} over {} {}: {}", duration_text(step.start), duration_text(step.dt),
+                          has_failed ? "did not converge" : "is too long", status.reason);
     if (!controller_.rejected(step, status.retry_dt)) {
       reason_ += " (the step is as small as allowed)";
       return false;
     }
+    progress_.event(fmt::format("{}: {}; again over {}", has_failed ? "step cut" : "step shortened", reason_,
+                                duration_text(controller_.next().dt)));
   }
 }
 
 ExitCode Run::loop(const InterruptGuard& interrupt) {
-  Progress progress(Progress::style_for(STDERR_FILENO, parallel::is_root(), options_.quiet), std::cerr,
-                    model_->scene().time.start, model_->scene().time.end);
   double last_checkpoint = now(), cost = 0;
   const auto checkpoint_is_due = [&] {
     const double due = checkpoint_interval(model_->scene().output.checkpoint_every, now() - began_, cost);
@@ -387,16 +418,16 @@ ExitCode Run::loop(const InterruptGuard& interrupt) {
   };
   const auto checkpoint = [&](const Checkpoint::Clock& at, const RunOutput::Rows& rows) {
     const double begin = now();
-    output_.write_checkpoint(*model_, at, step_notes_, rows, fingerprint_);
+    std::map<std::string, Vector> extra = model_->extra_state();
+    books_.save(extra);
+    output_.write_checkpoint(*model_, at, step_notes_, rows, std::move(extra), fingerprint_);
     last_checkpoint = now();
     cost = last_checkpoint - begin;
   };
   while (!controller_.is_finished() && !is_stopped_) {
-    const long rejected_before = rejected_;
     const Checkpoint::Clock before = clock();
     const RunOutput::Rows rows_before = output_.rows();
     const bool advanced = advance();
-    if (rejected_ > rejected_before) progress.event("step cut: " + reason_);
     if (is_interrupted_) {
       checkpoint(before, rows_before);
       return ExitCode::interrupted;
@@ -405,7 +436,7 @@ ExitCode Run::loop(const InterruptGuard& interrupt) {
       checkpoint(clock(), output_.rows());
       return ExitCode::failed;
     }
-    progress.reached(controller_.time(), controller_.steps());
+    progress_.reached(controller_.time(), controller_.steps());
     if (interrupt.is_interrupted() && !controller_.is_finished()) {
       reason_ = "interrupted";
       checkpoint(clock(), output_.rows());
@@ -413,6 +444,7 @@ ExitCode Run::loop(const InterruptGuard& interrupt) {
     }
     if (checkpoint_is_due()) checkpoint(clock(), output_.rows());
   }
+  if (is_stopped_) progress_.stopped(controller_.time(), controller_.steps(), ends_early_);
   checkpoint(clock(), output_.rows());
   return ExitCode::done;
 }
@@ -434,7 +466,11 @@ void Run::split_steps() {
 
 void Run::finish(ExitCode code) {
   record_.exit_code = static_cast<int>(code);
-  record_.exit_reason = code == ExitCode::done ? "done" : reason_;
+  if (code != ExitCode::done) record_.exit_reason = reason_;
+  if (code == ExitCode::done && record_.exit_reason == "running") record_.exit_reason = "done";
+  if (code == ExitCode::done && model_->scene().time.has_stop && !is_stopped_)
+    input_notes_.add("time.stop not reached", "time.stop was not reached: the run went on to time.end (" +
+                                                  stop_.missed_text(last_quantities_) + ")");
   record_.seconds = now() - began_;
   record_.timings["processor: set-up"] = processor_at_first_step_ - processor_at_start_;
   record_.timings["processor: steps and output"] = processor_now() - processor_at_first_step_;
@@ -459,12 +495,12 @@ void Run::finish(ExitCode code) {
   split_steps();
   record_.timings["factorizations, back-solves"] = profile_.solver_seconds();
   record_.timings["everything else"] = record_.seconds - profile_.solver_seconds();
-  record_.notes = input_notes_.all();
-  record_.notes.insert(record_.notes.end(), step_notes_.all().begin(), step_notes_.all().end());
+  record_.notes = records_of(input_notes_);
+  for (NoteRecord& note : records_of(step_notes_)) record_.notes.push_back(std::move(note));
   if (!parallel::is_root()) return;
   record_.write(output_.path() / "run.json", profile_);
   if (!options_.quiet) std::cerr << profile_.table(record_.seconds) << "\n";
-  for (const Notes::Note& note : record_.notes) std::cerr << "note: " << described(note) << "\n";
+  for (const NoteRecord& note : record_.notes) std::cerr << "note: " << described(note) << "\n";
   if (!options_.quiet) {
     if (record_.counters["steps accepted"] == 0 && code == ExitCode::done)
       std::cerr << "nothing was to be done: the run ended at t = " << controller_.time()
@@ -498,15 +534,16 @@ ExitCode Run::execute() {
   const InterruptGuard interrupt;
   output_.open(continued_, model_->scene().output.fields);
   if (parallel::is_root()) record_.write(output_.path() / "run.json", profile_);
-  if (parallel::is_root() && !options_.quiet)
-    for (const Notes::Note& note : input_notes_.all()) std::cerr << "note: " << described(note) << "\n";
+  for (const NoteRecord& note : record_.notes) progress_.event("note: " + described(note));
   ExitCode code = ExitCode::failed;
   try {
     code = loop(interrupt);
   } catch (const std::exception& error) {
+    progress_.close();
     record_failure(error.what());
     throw;
   }
+  progress_.close();
   finish(code);
   return code;
 }

@@ -1,6 +1,7 @@
 // The end of a run at a value of one of its quantities.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "framework/assembly/part.hpp"
@@ -15,10 +16,14 @@ class StopCondition {
   StopCondition(const Scene& scene, const std::vector<Quantity>& quantities);
 
   bool is_reached(const std::vector<Quantity>& quantities) const;
+  std::string text() const;  ///< "fluid_injected has reached 3 m^2"
+  /// "fluid_injected is 2 m^2, and has not reached 3 m^2"
+  std::string missed_text(const std::vector<Quantity>& quantities) const;
 
  private:
   std::string name_;
   double value_ = 0;  ///< in the quantity's unit
+  std::string reaches_, unit_;
 };
 
 }  // namespace sprekk

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/output/activity.hpp"
+
 namespace sprekk {
 
 Spec GrowOptions::spec() {
@@ -82,12 +84,14 @@ StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, do
 
 StepStatus GrowStep::run(const StepTime& step) {
   extensions_.clear();
+  now_doing("looking at what may grow");
   load_ = growing_->examine(step);
   const double most = 1 + options_.overshoot;
   if (load_.onset > most && may_shrink(step))
     return refused(fmt::format("a tip is at {:.3g} times the load of growth", load_.onset), step, load_.onset_accepted,
                    load_.onset);
   if (load_.now <= 1) return {true, "", 0};
+  now_doing("growing");
   Growing::Growth growth = growing_->grow(step);
   // Growth that does not arrest begins when the load is reached: there is nothing to find by smaller steps then.
   if (!growth.arrested && load_.now > most && may_shrink(step))

@@ -94,11 +94,11 @@ TEST(Junctions, LetBranchesWithoutAnOutletRest) {
 }
 
 TEST(Junctions, LeaveASealedBranchAlone) {
-  SceneRun run =
-      SceneRun::from_text(network(cross,
-                                  "initial_pressure: 7 Pa, fluid_compressibility: 1e-3 1/Pa, transmissivity_value: "
-                                  "\"if(y > 0.2 + 1e-9, 0, 2)\", boundary: {left: {pressure: 4 Pa}, right: {pressure: "
-                                  "1 Pa}, bottom: {pressure: -2 Pa}, top: {pressure: 100 Pa}}"));
+  SceneRun run = SceneRun::from_text(
+      network(cross,
+              "initial_pressure: 7 Pa, fluid_compressibility: 1e-3 1/Pa, transmissivity_value: "
+              "\"(if(y > 0.2 + 1e-9, 0, 2)) m^3\", boundary: {left: {pressure: 4 Pa}, right: {pressure: "
+              "1 Pa}, bottom: {pressure: -2 Pa}, top: {pressure: 100 Pa}}"));
   run.run();
   double leaving = 0;
   for (std::size_t k = 0; k < run.mesh().fracture_points.size(); ++k)
@@ -115,7 +115,7 @@ TEST(Junctions, HoldFluidAtRestUnderGravity) {
   SceneRun run = SceneRun::from_text(
       network("{a: {points: [[-0.5, -0.6], [0.7, 0.5]]}, b: {points: [[-0.4, 0.6], [0.3, -0.8]]}, c: {points: [[0, "
               "0.9], [0.1, -0.05]]}}",
-              "fluid_compressibility: 0 1/Pa, transmissivity_value: \"1 + x*x\", gravity: [3 m/s^2, -10 m/s^2], "
+              "fluid_compressibility: 0 1/Pa, transmissivity_value: \"(1 + x*x) m^3\", gravity: [3 m/s^2, -10 m/s^2], "
               "fluid_density: 1000 kg/m^3, prescribed: {one: {at: [-0.5, -0.6], pressure: 5e4 Pa}}"));
   run.run();
   const Mesh& mesh = run.mesh();
@@ -195,13 +195,14 @@ TEST(Junctions, PassALinearPressureUnchanged) {
   // their part straight on, so through-going ones cross at 20 degrees, with any transmissivity; one that ends in the
   // junction has none.
   for (const char* shape : {"triangles", "quadrilaterals"}) {
-    SceneRun run = SceneRun::from_text(
-        in_rock(sharp,
-                "transmissivity_value: \"if(abs(x) < 1e-9, 0, if(abs(y) < 1e-9, 2, 0.5))\", normal_permeability_value: "
-                "1e9 m/(Pa*s), boundary: {left: {pressure: \"2*x - y\"}, right: {pressure: \"2*x - y\"}}",
-                "boundary: {left: {pressure: \"2*x - y\"}, right: {pressure: \"2*x - y\"}, bottom: {pressure: \"2*x - "
-                "y\"}, top: {pressure: \"2*x - y\"}}",
-                std::string("{size: 0.2, shape: ") + shape + "}"));
+    SceneRun run = SceneRun::from_text(in_rock(
+        sharp,
+        "transmissivity_value: \"(if(abs(x) < 1e-9, 0, if(abs(y) < 1e-9, 2, 0.5))) m^3\", normal_permeability_value: "
+        "1e9 m/(Pa*s), boundary: {left: {pressure: \"(2*x - y) Pa\"}, right: {pressure: \"(2*x - y) Pa\"}}",
+        "boundary: {left: {pressure: \"(2*x - y) Pa\"}, right: {pressure: \"(2*x - y) Pa\"}, bottom: {pressure: \"(2*x "
+        "- "
+        "y) Pa\"}, top: {pressure: \"(2*x - y) Pa\"}}",
+        std::string("{size: 0.2, shape: ") + shape + "}"));
     run.run();
     const Mesh& mesh = run.mesh();
     for (int c = 0; c < mesh.cell_count(); ++c)
@@ -215,7 +216,7 @@ TEST(Junctions, PassALinearPressureUnchanged) {
 
 TEST(Junctions, OfSealedFracturesPartTheRock) {
   // Each sector has the pressure of its own outer boundary.
-  const std::string pressure = "\"if(y > 0.365*x, if(y < 0, 1, if(x < 0, 2, 3)), if(y < 0, 4, 5))\"";
+  const std::string pressure = "\"(if(y > 0.365*x, if(y < 0, 1, if(x < 0, 2, 3)), if(y < 0, 4, 5))) Pa\"";
   const std::string lines =
       "{a: {points: [[-1, 0], [1, 0]]}, b: {points: [[-1, -0.365], [1, 0.365]]}, c: {points: [[0, 1], [0, 0.2]]}, d: "
       "{points: [[0, 0.2], [0, 0]]}}";

@@ -5,7 +5,7 @@ import re
 from . import written
 
 NOISE = re.compile(r"runtime error:|AddressSanitizer|terminate called|Segmentation fault|std::\w+|_GLIBCXX|\bassert", re.I)
-REASONS = ("did not converge", "has no data")
+REASONS = ("did not converge", "is too long", "has no data")
 
 
 def failures(ended):

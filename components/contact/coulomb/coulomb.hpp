@@ -52,6 +52,7 @@ class Coulomb : public Component, public FractureContact {
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
+  void note_step(Notes& notes, const StepTime& step) const override;
 
   Field& traction() override { return traction_; }
   Field& jump() override { return jump_; }

@@ -229,7 +229,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
     const double length = mesh_.fracture_cells[i].length;
     books[3 * i] += length * (aperture_.now()[i] - aperture_.accepted()[i]) +
                     length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);
-    books[3 * i + 1] += step.dt * source_[i];
+    if (!is_prescribed_[i]) books[3 * i + 1] += step.dt * source_[i];  // else the balance is not solved for
   }
   for (const Link& link : links_)
     if (link.second == none) books[3 * link.first + 2] += step.dt * flux_.now()[link.point];
@@ -244,6 +244,7 @@ void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
     fluid.stored += books_.now()[3 * i];
     fluid.injected += books_.now()[3 * i + 1];
     fluid.outflow += books_.now()[3 * i + 2];
+    fluid.throughput += books_.now().segment<3>(3 * i).lpNorm<1>();
   }
 }
 

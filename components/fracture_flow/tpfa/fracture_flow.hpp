@@ -39,6 +39,8 @@ class FractureFlow : public Component, public FractureFluid {
   std::vector<double> switch_times() const override;
   void relate_levels(Levels& levels) const override;
   void report(std::vector<Quantity>& quantities) const override;
+  void note_input(Notes& notes) const override;
+  void note_step(Notes& notes, const StepTime& step) const override;
 
   Field& pressure() override { return pressure_; }
   Field& aperture() override { return aperture_; }
@@ -79,6 +81,7 @@ class FractureFlow : public Component, public FractureFluid {
   void add_pattern(const Link& link, FluxRows& rows) const;
   double scale_of_row(const Link& link, double conductance, double dt) const;
   void check_names() const;
+  std::vector<int> cells_of(const Where& where) const;
   int region_of(int cell) const;
   std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);
@@ -103,6 +106,7 @@ class FractureFlow : public Component, public FractureFluid {
     double pressure, scale;
   };
   std::vector<Prescribed> prescribed_;
+  std::vector<char> is_prescribed_;  ///< of each cell
 };
 
 }  // namespace sprekk::fracture_flow

@@ -78,6 +78,8 @@ void FractureFlow::check_names() const {
       throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
 }
 
+std::vector<int> FractureFlow::cells_of(const Where& where) const { return cells_at(mesh_, where); }
+
 /// The region of the rock on the plus side.
 int FractureFlow::region_of(int cell) const {
   return mesh_.cell_region[mesh_.face_cells[mesh_.fracture_cells[cell].faces[0]][0]];
@@ -95,9 +97,11 @@ void FractureFlow::prescribe(const StepTime& step) {
     }
   }
   prescribed_.clear();
+  is_prescribed_.assign(mesh_.fracture_cell_count(), 0);
   for (const auto& [name, given] : options_.prescribed)
     for (const int cell : cells_at(mesh_, given.where)) {
       const FractureCell& at = mesh_.fracture_cells[cell];
+      is_prescribed_[cell] = 1;
       const double storage = at.length * initial_aperture_[cell] * compressibility_[cell];
       prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(cell), 0}, step),
                              storage > 0 ? storage : at.length});

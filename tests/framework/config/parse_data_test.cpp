@@ -128,6 +128,53 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"(x + 2) metre", "m", "unknown unit 'metre'"}, Wrong{"\"x\"", "", "malformed expression"},
                     Wrong{"hello world", "", "unknown unit 'world'"}));
 
+struct Bare {
+  const char* text;
+  const char* unit;
+  bool is_refused;
+};
+
+class BareExpression : public testing::TestWithParam<Bare> {};
+
+TEST_P(BareExpression, needs_its_unit_as_a_number_does) {
+  const auto& [text, unit, is_refused] = GetParam();
+  if (is_refused)
+    EXPECT_THAT(input_error_of([&] { parse_data(text, unit, here, "p"); }),
+                testing::AnyOf(HasSubstr(std::string("'") + text + "' for 'p' has no unit (needed is "),
+                               HasSubstr("for 'p' has another unit, or a term without one (needed is ")));
+  else
+    EXPECT_NO_THROW(parse_data(text, unit, here, "p"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    all, BareExpression,
+    testing::Values(
+        Bare{"2*10", "Pa", true}, Bare{"(2*10)", "Pa", true}, Bare{"(20e6)", "Pa", true}, Bare{"-(3)", "Pa", true},
+        Bare{"1e6 + 1e6", "Pa*s", true}, Bare{"2*10", "m^2", true}, Bare{"2*10", "m^3", true},
+        Bare{"2*10", "1/Pa", true}, Bare{"2*10", "s", true}, Bare{"2*10", "m/s", true}, Bare{"2*10", "m^2/s", true},
+        Bare{"2*10", "1/s", true}, Bare{"2*10", "N/m^3", true}, Bare{"2*10", "m/s^2", true},
+        Bare{"2*10", "Pa*m^0.5", true}, Bare{"pi/4", "rad", true}, Bare{"max(1, 2)", "m/(Pa*s)", true},
+        Bare{"sin(30*deg)", "Pa", true}, Bare{"2*h/h", "Pa", true}, Bare{"5*MPa + 3", "Pa", true},
+        Bare{"5*MPa*s", "Pa", true}, Bare{"5*s", "Pa", true}, Bare{"1e-6*m", "m^2", true},
+        Bare{"2*10*min(1, 2)", "s", true},  // min is a function here
+        Bare{"1e4*x", "Pa", true}, Bare{"1e-6*(1 + 0.1*t)", "m^2/s", true}, Bare{"x <= 0.3 ? 4 : 5", "Pa", true},
+        // A plain number is one, a length is in m, and 0 is 0.
+        Bare{"2*10", "", false}, Bare{"2*10", "m", false}, Bare{"0.1*x", "m", false}, Bare{"2 - 2", "Pa", false},
+        Bare{"0*3", "m^2/s", false}, Bare{"(2*10) Pa", "Pa", false}, Bare{"(2*10) MPa", "Pa", false},
+        Bare{"2*10*MPa", "Pa", false}, Bare{"5*MPa + 2*bar", "Pa", false}, Bare{"2*10*m^2", "m^2", false},
+        Bare{"sqrt(4*m^4)", "m^2", false}, Bare{"1000*kg*9.81*m/s^2*3/m^2", "Pa", false},
+        Bare{"0.7*MPa*m^0.5", "Pa*m^0.5", false}, Bare{"2*10*sin(30*deg)*MPa", "Pa", false},
+        Bare{"30*deg + 5*deg", "rad", false}, Bare{"2*min", "s", false}, Bare{"1/(2*GPa)", "1/Pa", false},
+        Bare{"5*MPa + 1e4*Pa/m*(50*m - y)", "Pa", false}, Bare{"if(t < 6*h, 0, 5e-9)", "m^2/s", false}));
+
+TEST(ParseData, says_how_to_give_an_expression_its_unit) {
+  EXPECT_EQ(
+      input_error_of([] { parse_data("2*10", "Pa", here, "p"); }),
+      "s.yaml:3:4: '2*10' for 'p' has no unit (needed is pressure, in Pa or another unit of it) write '(2*10) Pa', "
+      "if that is what it is");
+  EXPECT_THAT(input_error_of([] { parse_data("pi/4", "rad", here, "p"); }), HasSubstr("write '(pi/4) rad'"));
+}
+
 TEST(ParseData, survives_hostile_expressions) {
   EXPECT_THAT(input_error_of([] { parse_data(std::string(100'000, '('), "", here); }), HasSubstr("longer than 4000"));
   EXPECT_THAT(input_error_of([] { parse_data(std::string(3'999, '('), "", here); }), HasSubstr("malformed"));

@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <sstream>
+#include <thread>
 
 namespace sprekk {
 namespace {
@@ -66,10 +70,84 @@ TEST_F(ProgressTest, ElsewhereThereIsOneLineAnEvent) {
   EXPECT_EQ(out.str(), " 50 %  step 1  t = 50 s  10 s left\nfracture grew\n");
 }
 
+TEST_F(ProgressTest, LongPartsAreToldWithTheirTime) {
+  Progress progress = make(Style::lines);
+  progress.phase("building the model");
+  progress.part("the mesh");
+  now += 9;
+  progress.tick();
+  EXPECT_EQ(out.str(), "");  // nobody wants to know
+  now += 2;
+  progress.tick();
+  progress.tick();
+  EXPECT_EQ(out.str(), "… building the model: the mesh, 11 s\n");
+  now += 1;
+  progress.part("component rock");
+  now += 1;
+  progress.part("component pore");
+  EXPECT_THAT(out.str(), testing::EndsWith("11 s\nbuilding the model: the mesh took 12 s\n"));
+  EXPECT_THAT(out.str(), testing::Not(HasSubstr("rock")));
+}
+
+TEST_F(ProgressTest, NoMinuteOfAStepPassesWithoutAWord) {
+  Progress progress = make(Style::lines);
+  progress.reached(10, 1);
+  progress.phase("step 2 from 10 s over 5 s");
+  for (int iteration = 0; iteration < 300; ++iteration) {
+    progress.part("solve rock, iteration " + std::to_string(iteration), true);
+    now += 1;
+    progress.tick();
+  }
+  // After 10 s, and then once a minute.
+  const std::string text = out.str();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 1 + 4);
+  EXPECT_THAT(text, HasSubstr("… step 2 from 10 s over 5 s: solve rock, iteration 69, 1 min 10 s\n"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("took")));
+}
+
+TEST_F(ProgressTest, TheBarTellsWhatGoesOnWhileAStepDoes) {
+  Progress progress = make(Style::bar);
+  progress.reached(25, 5);
+  progress.phase("step 6 from 25 s over 5 s");
+  progress.part("solve rock, iteration 3, residual 1.0e-03", true);
+  progress.tick();
+  EXPECT_THAT(out.str(), testing::Not(HasSubstr("iteration")));  // not before it takes long
+  now += 7;
+  progress.tick();
+  EXPECT_THAT(out.str(),
+              testing::EndsWith("step 6 from 25 s over 5 s: solve rock, iteration 3, residual 1.0e-03, 7 s"));
+  progress.reached(30, 6);
+  EXPECT_THAT(out.str(), testing::EndsWith(" left"));
+}
+
+TEST_F(ProgressTest, ARunThatIsStoppedSaysSo) {
+  Progress progress = make(Style::bar);
+  progress.reached(28, 7);
+  progress.stopped(28, 7, "injected has reached 3 m^2");
+  EXPECT_THAT(out.str(), testing::EndsWith("\r\x1b[Kended after step 7 at t = 28 s: injected has reached 3 m^2\n"));
+}
+
+TEST(ProgressWatch, SpeaksWhileNobodyCalls) {
+  std::ostringstream out;
+  std::atomic<double> now = 0;
+  Progress progress(Style::lines, out, 0, 1, [&] { return now.load(); });
+  progress.phase("building");
+  progress.watch();
+  now = 100;
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  progress.close();
+  EXPECT_EQ(out.str(), "… building, 1 min 40 s\n");
+}
+
 TEST_F(ProgressTest, SilentIsSilent) {
   Progress progress = make(Style::silent);
+  progress.watch();
   progress.reached(50, 1);
   progress.event("fracture grew");
+  progress.phase("step");
+  now += 1000;
+  progress.tick();
+  progress.stopped(50, 1, "steady");
   EXPECT_EQ(out.str(), "");
 }
 

@@ -1,4 +1,4 @@
-#include "framework/assembly/notes.hpp"
+#include "framework/scene/note_records.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ TEST(Notes, CountTheStepsOfATopicAndTellTheWorst) {
   notes.at_time(6);
   notes.add("suction", "-2 Pa", 2);
   ASSERT_EQ(notes.all().size(), 2U);
-  EXPECT_EQ(described(notes.all()[0]), "-7 Pa [3 steps, from 2 s to 6 s]");
-  EXPECT_EQ(described(notes.all()[1]), "2 % [2 steps, from 2 s to 5 s]");
+  EXPECT_EQ(described(records_of(notes)[0]), "-7 Pa [3 steps, from 2 s to 6 s]");
+  EXPECT_EQ(described(records_of(notes)[1]), "2 % [2 steps, from 2 s to 5 s]");
 }
 
 TEST(Notes, OfTheInputAreOfNoStep) {
@@ -30,7 +30,7 @@ TEST(Notes, OfTheInputAreOfNoStep) {
   ASSERT_EQ(notes.all().size(), 1U);
   EXPECT_EQ(notes.all()[0].steps, 0);
   EXPECT_EQ(notes.all()[0].first_time, 60);
-  EXPECT_EQ(described(notes.all()[0]), "no density");
+  EXPECT_EQ(described(records_of(notes)[0]), "no density");
 }
 
 TEST(Notes, GoOnAfterARestart) {
@@ -38,10 +38,10 @@ TEST(Notes, GoOnAfterARestart) {
   before.at_time(1);
   before.add("suction", "-1 Pa", 1);
   Notes notes;
-  notes.restore(before.all());
+  notes.restore(notes_of(records_of(before)));
   notes.at_time(2);
   notes.add("suction", "-0.5 Pa", 0.5);
-  EXPECT_EQ(described(notes.all()[0]), "-1 Pa [2 steps, from 1 s to 2 s]");
+  EXPECT_EQ(described(records_of(notes)[0]), "-1 Pa [2 steps, from 1 s to 2 s]");
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// What the contact tells beside its answer.
+#include <fmt/format.h>
+
+#include "components/contact/coulomb/coulomb.hpp"
+
+namespace sprekk::contact {
+
+namespace {
+
+constexpr double small_jump = 1e-2;  // of the length of the fracture
+
+}  // namespace
+
+void Coulomb::note_step(Notes& notes, const StepTime&) const {
+  for (const Fracture& fracture : mesh_.fractures) {
+    double length = 0, jump = 0, in_contact = 0;
+    bool all_open = true;
+    for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
+      const double cell = mesh_.fracture_cells[i].length;
+      length += cell;
+      jump = std::max(jump, jump_.now().segment<2>(2 * i).norm());
+      all_open = all_open && state(i) == State::open;
+      if (traction_.accepted()[2 * i] < 0) in_contact += cell;
+    }
+    if (jump > small_jump * length)
+      notes.add(
+          name() + " large jump of " + fracture.name,
+          fmt::format("the walls of fracture '{}' are {:.3g} m apart from where they were, {:.2g} of its length of "
+                      "{:.3g} m (over 0.01 is large: its place and its shape are taken to stay) look at loads, "
+                      "stiffness and what holds the rock",
+                      fracture.name, jump, jump / length, length),
+          jump);
+    // One that has been open all the time is meant to be.
+    if (all_open && in_contact > 0.5 * length)
+      notes.add(name() + " all open: " + fracture.name,
+                fmt::format("all {} cells of fracture '{}' have opened (the fluid carries all that pressed its walls "
+                            "together, and friction holds nothing any more) look at rates and pressures, if it was "
+                            "meant to slip",
+                            fracture.cell_count, fracture.name));
+  }
+}
+
+}  // namespace sprekk::contact

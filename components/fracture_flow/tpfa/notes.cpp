@@ -1,0 +1,64 @@
+// What the flow in fractures tells beside its answer.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "components/fracture_flow/tpfa/fracture_flow.hpp"
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk::fracture_flow {
+
+namespace {
+
+constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest borehole has above it
+
+}  // namespace
+
+void FractureFlow::note_input(Notes& notes) const {
+  const auto note = [&](const std::string& what, const Origin& where, const std::string& text) {
+    notes.add(name() + "." + what + " without effect", where.text() + ": " + text);
+  };
+  for (const auto& [key, injection] : options_.injections) {
+    const std::vector<int> cells = cells_of(injection.where);
+    const auto lost = std::count_if(cells.begin(), cells.end(), [&](int cell) { return is_prescribed_[cell] != 0; });
+    if (lost == 0 || injection.rate.is_zero()) continue;
+    note("injection." + key, injection.where.origin,
+         fmt::format("injection '{}' has no effect in {} of its {} fracture cells, and is not counted there (their "
+                     "pressure is prescribed: it lets in or out what it takes) remove one of the two",
+                     key, lost, cells.size()));
+  }
+  for (const auto& [side, origin] : options_.boundary_origins) {
+    const bool has_end = std::any_of(mesh_.fracture_points.begin(), mesh_.fracture_points.end(), [&](const auto& p) {
+      return p.kind == FracturePoint::Kind::on_boundary && mesh_.side_names[p.side] == side;
+    });
+    if (!has_end)
+      note("boundary." + side, origin,
+           "the pressure of '" + name() + "' on side '" + side +
+               "' has no effect (no fracture ends there) remove it, or let a fracture reach this side");
+  }
+  if (!options_.gravity.is_zero() && options_.fluid_density == 0)
+    note("gravity", origin_,
+         "gravity has no effect on the flow of '" + name() +
+             "' (its fluid_density is 0) give a density, or remove the gravity");
+  if (options_.transmissivity_value && options_.transmissivity != "constant")
+    note("transmissivity_value", origin_,
+         "'transmissivity_value' of '" + name() +
+             "' has no effect (the transmissivity follows the cubic law) write 'transmissivity: constant', or remove "
+             "it");
+  if (options_.normal_permeability_value && options_.normal_permeability != "constant")
+    note("normal_permeability_value", origin_,
+         "'normal_permeability_value' of '" + name() +
+             "' has no effect (it follows the cubic law) write 'normal_permeability: constant', or remove it");
+}
+
+void FractureFlow::note_step(Notes& notes, const StepTime&) const {
+  Eigen::Index largest = 0;
+  const double most = pressure_.now().cwiseAbs().maxCoeff(&largest);
+  if (most > beyond_every_load)
+    notes.add(pressure_.name() + " beyond every load",
+              fmt::format("{} reaches {:.3g} Pa at {} (no rock bears 10 GPa) look at transmissivity and rates there",
+                          pressure_.name(), pressure_.now()[largest], to_text(mesh_.fracture_cells[largest].center)),
+              most);
+}
+
+}  // namespace sprekk::fracture_flow

@@ -1,0 +1,110 @@
+// What the rock tells beside its answer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/rock.hpp"
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk::poromechanics {
+
+namespace {
+
+constexpr double small_strain = 1e-2;
+constexpr double softest_rock = 1e3;  // Pa; a scene with less is one without units, in which a strain has no size
+
+}  // namespace
+
+void Rock::note_input(Notes& notes) const {
+  // Of what is prescribed as a force, what falls onto a direction whose displacement is prescribed.
+  struct Share {
+    double length = 0, all = 0;
+  };
+  std::map<std::string, std::array<Share, 2>> overridden;
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const SideCondition* condition = condition_of(options_, mesh_, f);
+    if (!condition) continue;
+    for (int k = 0; k < 2; ++k) {
+      Share& share = overridden[mesh_.side_names[mesh_.face_side[f]]][k];
+      share.all += mesh_.face_length[f];
+      if (condition->displacement_of(k) && condition->normal_stress && !condition->normal_stress->is_zero())
+        share.length += mesh_.face_length[f] * std::abs(mesh_.face_normal[f][k]);
+    }
+  }
+  const auto note = [&](const std::string& what, const Origin& where, const std::string& text) {
+    notes.add(name() + "." + what + " without effect", where.text() + ": " + text);
+  };
+  constexpr double square = 1e-6;  // a side along an axis has normals that are so to rounding
+  for (const auto& [side, condition] : options_.boundary)
+    for (int k = 0; k < 2; ++k) {
+      const std::string direction(1, "xy"[k]);
+      const Share& share = overridden[side][k];
+      if (share.length > square * share.all)
+        note("boundary." + side + ".normal_stress." + direction, condition.origin,
+             fmt::format("the {} component of 'normal_stress' on side '{}' has no effect (the displacement in {} is "
+                         "prescribed there, which decides) remove one of the two",
+                         direction, side, direction));
+      if (condition.traction && condition.displacement_of(k) && !condition.traction->component[k].is_zero())
+        note("boundary." + side + ".traction." + direction, condition.origin,
+             fmt::format("the {} component of 'traction' on side '{}' has no effect (the displacement in {} is "
+                         "prescribed there, which decides) remove one of the two",
+                         direction, side, direction));
+    }
+  if (!options_.gravity.is_zero() && options_.rock_density.is_zero())
+    note("gravity", origin_,
+         "gravity has no effect on '" + name() +
+             "' (its rock_density is 0) give the density of the saturated rock, or 'gravity: [0, 0]' to the component");
+  if (options_.gravity.is_zero() && !options_.rock_density.is_zero())
+    note("rock_density", origin_,
+         "'rock_density' of '" + name() + "' has no effect (there is no gravity) give a gravity, or remove it");
+  if (options_.bulk_modulus && !options_.is_anisotropic)
+    note("bulk_modulus", origin_,
+         "'bulk_modulus' of '" + name() +
+             "' has no effect (that of an isotropic rock follows from young_modulus and poisson_ratio) remove it");
+}
+
+void Rock::note_step(Notes& notes, const StepTime&) const {
+  // By how much neighbours move apart, against their distance: the displacement gradient along it.
+  double largest = 0, softest = std::numeric_limits<double>::infinity();
+  int place = 0;
+  const Vector& u = displacement_.now();
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const auto& [first, second] = mesh_.face_cells[f];
+    if (second == none) continue;
+    const double distance = (mesh_.cell_center[second] - mesh_.cell_center[first]).norm();
+    const double strain = (u.segment<2>(2 * second) - u.segment<2>(2 * first)).norm() / distance;
+    if (strain <= largest) continue;
+    largest = strain;
+    place = f;
+  }
+  if (largest <= small_strain) return;
+  for (const Stiffness& stiffness : stiffness_.of_cells()) softest = std::min(softest, stiffness(2, 2));
+  if (softest < softest_rock) return;
+  notes.add(
+      name() + " large strain",
+      fmt::format("the displacement of '{}' changes by {:.3g} of the distance at {} (strains over 0.01 are large: "
+                  "the rock is taken to be linear, and its shape to stay) look at loads and stiffness",
+                  name(), largest, to_text(mesh_.face_center[place])),
+      largest);
+}
+
+double Rock::largest_load() const {
+  double largest = 0;
+  const double unknown = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const Point initial = initial_forces_.segment<2>(2 * f);
+    Point total = boundary_values_.segment<2>(2 * f) + initial;
+    for (int k = 0; k < 2; ++k) {
+      if (conditions_[f][k] != MechanicalCondition::displacement) continue;
+      if (boundary_values_[2 * f + k] != 0) return unknown;
+      total[k] = 0;
+    }
+    largest = std::max(largest, initial.norm() / mesh_.face_length[f]);
+    if (mesh_.face_cells[f][1] == none) largest = std::max(largest, total.norm() / mesh_.face_length[f]);
+  }
+  return body_forces_.isZero(0) ? largest : unknown;
+}
+
+}  // namespace sprekk::poromechanics

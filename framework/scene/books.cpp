@@ -1,0 +1,40 @@
+#include "framework/scene/books.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprekk {
+
+namespace {
+
+constexpr double most = 1e-6;  ///< of the throughput
+const std::string key = "books.throughput.";
+
+}  // namespace
+
+void Books::note_step(const Model& model, Notes& notes) {
+  for (const auto& [name, balance] : model.balances()) {
+    double& throughput = throughput_[name];
+    throughput = std::max(throughput, balance.throughput);
+    const double error = std::abs(balance.stored + balance.outflow - balance.injected);
+    if (!balance.is_closed || !(error > most * throughput)) continue;
+    notes.add(name + "_balance_error",
+              fmt::format("the balance of {} is off by {:.2g} {}, {:.2g} of all that was moved (what is stored, has "
+                          "entered and has left does not add up) lower newton.residual, or take smaller steps",
+                          name, error, balance.unit, error / throughput),
+              error / throughput);
+  }
+}
+
+void Books::save(std::map<std::string, Vector>& state) const {
+  for (const auto& [name, value] : throughput_) state[key + name] = Vector::Constant(1, value);
+}
+
+void Books::restore(const std::map<std::string, Vector>& state) {
+  for (const auto& [name, value] : state)
+    if (name.starts_with(key) && value.size() == 1) throughput_[name.substr(key.size())] = value[0];
+}
+
+}  // namespace sprekk

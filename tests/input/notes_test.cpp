@@ -1,0 +1,310 @@
+// What a run or a check tells beside its answer: each note with a scene that deserves it and one that does not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/input/program.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+using Settings = std::vector<std::string>;
+
+std::string base(const std::string& name) { return std::string(SPREKK_SOURCE_DIR) + "/tests/input/base/" + name; }
+
+std::vector<std::string> call(const std::string& command, const std::string& scene, const Settings& settings) {
+  std::vector<std::string> arguments = {command, base(scene)};
+  for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+  return arguments;
+}
+
+std::string notes_of_check(const std::string& scene, const Settings& settings) {
+  const Folder folder;
+  const Outcome outcome = sprekk_command(call("check", scene, settings), folder.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  return outcome.err;
+}
+
+struct Run {
+  Json record;
+  std::string err;
+  /// The note whose topic holds this, or null.
+  Json note(const std::string& topic) const {
+    for (const Json& note : record["notes"])
+      if (note["topic"].get<std::string>().find(topic) != std::string::npos) return note;
+    return nullptr;
+  }
+  double result(const std::string& name) const { return record["results"][name]; }
+};
+
+Run run_of(const std::string& scene, const Settings& settings, const std::vector<std::string>& more = {}) {
+  const Folder folder;
+  std::vector<std::string> arguments = call("run", scene, settings);
+  arguments.insert(arguments.end(), {"-q", "-o", "out", "--set", "output.fields=false"});
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Outcome outcome = sprekk_command(arguments, folder.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  return {Json::parse(text_of(folder / "out/run.json")), outcome.err};
+}
+
+// Input without effect
+
+struct Input {
+  const char* scene;
+  Settings settings;
+  const char* note;  ///< "" for none
+};
+
+class InputNotes : public ::testing::TestWithParam<Input> {};
+
+TEST_P(InputNotes, AreToldByCheck) {
+  const auto& [scene, settings, note] = GetParam();
+  const std::string told = notes_of_check(scene, settings);
+  if (std::string(note).empty())
+    EXPECT_EQ(told, "");
+  else
+    EXPECT_THAT(told, HasSubstr(note));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    all, InputNotes,
+    ::testing::Values(
+        Input{
+            "rock.yaml", {"components.rock.boundary.left.normal_stress=-1 MPa"}, "the x component of 'normal_stress'"},
+        Input{"rock.yaml", {"components.rock.boundary.left.normal_stress=0 MPa"}, ""},
+        Input{"rock.yaml", {"components.rock.boundary.top.displacement_x=0 m"}, ""},  // the load is along y
+        Input{"rock.yaml", {"components.rock.boundary.top.displacement_y=0 m"}, "the y component of 'normal_stress'"},
+        Input{"rock.yaml",
+              {"components.rock.boundary.right={displacement_x: 0 m, traction: [1 MPa, 0]}"},
+              "the x component of 'traction' on side 'right' has no effect"},
+        Input{"rock.yaml", {"components.rock.boundary.right={displacement_x: 0 m, traction: [0, 1 MPa]}"}, ""},
+        Input{"rock.yaml", {"components.rock.gravity=[0, -9.81 m/s^2]"}, "gravity has no effect on 'rock'"},
+        Input{
+            "rock.yaml", {"components.rock.gravity=[0, -9.81 m/s^2]", "components.rock.rock_density=2500 kg/m^3"}, ""},
+        Input{"rock.yaml", {"components.rock.rock_density=2500 kg/m^3"}, "'rock_density' of 'rock' has no effect"},
+        Input{"rock.yaml", {"components.rock.bulk_modulus=1 GPa"}, "'bulk_modulus' of 'rock' has no effect"},
+        Input{"flow.yaml",
+              {"components.pore.gravity=[0, -9.81 m/s^2]", "components.pore.fluid_density=0 kg/m^3"},
+              "gravity has no effect on the flow of 'pore'"},
+        Input{"flow.yaml", {"components.pore.gravity=[0, -9.81 m/s^2]"}, ""},
+        Input{"flow.yaml", {"components.pore.porosity=0.1"}, "'porosity' of 'pore' has no effect"},
+        Input{"flow.yaml", {"time.step=2 h"}, "'step' is 7200 s (the run is 3600 s long"},
+        Input{"flow.yaml", {"time.step=1 h"}, ""}, Input{"flow.yaml", {"output.every=2 h"}, "'every' has no effect"},
+        Input{"flow.yaml", {"output.every=1 h"}, ""},
+        Input{"flow.yaml",
+              {"time.start=10 min", "output.times=[5 min, 40 min, 2 h]"},
+              "no fields are written at 300 s, 7200 s (the run begins at 600 s and ends at 3600 s)"},
+        Input{"flow.yaml", {"output.times=[10 min, 1 h]"}, ""},
+        Input{"fractured.yaml",
+              {"components.conduit.prescribed.all={pressure: 1 MPa}"},
+              "injection 'well' has no effect in 1 of its 1 fracture cells"},
+        Input{"fractured.yaml", {"components.conduit.prescribed.there={at: [0.32 m, 0.5 m], pressure: 1 MPa}"}, ""},
+        Input{"fractured.yaml",
+              {"components.conduit.boundary.right={pressure: 1 MPa}"},
+              "the pressure of 'conduit' on side 'right' has no effect (no fracture ends there)"},
+        Input{"fractured.yaml",
+              {"components.conduit.boundary.right={pressure: 1 MPa}",
+               "geometry.fractures.crack.points=[[0.3 m, 0.5 m], [1 m, 0.5 m]]"},
+              ""},
+        Input{"fractured.yaml",
+              {"components.conduit.transmissivity_value=1e-12 m^3"},
+              "'transmissivity_value' of 'conduit' has no effect"},
+        Input{"fractured.yaml",
+              {"components.conduit.transmissivity_value=1e-12 m^3", "components.conduit.transmissivity=constant"},
+              ""},
+        Input{"fractured.yaml",
+              {"couplers=[{type: biot, between: [pore, rock]}, {type: wall_traction, between: [rock, contact, "
+               "conduit]}, {type: aperture, between: [contact, conduit]}]"},
+              "no fluid flows between pore and conduit"},
+        Input{"fractured.yaml", {}, ""}));
+
+TEST(Notes, OfTheInputAreShownByARunAtItsStartAndAtItsEnd) {
+  const Folder folder;
+  std::vector<std::string> arguments = call("run", "flow.yaml", {"components.pore.porosity=0.1"});
+  arguments.insert(arguments.end(), {"-o", "out"});
+  const Outcome outcome = sprekk_command(arguments, folder.path());
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string text = "note: ";
+  const std::size_t first = outcome.err.find(text), step = outcome.err.find(" %  step 1"),
+                    last = outcome.err.rfind("'porosity' of 'pore' has no effect");
+  EXPECT_LT(first, step);
+  EXPECT_LT(step, last);
+  const Json notes = Json::parse(text_of(folder / "out/run.json"))["notes"];
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0]["steps"], 0);
+}
+
+TEST(Notes, InjectionIntoAPrescribedPressureIsNotCounted) {
+  const Settings prescribed = {"components.conduit.prescribed.all={pressure: 1 MPa}"};
+  EXPECT_EQ(run_of("fractured.yaml", prescribed).result("fluid_injected[m^2]"), 0);
+  // 1e-9 m^2/s for an hour.
+  const double injected = run_of("fractured.yaml", {}).result("fluid_injected[m^2]");
+  EXPECT_NEAR(injected, 3.6e-6, 1e-18);
+  // Of an injection that is spread over the fracture, the share of its last cell of four is lost.
+  const Run spread = run_of("fractured.yaml", {"components.conduit.injection.well={fracture: crack, rate: 1e-9 m^2/s}",
+                                               "components.conduit.injection.well.at=",
+                                               "components.conduit.prescribed.end={at: [0.69 m, 0.5 m], pressure: 0}"});
+  EXPECT_NEAR(spread.result("fluid_injected[m^2]"), 3.6e-6 * 3 / 4, 1e-12);
+}
+
+// The state
+
+TEST(Notes, APressureThatFallsBelowZeroIsToldWithPlaceAndSize) {
+  // Without storage p = p_right − q (mu/k) (1 − x): 1 MPa − 1e-5 · 1e11 · (1 − x) Pa, −2.75 MPa in the cells at 1/8 m
+  // with q = 4.2857e-5.
+  const Settings begins = {"components.pore.initial_pressure=1 MPa", "components.pore.storage=0 1/Pa"};
+  Settings drained = begins, gentle = begins, any_level = {"components.pore.storage=0 1/Pa"};
+  const std::string flux = "components.pore.boundary.left.flux=";
+  drained.push_back(flux + "(3.75/0.875*1e-5) m/s");
+  any_level.push_back(flux + "(3.75/0.875*1e-5) m/s");
+  gentle.push_back(flux + "1e-6 m/s");
+  const Run run = run_of("flow.yaml", drained);
+  const Json note = run.note("pressure below zero");
+  ASSERT_FALSE(note.is_null());
+  EXPECT_THAT(note["text"].get<std::string>(), HasSubstr("falls to -2.75e+06 Pa at (0.125, "));
+  EXPECT_EQ(note["steps"], 2);
+  EXPECT_EQ(note["first_time"], 1800);
+  EXPECT_EQ(note["last_time"], 3600);
+  EXPECT_THAT(run.err, HasSubstr("note: pore.pressure falls to"));  // in spite of -q
+  EXPECT_EQ(run_of("flow.yaml", gentle).record["notes"].size(), 0U);
+  // From a start at 0 Pa the level of the pressure is not known.
+  EXPECT_TRUE(run_of("flow.yaml", any_level).note("pressure below zero").is_null());
+}
+
+TEST(Notes, APressureBeyondEveryLoadIsTold) {
+  const Settings fast = {"components.pore.storage=0 1/Pa", "components.pore.boundary.left.flux=-1 m/s"};  // 1e11 Pa/m
+  EXPECT_FALSE(run_of("flow.yaml", fast).note("beyond every load").is_null());
+  EXPECT_TRUE(run_of("flow.yaml", {}).note("beyond every load").is_null());
+}
+
+TEST(Notes, APorePressureOfTwiceTheLoadsIsTold) {
+  // A side that is held at 1 MPa, the load, or at 2 MPa, a pressure that is given; and a well that brings 1 GPa.
+  const std::string well = "components.pore.wells.feed={at: [0.5 m, 0.2 m], rate: ";
+  const Run beyond = run_of("fractured.yaml", {well + "1e-6 m^2/s}"});
+  EXPECT_FALSE(beyond.note("beyond the loads").is_null());
+  EXPECT_TRUE(
+      run_of("fractured.yaml", {"components.pore.boundary.left.pressure=2 MPa"}).note("beyond the loads").is_null());
+}
+
+TEST(Notes, LargeStrainsAreTold) {
+  // Uniaxial plane strain: (1 − nu^2)/E = 0.9375e-10 1/Pa of the load.
+  const Run large = run_of("rock.yaml", {"components.rock.boundary.top.normal_stress=-200 MPa"});
+  const Json note = large.note("large strain");
+  ASSERT_FALSE(note.is_null());
+  EXPECT_THAT(note["text"].get<std::string>(), HasSubstr("changes by 0.0187 of the distance"));
+  EXPECT_TRUE(
+      run_of("rock.yaml", {"components.rock.boundary.top.normal_stress=-100 MPa"}).note("large strain").is_null());
+}
+
+/// A fracture of 0.4 m in rock that nothing else loads, blown up to `pressure` from inside.
+Settings blown_up(const std::string& pressure) {
+  return {"components.conduit.injection=", "components.conduit.initial_pressure=" + pressure,
+          "components.conduit.prescribed.all={pressure: " + pressure + "}", "materials.biot_coefficient=0",
+          "components.rock.boundary.top={displacement_x: 0 m}"};
+}
+
+TEST(Notes, LargeJumpsAreTold) {
+  // In an infinite rock the crack opens by 4 p l (1 − nu^2)/E with l = 0.2 m, here somewhat more.
+  const Run small = run_of("fractured.yaml", blown_up("10 MPa")), large = run_of("fractured.yaml", blown_up("200 MPa"));
+  EXPECT_TRUE(small.note("large jump").is_null());
+  ASSERT_FALSE(large.note("large jump").is_null());
+  EXPECT_THAT(large.note("large jump")["text"].get<std::string>(), HasSubstr("fracture 'crack'"));
+  EXPECT_FALSE(large.note("large strain").is_null());
+}
+
+TEST(Notes, AFractureThatHasOpenedAltogetherIsTold) {
+  // The load of 1 MPa closes the fracture; the pressure of its fluid rises to 2 MPa, or to 0.5 MPa.
+  const auto pressed_open = [](const std::string& pressure) {
+    return Settings{"components.conduit.injection=", "components.conduit.prescribed.all={pressure: " + pressure + "}",
+                    "couplers=[{type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: "
+                    "[contact, conduit]}, {type: wall_exchange, between: [pore, conduit]}]",
+                    "materials.biot_coefficient="};
+  };
+  const Run opened = run_of("fractured.yaml", pressed_open("(2*t/3600) MPa"));
+  EXPECT_EQ(opened.result("contact.cells_open[1]"), 4);
+  const Json note = opened.note("all open");
+  ASSERT_FALSE(note.is_null());
+  EXPECT_GT(note["first_time"], 600);
+  EXPECT_TRUE(run_of("fractured.yaml", pressed_open("(0.5*t/3600) MPa")).note("all open").is_null());
+  // Without a load the fracture is open from the start, as it is meant to be.
+  EXPECT_TRUE(run_of("fractured.yaml", blown_up("1 MPa")).note("all open").is_null());
+}
+
+TEST(Notes, SuctionInAFractureIsTold) {
+  const std::string well = "components.conduit.injection.well.rate=";
+  const Run sucked = run_of("fractured.yaml", {well + "-1e-9 m^2/s"});
+  ASSERT_FALSE(sucked.note("suction").is_null());
+  EXPECT_THAT(sucked.note("suction")["text"].get<std::string>(), HasSubstr("pulls the walls"));
+  EXPECT_TRUE(run_of("fractured.yaml", {}).note("suction").is_null());
+}
+
+TEST(Notes, BooksThatAreOffAreTold) {
+  // A loose tolerance lets Newton's method end early; the error that history.csv tells is the measure.
+  const Run loose = run_of("fractured.yaml", {"newton={residual: 1e-3, update: 1}"});
+  const double error = std::abs(loose.result("fluid_balance_error[m^2]")),
+               injected = loose.result("fluid_injected[m^2]");
+  EXPECT_EQ(error > 1e-5 * injected, !loose.note("balance_error").is_null()) << error / injected;
+  EXPECT_TRUE(run_of("fractured.yaml", {}).note("balance_error").is_null());
+}
+
+TEST(Notes, GoOnWithARestart) {
+  const Folder folder;
+  const Settings scene = {"components.pore.initial_pressure=1 MPa", "components.pore.storage=0 1/Pa",
+                          "components.pore.boundary.left.flux=1e-4 m/s", "output.fields=false"};
+  const auto run = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = call("run", "flow.yaml", scene);
+    arguments.insert(arguments.end(), {"-q", "-o", out});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ASSERT_EQ(sprekk_command(arguments, folder.path()).code, 0);
+  };
+  run("whole", {});
+  run("parts", {"--set", "time.end=30 min"});
+  run("parts", {"--restart"});
+  const auto notes = [&](const std::string& out) {
+    return Json::parse(text_of(folder / (out + "/run.json")))["notes"];
+  };
+  ASSERT_EQ(notes("whole").size(), 1U);
+  EXPECT_EQ(notes("whole"), notes("parts"));
+}
+
+TEST(Notes, AreOnThePageOfARunBeforeItsFigures) {
+  const Folder folder;
+  std::vector<std::string> arguments = call("run", "rock.yaml", {"components.rock.boundary.top.normal_stress=-1 GPa"});
+  arguments.insert(arguments.end(), {"-q", "-o", "out"});
+  ASSERT_EQ(sprekk_command(arguments, folder.path()).code, 0);
+  ASSERT_EQ(sprekk_command({"report", "out"}, folder.path()).code, 0);
+  const std::string page = text_of(folder / "out/report.html");
+  const std::size_t note = page.find("of the distance at");
+  ASSERT_NE(note, std::string::npos);
+  EXPECT_LT(note, page.find("mesh at the start"));
+}
+
+// Ends before the end
+
+TEST(Stop, IsTheReasonOfTheEnd) {
+  const Folder folder;
+  std::vector<std::string> arguments =
+      call("run", "fractured.yaml", {"time.stop={of: fluid_injected, reaches: 1e-6 m^2}"});
+  arguments.insert(arguments.end(), {"-o", "out"});
+  const Outcome outcome = sprekk_command(arguments, folder.path());
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json record = Json::parse(text_of(folder / "out/run.json"));
+  EXPECT_EQ(record["exit"]["reason"], "stopped: fluid_injected has reached 1e-6 m^2");
+  EXPECT_EQ(record["counters"]["steps accepted"], 2);  // 0.6e-6 m^2 each
+  EXPECT_THAT(outcome.err, HasSubstr("ended after step 2 at t = 20 min 0 s: fluid_injected has reached 1e-6 m^2"));
+}
+
+TEST(Stop, ThatIsNotReachedIsTold) {
+  const Run run = run_of("fractured.yaml", {"time.stop={of: fluid_injected, reaches: 1 m^2}"});
+  EXPECT_EQ(run.record["exit"]["reason"], "done");
+  EXPECT_THAT(run.note("time.stop")["text"].get<std::string>(), HasSubstr("has not reached 1 m^2"));
+}
+
+}  // namespace
+}  // namespace sprekk::testing
