@@ -135,13 +135,12 @@ class Biot : public Coupler {
     constexpr double much = 2;
     const double load = rock_.largest_load(), given = fluid_.largest_given_pressure();
     Eigen::Index largest = 0;
-    const double pressure = fluid_.pressure().now().cwiseAbs().maxCoeff(&largest);
-    if (load == 0 || pressure <= much * std::max(load, given)) return;
+    const double pressure = fluid_.pressure().now().maxCoeff(&largest);
+    if (decoupled_ || load == 0 || pressure <= much * std::max(load, given)) return;
     notes.add(fluid_.pressure().name() + " beyond the loads",
               fmt::format("{} reaches {:.3g} Pa at {} (the largest stress that is given is {:.3g} Pa, and the largest "
                           "pressure {:.3g} Pa: rock opens before) look at permeability and rates there",
-                          fluid_.pressure().name(), fluid_.pressure().now()[largest],
-                          to_text(mesh_.cell_center[largest]), load, given),
+                          fluid_.pressure().name(), pressure, to_text(mesh_.cell_center[largest]), load, given),
               pressure);
   }
 

@@ -14,8 +14,8 @@ const std::string key = "books.throughput.";
 
 }  // namespace
 
-void Books::note_step(const Model& model, Notes& notes) {
-  for (const auto& [name, balance] : model.balances()) {
+void Books::note_step(const std::map<std::string, Balance>& balances, Notes& notes) {
+  for (const auto& [name, balance] : balances) {
     double& throughput = throughput_[name];
     throughput = std::max(throughput, balance.throughput);
     const double error = std::abs(balance.stored + balance.outflow - balance.injected);

@@ -4,15 +4,15 @@
 #include <map>
 #include <string>
 
-#include "framework/scene/model.hpp"
+#include "framework/assembly/part.hpp"
 
 namespace sprekk {
 
 /// Compares the error of each balance with the largest throughput that it has had so far.
 class Books {
  public:
-  /// To be called on all processes with the state that is about to be accepted.
-  void note_step(const Model& model, Notes& notes);
+  /// `balances`: at the end of the step that is about to be accepted.
+  void note_step(const std::map<std::string, Balance>& balances, Notes& notes);
 
   /// What it keeps, for checkpoints.
   void save(std::map<std::string, Vector>& state) const;

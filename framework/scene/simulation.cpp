@@ -237,7 +237,7 @@ void Run::note_input(const MeshQuality& quality) {
 void Run::note_step(const StepTime& step) {
   step_notes_.at_time(step.end);
   for (const Part* part : model_->parts()) part->note_step(step_notes_, step);
-  books_.note_step(*model_, step_notes_);
+  books_.note_step(model_->balances(), step_notes_);
 }
 
 void Run::record_start() {
@@ -388,8 +388,10 @@ bool Run::advance() {
       reason_ += " (the step is as small as allowed)";
       return false;
     }
-    progress_.event(fmt::format("{}: {}; again over {}", has_failed ? "step cut" : "step shortened", reason_,
-                                duration_text(controller_.next().dt)));
+    const std::string next = duration_text(controller_.next().dt);
+    progress_.event(has_failed ? fmt::format("step cut: {}; again over {}", reason_, next)
+                               : fmt::format("step from {} shortened from {} to {}: {}", duration_text(step.start),
+                                             duration_text(step.dt), next, status.reason));
   }
 }
 

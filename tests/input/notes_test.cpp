@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -31,7 +30,7 @@ std::string notes_of_check(const std::string& scene, const Settings& settings) {
   return outcome.err;
 }
 
-struct Run {
+struct Ended {
   Json record;
   std::string err;
   /// The note whose topic holds this, or null.
@@ -43,7 +42,7 @@ struct Run {
   double result(const std::string& name) const { return record["results"][name]; }
 };
 
-Run run_of(const std::string& scene, const Settings& settings, const std::vector<std::string>& more = {}) {
+Ended run_of(const std::string& scene, const Settings& settings, const std::vector<std::string>& more = {}) {
   const Folder folder;
   std::vector<std::string> arguments = call("run", scene, settings);
   arguments.insert(arguments.end(), {"-q", "-o", "out", "--set", "output.fields=false"});
@@ -147,27 +146,28 @@ TEST(Notes, InjectionIntoAPrescribedPressureIsNotCounted) {
   const double injected = run_of("fractured.yaml", {}).result("fluid_injected[m^2]");
   EXPECT_NEAR(injected, 3.6e-6, 1e-18);
   // Of an injection that is spread over the fracture, the share of its last cell of four is lost.
-  const Run spread = run_of("fractured.yaml", {"components.conduit.injection.well={fracture: crack, rate: 1e-9 m^2/s}",
-                                               "components.conduit.injection.well.at=",
-                                               "components.conduit.prescribed.end={at: [0.69 m, 0.5 m], pressure: 0}"});
+  const Ended spread =
+      run_of("fractured.yaml", {"components.conduit.injection.well={fracture: crack, rate: 1e-9 m^2/s}",
+                                "components.conduit.injection.well.at=",
+                                "components.conduit.prescribed.end={at: [0.69 m, 0.5 m], pressure: 0}"});
   EXPECT_NEAR(spread.result("fluid_injected[m^2]"), 3.6e-6 * 3 / 4, 1e-12);
 }
 
 // The state
 
 TEST(Notes, APressureThatFallsBelowZeroIsToldWithPlaceAndSize) {
-  // Without storage p = p_right − q (mu/k) (1 − x): 1 MPa − 1e-5 · 1e11 · (1 − x) Pa, −2.75 MPa in the cells at 1/8 m
-  // with q = 4.2857e-5.
+  // Without storage p = 1 MPa − q (mu/k) (1 − x), with mu/k = 1e11 Pa s/m^2. The centres next to the left side are at
+  // x = 1/12 m: −2.93 MPa.
   const Settings begins = {"components.pore.initial_pressure=1 MPa", "components.pore.storage=0 1/Pa"};
   Settings drained = begins, gentle = begins, any_level = {"components.pore.storage=0 1/Pa"};
   const std::string flux = "components.pore.boundary.left.flux=";
-  drained.push_back(flux + "(3.75/0.875*1e-5) m/s");
-  any_level.push_back(flux + "(3.75/0.875*1e-5) m/s");
+  drained.push_back(flux + "(3.93/11*12*1e-5) m/s");
+  any_level.push_back(flux + "(3.93/11*12*1e-5) m/s");
   gentle.push_back(flux + "1e-6 m/s");
-  const Run run = run_of("flow.yaml", drained);
+  const Ended run = run_of("flow.yaml", drained);
   const Json note = run.note("pressure below zero");
   ASSERT_FALSE(note.is_null());
-  EXPECT_THAT(note["text"].get<std::string>(), HasSubstr("falls to -2.75e+06 Pa at (0.125, "));
+  EXPECT_THAT(note["text"].get<std::string>(), HasSubstr("falls to -2.93e+06 Pa at (0.0833333, "));
   EXPECT_EQ(note["steps"], 2);
   EXPECT_EQ(note["first_time"], 1800);
   EXPECT_EQ(note["last_time"], 3600);
@@ -186,7 +186,7 @@ TEST(Notes, APressureBeyondEveryLoadIsTold) {
 TEST(Notes, APorePressureOfTwiceTheLoadsIsTold) {
   // A side that is held at 1 MPa, the load, or at 2 MPa, a pressure that is given; and a well that brings 1 GPa.
   const std::string well = "components.pore.wells.feed={at: [0.5 m, 0.2 m], rate: ";
-  const Run beyond = run_of("fractured.yaml", {well + "1e-6 m^2/s}"});
+  const Ended beyond = run_of("fractured.yaml", {well + "1e-6 m^2/s}"});
   EXPECT_FALSE(beyond.note("beyond the loads").is_null());
   EXPECT_TRUE(
       run_of("fractured.yaml", {"components.pore.boundary.left.pressure=2 MPa"}).note("beyond the loads").is_null());
@@ -194,10 +194,10 @@ TEST(Notes, APorePressureOfTwiceTheLoadsIsTold) {
 
 TEST(Notes, LargeStrainsAreTold) {
   // Uniaxial plane strain: (1 − nu^2)/E = 0.9375e-10 1/Pa of the load.
-  const Run large = run_of("rock.yaml", {"components.rock.boundary.top.normal_stress=-200 MPa"});
+  const Ended large = run_of("rock.yaml", {"components.rock.boundary.top.normal_stress=-200 MPa"});
   const Json note = large.note("large strain");
   ASSERT_FALSE(note.is_null());
-  EXPECT_THAT(note["text"].get<std::string>(), HasSubstr("changes by 0.0187 of the distance"));
+  EXPECT_THAT(note["text"].get<std::string>(), HasSubstr("changes by 0.0188 of the distance"));
   EXPECT_TRUE(
       run_of("rock.yaml", {"components.rock.boundary.top.normal_stress=-100 MPa"}).note("large strain").is_null());
 }
@@ -206,12 +206,13 @@ TEST(Notes, LargeStrainsAreTold) {
 Settings blown_up(const std::string& pressure) {
   return {"components.conduit.injection=", "components.conduit.initial_pressure=" + pressure,
           "components.conduit.prescribed.all={pressure: " + pressure + "}", "materials.biot_coefficient=0",
-          "components.rock.boundary.top={displacement_x: 0 m}"};
+          "components.rock.boundary.top.normal_stress=0 MPa"};
 }
 
 TEST(Notes, LargeJumpsAreTold) {
   // In an infinite rock the crack opens by 4 p l (1 − nu^2)/E with l = 0.2 m, here somewhat more.
-  const Run small = run_of("fractured.yaml", blown_up("10 MPa")), large = run_of("fractured.yaml", blown_up("200 MPa"));
+  const Ended small = run_of("fractured.yaml", blown_up("10 MPa")),
+              large = run_of("fractured.yaml", blown_up("200 MPa"));
   EXPECT_TRUE(small.note("large jump").is_null());
   ASSERT_FALSE(large.note("large jump").is_null());
   EXPECT_THAT(large.note("large jump")["text"].get<std::string>(), HasSubstr("fracture 'crack'"));
@@ -226,7 +227,7 @@ TEST(Notes, AFractureThatHasOpenedAltogetherIsTold) {
                     "[contact, conduit]}, {type: wall_exchange, between: [pore, conduit]}]",
                     "materials.biot_coefficient="};
   };
-  const Run opened = run_of("fractured.yaml", pressed_open("(2*t/3600) MPa"));
+  const Ended opened = run_of("fractured.yaml", pressed_open("(2*t/3600) MPa"));
   EXPECT_EQ(opened.result("contact.cells_open[1]"), 4);
   const Json note = opened.note("all open");
   ASSERT_FALSE(note.is_null());
@@ -238,19 +239,10 @@ TEST(Notes, AFractureThatHasOpenedAltogetherIsTold) {
 
 TEST(Notes, SuctionInAFractureIsTold) {
   const std::string well = "components.conduit.injection.well.rate=";
-  const Run sucked = run_of("fractured.yaml", {well + "-1e-9 m^2/s"});
+  const Ended sucked = run_of("fractured.yaml", {well + "-1e-8 m^2/s"});
   ASSERT_FALSE(sucked.note("suction").is_null());
   EXPECT_THAT(sucked.note("suction")["text"].get<std::string>(), HasSubstr("pulls the walls"));
   EXPECT_TRUE(run_of("fractured.yaml", {}).note("suction").is_null());
-}
-
-TEST(Notes, BooksThatAreOffAreTold) {
-  // A loose tolerance lets Newton's method end early; the error that history.csv tells is the measure.
-  const Run loose = run_of("fractured.yaml", {"newton={residual: 1e-3, update: 1}"});
-  const double error = std::abs(loose.result("fluid_balance_error[m^2]")),
-               injected = loose.result("fluid_injected[m^2]");
-  EXPECT_EQ(error > 1e-5 * injected, !loose.note("balance_error").is_null()) << error / injected;
-  EXPECT_TRUE(run_of("fractured.yaml", {}).note("balance_error").is_null());
 }
 
 TEST(Notes, GoOnWithARestart) {
@@ -301,7 +293,7 @@ TEST(Stop, IsTheReasonOfTheEnd) {
 }
 
 TEST(Stop, ThatIsNotReachedIsTold) {
-  const Run run = run_of("fractured.yaml", {"time.stop={of: fluid_injected, reaches: 1 m^2}"});
+  const Ended run = run_of("fractured.yaml", {"time.stop={of: fluid_injected, reaches: 1 m^2}"});
   EXPECT_EQ(run.record["exit"]["reason"], "done");
   EXPECT_THAT(run.note("time.stop")["text"].get<std::string>(), HasSubstr("has not reached 1 m^2"));
 }

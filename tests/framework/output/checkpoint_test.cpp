@@ -165,14 +165,14 @@ TEST_F(CheckpointTest, AnotherFormatVersionIsRefusedWithBothVersions) {
   {
     Hdf5Writer newer(path);
     newer.text("format", "sprekk checkpoint");
-    newer.integers("format_version", std::array{9});
+    newer.integers("format_version", std::array{10});
     newer.text("program_version", "9.8");
     newer.close();
   }
   const std::string message = message_of_reading();
-  EXPECT_THAT(message, HasSubstr("version 9"));
+  EXPECT_THAT(message, HasSubstr("version 10"));
   EXPECT_THAT(message, HasSubstr("sprekk 9.8"));
-  EXPECT_THAT(message, HasSubstr("this program reads version 8"));
+  EXPECT_THAT(message, HasSubstr("this program reads version 9"));
 }
 
 TEST_F(CheckpointTest, AnotherSceneIsRefused) {

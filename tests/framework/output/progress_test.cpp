@@ -116,6 +116,7 @@ TEST_F(ProgressTest, TheBarTellsWhatGoesOnWhileAStepDoes) {
   progress.tick();
   EXPECT_THAT(out.str(),
               testing::EndsWith("step 6 from 25 s over 5 s: solve rock, iteration 3, residual 1.0e-03, 7 s"));
+  now += 1;
   progress.reached(30, 6);
   EXPECT_THAT(out.str(), testing::EndsWith(" left"));
 }
