@@ -1,6 +1,7 @@
 #include "components/contact/coulomb/coulomb.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "framework/mesh/mesh_change.hpp"
@@ -57,6 +58,8 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
   dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   stiffness_ = Vector::Ones(2 * count);
+  fracture_length_.assign(mesh_.fractures.size(), 0);
+  for (const FractureCell& cell : mesh_.fracture_cells) fracture_length_[cell.fracture] += cell.length;
 }
 
 void Coulomb::evaluate_data(const StepTime& step) {
@@ -73,6 +76,8 @@ std::vector<double> Coulomb::switch_times() const {
 void Coulomb::set_wall_stiffness(const Vector& stiffness) {
   stiffness_ = stiffness;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const FractureCell& cell = mesh_.fracture_cells[i];
+    stiffness_[2 * i + 1] *= cell.length / fracture_length_[cell.fracture];
     const double wedge = friction_[i] * dilation_[i];
     stiffness_[2 * i] = std::min(stiffness_[2 * i], 0.5 * stiffness_[2 * i + 1] / std::max(wedge, 1e-300));
   }
@@ -99,6 +104,9 @@ Coulomb::Trial Coulomb::trial(int i) const {
 }
 
 void Coulomb::follow_back_slip() const {
+  const std::array<std::uint64_t, 2> values{traction_.version(), jump_.version()};
+  if (!back_slip_.empty() && values == followed_) return;  // the same update
+  followed_ = values;
   back_slip_.resize(mesh_.fracture_cell_count());
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     BackSlip& cell = back_slip_[i];

@@ -1,7 +1,9 @@
 // Frictional contact with dilation (Eqs. 2 and 3), cell by cell.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
@@ -56,6 +58,10 @@ class Coulomb : public Component, public FractureContact {
 
   Field& traction() override { return traction_; }
   Field& jump() override { return jump_; }
+  /// Along the tangent it is taken for that of the whole fracture, which answers slip of all cells as many times more
+  /// softly as it is longer. When a load goes back, the derivatives of slip make all cells slide back at once, over the
+  /// whole fracture; with the stiffness of a cell alone they would be taken to slip back by friction, then to and fro,
+  /// where they only stick.
   /// The stiffness along the normal is limited to half of that along the tangent over mu_s tan psi. Walls that slide
   /// freely while open, by d, overlap by |d| tan psi; with more than that limit they would be taken to stick, come back
   /// to where they were, open, and so on. With less they are taken to slip.
@@ -91,12 +97,14 @@ class Coulomb : public Component, public FractureContact {
   Field& traction_;
   Field& jump_;
   Options options_;
-  Property friction_, dilation_angle_;       ///< mu_s, psi
-  Vector dilation_;                          ///< tan psi
-  std::vector<char> bonded_;                 ///< empty for none
-  mutable std::vector<BackSlip> back_slip_;  ///< empty before the first update of a step
-  bool follows_pieces_ = false;              ///< as they are: no guess of what lies beyond the kink
-  Vector stiffness_;                         ///< c, Pa/m, (normal, tangential) of each cell
+  Property friction_, dilation_angle_;               ///< mu_s, psi
+  Vector dilation_;                                  ///< tan psi
+  std::vector<char> bonded_;                         ///< empty for none
+  mutable std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
+  mutable std::array<std::uint64_t, 2> followed_{};  ///< versions of traction and jump that it has followed last
+  bool follows_pieces_ = false;                      ///< as they are: no guess of what lies beyond the kink
+  std::vector<double> fracture_length_;              ///< m
+  Vector stiffness_;                                 ///< c, Pa/m, (normal, tangential) of each cell
 };
 
 }  // namespace sprekk::contact

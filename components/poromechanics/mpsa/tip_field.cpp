@@ -71,7 +71,8 @@ bool TipField::fit(const Mesh& mesh, int count_of_terms) {
     const Modes modes = displacement(center, frame_.side_of_cell(mesh, cells_[k]));
     basis.block(2 * k, linear_terms, 2, count_of_terms) =
         (modes.array().rowwise() / unit.array()).leftCols(count_of_terms).matrix();
-    weight[2 * k] = weight[2 * k + 1] = 1;
+    // What the terms leave out goes with r^2.
+    weight[2 * k] = weight[2 * k + 1] = size * size / (center - frame_.tip()).squaredNorm();
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(weight.asDiagonal() * basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
   if (svd.singularValues()[all - 1] < well_posed * svd.singularValues()[0]) return false;

@@ -1,0 +1,211 @@
+// The conditions of contact, cell by cell: states, and the whole Jacobian against differences in each of them.
+#include "components/contact/coulomb/coulomb.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/components/meshes.hpp"
+
+namespace sprekk::contact {
+namespace {
+
+/// Two fractures that cross, one of them inclined: cells at a junction are among them.
+Mesh crossing() {
+  Geometry geometry = test::box(1, 1);
+  FractureGeometry a, b;
+  a.name = "a";
+  a.points = {Point(0.2, 0.5), Point(0.8, 0.5)};
+  b.name = "b";
+  b.points = {Point(0.35, 0.25), Point(0.65, 0.75)};
+  geometry.fractures = {a, b};
+  return generate_mesh(geometry, test::unstructured(0.12));
+}
+
+struct Law {
+  double friction = 0.6, dilation_angle = 0.1;
+};
+
+class Contact {
+ public:
+  explicit Contact(const Mesh& mesh, const Law& law = {}) {
+    Options options;
+    options.friction = law.friction;
+    options.dilation_angle = law.dilation_angle;
+    contact_ = std::make_unique<Coulomb>(ComponentContext{"contact", mesh, fields_, 0, {}}, options);
+    contact_->evaluate_data(step);
+    contact_->begin_step(step);
+  }
+
+  Coulomb& law() { return *contact_; }
+  /// Tractions and jumps, (normal, tangential) of each cell each.
+  void set(const Vector& traction, const Vector& jump) {
+    contact_->traction().set(traction);
+    contact_->jump().set(jump);
+  }
+  Vector residual(Assembly::Want want = Assembly::Want::residual) const {
+    Assembly assembly({&contact_->traction(), &contact_->jump()}, want);
+    contact_->assemble(assembly, step);
+    return assembly.residual(0);
+  }
+  /// d residual / d (tractions, jumps).
+  Eigen::MatrixXd jacobian() const {
+    Assembly assembly({&contact_->traction(), &contact_->jump()}, Assembly::Want::residual_and_derivatives);
+    contact_->assemble(assembly, step);
+    const int n = contact_->traction().size();
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, 2 * n);
+    for (const Assembly::Block& block : assembly.blocks())
+      all.middleCols(block.column * n, n) += block.factor * Eigen::MatrixXd(*block.matrix);
+    return all;
+  }
+
+  static constexpr StepTime step{0, 1, 1};
+
+ private:
+  FieldStore fields_;
+  std::unique_ptr<Coulomb> contact_;
+};
+
+/// Traction and jump of a cell in units of Pa and of one over its stiffness, and the slip before the step.
+struct CellState {
+  const char* name;
+  double f_n, f_t, u_n, u_t, slip_before;
+  State state;
+};
+
+// With a friction of 0.6 and asperities of tan 0.1 = 0.1003.
+const CellState states[] = {
+    {"sticks", -10, 3, 0.02, 0.2, 0.2, State::stick},
+    {"sticks without slip", -10, -3, 0.02, 0.01, 0, State::stick},
+    {"slips forward", -10, 6.2, 0.1, 1.0, 0.3, State::slip},
+    {"slips the other way", -10, -6.2, 0.1, -1.0, -0.3, State::slip},
+    {"slides back", -10, -6.5, 0.12, 0.6, 1.0, State::slip},
+    {"slides back the other way", -10, 6.5, 0.12, -0.6, -1.0, State::slip},
+    {"is open", 0.5, 0.2, 0.9, 0.3, 0, State::open},
+    {"is open and slides", 0, -0.1, 0.9, -0.3, 0.2, State::open},
+};
+
+/// All cells in the same state, each a little otherwise.
+struct Values {
+  Vector traction, jump, jump_before;
+  Values(const CellState& state, int cells) : traction(2 * cells), jump(2 * cells), jump_before(2 * cells) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> nearby(0.98, 1.02);
+    for (int i = 0; i < cells; ++i) {
+      traction.segment<2>(2 * i) << state.f_n * nearby(random), state.f_t * nearby(random);
+      jump.segment<2>(2 * i) << state.u_n * nearby(random), state.u_t * nearby(random);
+      jump_before.segment<2>(2 * i) << 0, state.slip_before;
+    }
+  }
+};
+
+class InState : public ::testing::TestWithParam<CellState> {};
+INSTANTIATE_TEST_SUITE_P(States, InState, ::testing::ValuesIn(states), [](const auto& info) {
+  std::string name = info.param.name;
+  for (char& c : name)
+    if (c == ' ') c = '_';
+  return name;
+});
+
+TEST_P(InState, HasTheDerivativesOfItsConditions) {
+  const Mesh mesh = crossing();
+  ASSERT_EQ(mesh.junctions.size(), 1u);
+  for (const Look look : {Look::freely, Look::in_pieces}) {
+    Contact contact(mesh);
+    const int cells = mesh.fracture_cell_count(), n = 2 * cells;
+    contact.law().set_wall_stiffness(Vector::LinSpaced(n, 1, 2));
+    contact.law().look_for_solution(look);
+    const Values at(GetParam(), cells);
+    contact.law().jump().set_both(at.jump_before);
+    contact.set(at.traction, at.jump);
+    for (int i = 0; i < cells; ++i) EXPECT_EQ(contact.law().state(i), GetParam().state) << i;
+    const Eigen::MatrixXd jacobian = contact.jacobian();
+    // The conditions are linear within a state, so central differences are exact.
+    constexpr double change = 1e-4;
+    for (int column = 0; column < 2 * n; ++column) {
+      const auto residual = [&](double sign) {
+        Vector traction = at.traction, jump = at.jump;
+        (column < n ? traction[column] : jump[column - n]) += sign * change;
+        contact.set(traction, jump);
+        return contact.residual();
+      };
+      const Vector difference = (residual(1) - residual(-1)) / (2 * change);
+      EXPECT_LT((jacobian.col(column) - difference).lpNorm<Eigen::Infinity>(), 1e-9) << "column " << column;
+    }
+  }
+}
+
+TEST_P(InState, GivesTheSameBitsTwice) {
+  const Mesh mesh = crossing();
+  Contact contact(mesh);
+  const int cells = mesh.fracture_cell_count();
+  contact.law().set_wall_stiffness(Vector::Ones(2 * cells));
+  const Values at(GetParam(), cells);
+  contact.law().jump().set_both(at.jump_before);
+  // What Newton's method tries on the way: the states, and the cells that slide back somewhere else.
+  for (const double scale : {1.0, -1.0, 1.0, 0.5, 1.0}) {
+    contact.set(scale * at.traction, at.jump);
+    const Eigen::MatrixXd first = contact.jacobian();
+    const Vector residual = contact.residual(Assembly::Want::residual_and_derivatives);
+    EXPECT_EQ(contact.jacobian(), first) << scale;
+    EXPECT_EQ(contact.residual(Assembly::Want::residual_and_derivatives), residual) << scale;
+  }
+}
+
+// A cell for which sliding back has led to slip the wrong way takes the linear function that goes through the values
+// beyond the kink of |slip|.
+TEST(BackSlip, TakesThePieceBeyondTheKink) {
+  const Mesh mesh = crossing();
+  Contact contact(mesh);
+  const int cells = mesh.fracture_cell_count(), n = 2 * cells;
+  contact.law().set_wall_stiffness(Vector::Ones(n));
+  const Values back(states[4], cells), forward(states[2], cells);
+  contact.law().jump().set_both(back.jump_before);
+  contact.set(back.traction, back.jump);
+  contact.jacobian();
+  Vector wrong = back.jump;
+  for (int i = 0; i < cells; ++i) wrong[2 * i + 1] = 1.5;  // beyond the slip before, against the direction of sliding
+  contact.set(forward.traction, wrong);
+  contact.jacobian();
+  contact.set(back.traction, back.jump);
+  const Eigen::MatrixXd jacobian = contact.jacobian();
+  const Vector residual = contact.residual(Assembly::Want::residual_and_derivatives);
+
+  Vector beyond = back.jump, traction = back.traction;
+  for (int i = 0; i < cells; ++i) {
+    beyond[2 * i + 1] = -0.4 - 0.01 * i;
+    traction[2 * i] -= 0.3;
+  }
+  Vector change(2 * n);
+  change << traction - back.traction, beyond - back.jump;
+  contact.law().look_for_solution(Look::in_pieces);
+  contact.set(traction, beyond);
+  for (int i = 0; i < cells; ++i) EXPECT_EQ(contact.law().state(i), State::slip);
+  EXPECT_LT((residual + jacobian * change - contact.residual()).lpNorm<Eigen::Infinity>(), 1e-12);
+}
+
+// Walls that slide freely while they are open overlap by |slip| tan psi. They are to be taken to slip then; a normal
+// stiffness that is too large for the wedge would have them stick.
+TEST(DilationWedge, WallsThatSlideFreelyAreTakenToSlip) {
+  const Mesh mesh = crossing();
+  const int cells = mesh.fracture_cell_count();
+  for (const double friction : {0.1, 0.6, 1.5})
+    for (const double angle : {0.02, 0.2, 0.7})
+      for (const double ratio : {1e-3, 1.0, 1e3, 1e9}) {
+        Contact contact(mesh, {friction, angle});
+        Vector stiffness = Vector::Ones(2 * cells);
+        for (int i = 0; i < cells; ++i) stiffness[2 * i] = ratio;
+        contact.law().set_wall_stiffness(stiffness);
+        for (const double slip : {1e-3, -1e-3}) {
+          Vector jump = Vector::Zero(2 * cells);
+          for (int i = 0; i < cells; ++i) jump[2 * i + 1] = slip;
+          contact.set(Vector::Zero(2 * cells), jump);
+          for (int i = 0; i < cells; ++i)
+            EXPECT_EQ(contact.law().state(i), State::slip) << friction << " " << angle << " " << ratio;
+        }
+      }
+}
+
+}  // namespace
+}  // namespace sprekk::contact
