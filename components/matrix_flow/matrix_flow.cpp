@@ -1,10 +1,7 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "components/matrix_flow/overshoots.hpp"
 #include "framework/assembly/products.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_mean.hpp"
@@ -411,29 +408,6 @@ void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
     fluid.outflow += books_.now()[3 * c + 2];
     fluid.throughput += books_.now().segment<3>(3 * c).lpNorm<1>();
   }
-}
-
-void MatrixFlow::note_step(Notes& notes, const StepTime& step) const {
-  if (is_sealed_) return;
-  if (const double blended = parallel::sum(operators_.blended_regions); blended > 0)
-    notes.add(
-        name() + ": fluxes that are not exact for linear pressures",
-        fmt::format("{}: around {} nodes fluxes are not exact for linear pressures (the rock is too anisotropic for "
-                    "the quadrilaterals there; exact fluxes would gain energy); use triangles",
-                    name(), blended),
-        blended);
-  const Overshoots found = find_overshoots({mesh_, conditions_, pressure_.now() - gravity_potential_cell_,
-                                            pressure_.accepted() - gravity_potential_cell_, boundary_values_,
-                                            boundary_changes_, face_fluxes(), capacity_, step.dt});
-  if (found.cells == 0) return;
-  notes.add(
-      name() + ".pressure beyond its surroundings",
-      fmt::format("{}.pressure is higher or lower than all around it in {} cells without a source, by up to {:.3g} "
-                  "Pa, {:.2g} % of the range of pressures (where rock is anisotropic or cells are flat, multi-point "
-                  "fluxes keep no bounds); use smaller cells, or matrix_flow/tpfa where bounds count more than "
-                  "accuracy",
-                  name(), found.cells, found.largest, 100 * found.largest / found.range),
-      found.largest);
 }
 
 std::vector<double> MatrixFlow::switch_times() const {

@@ -65,8 +65,6 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   void balance(std::map<std::string, Balance>& balances) const override;
   std::vector<double> switch_times() const override;
   void relate_levels(Levels& levels) const override;
-  /// Where pressures leave the bounds that fluid at rest or in motion sets them, and where fluxes are not exact.
-  void note_step(Notes& notes, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
@@ -88,6 +86,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   const Vector& face_fluxes() const;
 
  private:
+  /// Where pressures leave the bounds that fluid at rest or in motion sets them, and where fluxes are not exact.
+  void note_fluxes(Notes& notes, const StepTime& step) const;
   double gravity_potential(const Point& x) const;  ///< rho g·x, Pa
   void check_sides() const;
   std::vector<const Data*> properties() const;

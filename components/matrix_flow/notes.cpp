@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "components/matrix_flow/matrix_flow.hpp"
+#include "components/matrix_flow/overshoots.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -25,7 +27,8 @@ void MatrixFlow::note_input(Notes& notes) const {
               origin_.text() + ": '" + key + "' of '" + name() + "' has no effect (" + instead + ") remove it");
 }
 
-void MatrixFlow::note_step(Notes& notes, const StepTime&) const {
+void MatrixFlow::note_step(Notes& notes, const StepTime& step) const {
+  note_fluxes(notes, step);
   const Vector& pressure = pressure_.now();
   Eigen::Index lowest = 0, largest = 0;
   const double smallest = pressure.minCoeff(&lowest), most = pressure.cwiseAbs().maxCoeff(&largest);
@@ -43,6 +46,29 @@ void MatrixFlow::note_step(Notes& notes, const StepTime&) const {
               fmt::format("{} reaches {:.3g} Pa at {} (no rock bears 10 GPa) look at permeability and rates there",
                           pressure_.name(), pressure[largest], to_text(mesh_.cell_center[largest])),
               most);
+}
+
+void MatrixFlow::note_fluxes(Notes& notes, const StepTime& step) const {
+  if (is_sealed_) return;
+  if (const double blended = parallel::sum(operators_.blended_regions); blended > 0)
+    notes.add(
+        name() + ": fluxes that are not exact for linear pressures",
+        fmt::format("{}: around {} nodes fluxes are not exact for linear pressures (the rock is too anisotropic for "
+                    "the quadrilaterals there; exact fluxes would gain energy); use triangles",
+                    name(), blended),
+        blended);
+  const Overshoots found = find_overshoots({mesh_, conditions_, pressure_.now() - gravity_potential_cell_,
+                                            pressure_.accepted() - gravity_potential_cell_, boundary_values_,
+                                            boundary_changes_, face_fluxes(), capacity_, step.dt});
+  if (found.cells == 0) return;
+  notes.add(
+      name() + ".pressure beyond its surroundings",
+      fmt::format("{}.pressure is higher or lower than all around it in {} cells without a source, by up to {:.3g} "
+                  "Pa, {:.2g} % of the range of pressures (where rock is anisotropic or cells are flat, multi-point "
+                  "fluxes keep no bounds); use smaller cells, or matrix_flow/tpfa where bounds count more than "
+                  "accuracy",
+                  name(), found.cells, found.largest, 100 * found.largest / found.range),
+      found.largest);
 }
 
 double MatrixFlow::largest_given_pressure() const {

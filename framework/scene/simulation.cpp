@@ -85,7 +85,7 @@ class Run {
   void restore();
   void require_columns() const;
   void record_start();
-  void note_input(const MeshQuality& quality);
+  void note_input(const MeshQuality& quality, long unknowns);
   void note_step(const StepTime& step);    ///< that is about to be accepted
   void retire_counts(const Model& model);  ///< adds what the model has counted to the totals
   void split_steps();                      ///< takes what others have timed inside of steps out of their time
@@ -219,7 +219,7 @@ void Run::require_columns() const {
   }
 }
 
-void Run::note_input(const MeshQuality& quality) {
+void Run::note_input(const MeshQuality& quality, long unknowns) {
   input_notes_ = model_->input_notes();
   if (blas_in_use().is_reference)
     input_notes_.add("reference BLAS",
@@ -231,6 +231,14 @@ void Run::note_input(const MeshQuality& quality) {
         fmt::format("the mesh has an angle of {:.2g} degrees, where multi-point fluxes and stresses may overshoot "
                     "(lines that meet at a small angle, or a gap narrower than mesh.gap_size)",
                     angle));
+  // Measured: with 44,000 unknowns in two dimensions each of two processes is as busy as one alone.
+  constexpr long worth_sharing = 50'000;
+  if (parallel::size() > 1 && unknowns < worth_sharing)
+    input_notes_.add(
+        "too few unknowns for several processes",
+        fmt::format("the run shares {} unknowns among {} processes, which as a rule takes longer than one alone (below "
+                    "about {} each is as busy as one would be, and waits for the others) start it without mpirun",
+                    unknowns, parallel::size(), worth_sharing));
   record_.notes = records_of(input_notes_);
 }
 
@@ -251,7 +259,6 @@ void Run::record_start() {
   record_.counters["mesh: cells"] = quality.cells;
   record_.counters["mesh: fracture cells"] = quality.fracture_cells;
   record_.results["mesh_smallest_angle[rad]"] = quality.smallest_angle;
-  note_input(quality);
   record_.counters["objects: components"] = static_cast<long>(model_->components().size());
   record_.counters["objects: couplers"] = static_cast<long>(model_->couplers().size());
   record_.counters["objects: fields"] = static_cast<long>(model_->fields().all().size());
@@ -261,13 +268,7 @@ void Run::record_start() {
     record_.counters["unknowns: " + field->name()] = field->size();
   }
   record_.counters["unknowns"] = unknowns;
-  // Measured: with 44,000 unknowns in two dimensions each of two processes is as busy as one alone.
-  constexpr long worth_sharing = 50'000;
-  if (parallel::size() > 1 && unknowns < worth_sharing)
-    record_.warnings.push_back(
-        fmt::format("the run shares {} unknowns among {} processes, which as a rule takes longer than one alone (below "
-                    "about {} each is as busy as one would be, and waits for the others) start it without mpirun",
-                    unknowns, parallel::size(), worth_sharing));
+  note_input(quality, unknowns);
 }
 
 bool Run::stays_as_it_is(const StepTime& step) const {
