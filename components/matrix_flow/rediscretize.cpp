@@ -10,10 +10,14 @@ namespace sprekk::matrix_flow {
 namespace {
 
 /// The cells whose geometry and mobility the local problem of each node may read: its own, and near a tip those that
-/// tell the flow around it.
+/// tell the flow around it, and those of all nodes near the same tip (lossy_part).
 Adjacency cells_read(const Mesh& mesh) {
   const std::vector<int> tips = tips_nearby(mesh);
-  const auto around = cells_around_tips(mesh, tips);
+  auto around = cells_around_tips(mesh, tips);
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (tips[node] != none)
+      around.at(tips[node])
+          .insert(around.at(tips[node]).end(), mesh.node_cells[node].begin(), mesh.node_cells[node].end());
   Adjacency cells;
   std::vector<int> of_node;
   for (int node = 0; node < mesh.node_count(); ++node) {

@@ -8,6 +8,7 @@
 #include "components/matrix_flow/check_conditions.hpp"
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 #include "components/matrix_flow/mpfa/tip_correction.hpp"
+#include "components/matrix_flow/mpfa/tip_energy.hpp"
 #include "framework/mesh/interaction_region.hpp"
 #include "framework/mesh/node_stencil.hpp"
 #include "framework/mesh/tips_nearby.hpp"
@@ -18,7 +19,11 @@ namespace {
 /// The flows around all tips, for the nodes near them.
 class TipFlows {
  public:
-  TipFlows(const Mesh& mesh, const std::vector<Tensor>& mobility) : of_node_(mesh.node_count()) {
+  /// `is_wanted`: of nodes; the flows of the others need not be right.
+  template <class IsWanted>
+  TipFlows(const Mesh& mesh, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions,
+           const IsWanted& is_wanted)
+      : of_node_(mesh.node_count()) {
     const std::vector<int> tips = tips_nearby(mesh);
     for (const auto& [tip, cells] : cells_around_tips(mesh, tips))
       if (const auto flow = TipFlow::find(mesh, tip, cells, mobility)) flows_.emplace(tip, *flow);
@@ -29,6 +34,15 @@ class TipFlows {
       if (std::all_of(cells.begin(), cells.end(),
                       [&](int cell) { return resembles(mobility[cell], found->second.mobility()); }))
         of_node_[node] = &found->second;
+    }
+    std::map<const TipFlow*, std::vector<int>> nodes;
+    for (int node = 0; node < mesh.node_count(); ++node)
+      if (of_node_[node]) nodes[of_node_[node]].push_back(node);
+    for (auto& [tip, flow] : flows_) {
+      const std::vector<int>& corrected = nodes[&flow];
+      if (std::none_of(corrected.begin(), corrected.end(), is_wanted)) continue;
+      const double part = lossy_part(flow, mesh, corrected, mobility, conditions);
+      if (part < 1) flow.weaken(part);
     }
   }
 
@@ -131,7 +145,7 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   const Adjacency all = contributing_nodes(mesh.face_nodes, [&](int, int node) { return is_wanted(node); });
   const Adjacency outer = contributing_nodes(
       mesh.face_nodes, [&](int face, int node) { return mesh.face_cells[face][1] == none && is_wanted(node); });
-  const TipFlows flows(mesh, mobility);
+  const TipFlows flows(mesh, mobility, conditions, is_wanted);
   const Adjacency node_cells = flows.cells_of_nodes(mesh);
   const Adjacency outer_faces = outer_faces_of_nodes(mesh);
   const NodeStencil face_cells(all, node_cells), face_outer(all, outer_faces);

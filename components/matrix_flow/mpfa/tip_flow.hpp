@@ -34,6 +34,8 @@ class TipFlow {
 
   const Tensor& mobility() const { return mobility_; }      ///< the mean of the tip's cells
   const std::vector<int>& cells() const { return cells_; }  ///< of the fit, ascending
+  /// Takes a part of the modes only for what the pressures tell.
+  void weaken(double part) { share_ *= part; }
   const Eigen::Matrix2Xd& share() const { return share_; }  ///< of the modes in their pressures, 1/m^0.5
 
  private:

@@ -1,0 +1,90 @@
+#include "components/matrix_flow/mpfa/tip_energy.hpp"
+
+#include <Eigen/Cholesky>
+#include <map>
+
+#include "components/matrix_flow/mpfa/local_fluxes.hpp"
+#include "components/matrix_flow/mpfa/tip_correction.hpp"
+#include "framework/mesh/interaction_region.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+constexpr double round_off = 1e-11;
+
+/// The power that is lost in all regions of a tip, as a form of the pressures of cells and of what flows through walls.
+class Power {
+ public:
+  Power(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes) : flow_(flow) {
+    const auto number = [](std::map<int, int>& numbers, int item) {
+      numbers.emplace(item, static_cast<int>(numbers.size()));
+    };
+    for (const int cell : flow.cells()) number(cells_, cell);
+    for (const int node : nodes) {
+      for (const int cell : mesh.node_cells[node]) number(cells_, cell);
+      for (const int face : mesh.node_faces[node])
+        if (mesh.face_cells[face][1] == none) number(walls_, face);
+    }
+    linear_ = added_ = Eigen::MatrixXd::Zero(size(), size());
+  }
+
+  void add(const InteractionRegion& region, const LocalFluxes& local, const TipCorrection& tip) {
+    for (int f = 0; f < region.subface_count(); ++f) {
+      const auto [first, second] = region.neighbours[f];
+      const int from = cells_.at(region.subcells[first].cell);
+      if (region.is_inner(f)) {
+        const int to = cells_.at(region.subcells[second].cell);
+        add_row(from, region, local.flux(f), tip.of_flux(f), 1);
+        add_row(to, region, local.flux(f), tip.of_flux(f), -1);
+      } else {
+        const int wall = place_of_wall(region.faces[f]);
+        linear_(from, wall) += 0.5;
+        add_row(wall, region, local.pressure(f), tip.of_pressure(f), -0.5);
+      }
+    }
+  }
+
+  bool is_lost_with(double part) const {
+    const Eigen::VectorXd scale = linear_.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd whole = linear_ + part * added_;
+    Eigen::MatrixXd form = scale.asDiagonal() * (0.5 * (whole + whole.transpose())) * scale.asDiagonal();
+    form.diagonal().array() += round_off * size();
+    return Eigen::LLT<Eigen::MatrixXd>(form).info() == Eigen::Success;
+  }
+
+ private:
+  int size() const { return static_cast<int>(cells_.size() + walls_.size()); }
+  int place_of_wall(int face) const { return static_cast<int>(cells_.size()) + walls_.at(face); }
+
+  void add_row(int row, const InteractionRegion& region, const double* own, const TipFlow::Modes& modes,
+               double factor) {
+    for (const Subcell& subcell : region.subcells) linear_(row, cells_.at(subcell.cell)) += factor * *own++;
+    for (int f = 0; f < region.subface_count(); ++f)
+      if (!region.is_inner(f)) linear_(row, place_of_wall(region.faces[f])) += factor * *own++;
+    for (std::size_t i = 0; i < flow_.cells().size(); ++i)
+      added_(row, cells_.at(flow_.cells()[i])) += factor * modes.dot(flow_.share().col(i));
+  }
+
+  const TipFlow& flow_;
+  std::map<int, int> cells_, walls_;
+  Eigen::MatrixXd linear_, added_;
+};
+
+}  // namespace
+
+double lossy_part(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes,
+                  const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
+  Power power(flow, mesh, nodes);
+  InteractionRegion region;
+  LocalFluxes local;
+  for (const int node : nodes) {
+    region.assign(mesh, node);
+    local.solve(mesh, node, region, mobility, conditions);
+    power.add(region, local, TipCorrection(flow, mesh, region, local, node, mobility, conditions));
+  }
+  for (const double part : {1.0, 0.75, 0.5, 0.25})
+    if (power.is_lost_with(part)) return part;
+  return 0;
+}
+
+}  // namespace sprekk::matrix_flow
