@@ -121,7 +121,7 @@ Spec Options::spec() {
               {.unit = "N/m^3", .doc = "Force per volume, besides gravity.", .source = "-b of Eq. 5", .in_time = true});
   spec.tensor("initial_stress", initial_stress,
               {.unit = "Pa",
-               .doc = "Total stress in which the rock is at rest with its initial pressure; tension positive.",
+               .doc = "Total stress at the initial pressure; tension positive. Where it is not at rest it loads the rock.",
                .fixed = "displacements are counted from the state in which it holds"});
   static SideCondition example;
   spec.named_sections(
