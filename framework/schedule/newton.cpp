@@ -73,20 +73,11 @@ void Newton::move(const std::vector<Vector>& from, const Vector& update, double 
   }
 }
 
-namespace {
-
-/// Then round-off of its rows, too, is worth an update.
-bool only_balance_fails(const ResidualCheck& check, std::size_t equation) {
-  return check.rows_hold && check.is_unbalanced[equation];
-}
-
-}  // namespace
-
 Vector Newton::right_hand_side(const ResidualCheck& check) const {
   Vector right = -system_.residual(*assembly_);
   const std::vector<int>& rows = system_.rows();
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    if (!check.is_round_off[u] || only_balance_fails(check, u)) continue;
+    if (!check.is_round_off[u] || check.is_unbalanced[u]) continue;
     const int first = system_.first(static_cast<int>(u)), end = first + unknowns_[u]->size();
     const auto begin = std::lower_bound(rows.begin(), rows.end(), first);
     right.segment(begin - rows.begin(), std::lower_bound(begin, rows.end(), end) - begin).setZero();
@@ -94,7 +85,7 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
   for (const BlockSystem::Summed& summed : system_.summed()) {
     double total = 0;
     for (const int u : summed.conserved.rows)
-      if (!check.is_round_off[u] || !check.is_round_off_in_sum[u] || only_balance_fails(check, u))
+      if (!check.is_round_off[u] || !check.is_round_off_in_sum[u] || check.is_unbalanced[u])
         total += system_.residual_of_sum(*assembly_, u);
     if (summed.place >= 0) right[summed.place] = -total;
   }
@@ -221,13 +212,16 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
 StepStatus Newton::attempt(const StepTime& step, int undamped) {
   std::multiset<std::uint64_t> seen_states;
   std::uint64_t last_state = 0;
-  bool factored = false, cycling = false;
+  bool factored = false, cycling = false, seeks_balance = false;
   double length = 1, last_imbalance = std::numeric_limits<double>::infinity();
   ResidualCheck check = look(step);
   recent_ = {check};
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1});
   for (int iteration = 0;; ++iteration) {
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
+    // While other equations do not hold balances need not, and round-off of the bulk's rows is worth no back-solve.
+    seeks_balance = seeks_balance || (check.rows_hold && !check.balances_hold);
+    if (!seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
     bool holds = check.converged;
     if (check.rows_hold && !check.balances_hold && factored) {
       // What another iteration does not improve is lost in the matrix. Sums of balances may have it; what they do not
