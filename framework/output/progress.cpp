@@ -12,6 +12,7 @@
 #include <csignal>
 #include <limits>
 #include <ostream>
+#include <system_error>
 
 namespace sprekk {
 namespace {
@@ -74,13 +75,18 @@ Progress::~Progress() { close(); }
 
 void Progress::watch() {
   if (style_ == Style::silent || watcher_.joinable()) return;
-  watcher_ = std::jthread([this](const std::stop_token& stop) {
+  const auto look_after = [this](const std::stop_token& stop) {
     block_signals();
     std::mutex mutex;
     std::condition_variable_any never;
     std::unique_lock lock(mutex);
     while (!never.wait_for(lock, stop, std::chrono::milliseconds(500), [&] { return stop.stop_requested(); })) tick();
-  });
+  };
+  try {
+    watcher_ = std::jthread(look_after);
+  } catch (const std::system_error&) {
+    // Where no thread is to be had (a limit of memory or of processes) the run goes on without.
+  }
 }
 
 void Progress::close() {
