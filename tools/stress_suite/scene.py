@@ -22,9 +22,9 @@ def rock_sides(p):
         down = -p["stress"] / p["young"] * p["height"]
         across = down * p["shear"]
         return [f"      bottom: {{displacement_x: 0, displacement_y: 0}}",
-                f"      top: {{displacement_x: \"{across!r}*{factor}\", displacement_y: {down!r}}}"]
+                f"      top: {{displacement_x: \"({across!r}*{factor}) m\", displacement_y: {down!r}}}"]
     return ["      left: {displacement_x: 0}", "      bottom: {displacement_y: 0}",
-            f"      right: {{normal_stress: \"{-p['stress'] * p['ratio']!r}*{factor}\"}}",
+            f"      right: {{normal_stress: \"({-p['stress'] * p['ratio']!r}*{factor}) Pa\"}}",
             f"      top: {{normal_stress: {-p['stress']!r} Pa}}"]
 
 
