@@ -119,10 +119,11 @@ Spec Options::spec() {
                .fixed = "a weight that changes is a change of rock_density"});
   spec.vector("body_force", body_force,
               {.unit = "N/m^3", .doc = "Force per volume, besides gravity.", .source = "-b of Eq. 5", .in_time = true});
-  spec.tensor("initial_stress", initial_stress,
-              {.unit = "Pa",
-               .doc = "Total stress at the initial pressure; tension positive. Where it is not at rest it loads the rock.",
-               .fixed = "displacements are counted from the state in which it holds"});
+  spec.tensor(
+      "initial_stress", initial_stress,
+      {.unit = "Pa",
+       .doc = "Total stress at the initial pressure; tension positive. Where it is not at rest it loads the rock.",
+       .fixed = "displacements are counted from the state in which it holds"});
   static SideCondition example;
   spec.named_sections(
       "boundary", side_spec(example),
