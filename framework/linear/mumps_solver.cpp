@@ -151,7 +151,8 @@ LinearReport MumpsSolver::factor_scaled(bool has_new_pattern) {
   last_report_ = scaled_.mistake.empty() ? LinearReport::success() : LinearReport::failure(scaled_.mistake);
   if (last_report_.solved && has_new_pattern) last_report_ = order();
   if (last_report_.solved) last_report_ = factor_values();
-  if (!last_report_.solved) {  // MUMPS promises nothing about an instance after an error
+  // MUMPS promises nothing about an instance after an error. A singular matrix is none: its ordering stays.
+  if (!last_report_.solved && (mumps_->status() < 0 || !scaled_.mistake.empty())) {
     last_.forget();
     border_ = {};
   }

@@ -208,6 +208,26 @@ TEST_P(Condensed, WaitsUntilTheBulkHasStayedForWhatItsColumnsCost) {
   EXPECT_EQ(solver.counts().columns, 420);
 }
 
+// As in an iteration in which all walls around a block are open: the next one has the same pattern.
+TEST_P(Condensed, KeepsTheOrderingOfAWholeSystemThatWasSingular) {
+  LinearOptions options;
+  options.type = GetParam();
+  const auto whole = make_linear_solver(options);
+  LinearSystem system = test::poisson(20, true);
+  const Vector exact = test::random_vector(400, 10);
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    const bool is_singular = iteration % 2 == 0;
+    system.local.coeffRef(7, 7) += is_singular ? -iteration : iteration + 1;
+    ASSERT_EQ(whole->factor(system).solved, !is_singular);
+    if (is_singular) continue;
+    Vector x;
+    ASSERT_TRUE(whole->solve(system.local * exact, x).solved);
+    EXPECT_LT((x - exact).norm(), 1e-9);
+  }
+  EXPECT_EQ(whole->counts().orderings, 1);
+  EXPECT_EQ(whole->counts().factorizations, 4);
+}
+
 TEST_P(Condensed, PassesSystemsWithoutFracturesOn) {
   const LinearSystem system = test::poisson(20);
   const Vector exact = test::random_vector(400, 6);
