@@ -160,8 +160,11 @@ double energy_left(RandomRock& rock, const FluxOperators& operators) {
   return after.dot(capacity.cwiseProduct(after)) / before.dot(stored);
 }
 
-void look_at(const MeshOptions& options, int count) {
-  for (int seed = 1; seed <= count; ++seed) {
+/// `more`: seeds beside the first ones.
+void look_at(const MeshOptions& options, int count, const std::vector<int>& more = {}) {
+  std::vector<int> seeds = more;
+  for (int seed = 1; seed <= count; ++seed) seeds.push_back(seed);
+  for (const int seed : seeds) {
     RandomRock rock(seed, options);
     for (const bool is_closed : {true, false}) {
       const auto conditions = conditions_of(rock.mesh, is_closed);
@@ -173,7 +176,10 @@ void look_at(const MeshOptions& options, int count) {
   }
 }
 
-TEST(ClosedBoxEnergy, TrianglesLoseIt) { look_at(test::unstructured(0.2), cases(30)); }
+TEST(ClosedBoxEnergy, TrianglesLoseIt) {
+  // Flows around tips gained energy with these.
+  look_at(test::unstructured(0.2), cases(30), {195, 470, 1204});
+}
 TEST(ClosedBoxEnergy, RectanglesLoseIt) { look_at(test::rectangles(8, 8), cases(30)); }
 TEST(ClosedBoxEnergy, DistortedQuadrilateralsLoseIt) { look_at(test::rectangles(8, 8, 0.4), cases(30)); }
 TEST(ClosedBoxEnergy, MixedCellsLoseIt) { look_at(test::mixed(0.2), cases(30)); }
