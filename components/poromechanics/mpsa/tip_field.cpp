@@ -61,7 +61,6 @@ bool TipField::fit(const Mesh& mesh, int count_of_terms) {
   if (2 * count < all + 2) return false;
   const double size = frame_.size();
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(2 * count, all);
-  Eigen::VectorXd weight(2 * count);
   Amounts unit;
   for (int k = 0; k < terms; ++k) unit[k] = std::pow(size, order(k));
   for (int k = 0; k < count; ++k) {
@@ -71,12 +70,10 @@ bool TipField::fit(const Mesh& mesh, int count_of_terms) {
     const Modes modes = displacement(center, frame_.side_of_cell(mesh, cells_[k]));
     basis.block(2 * k, linear_terms, 2, count_of_terms) =
         (modes.array().rowwise() / unit.array()).leftCols(count_of_terms).matrix();
-    // What the terms leave out goes with r^2.
-    weight[2 * k] = weight[2 * k + 1] = size * size / (center - frame_.tip()).squaredNorm();
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(weight.asDiagonal() * basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
   if (svd.singularValues()[all - 1] < well_posed * svd.singularValues()[0]) return false;
-  const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd(weight.asDiagonal()));
+  const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd::Identity(2 * count, 2 * count));
   share_.setZero(terms, 2 * count);
   for (int k = 0; k < count_of_terms; ++k) share_.row(k) = inverse.row(linear_terms + k) / unit[k];
   return true;
