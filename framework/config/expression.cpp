@@ -186,8 +186,7 @@ Data parse_expression(const std::string& text, double scale, const Origin& where
 LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, const Origin& where) {
   Expression expression(text, 1, where);
   const LackOfUnit lack = expression.mentions_unit() ? LackOfUnit::of_a_term : LackOfUnit::any;
-  if (expression.uses_time() || expression.uses_space())
-    return lack == LackOfUnit::any ? LackOfUnit::any : LackOfUnit::none;
+  if (expression.uses_time() || expression.uses_space()) return LackOfUnit::none;
   const double value = expression.unchecked({});
   // Any sizes of which no two products of small powers are the same. Angles count as numbers, unless one is asked for.
   std::array<double, 5> sizes = {1.0137, 1.0171, 1.0193, 1.0229, 1};

@@ -12,9 +12,9 @@ namespace sprekk {
 /// The datum `scale` times the expression; a constant one when no variable occurs. Throws InputError when malformed.
 Data parse_expression(const std::string& text, double scale, const Origin& where);
 
-/// What an expression without a unit behind it lacks, for a quantity of this dimension. none: without x, y and t it has
-/// the dimension, since it changes like it with the units that it is made of, or is zero; with them, a unit stands in
-/// it somewhere ("if(t < 6*h, 0, 5e-9)").
+/// What a constant expression without a unit behind it lacks, for a quantity of this dimension. none: it has the
+/// dimension, since it changes like it with the units that it is made of, or it is zero. An expression of x, y or t
+/// lacks nothing: x, y and t are in SI units, and so is what is made of them.
 enum class LackOfUnit { none, any, of_a_term };
 /// Throws InputError when malformed.
 LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, const Origin& where);
