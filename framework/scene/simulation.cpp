@@ -160,7 +160,8 @@ std::vector<RunRecord::Parameter> parameters_of(const Scene& scene) {
 
 std::optional<Checkpoint> read_if_given(const Scene& scene, const RunOptions& options, RunOutput& output) {
   if (!options.checkpoint) return std::nullopt;
-  output.lock();
+  // A file that is missing is told by its reader, not as a folder that cannot be locked.
+  if (std::error_code error; std::filesystem::exists(*options.checkpoint, error)) output.lock();
   Checkpoint checkpoint = read_checkpoint(*options.checkpoint);
   require_scene(checkpoint, *options.checkpoint, scene.name, scene_fingerprint(scene),
                 parameter_difference(options.checkpoint->parent_path() / "run.json", parameters_of(scene)));

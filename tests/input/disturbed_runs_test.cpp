@@ -85,14 +85,14 @@ TEST(FullDisk, EndsARunWhicheverWriterMeetsItFirst) {
 
 TEST(RunFolder, BelongsToOneRunAtATime) {
   const Folder folder;
-  Program holder(tutorial({"-q", "-o", "v", "--set", "time.step=5 min"}), folder.path());
+  Program holder(tutorial({"-q", "-o", "v", "--set", "time.step=10 s"}), folder.path());
   wait_until(holder, [&] { return rows(folder / "v/history.csv") > 2; });
   const std::string held = text_of(folder / "v/.lock");
   EXPECT_THAT(held, HasSubstr("process "));
   const std::string table = text_of(folder / "v/history.csv");
   std::ofstream(folder / "v/checkpoint.h5") << "not yet";
   const Outcome other =
-      sprekk_command(tutorial({"-q", "-o", "v", "--restart", "--set", "time.step=5 min"}), folder.path());
+      sprekk_command(tutorial({"-q", "-o", "v", "--restart", "--set", "time.step=10 s"}), folder.path());
   EXPECT_EQ(other.code, 2);
   EXPECT_THAT(other.err, AllOf(HasSubstr("another run is at work in v (" + held.substr(0, held.find('\n')) + ")"),
                                HasSubstr("choose another folder with -o")));

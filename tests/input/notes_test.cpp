@@ -60,6 +60,12 @@ struct Input {
   const char* note;  ///< "" for none
 };
 
+/// The name that ctest shows.
+void PrintTo(const Input& input, std::ostream* text) {
+  *text << input.scene;
+  for (const std::string& setting : input.settings) *text << ", " << setting;
+}
+
 class InputNotes : public ::testing::TestWithParam<Input> {};
 
 TEST_P(InputNotes, AreToldByCheck) {

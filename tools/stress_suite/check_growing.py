@@ -56,7 +56,7 @@ def pressures(p, instants):
 
 def negatives(instants, history):
     found = [f"negative: {name} of history.csv" for name, column in history.items()
-             if not isinstance(column, list) and ("K_eq[" in name or "length[" in name) and np.nanmin(column) < 0]
+             if not isinstance(column, list) and ("K_eq[" in name or "length[" in name) and (column < 0).any()]
     for instant in instants:
         aperture = instant.on_fractures("conduit.aperture", "m")
         if aperture.min() < 0:

@@ -43,6 +43,7 @@ def layer(rng):
     """Across the box, at any height and inclination."""
     below, slope, thickness = rng.uniform(0.2, 1.4), rng.uniform(-0.25, 0.25), rng.uniform(0.15, 0.5)
     low = [below + 0.25, below + 0.25 + slope]
+    thickness = min(thickness, SIDE - 0.02 - max(low))
     return [(0.0, low[0]), (SIDE, low[1]), (SIDE, low[1] + thickness), (0.0, low[0] + thickness)]
 
 

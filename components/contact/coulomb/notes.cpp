@@ -13,14 +13,14 @@ constexpr double small_jump = 1e-2;  // of the length of the fracture
 
 void Coulomb::note_step(Notes& notes, const StepTime&) const {
   for (const Fracture& fracture : mesh_.fractures) {
-    double length = 0, jump = 0, in_contact = 0;
-    bool all_open = true;
+    double length = 0, jump = 0;
+    bool all_open = true, was_in_contact = false;
     for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
       const double cell = mesh_.fracture_cells[i].length;
       length += cell;
       jump = std::max(jump, jump_.now().segment<2>(2 * i).norm());
       all_open = all_open && state(i) == State::open;
-      if (traction_.accepted()[2 * i] < 0) in_contact += cell;
+      if (traction_.accepted()[2 * i] < 0 && !mesh_.fracture_cells[i].grown) was_in_contact = true;
     }
     if (jump > small_jump * length)
       notes.add(
@@ -30,8 +30,8 @@ void Coulomb::note_step(Notes& notes, const StepTime&) const {
                       "stiffness and what holds the rock",
                       fracture.name, jump, jump / length, length),
           jump);
-    // One that has been open all the time is meant to be.
-    if (all_open && in_contact > 0.5 * length)
+    // One that has been open all the time is meant to be; cells that have grown start closed.
+    if (all_open && was_in_contact)
       notes.add(name() + " all open: " + fracture.name,
                 fmt::format("all {} cells of fracture '{}' have opened (the fluid carries all that pressed its walls "
                             "together, and friction holds nothing any more) look at rates and pressures, if it was "

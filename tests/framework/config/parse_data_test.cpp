@@ -134,6 +134,8 @@ struct Bare {
   bool is_refused;
 };
 
+void PrintTo(const Bare& bare, std::ostream* text) { *text << bare.text << " in " << bare.unit; }
+
 class BareExpression : public testing::TestWithParam<Bare> {};
 
 TEST_P(BareExpression, needs_its_unit_as_a_number_does) {
