@@ -177,21 +177,22 @@ double slip_ratio(const Model& now, const Model& before, int k) {
   return now.fields().at("contact.jump").now()[at] / before.fields().at("contact.jump").now()[at];
 }
 
-/// By how many cells the end of slip has moved: slip goes with the root of the distance from it.
-double moved_end(double ratio_of_last) { return 0.5 * (ratio_of_last * ratio_of_last - 1); }
+/// By how many cells the end of slip has moved, from the ratio of slips k cells from it: the slip of a crack goes with
+/// the root of the distance from either end.
+double moved_end(double slip_ratio, int k = 0) { return (k + 0.5) * (slip_ratio * slip_ratio - 1); }
 
-// At a tip the end of slip is sharp; in front of a cell that sticks it is 0.30 to 0.35 cells further on, with a crack
-// whose outer halves stick on a regular mesh (docs/numerics/contact.md).
+// At a tip the end of slip is sharp; in front of a cell that sticks it is 0.30 cells further on, with a crack whose
+// outer halves stick on a regular mesh (docs/numerics/contact.md). That takes ten cells: of five, the second is as far
+// from the middle as from the tip, and the displacements that tell the field of the tip are those of the whole crack.
 TEST(WingCracks, SlipEndsAThirdOfACellFurtherOnWhereTheGrownCellIsClosed) {
-  SceneRun run = wings();
+  SceneRun run = wings("mesh.fracture_size", "10 mm");
   run.run_until(0.06 * hour);
   const Mesh& mesh = run.model().mesh();
   const int cells = mesh.fractures[0].cell_count;
   MeshChangeResult changed;
-  ASSERT_NO_FATAL_FAILURE(extend(run.model(), 0.02 * mesh.fracture_cells[cells - 1].tangent, run.time(), changed));
-  EXPECT_NEAR(moved_end(slip_ratio(*changed.model, run.model(), 0)), 0.3, 0.1);
-  for (int k = 1; k < cells; ++k)
-    EXPECT_NEAR(slip_ratio(*changed.model, run.model(), k), std::sqrt((k + 0.5 + 0.3) / (k + 0.5)), 0.03) << k;
+  ASSERT_NO_FATAL_FAILURE(extend(run.model(), 0.01 * mesh.fracture_cells[cells - 1].tangent, run.time(), changed));
+  for (int k = 0; k < cells; ++k)
+    EXPECT_NEAR(moved_end(slip_ratio(*changed.model, run.model(), k), k), 0.3, 0.08) << k;
   EXPECT_NEAR(changed.model->fields().at("contact.jump").now().segment<2>(2 * cells).norm(), 0, 1e-15);
 }
 
@@ -262,16 +263,18 @@ TEST(WingCracks, APathIsKeptUntilTheMeshHasTakenItOver) {
   const double time = controller.time();
   const MeshChangeResult changed = change_mesh(model, 0, extensions, {time - 3600, 3600, time});
   Model restarted(model.scene(), model.mesh());
+  const auto nothing_grown = restarted.extra_state();
   restarted.restore_extra_state(model.extra_state());
   for (const PathExtension& extension : extensions) {
     const std::string tip = extension.at_end ? "main_last" : "main_first";
     const Vector kept = model.extra_state().at("tips." + tip), taken = changed.model->extra_state().at("tips." + tip);
-    ASSERT_GT(kept.size(), 9);
+    const Eigen::Index without_path = nothing_grown.at("tips." + tip).size();
+    ASSERT_GE(kept.size(), without_path + 2);
     EXPECT_EQ(Point(kept.tail<2>()), extension.points.back());
     EXPECT_GT(length(model, tip), 0.0095);
     EXPECT_EQ(length(restarted, tip), length(model, tip));
     // Then it is the mesh's, with the points that were handed over.
-    EXPECT_EQ(taken.size(), 9);
+    EXPECT_EQ(taken.size(), without_path);
     const Fracture& fracture = model.mesh().fractures[0];
     const FractureCell& end =
         model.mesh().fracture_cells[fracture.first_cell + (extension.at_end ? fracture.cell_count - 1 : 0)];

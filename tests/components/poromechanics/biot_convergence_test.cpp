@@ -156,9 +156,11 @@ TEST(BiotConvergence, OrdersAndErrorsOnUnstructuredTriangles) {
     // times the last reference, scaled to their size, 0.90 in the mean; the mesh here is the worst of them.
     EXPECT_LT(e.force, 1.01 * porepy[i].force);
     const Errors near = mean_near(sizes[i], porepy[i].cells);
-    EXPECT_LT(near.pressure, 0.65 * porepy[i].pressure);
-    EXPECT_LT(near.displacement, 0.8 * porepy[i].displacement);
-    EXPECT_LT(near.flux, porepy[i].flux);
+    // Third points on sides keep flow from gaining energy, and halve the error of fluxes (0.8 to 1 times PorePy's with
+    // the middle of sides). For that pressures are a tenth worse on the coarsest mesh, a twentieth on the finest.
+    EXPECT_LT(near.pressure, (i == 0 ? 0.66 : 0.645) * porepy[i].pressure);
+    EXPECT_LT(near.displacement, 0.75 * porepy[i].displacement);
+    EXPECT_LT(near.flux, 0.56 * porepy[i].flux);
     EXPECT_LT(near.force, porepy[i].force);
     if (i > 0) expect_orders(errors[i - 1], e);
   }
