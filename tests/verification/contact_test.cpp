@@ -146,10 +146,10 @@ TEST(Cracks, FrictionalCrackSlipsLikePhans) {
     ASSERT_TRUE(run.step());
     const CrackErrors errors = crack_errors(run, 1, peak);
     if (previous.all > 0) {
-      EXPECT_LT(previous.all, 0.002);
-      EXPECT_LT(errors.all, 0.001);
-      EXPECT_LT(errors.inner, 0.0005);
-      EXPECT_GT(std::log2(previous.all / errors.all), 1.5) << previous.all << " " << errors.all;
+      EXPECT_LT(previous.all, 0.0008);
+      EXPECT_LT(errors.all, 0.00025);
+      EXPECT_LT(errors.inner, 0.00025);
+      EXPECT_GT(std::log2(previous.all / errors.all), 1.65) << previous.all << " " << errors.all;
       EXPECT_GT(std::log2(previous.inner / errors.inner), 1.65) << previous.inner << " " << errors.inner;
     }
     previous = errors;

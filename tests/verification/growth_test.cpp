@@ -191,8 +191,7 @@ TEST(WingCracks, SlipEndsAThirdOfACellFurtherOnWhereTheGrownCellIsClosed) {
   const int cells = mesh.fractures[0].cell_count;
   MeshChangeResult changed;
   ASSERT_NO_FATAL_FAILURE(extend(run.model(), 0.01 * mesh.fracture_cells[cells - 1].tangent, run.time(), changed));
-  for (int k = 0; k < cells; ++k)
-    EXPECT_NEAR(moved_end(slip_ratio(*changed.model, run.model(), k), k), 0.3, 0.08) << k;
+  for (int k = 0; k < cells; ++k) EXPECT_NEAR(moved_end(slip_ratio(*changed.model, run.model(), k), k), 0.3, 0.08) << k;
   EXPECT_NEAR(changed.model->fields().at("contact.jump").now().segment<2>(2 * cells).norm(), 0, 1e-15);
 }
 
