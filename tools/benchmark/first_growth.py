@@ -31,7 +31,7 @@ def pressures(count):
 
 
 def run(program, size, pressure):
-    """One run: for both tips (name, length in m, K_eq/K_IC, |K_II|/K_I), the notes, and what went wrong."""
+    """One run: for both tips (name, length in m, K_eq/K_IC, |K_II|/K_I), notes by topic, and what went wrong."""
     with tempfile.TemporaryDirectory() as folder:
         settings = {"time.start": "7 h", "time.step": f"{pressure - 7!r} h", "time.end": f"{pressure!r} h",
                     "mesh.fracture_size": f"{size} mm", "schedule": SCHEDULE, "output.fields": "false"}
@@ -40,14 +40,15 @@ def run(program, size, pressure):
             command += ["--set", f"{key}={value}"]
         done = subprocess.run(command, capture_output=True, text=True, timeout=120)
         if done.returncode != 0:
-            return [], [], done.stderr.strip().splitlines()[-1:] or ["it failed"]
+            return [], {}, done.stderr.strip().splitlines()[-1:] or ["it failed"]
         last = {name.partition("[")[0]: values[-1] for name, values in read_table(folder + "/run/history.csv").items()}
+        # Of these tips themselves: others may name them too, as one of a `time.stop` that was not reached does.
         notes = json.loads(Path(folder + "/run/run.json").read_text()).get("notes", [])
         tips = []
         for tip in ("main_first", "main_last"):
             k1, k2, k_eq = (last[f"tips.{tip}.{name}"] for name in ("K_I", "K_II", "K_eq"))
             tips.append((tip, last[f"tips.{tip}.length"], k_eq / TOUGHNESS, abs(k2) / k1 if k1 > 0 else float("inf")))
-        return tips, [json.dumps(note) for note in notes], []
+        return tips, {note["topic"]: note["text"] for note in notes}, []
 
 
 def main():
@@ -72,8 +73,9 @@ def main():
                     waits += length == 0
                     if abs(k_eq - 1) <= 0.02 and (shear < 0.03 or length == 0):
                         at_toughness += 1
-                    elif any(tip in note for note in notes):
+                    elif texts := [text for topic, text in notes.items() if topic.startswith(f"tips.{tip} ")]:
                         said += 1
+                        print(f"{size:g} mm, {pressure:.5f} MPa: {' | '.join(texts)}")
                     else:
                         failures += 1
                         print(f"{size:g} mm, {pressure:.5f} MPa: {tip} is {1e3 * length:.3f} mm long with K_eq/K_IC = "

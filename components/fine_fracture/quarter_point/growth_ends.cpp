@@ -9,7 +9,7 @@
 
 namespace sprekk::fine_fracture {
 
-void Tips::note_end(const Tip& tip, const TipOutcome& outcome) {
+void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) {
   const GrowthOptions& growth = options_.growth;
   const double k_eq = equivalent_sif(outcome.end) / *options_.toughness, excess = k_eq - 1;
   const double shear = outcome.end.k2 / outcome.end.k1;
@@ -17,16 +17,22 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome) {
   // Twice and three times what is aimed at: the length and the direction of the last increment, and a rest that is
   // shorter than the shortest one.
   const double most_excess = 2 * growth.arrest_tolerance, most_shear = 3 * growth.direction_tolerance;
-  const bool is_off = growth.seeks_arrest() && (excess > most_excess || (has_grown && excess < -most_excess));
+  // One that has met another fracture ends there, whatever its load.
+  const bool is_off =
+      growth.seeks_arrest() && !has_joined && (excess > most_excess || (has_grown && excess < -most_excess));
+  // For good, whatever increments are like.
+  const bool is_blocked = outcome.blocked && !has_joined && excess > 0;
+  // Above its toughness by no more than a rest may be, yet not at it.
+  const bool waits = growth.seeks_arrest() && !has_grown && excess > growth.arrest_tolerance;
   // A tip that hardly is loaded has no direction.
   const bool is_sheared = growth.is_implicit() && has_grown && k_eq > growth.direction_tolerance &&
                           !(std::abs(outcome.end.k2) <= most_shear * outcome.end.k1);
-  if (!is_off && !is_sheared) return;
+  if (!is_off && !is_sheared && !is_blocked && !waits) return;
   std::string why = outcome.reason;
   for (const std::string& note : outcome.notes) why += "; " + note;
   const std::string name = this->name() + "." + tip.name;
-  const std::string state = fmt::format("at K_eq/K_IC = {:.3g} and K_II/K_I = {:.3g} ({})", k_eq, shear, why);
-  if (is_off && outcome.blocked)
+  const std::string state = fmt::format("at K_eq/K_IC = {:.4g} and K_II/K_I = {:.3g} ({})", k_eq, shear, why);
+  if (is_blocked)
     notes_.push_back({name + " is stopped above its toughness",
                       fmt::format("{} stops {} it grows no more", name, state), std::abs(excess)});
   else if (is_off && !outcome.arrested)
@@ -39,6 +45,12 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome) {
                       fmt::format("{} has come to rest {} try a smaller 'growth.increment', or a smaller "
                                   "'growth.smallest'",
                                   name, state),
+                      std::abs(excess)});
+  else if (waits)
+    notes_.push_back({name + " waits above its toughness",
+                      fmt::format("{} waits {} it grows by {:.3g} mm or more, when the load has risen; a smaller "
+                                  "'growth.smallest' follows it closer",
+                                  name, state, 1e3 * growth.smallest_length()),
                       std::abs(excess)});
   if (is_sheared)
     notes_.push_back({name + " has grown into shear",

@@ -272,7 +272,7 @@ Growing::Growth Tips::grow(const StepTime&) {
   Growth result;
   std::vector<PathExtension>& extensions = result.extensions;
   std::vector<std::pair<int, int>> joined;
-  std::vector<std::size_t> blocked;
+  std::vector<std::size_t> blocked, ended, met;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
     tip.now.has_started = tip.now.has_started || tip.now.load >= 1;
@@ -284,7 +284,7 @@ Growing::Growth Tips::grow(const StepTime&) {
       tip.now.path = outcome.path;
       set_factors(tip, outcome.end);
     }
-    if (!was_stopped) note_end(tip, outcome);
+    if (!was_stopped) ended.push_back(i);
     tip.now.experience = outcome.experience;
     if (outcome.blocked && options_.meeting == "join") blocked.push_back(i);
     if (outcome.increments == 0) continue;
@@ -307,7 +307,9 @@ Growing::Growth Tips::grow(const StepTime&) {
     joined.emplace_back(tip.end.fracture, joining->other);
     extensions = std::move(others);
     extensions.push_back(joining->extension);
+    met.push_back(i);
   }
+  for (const std::size_t i : ended) note_end(tips_[i], outcomes[i], std::ranges::count(met, i) > 0);
   return result;
 }
 

@@ -108,7 +108,7 @@ class Tips : public Component, public FractureTips, public Growing {
   double estimated_load(const Tip& tip) const;
   double load(const Sifs& sifs) const;
   void set_factors(Tip& tip, const Sifs& sifs) const;
-  void note_end(const Tip& tip, const TipOutcome& outcome);
+  void note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined);
   /// Tips whose path the mesh cannot take stay where they were at the start of the step, for good.
   void stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes);
   /// How far a tip may be from what the coarse level knows of, m.
