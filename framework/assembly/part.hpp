@@ -88,6 +88,12 @@ class Part {
   virtual std::uint64_t discrete_state() const { return 0; }
   /// How Newton's method looks for a solution from now on.
   virtual void look_for_solution(Look) {}
+  /// Holds the coefficients that make terms nonlinear within a piece at their values now, c_0, until they are released.
+  virtual void hold_coefficients() {}
+  /// Held coefficients are c_0^(1 − share) c^share from now on, c for a share of 1.
+  virtual void release_coefficients(double /*share*/) {}
+  /// Puts the fields to where conditions that hold on one side only do not hold, so that what they hold is free.
+  virtual void loosen() {}
   /// The names of the stabilizations that it offers to split schemes.
   virtual std::vector<std::string> stabilizations() const { return {}; }
   /// Adds the diagonals of a named stabilization to the fields that it knows how to stabilize.

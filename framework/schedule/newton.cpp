@@ -66,6 +66,10 @@ std::vector<Vector> Newton::values() const {
   return values;
 }
 
+void Newton::set(const std::vector<Vector>& values) {
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) unknowns_[u]->set(values[u]);
+}
+
 void Newton::move(const std::vector<Vector>& from, const Vector& update, double length) {
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const auto part = update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size());
@@ -178,13 +182,20 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
   const std::vector<Vector> start = values();
   state_has_changed_ = false;
-  const auto restart = [&] {
-    for (std::size_t u = 0; u < unknowns_.size(); ++u) unknowns_[u]->set(start[u]);
-  };
   StepStatus status = attempt(step, options_.undamped);
-  if (status.converged || status.iterations <= 1) return status;
+  if (status.converged) return status;
+  if (was_singular_) {
+    set(start);
+    for (Part* part : parts_) part->loosen();
+    const int before = status.iterations;
+    StepStatus loosened = attempt(step, options_.undamped);
+    loosened.iterations += before;
+    if (loosened.converged) return loosened;
+    status.iterations = loosened.iterations;
+  }
+  if (status.iterations <= 1) return status;
   if (options_.undamped > 0) {
-    restart();
+    set(start);
     const int before = status.iterations;
     status = attempt(step, 0);
     status.iterations += before;
@@ -194,13 +205,21 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
   if (has_failed && step.dt > much_shorter * last_failed_path_.dt) return status;
   for (const Look look : {Look::in_linear_pieces, Look::in_pieces}) {
-    restart();
+    set(start);
     StepStatus path = follow_path(step, look);
     status.iterations += path.iterations;
     // And now with the coefficients that belong to it, and with balances that hold.
     if (path.converged) {
+      const std::vector<Vector> end = values();
       path = attempt(step, options_.undamped);
       status.iterations += path.iterations;
+      if (!path.converged && look == Look::in_linear_pieces) {
+        const std::string reason = path.reason;
+        set(end);
+        path = release_coefficients(step, start);
+        path.reason = reason + "; then " + path.reason;
+        status.iterations += path.iterations;
+      }
     }
     if (path.converged) return {true, "", status.iterations};
     status.reason += "; then " + path.reason;
@@ -210,6 +229,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
 }
 
 StepStatus Newton::attempt(const StepTime& step, int undamped) {
+  was_singular_ = false;
   std::multiset<std::uint64_t> seen_states;
   std::uint64_t last_state = 0;
   bool factored = false, cycling = false, seeks_balance = false;
@@ -251,7 +271,10 @@ StepStatus Newton::attempt(const StepTime& step, int undamped) {
               iteration};
 
     const LinearReport factoring = linear_->factor(system_.matrix(*assembly_));
-    if (!factoring.solved) return {false, "singular system: " + factoring.reason, iteration};
+    if (!factoring.solved) {
+      was_singular_ = true;
+      return {false, "singular system: " + factoring.reason, iteration};
+    }
     factored = true;
     Vector update;
     const LinearReport report = linear_->solve(right_hand_side(check), update);

@@ -71,6 +71,11 @@ class Newton {
   StepStatus attempt(const StepTime& step, int undamped);
   /// The third attempt (path_search.cpp).
   StepStatus follow_path(const StepTime& step, Look look);
+  /// From the end of a path with held coefficients, from one where they are released a little to the next.
+  StepStatus release_coefficients(const StepTime& step, const std::vector<Vector>& start);
+  /// Releases what Part::hold_coefficients holds as far as `share`, and attempts.
+  StepStatus attempt_with_share(const StepTime& step, double share);
+  void set(const std::vector<Vector>& values);
   void step_off_kinks(const LinearSystem& system, const Vector& update);
   /// Whether the next update is as small as it has to be, too.
   bool is_solution(const ResidualCheck& check);
@@ -88,6 +93,7 @@ class Newton {
   int assemblies_ = 0;
   std::vector<ResidualCheck> recent_;  ///< the last states
   bool state_has_changed_ = false;     ///< the discrete one, in this solve
+  bool was_singular_ = false;          ///< the system that the last attempt ended with
   StepTime last_failed_path_;          ///< its step; a path is not followed again for one that is hardly shorter
   const Stabilization* stabilization_ = nullptr;
   std::map<const Field*, Vector> start_;

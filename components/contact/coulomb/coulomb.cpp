@@ -154,6 +154,20 @@ int Coulomb::piece(int i) const {
   return 2 * piece + (has_kink && t.slip_sign > 0);
 }
 
+/// Open by next to nothing: within a state the conditions are linear, so by how much makes no difference.
+void Coulomb::loosen() {
+  constexpr double opening = 1e-9;  // of the length of a cell
+  Vector traction = traction_.now(), jump = jump_.now();
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    if (is_bonded(i)) continue;
+    traction.segment<2>(2 * i).setZero();
+    const double dilated = std::abs(jump[2 * i + 1]) * dilation_[i];
+    jump[2 * i] = std::max(jump[2 * i], dilated + opening * mesh_.fracture_cells[i].length);
+  }
+  traction_.set(std::move(traction));
+  jump_.set(std::move(jump));
+}
+
 std::uint64_t Coulomb::discrete_state() const {
   std::uint64_t hash = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) hash = hash * 1000003 + piece(i);

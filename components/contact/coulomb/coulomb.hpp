@@ -51,6 +51,7 @@ class Coulomb : public Component, public FractureContact {
   void assemble(Assembly& assembly, const StepTime& step) const override;
   std::uint64_t discrete_state() const override;
   void look_for_solution(Look look) override { follows_pieces_ = look != Look::freely; }
+  void loosen() override;
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;

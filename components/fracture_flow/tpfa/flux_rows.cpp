@@ -21,21 +21,23 @@ Conductance FractureFlow::conductance(const Link& link) const {
 }
 
 Conductance FractureFlow::conductance_by_opening(const Link& link, double half, double other_half) const {
-  const Vector& aperture = is_held() ? held_aperture_ : aperture_.now();
-  const auto at = [&](int cell, double half_length) {
-    return CellAperture{half_length, aperture[cell], aperture[cell] - initial_aperture_[cell]};
+  const auto halves_of = [&](const Vector& aperture) {
+    const auto at = [&](int cell, double half_length) {
+      return CellAperture{half_length, aperture[cell], aperture[cell] - initial_aperture_[cell]};
+    };
+    return half_cell_apertures(at(link.first, half), at(link.second, other_half));
   };
-  const std::array<HalfCellAperture, 2> halves = half_cell_apertures(at(link.first, half), at(link.second, other_half));
+  const std::array<HalfCellAperture, 2> halves = halves_of(aperture_.now());
+  const std::array<HalfCellAperture, 2> held = is_held() ? halves_of(held_aperture_) : halves;
   const std::array<double, 2> lengths = {half, other_half};
   const std::array<int, 2> cells = {link.first, link.second};
   double resistance = 0;
   std::array<double, 2> by_aperture = {0, 0};
   for (int i = 0; i < 2; ++i) {
-    const double a = std::max(halves[i].value, options_.aperture_floor);
+    const auto [a, by_present] = cubic_law_aperture(halves[i].value, held[i].value);
     const double own = 12 * viscosity_[cells[i]] * lengths[i] / (a * a * a);
     resistance += own;
-    if (is_held() || halves[i].value < options_.aperture_floor) continue;
-    for (int k = 0; k < 2; ++k) by_aperture[k] -= 3 * own / a * halves[i].by_aperture[k];
+    for (int k = 0; k < 2; ++k) by_aperture[k] -= 3 * own / a * by_present * halves[i].by_aperture[k];
   }
   const double value = 1 / resistance;
   return {value, {{link.first, -value * value * by_aperture[0]}, {link.second, -value * value * by_aperture[1]}}};

@@ -129,16 +129,25 @@ void FractureFlow::evaluate_data(const StepTime& step) {
   prescribe(step);
 }
 
-double FractureFlow::hydraulic_aperture(int cell) const {
-  return std::max(is_held() ? held_aperture_[cell] : aperture_.now()[cell], options_.aperture_floor);
+FractureFlow::CubicLawAperture FractureFlow::cubic_law_aperture(double present, double held) const {
+  const double floor = options_.aperture_floor, now = std::max(present, floor);
+  if (!is_held()) return {now, present >= floor ? 1.0 : 0.0};
+  const double value = std::pow(std::max(held, floor), 1 - released_share_) * std::pow(now, released_share_);
+  return {value, present >= floor ? released_share_ * value / now : 0.0};
 }
 
-bool FractureFlow::conducts_by_aperture(int cell) const {
-  return !is_held() && aperture_.now()[cell] >= options_.aperture_floor;
+FractureFlow::CubicLawAperture FractureFlow::cubic_law_aperture(int cell) const {
+  return cubic_law_aperture(aperture_.now()[cell], is_held() ? held_aperture_[cell] : 0);
 }
 
 void FractureFlow::look_for_solution(Look look) {
   held_aperture_ = look == Look::in_linear_pieces ? aperture_.now() : Vector();
+  released_share_ = 0;
+}
+
+void FractureFlow::release_coefficients(double share) {
+  released_share_ = share;
+  if (share == 1) held_aperture_ = Vector();
 }
 
 FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
@@ -154,8 +163,9 @@ FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) c
 }
 
 FractureFlow::Transmissivity FractureFlow::cubic_law(int cell) const {
-  const double viscosity = viscosity_[cell], a = hydraulic_aperture(cell);
-  return {a * a * a / (12 * viscosity), conducts_by_aperture(cell) ? a * a / (4 * viscosity) : 0};
+  const double viscosity = viscosity_[cell];
+  const auto [a, by_present] = cubic_law_aperture(cell);
+  return {a * a * a / (12 * viscosity), a * a / (4 * viscosity) * by_present};
 }
 
 FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
@@ -166,10 +176,10 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
       kappa.value[i] = given_normal_permeability_[i];
       continue;
     }
-    const double a = hydraulic_aperture(i);
+    const auto [a, by_present] = cubic_law_aperture(i);
     const Transmissivity t = transmissivity(i);
     kappa.value[i] = 2 * t.value / (a * a);
-    if (conducts_by_aperture(i)) kappa.by_aperture[i] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a);
+    kappa.by_aperture[i] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a) * by_present;
   }
   return kappa;
 }

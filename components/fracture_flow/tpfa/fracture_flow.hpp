@@ -33,6 +33,8 @@ class FractureFlow : public Component, public FractureFluid {
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void look_for_solution(Look look) override;
+  void hold_coefficients() override { look_for_solution(Look::in_linear_pieces); }
+  void release_coefficients(double share) override;
   void constrain(Assembly& assembly) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
@@ -56,10 +58,14 @@ class FractureFlow : public Component, public FractureFluid {
   /// Of the half at one of its points.
   Transmissivity transmissivity(int cell, int point) const;
   Transmissivity cubic_law(int cell) const;
-  double hydraulic_aperture(int cell) const;  ///< the aperture, not below the floor
-  /// Whether the cubic law changes with the aperture.
-  bool conducts_by_aperture(int cell) const;
   bool is_held() const { return held_aperture_.size() > 0; }
+  /// An aperture of the cubic law, and its derivative by the one that it is now.
+  struct CubicLawAperture {
+    double value, by_present;
+  };
+  /// Of an aperture and the one that is held, if any: both at least the floor.
+  CubicLawAperture cubic_law_aperture(double present, double held) const;
+  CubicLawAperture cubic_law_aperture(int cell) const;  ///< not below the floor
   /// A point through which fluid can flow.
   struct Link {
     int point;
@@ -95,7 +101,8 @@ class FractureFlow : public Component, public FractureFluid {
   Field& aperture_;
   Field& books_;  ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_aperture_;
-  Vector held_aperture_;  ///< for the cubic law, or empty for the present one
+  Vector held_aperture_;       ///< for the cubic law, or empty for the present one
+  double released_share_ = 0;  ///< of the cubic law's change from the held apertures to the present ones
   Property viscosity_, compressibility_;
   MeansAlong given_transmissivity_, given_normal_permeability_;  ///< m^3, m/(Pa s), one a cell
   std::array<MeansAlong, 2> transmissivity_of_half_;             ///< by FractureCell::points

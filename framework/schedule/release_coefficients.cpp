@@ -1,0 +1,47 @@
+// The way from coefficients that are held to their own, on which Newton's method goes on from the end of a path.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/schedule/newton.hpp"
+
+namespace sprekk {
+
+StepStatus Newton::attempt_with_share(const StepTime& step, double share) {
+  for (Part* part : parts_) part->release_coefficients(share);
+  return attempt(step, options_.undamped);
+}
+
+/// Coefficients c_0^(1 - share) c^share, for shares that grow from 0, where the path has ended, to 1. Each solution is
+/// the start for the next; a share that is not reached is tried with half the increment, and the next with twice that.
+StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<Vector>& start) {
+  constexpr double first = 0.25, smallest = 1.0 / 64;
+  std::vector<Vector> reached = values();
+  set(start);
+  for (Part* part : parts_) part->hold_coefficients();
+  set(reached);
+  int iterations = 0;
+  double share = 0, increment = first;
+  std::string reason;
+  while (share < 1 && increment >= smallest) {
+    const double next = std::min(1.0, share + increment);
+    const StepStatus status = attempt_with_share(step, next);
+    iterations += status.iterations;
+    if (status.converged) {
+      share = next;
+      increment *= 2;
+      if (share < 1) reached = values();
+    } else {
+      reason = status.reason;
+      increment = 0.5 * (next - share);
+      set(reached);
+    }
+  }
+  for (Part* part : parts_) part->release_coefficients(1);
+  if (share == 1) return {true, "", iterations};
+  return {false,
+          fmt::format("no way from the coefficients of the start to their own beyond a share of {:.2g}: {}", share, reason),
+          iterations};
+}
+
+}  // namespace sprekk
