@@ -201,7 +201,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
     status.iterations += before;
   }
   if (status.converged || !state_has_changed_ || options_.pieces == 0) return status;
-  constexpr double much_shorter = 1.0 / 8;
+  constexpr double much_shorter = 1.0 / 2;
   const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
   if (has_failed && step.dt > much_shorter * last_failed_path_.dt) return status;
   for (const Look look : {Look::in_linear_pieces, Look::in_pieces}) {
