@@ -1,7 +1,6 @@
 // Linear operators of Darcy flow on the matrix, whichever discretization made them.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "framework/mesh/mesh.hpp"
@@ -25,7 +24,9 @@ struct FluxOperators {
   SparseMatrix trace_cell;      ///< faces × cells; rows of inner faces are empty
   SparseMatrix trace_boundary;  ///< faces × faces; rows of inner faces are empty
   SparseMatrix trace_change;    ///< the same
-  int blended_regions = 0;      ///< nodes around which fluxes are not exact for linear pressures
+  /// faces × faces, diagonal: every node around which fluxes are not exact for linear pressures, in equal parts on its
+  /// faces; the sum is the number of these nodes
+  SparseMatrix blended_nodes;
 
   /// To move matrices would copy them.
   void swap(FluxOperators& other) {
@@ -35,7 +36,7 @@ struct FluxOperators {
     trace_cell.swap(other.trace_cell);
     trace_boundary.swap(other.trace_boundary);
     trace_change.swap(other.trace_change);
-    std::swap(blended_regions, other.blended_regions);
+    blended_nodes.swap(other.blended_nodes);
   }
 };
 

@@ -22,6 +22,7 @@ FluxOperators no_flow(const Mesh& mesh, const std::vector<FlowCondition>& condit
   operators.flux_boundary.resize(mesh.face_count(), mesh.face_count());
   operators.flux_change.resize(mesh.face_count(), mesh.face_count());
   operators.trace_change.resize(mesh.face_count(), mesh.face_count());
+  operators.blended_nodes.resize(mesh.face_count(), mesh.face_count());
   std::vector<Triplet> prescribed;
   for (int f = 0; f < mesh.face_count(); ++f)
     if (conditions[f] == FlowCondition::flux) prescribed.emplace_back(f, f, 1.0);

@@ -47,7 +47,7 @@ Rediscretized rediscretize(Discretize discretize, const FlowInputs& before, cons
   result.trace_cell = kept.merge(operators.trace_cell, result.trace_cell, face, cell);
   result.trace_boundary = kept.merge(operators.trace_boundary, result.trace_boundary, face, face);
   result.trace_change = kept.merge(operators.trace_change, result.trace_change, face, face);
-  result.blended_regions += operators.blended_regions;
+  result.blended_nodes = kept.merge(operators.blended_nodes, result.blended_nodes, face, face);
   return {std::move(result), kept.nodes_computed(), kept.cells_computed()};
 }
 

@@ -42,6 +42,7 @@ void expect_same(const FluxOperators& a, const FluxOperators& b) {
   EXPECT_TRUE(same_bits(a.trace_change, b.trace_change));
   EXPECT_TRUE(same_bits(a.trace_cell, b.trace_cell));
   EXPECT_TRUE(same_bits(a.trace_boundary, b.trace_boundary));
+  EXPECT_TRUE(same_bits(a.blended_nodes, b.blended_nodes));
 }
 
 void expect_same(const StressOperators& a, const StressOperators& b) {
@@ -169,6 +170,41 @@ TEST(Rediscretize, GivesTheSameBitsThroughQuadrilaterals) {
     Rock after(std::move(grown.mesh));
     EXPECT_LT(expect_the_same_bits(rock, after, grown.change)[0], after.mesh.node_count());
     rock = std::move(after);
+  }
+}
+
+// Permeability that changes with time is discretized anew around the cells that it changes in, step by step.
+TEST(Rediscretize, CountsNodesWithBlendedFluxesOnce) {
+  const Mesh mesh = generate_mesh(box(1, 1), rectangles(8, 8, 0.4));
+  const std::vector<FlowCondition> conditions = [&] {
+    std::vector<FlowCondition> made;
+    for (const auto& cells : mesh.face_cells)
+      made.push_back(cells[1] == none ? FlowCondition::flux : FlowCondition::none);
+    return made;
+  }();
+  const double angle = 0.5, across = 1e-4;
+  const Tensor turn = (Tensor() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle)).finished();
+  std::vector<Tensor> mobility(mesh.cell_count(), turn * Point(1, across).asDiagonal() * turn.transpose());
+  const auto whole = [&] { return matrix_flow::discretize_mpfa(mesh, mobility, conditions, {}); };
+
+  FluxOperators operators = whole();
+  int one_by_one = 0;
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    std::vector<char> only(mesh.node_count(), 0);
+    only[node] = 1;
+    one_by_one += matrix_flow::discretize_mpfa(mesh, mobility, conditions, only).blended_nodes.nonZeros() > 0;
+  }
+  EXPECT_GT(one_by_one, 0);
+  EXPECT_NEAR(operators.blended_nodes.sum(), one_by_one, 1e-9);
+
+  for (int step = 0; step < 20; ++step) {
+    const std::vector<Tensor> before = mobility;
+    mobility[mesh.cell_count() / 2 + step % 3] *= 1.5;
+    auto made = rediscretize(matrix_flow::discretize_mpfa, {mesh, before, conditions}, operators,
+                             {mesh, mobility, conditions}, identity(mesh));
+    EXPECT_LT(made.regions, mesh.node_count());
+    expect_same(made.operators, whole());
+    operators.swap(made.operators);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "components/matrix_flow/check_conditions.hpp"
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
@@ -162,11 +163,12 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   CellColumns columns;
   ChangeColumns changes;
   std::vector<int> cell_slots, outer_slots, change_slots;
-  int blended_regions = 0;
+  std::vector<Triplet> blended;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
-    blended_regions += local.solve(mesh, node, region, mobility, conditions) == LocalFluxes::Cure::blend;
+    if (local.solve(mesh, node, region, mobility, conditions) == LocalFluxes::Cure::blend)
+      for (const int face : region.faces) blended.emplace_back(face, face, 1.0 / region.subface_count());
     changes.assign(mesh, node, region, local, conditions);
     const TipFlow* flow = flows.at(node);
     std::optional<TipCorrection> tip;
@@ -196,8 +198,10 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
       trace_change.add(face, 0, change_slots, changes.of(local.pressure(f)), 0.5);
     }
   }
-  return {flux_cell.take(),      flux_boundary.take(), flux_change.take(), trace_cell.take(),
-          trace_boundary.take(), trace_change.take(),  blended_regions};
+  SparseMatrix blended_nodes(mesh.face_count(), mesh.face_count());
+  blended_nodes.setFromTriplets(blended.begin(), blended.end());
+  return {flux_cell.take(),      flux_boundary.take(), flux_change.take(),      trace_cell.take(),
+          trace_boundary.take(), trace_change.take(),  std::move(blended_nodes)};
 }
 
 }  // namespace sprekk::matrix_flow

@@ -58,7 +58,7 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
           assemble(trace_cell, mesh.cell_count()),
           assemble(trace_boundary, mesh.face_count()),
           nothing(),
-          0};
+          nothing()};
 }
 
 }  // namespace sprekk::matrix_flow
