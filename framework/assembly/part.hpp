@@ -43,11 +43,11 @@ struct Dependence {
 /// start).
 using Stabilization = std::map<const Field*, Vector>;
 
-/// freely: at first. In pieces: the discrete state tells all pieces of piecewise linear terms from one another, and
-/// derivatives are those of the piece that the values are in, not of one where the update is expected. In linear
-/// pieces: as well, and coefficients that make terms nonlinear within a piece stay what they are at the moment of the
-/// call.
-enum class Look { freely, in_pieces, in_linear_pieces };
+/// freely: at first. Carefully: when that has failed, so that what makes most steps quick may be left out. In pieces:
+/// the discrete state tells all pieces of piecewise linear terms from one another, and derivatives are those of the
+/// piece that the values are in, not of one where the update is expected. In linear pieces: as well, and coefficients
+/// that make terms nonlinear within a piece stay what they are at the moment of the call.
+enum class Look { freely, carefully, in_pieces, in_linear_pieces };
 
 /// A component or a coupler. Repeating a step after a rewind must give the same bits: whatever a part keeps between
 /// calls is in fields, or follows from the mesh, the parameters and the step's time.

@@ -10,6 +10,7 @@
 
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/schedule/looking_so.hpp"
 #include "framework/schedule/residual_check.hpp"
 
 namespace sprekk {
@@ -182,8 +183,16 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
   const std::vector<Vector> start = values();
   state_has_changed_ = false;
-  StepStatus status = attempt(step, options_.undamped);
+  StepStatus status = attempt(step, options_.undamped, Until::search);
   if (status.converged) return status;
+  const LookingSo looking(Look::carefully, Look::freely, parts_);
+  if (was_left_) {
+    set(start);
+    const int before = status.iterations;
+    status = attempt(step, options_.undamped);
+    status.iterations += before;
+    if (status.converged) return status;
+  }
   if (was_singular_) {
     set(start);
     for (Part* part : parts_) part->loosen();
@@ -228,8 +237,8 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   return status;
 }
 
-StepStatus Newton::attempt(const StepTime& step, int undamped) {
-  was_singular_ = false;
+StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
+  was_singular_ = was_left_ = false;
   std::multiset<std::uint64_t> seen_states;
   std::uint64_t last_state = 0;
   bool factored = false, cycling = false, seeks_balance = false;
@@ -288,7 +297,12 @@ StepStatus Newton::attempt(const StepTime& step, int undamped) {
       seen_states.insert(state);
       last_state = state;
     }
-    check = take_step(step, update, cycling || iteration > undamped || undamped == 0, length);
+    const bool searches = cycling || iteration > undamped || undamped == 0;
+    if (searches && until == Until::search && undamped > 0 && state_has_changed_) {
+      was_left_ = true;
+      return {false, "the discrete state does not settle", iteration};
+    }
+    check = take_step(step, update, searches, length);
     recent_.push_back(check);
     if (recent_.size() > 3) recent_.erase(recent_.begin());
     if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length});

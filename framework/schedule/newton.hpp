@@ -67,8 +67,10 @@ class Newton {
   double relative_size(const Vector& update, const ResidualCheck& check) const;
   /// Of each unknown: whether it is to stay, as far as its equation and the sums that it is in can tell.
   std::vector<char> is_settled(const ResidualCheck& check) const;
+  /// end: of all iterations. search: until a line search would begin, where the discrete state has changed meanwhile.
+  enum class Until { end, search };
   /// Without a line search for the first `undamped` iterations.
-  StepStatus attempt(const StepTime& step, int undamped);
+  StepStatus attempt(const StepTime& step, int undamped, Until until = Until::end);
   /// The third attempt (path_search.cpp).
   StepStatus follow_path(const StepTime& step, Look look);
   /// From the end of a path with held coefficients, from one where they are released a little to the next.
@@ -94,6 +96,7 @@ class Newton {
   std::vector<ResidualCheck> recent_;  ///< the last states
   bool state_has_changed_ = false;     ///< the discrete one, in this solve
   bool was_singular_ = false;          ///< the system that the last attempt ended with
+  bool was_left_ = false;              ///< the last attempt, as it came to Until::search
   StepTime last_failed_path_;          ///< its step; a path is not followed again for one that is hardly shorter
   const Stabilization* stabilization_ = nullptr;
   std::map<const Field*, Vector> start_;

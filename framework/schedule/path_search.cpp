@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "framework/schedule/looking_so.hpp"
 #include "framework/schedule/newton.hpp"
 
 namespace sprekk {
@@ -34,22 +35,6 @@ std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
   }
   return crossing;
 }
-
-/// Parts look for a solution so as long as it lives.
-class LookingSo {
- public:
-  LookingSo(Look look, const std::vector<Part*>& parts) : parts_(parts) {
-    for (Part* part : parts_) part->look_for_solution(look);
-  }
-  ~LookingSo() {
-    for (Part* part : parts_) part->look_for_solution(Look::freely);
-  }
-  LookingSo(const LookingSo&) = delete;
-  LookingSo& operator=(const LookingSo&) = delete;
-
- private:
-  const std::vector<Part*>& parts_;
-};
 
 }  // namespace
 
@@ -87,7 +72,7 @@ bool Newton::is_solution(const ResidualCheck& check) {
 
 StepStatus Newton::follow_path(const StepTime& step, Look how) {
   constexpr double far = 1e9;  // lengths of the update: a ray that has met no other piece meets none
-  const LookingSo looking(how, parts_);
+  const LookingSo looking(how, Look::carefully, parts_);
   std::set<std::uint64_t> entered;
   std::uint64_t left = 0;    // the piece that was left last
   bool has_crossed = false;  // since the last whole step

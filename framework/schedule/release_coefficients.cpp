@@ -39,9 +39,10 @@ StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<
   }
   for (Part* part : parts_) part->release_coefficients(1);
   if (share == 1) return {true, "", iterations};
-  return {false,
-          fmt::format("no way from the coefficients of the start to their own beyond a share of {:.2g}: {}", share, reason),
-          iterations};
+  return {
+      false,
+      fmt::format("no way from the coefficients of the start to their own beyond a share of {:.2g}: {}", share, reason),
+      iterations};
 }
 
 }  // namespace sprekk

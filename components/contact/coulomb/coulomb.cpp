@@ -57,7 +57,7 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
   friction_ = Property(options_.friction, places, context.start_time);
   dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
-  stiffness_ = Vector::Ones(2 * count);
+  stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(2 * count);
   fracture_length_.assign(mesh_.fractures.size(), 0);
   for (const FractureCell& cell : mesh_.fracture_cells) fracture_length_[cell.fracture] += cell.length;
 }
@@ -74,12 +74,14 @@ std::vector<double> Coulomb::switch_times() const {
 }
 
 void Coulomb::set_wall_stiffness(const Vector& stiffness) {
-  stiffness_ = stiffness;
+  stiffness_of_walls_ = stiffness;
+  stiffness_of_fractures_ = stiffness;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
-    stiffness_[2 * i + 1] *= cell.length / fracture_length_[cell.fracture];
-    const double wedge = friction_[i] * dilation_[i];
-    stiffness_[2 * i] = std::min(stiffness_[2 * i], 0.5 * stiffness_[2 * i + 1] / std::max(wedge, 1e-300));
+    stiffness_of_fractures_[2 * i + 1] *= cell.length / fracture_length_[cell.fracture];
+    const double wedge = std::max(friction_[i] * dilation_[i], 1e-300);
+    for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_})
+      (*c)[2 * i] = std::min((*c)[2 * i], 0.5 * (*c)[2 * i + 1] / wedge);
   }
 }
 
@@ -95,8 +97,8 @@ Coulomb::Trial Coulomb::trial(int i) const {
   const double u_n = jump_.now()[2 * i], u_t = jump_.now()[2 * i + 1];
   Trial t;
   t.gap = u_n - std::abs(u_t) * dilation_[i];
-  t.normal = f_n + stiffness_[2 * i] * t.gap;
-  t.tangential = f_t + stiffness_[2 * i + 1] * (u_t - jump_.accepted()[2 * i + 1]);
+  t.normal = f_n + stiffness()[2 * i] * t.gap;
+  t.tangential = f_t + stiffness()[2 * i + 1] * (u_t - jump_.accepted()[2 * i + 1]);
   t.bound = -friction_[i] * std::min(0.0, t.normal);
   // At the very start of slip, |slip| has the slope of the side that it is about to take.
   t.slip_sign = u_t > 0 ? 1 : u_t < 0 ? -1 : t.tangential > 0 ? 1 : -1;
@@ -132,7 +134,7 @@ Coulomb::Trial Coulomb::trial_of_update(int i) const {
   t.slip_sign = -t.slip_sign;
   t.gap = jump_.now()[2 * i] - t.slip_sign * jump_.now()[2 * i + 1] * dilation_[i];
   // Walls that touch, whatever the sign here: this is the linear function that goes through the values beyond the kink.
-  const double normal = traction_.now()[2 * i] + stiffness_[2 * i] * t.gap;
+  const double normal = traction_.now()[2 * i] + stiffness()[2 * i] * t.gap;
   t.bound = -friction_[i] * normal;
   t.normal = std::min(normal, 0.0);
   return t;
@@ -185,7 +187,7 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
   for (int i = 0; i < count; ++i) {
     const Trial t = guesses ? trial_of_update(i) : trial(i);
     const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
-    const double c_n = stiffness_[2 * i], c_t = stiffness_[2 * i + 1];
+    const double c_n = stiffness()[2 * i], c_t = stiffness()[2 * i + 1];
     const double gap_by_t = -t.slip_sign * dilation_[i];  // d gap / d [u]_t; d gap / d [u]_n is 1
     double n_fn = 0, n_un = 0, n_ut = 0;                  // derivatives of the normal residual
     double t_fn = 0, t_ft = 0, t_un = 0, t_ut = 0;        // and of the tangential one
@@ -223,7 +225,7 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
   }
   assembly.add(traction_, residual);
   // What the residual is small against: the jumps, and where all of them stick those that the tractions would make.
-  assembly.compare_with(traction_, traction_.now().cwiseQuotient(stiffness_).lpNorm<Eigen::Infinity>());
+  assembly.compare_with(traction_, traction_.now().cwiseQuotient(stiffness()).lpNorm<Eigen::Infinity>());
   assembly.compare_with(traction_, jump_.now().lpNorm<Eigen::Infinity>());
   if (!assembly.wants_derivatives()) return;
   SparseMatrix tractions(2 * count, 2 * count), jumps(2 * count, 2 * count);

@@ -50,7 +50,10 @@ class Coulomb : public Component, public FractureContact {
   void settled(const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   std::uint64_t discrete_state() const override;
-  void look_for_solution(Look look) override { follows_pieces_ = look != Look::freely; }
+  void look_for_solution(Look look) override {
+    is_careful_ = look != Look::freely;
+    follows_pieces_ = is_careful_ && look != Look::carefully;
+  }
   void loosen() override;
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;
@@ -72,6 +75,7 @@ class Coulomb : public Component, public FractureContact {
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
+  const Vector& stiffness() const { return is_careful_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
   struct Trial {
     double gap, normal, tangential, bound;
     double slip_sign;  ///< of d gap / d [u]_t
@@ -103,9 +107,13 @@ class Coulomb : public Component, public FractureContact {
   std::vector<char> bonded_;                         ///< empty for none
   mutable std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
   mutable std::array<std::uint64_t, 2> followed_{};  ///< versions of traction and jump that it has followed last
+  bool is_careful_ = false;                          ///< after Newton's method has failed
   bool follows_pieces_ = false;                      ///< as they are: no guess of what lies beyond the kink
   std::vector<double> fracture_length_;              ///< m
-  Vector stiffness_;                                 ///< c, Pa/m, (normal, tangential) of each cell
+  /// c, Pa/m, (normal, tangential) of each cell: that of its walls, and with the tangential one of all of its fracture.
+  /// Newton's method takes the second at first, with which cells that unload together stick at once. Where it fails it
+  /// takes the first: with the second it may go to and fro between pieces that differ in single cells.
+  Vector stiffness_of_walls_, stiffness_of_fractures_;
 };
 
 }  // namespace sprekk::contact
