@@ -75,6 +75,21 @@ TEST(FlowDerivatives, OfTheCubicLawAboveAndBelowItsFloor) {
                      with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
 }
 
+TEST(FlowDerivatives, OfTheCubicLawThatIsReleasedInPart) {
+  for (const char* floor : {"1 mm", "0.9 m"}) {
+    SceneRun run = SceneRun::from_text(scene(std::string("    aperture_floor: ") + floor));
+    Field& aperture = run.model().fields().at("conduit.aperture");
+    aperture.set(Vector::LinSpaced(aperture.size(), 0.6, 1.3));
+    for (Part* part : run.model().parts()) {
+      part->hold_coefficients();
+      part->release_coefficients(0.3);
+    }
+    expect_derivatives(
+        run, spreads, rows,
+        with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
+  }
+}
+
 TEST(FlowDerivatives, OfAGivenTransmissivity) {
   // kappa = 2 K / (mu a^2) depends on the aperture.
   SceneRun run = SceneRun::from_text(scene("    transmissivity: constant\n    transmissivity_value: 2 + x"));
