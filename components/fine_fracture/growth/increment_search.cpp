@@ -62,7 +62,7 @@ double IncrementSearch::first_length() const {
 /// A tip waits rather than grow by very little, but not where that would leave it well above the toughness.
 double IncrementSearch::shortest_length() const {
   constexpr double tolerances = 2, part = 0.1;
-  const bool may_wait = -excess(equivalent_sif(start_)) <= tolerances * options_.arrest_tolerance;
+  const bool may_wait = equivalent_sif(start_) <= (1 + tolerances * options_.arrest_tolerance) * toughness_;
   return (options_.seeks_arrest() && !may_wait ? part : 1) * options_.smallest_length();
 }
 

@@ -274,6 +274,20 @@ TEST(GrowTips, growth_shorter_than_the_shortest_increment_waits) {
   EXPECT_EQ(outcome.reason, "it would grow by less than the shortest increment");
 }
 
+TEST(GrowTips, waits_for_half_of_the_shortest_increment_up_to_twice_the_tolerance) {
+  // 0.1 mm is right, and the shortest increment 0.2 mm, above 1.02 of the toughness a tenth of it. Between 1.02 and
+  // exp(0.02) as well, where a note says that the tip is off its toughness.
+  for (const double ratio : {1.0199, 1.0201, 1.0203}) {
+    SCOPED_TRACE(ratio);
+    const auto k_eq = [&](double added) { return 0.7e6 * (ratio - (ratio - 1) * added / 1e-4); };
+    const TipOutcome outcome = grow_one(options_with(0.02), k_eq);
+    EXPECT_EQ(outcome.increments, ratio > 1.02 ? 1 : 0);
+    EXPECT_NEAR(outcome.length, ratio > 1.02 ? 1e-4 : 0, 0.5e-4);  // 1 % of K_eq is half of the length
+    EXPECT_NEAR(outcome.end.k1 / 0.7e6, 1, 0.02);
+    EXPECT_TRUE(outcome.arrested);
+  }
+}
+
 TEST(GrowTips, goes_on_from_a_path_and_keeps_it) {
   GrowingTip tip = tip_at(0);
   tip.path.added = {Point(0.01, 0), Point(0.01, 0.02)};

@@ -45,10 +45,10 @@ class Fluid : public TipSurroundings {
 
 /// A straight fracture of length 2 in the middle of a wide box.
 struct Setting {
-  explicit Setting(double angle, bool is_reversed = false)
+  explicit Setting(double angle, bool is_reversed = false, const TipsOptions& options = Setting::options())
       : along((is_reversed ? -1 : 1) * std::cos(angle), (is_reversed ? -1 : 1) * std::sin(angle)),
         mesh(make_mesh(along)),
-        tips({"tips", mesh, fields, 0, {}}, options()) {
+        tips({"tips", mesh, fields, 0, {}}, options) {
     tips.accept_surroundings(fluid);
   }
   static Mesh make_mesh(const Point& along) {
@@ -185,6 +185,30 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
   Notes later;
   setting.tips.note_step(later, {});
   EXPECT_TRUE(later.empty());
+}
+
+TEST(Tips, ThatTheOutlineStopsAboveTheirToughnessSaySo) {
+  // One increment would do to leave the box.
+  TipsOptions options = Setting::options();
+  options.growth.increment = 25;
+  for (const std::string length : {"fixed", "arrest"}) {
+    SCOPED_TRACE(length);
+    options.growth.length = length;
+    Setting setting(0.3, false, options);
+    setting.fluid.jump[0] = 0;
+    setting.fluid.pressure[1] = 30e6;
+    setting.grow(0.1, false, true);
+    ASSERT_GT(setting.tips.examine({}).now, 1);
+    setting.tips.grow({});
+    EXPECT_EQ(setting.quantity("main_last.stopped"), 1);
+    Notes notes;
+    setting.tips.note_step(notes, {});
+    const auto is_said = [](const Notes::Note& note) {
+      return note.text.find("main_last stops at K_eq/K_IC = ") != std::string::npos &&
+             note.text.find("no free length") != std::string::npos;
+    };
+    EXPECT_EQ(std::count_if(notes.all().begin(), notes.all().end(), is_said), 1);
+  }
 }
 
 TEST(Tips, AreEmptyAgainOnceTheyAreRuledOut) {
