@@ -183,25 +183,29 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
   const std::vector<Vector> start = values();
   state_has_changed_ = false;
-  StepStatus status = attempt(step, options_.undamped, Until::search);
+  // Where the system is singular, since discrete states leave nothing for an unknown to be held by, once more from
+  // loosened ones.
+  int iterations = 0;
+  const auto attempt_also_loosened = [&](Until until) {
+    StepStatus tried = attempt(step, options_.undamped, until);
+    iterations += tried.iterations;
+    if (!tried.converged && was_singular_) {
+      set(start);
+      for (Part* part : parts_) part->loosen();
+      tried = attempt(step, options_.undamped, until);
+      iterations += tried.iterations;
+    }
+    tried.iterations = iterations;
+    return tried;
+  };
+  StepStatus status = attempt_also_loosened(Until::search);
   if (status.converged) return status;
   const LookingSo looking(Look::carefully, Look::freely, parts_);
   if (was_left_) {
     set(start);
-    const int before = status.iterations;
-    status = attempt(step, options_.undamped);
-    status.iterations += before;
-    if (status.converged) return status;
+    status = attempt_also_loosened(Until::end);
   }
-  if (was_singular_) {
-    set(start);
-    for (Part* part : parts_) part->loosen();
-    const int before = status.iterations;
-    StepStatus loosened = attempt(step, options_.undamped);
-    loosened.iterations += before;
-    if (loosened.converged) return loosened;
-    status.iterations = loosened.iterations;
-  }
+  if (status.converged) return status;
   if (status.iterations <= 1) return status;
   if (options_.undamped > 0) {
     set(start);
