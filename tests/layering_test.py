@@ -17,6 +17,8 @@ PHYSICS = re.compile(r"\w*(pressure|displacement|aperture|permeability|porosity|
                      r"|darcy|toughness|transmissivity|biot|poroelastic)\w*", re.IGNORECASE)
 # Tests of behaviour instead of one file.
 FREE_TESTS = re.compile(r"^tests/(verification|stability)/|/mpi/")
+# What a listing of a folder shows at once.
+MOST_FILES = 45
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
 COMMENTS_AND_TEXTS = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 
@@ -95,6 +97,19 @@ def cycle_violations(edges):
                 yield f"framework/{folder} and framework/{target} include each other"
 
 
+def room_violations(root, paths):
+    """A folder of the program says at its top what belongs there, and a page shows its files."""
+    files_in = {}
+    for path in paths:
+        if not path.startswith(("tests/", "tools/")) and path.count("/") > 1:
+            files_in.setdefault(path.rpartition("/")[0], []).append(path)
+    for folder, files in files_in.items():
+        if not (root / folder / "README.md").exists():
+            yield f"{folder} has no README.md (one or two sentences say what belongs there)"
+        if len(files) > MOST_FILES:
+            yield f"{folder} has {len(files)} files (at most {MOST_FILES}: divide it)"
+
+
 def violations(root):
     found = []
     edges = {}
@@ -108,6 +123,7 @@ def violations(root):
         if parts[0] == "framework" and len(parts) > 2:
             needed = {header.split("/")[1] for header in includes if header.startswith("framework/") and header.count("/") > 1}
             edges.setdefault(parts[1], set()).update(needed - {parts[1]})
+    found += room_violations(root, includes_of)
     return found + list(heavy_violations(includes_of)) + list(cycle_violations(edges))
 
 
@@ -126,6 +142,7 @@ PLANTED = (
     ("framework/a/a.cpp", "struct BiotTerm;\n", "names BiotTerm"),
     ("tests/framework/a/gone_test.cpp", '#include "framework/b/b.hpp"\n', "tests/framework/a/gone_test.cpp tests nothing"),
     ("framework/b/b.cpp", '#include "framework/a/a.hpp"\n', "framework/a and framework/b include each other"),
+    ("framework/c/c.cpp", "", "framework/c has no README.md"),
 )
 
 CLEAN = {
@@ -142,6 +159,8 @@ CLEAN = {
     "tests/framework/a/a_test.cpp": '#include "components/flow/flow.hpp"\n',
     "tests/framework/a/together_test.cpp": '#include "framework/a/a.hpp"\n',
     "tests/verification/mandel_test.cpp": "",
+    **{f"{folder}/README.md": "What belongs here.\n" for folder in (
+        "framework/a", "framework/b", "components/capabilities", "components/flow", "components/flow/mpfa")},
 }
 
 

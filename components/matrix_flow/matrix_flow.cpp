@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "framework/assembly/products.hpp"
+#include "framework/discretization/linear_fit.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
-#include "framework/mesh/linear_fit.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {

@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "components/matrix_flow/mpfa/tip_flow.hpp"
-#include "framework/mesh/kept_regions.hpp"
-#include "framework/mesh/tips_nearby.hpp"
+#include "framework/discretization/kept_regions.hpp"
+#include "framework/discretization/tips_nearby.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "framework/mesh/extend_fractures.hpp"
+#include "framework/remeshing/extend_fractures.hpp"
 #include "framework/scene/model.hpp"
 
 namespace sprekk {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 #include "framework/output/activity.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"

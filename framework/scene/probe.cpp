@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "framework/mesh/linear_fit.hpp"
+#include "framework/discretization/linear_fit.hpp"
 
 namespace sprekk {
 

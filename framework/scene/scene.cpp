@@ -6,8 +6,8 @@
 #include <set>
 
 #include "framework/config/units.hpp"
-#include "framework/mesh/generate_mesh.hpp"
-#include "framework/mesh/geometry_spec.hpp"
+#include "framework/meshing/generate_mesh.hpp"
+#include "framework/meshing/geometry_spec.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/solve_step.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "framework/assembly/notes.hpp"
 #include "framework/config/spec.hpp"
-#include "framework/mesh/geometry.hpp"
+#include "framework/meshing/geometry.hpp"
 #include "framework/scene/probe.hpp"
 #include "framework/scene/registry.hpp"
 #include "framework/schedule/newton.hpp"

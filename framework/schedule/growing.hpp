@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/assembly/step_time.hpp"
-#include "framework/mesh/extend_fractures.hpp"
+#include "framework/remeshing/extend_fractures.hpp"
 
 namespace sprekk {
 

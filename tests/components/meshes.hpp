@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/generate_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 
 namespace sprekk::test {
 

@@ -9,9 +9,9 @@
 #include "components/matrix_flow/rediscretize.hpp"
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 #include "components/poromechanics/mpsa/rediscretize.hpp"
-#include "framework/mesh/extend_fractures.hpp"
+#include "framework/remeshing/extend_fractures.hpp"
 #include "tests/components/meshes.hpp"
-#include "tests/framework/mesh/growth_checks.hpp"
+#include "tests/framework/remeshing/growth_checks.hpp"
 
 namespace sprekk::test {
 namespace {

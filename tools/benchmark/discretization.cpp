@@ -7,7 +7,7 @@
 #include "components/matrix_flow/mpfa/mpfa.hpp"
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 #include "components/poromechanics/mpsa/mpsa.hpp"
-#include "framework/mesh/generate_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 
 namespace {
 

@@ -18,8 +18,8 @@
 #include "framework/config/node.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/mesh/cell_sums.hpp"
-#include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 #include "framework/scene/model.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <string>
 
-#include "tests/framework/mesh/mutated_meshes.hpp"
+#include "tests/framework/meshing/mutated_meshes.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "components/fine_fracture/quarter_point/tips.hpp"
-#include "framework/mesh/fracture_networks.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/meshing/fracture_networks.hpp"
 
 namespace sprekk::fine_fracture {
 

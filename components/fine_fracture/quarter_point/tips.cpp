@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "components/fine_fracture/quarter_point/adapt.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "components/capabilities/fracture_tips.hpp"
 #include "components/fine_fracture/growth/grow_tips.hpp"
-#include "components/fine_fracture/quarter_point/fine_domain.hpp"
-#include "components/fine_fracture/quarter_point/model.hpp"
+#include "components/fine_fracture/quarter_point/domain/fine_domain.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/model.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/growing.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/matrix_flow/flux_operators.hpp"
-#include "framework/mesh/interaction_region.hpp"
+#include "framework/discretization/interaction_region.hpp"
 
 namespace sprekk::matrix_flow {
 

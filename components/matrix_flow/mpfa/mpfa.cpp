@@ -10,9 +10,9 @@
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 #include "components/matrix_flow/mpfa/tip_correction.hpp"
 #include "components/matrix_flow/mpfa/tip_energy.hpp"
-#include "framework/mesh/interaction_region.hpp"
-#include "framework/mesh/node_stencil.hpp"
-#include "framework/mesh/tips_nearby.hpp"
+#include "framework/discretization/interaction_region.hpp"
+#include "framework/discretization/node_stencil.hpp"
+#include "framework/discretization/tips_nearby.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {

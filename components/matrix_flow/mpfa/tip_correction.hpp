@@ -5,7 +5,7 @@
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 #include "components/matrix_flow/mpfa/tip_flow.hpp"
-#include "framework/mesh/interaction_region.hpp"
+#include "framework/discretization/interaction_region.hpp"
 
 namespace sprekk::matrix_flow {
 

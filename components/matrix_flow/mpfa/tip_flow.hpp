@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "components/matrix_flow/flux_operators.hpp"
+#include "framework/discretization/tip_frame.hpp"
 #include "framework/mesh/adjacency.hpp"
-#include "framework/mesh/tip_frame.hpp"
 
 namespace sprekk::matrix_flow {
 

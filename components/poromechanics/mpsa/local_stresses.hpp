@@ -7,8 +7,8 @@
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/mpsa/weak_symmetry.hpp"
-#include "framework/mesh/interaction_region.hpp"
-#include "framework/mesh/tip_zones.hpp"
+#include "framework/discretization/interaction_region.hpp"
+#include "framework/discretization/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 

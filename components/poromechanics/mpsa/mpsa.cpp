@@ -8,9 +8,9 @@
 
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 #include "components/poromechanics/mpsa/tip_correction.hpp"
-#include "framework/mesh/interaction_region.hpp"
-#include "framework/mesh/node_stencil.hpp"
-#include "framework/mesh/tip_zones.hpp"
+#include "framework/discretization/interaction_region.hpp"
+#include "framework/discretization/node_stencil.hpp"
+#include "framework/discretization/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 

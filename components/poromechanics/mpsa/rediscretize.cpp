@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "framework/mesh/kept_regions.hpp"
-#include "framework/mesh/tip_zones.hpp"
+#include "framework/discretization/kept_regions.hpp"
+#include "framework/discretization/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 

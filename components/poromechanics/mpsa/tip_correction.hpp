@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/poromechanics/mpsa/tip_field.hpp"
-#include "framework/mesh/interaction_region.hpp"
+#include "framework/discretization/interaction_region.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
-#include "framework/mesh/tip_frame.hpp"
+#include "framework/discretization/tip_frame.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -7,7 +7,7 @@
 #include <complex>
 
 #include "components/matrix_flow/mpfa/mpfa.hpp"
-#include "framework/mesh/tips_nearby.hpp"
+#include "framework/discretization/tips_nearby.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::matrix_flow {

@@ -8,8 +8,8 @@
 #include <complex>
 #include <numbers>
 
-#include "framework/mesh/tip_zones.hpp"
-#include "framework/mesh/tips_nearby.hpp"
+#include "framework/discretization/tip_zones.hpp"
+#include "framework/discretization/tips_nearby.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::poromechanics {

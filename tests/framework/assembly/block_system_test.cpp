@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 
 namespace sprekk {
 namespace {

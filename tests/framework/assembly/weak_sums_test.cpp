@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "framework/assembly/block_system.hpp"
-#include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 
 namespace sprekk {
 namespace {

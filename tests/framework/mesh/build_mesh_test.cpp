@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/fracture_networks.hpp"
-#include "framework/mesh/structured_mesh.hpp"
+#include "framework/meshing/fracture_networks.hpp"
+#include "framework/meshing/structured_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

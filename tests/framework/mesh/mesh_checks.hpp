@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/mesh/geometry.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "framework/meshing/geometry.hpp"
 
 namespace sprekk::test {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/mesh/generate_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

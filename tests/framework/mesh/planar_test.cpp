@@ -1,6 +1,6 @@
 #include "framework/mesh/planar.hpp"
 
-#include "framework/mesh/arrangement.hpp"
+#include "framework/meshing/arrangement.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

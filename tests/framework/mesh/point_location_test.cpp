@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

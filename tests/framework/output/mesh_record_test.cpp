@@ -1,6 +1,6 @@
 #include "framework/output/mesh_record.hpp"
 
-#include "framework/mesh/generate_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/output/small_case.hpp"
 
 namespace sprekk {

@@ -11,7 +11,7 @@
 
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/structured_mesh.hpp"
+#include "framework/meshing/structured_mesh.hpp"
 
 namespace sprekk {
 

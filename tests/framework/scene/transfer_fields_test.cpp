@@ -3,10 +3,10 @@
 
 #include <stdexcept>
 
-#include "framework/mesh/extend_fractures.hpp"
-#include "framework/mesh/generate_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
+#include "framework/remeshing/extend_fractures.hpp"
 #include "framework/scene/change_mesh.hpp"
-#include "tests/framework/mesh/growth_checks.hpp"
+#include "tests/framework/remeshing/growth_checks.hpp"
 
 namespace sprekk::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "framework/mesh/generate_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "tests/framework/config/messages.hpp"
 

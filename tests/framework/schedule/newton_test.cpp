@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "framework/mesh/generate_mesh.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 
 namespace sprekk {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/field/field_store.hpp"
-#include "framework/mesh/generate_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 
 namespace sprekk {
 namespace {

@@ -1,4 +1,4 @@
-#include "components/fine_fracture/quarter_point/auxiliary_field.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/auxiliary_field.hpp"
 
 #include <gtest/gtest.h>
 

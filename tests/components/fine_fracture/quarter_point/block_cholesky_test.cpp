@@ -1,4 +1,4 @@
-#include "components/fine_fracture/quarter_point/block_cholesky.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/block_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "components/fine_fracture/quarter_point/model.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/model.hpp"
 #include "tests/components/fine_fracture/quarter_point/griffith.hpp"
 
 namespace sprekk::test {

@@ -1,7 +1,7 @@
 // Straight wings at a closed crack with friction in a plate under uniaxial compression.
 #include <Eigen/LU>
 
-#include "components/fine_fracture/quarter_point/wall_place.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 
 namespace sprekk::test {

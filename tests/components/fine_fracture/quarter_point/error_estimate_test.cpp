@@ -1,8 +1,8 @@
-#include "components/fine_fracture/quarter_point/error_estimate.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/error_estimate.hpp"
 
-#include "components/fine_fracture/quarter_point/adapt.hpp"
-#include "components/fine_fracture/quarter_point/quadrature.hpp"
-#include "components/fine_fracture/quarter_point/shapes.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 

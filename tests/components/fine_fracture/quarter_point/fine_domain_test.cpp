@@ -1,5 +1,5 @@
 // The piece of rock around a tip: paths of fractures, and what a square cuts out of them.
-#include "components/fine_fracture/quarter_point/fine_domain.hpp"
+#include "components/fine_fracture/quarter_point/domain/fine_domain.hpp"
 
 #include <gtest/gtest.h>
 

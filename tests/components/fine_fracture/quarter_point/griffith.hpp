@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "components/fine_fracture/quarter_point/elasticity.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
 
 namespace sprekk::test {
 

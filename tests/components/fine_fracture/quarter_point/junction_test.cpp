@@ -2,8 +2,8 @@
 #include <functional>
 #include <random>
 
-#include "components/fine_fracture/quarter_point/adapt.hpp"
-#include "components/fine_fracture/quarter_point/fine_domain.hpp"
+#include "components/fine_fracture/quarter_point/domain/fine_domain.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"

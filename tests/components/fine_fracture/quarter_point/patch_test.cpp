@@ -1,5 +1,5 @@
 // Fields that the elements hold exactly.
-#include "components/fine_fracture/quarter_point/shapes.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 

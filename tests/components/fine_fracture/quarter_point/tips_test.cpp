@@ -10,7 +10,7 @@
 
 #include "framework/assembly/notes.hpp"
 #include "framework/field/field.hpp"
-#include "framework/mesh/generate_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {

@@ -1,0 +1,224 @@
+#include "components/fine_fracture/quarter_point/domain/fine_domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk::fine_fracture {
+
+FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last) {
+  FracturePath path;
+  const Fracture& cells = mesh.fractures[fracture];
+  std::vector<char> is_kept;  // where the coarse level begins or ends, and where fractures meet
+  const auto append = [&](const Point& x, double arc, bool keep) {
+    const std::size_t n = path.points.size();
+    if (n >= 2) {
+      // A point on the way straight on replaces the one before.
+      const Point a = path.points[n - 1] - path.points[n - 2], b = x - path.points[n - 1];
+      if (a.dot(b) > (1 - 1e-10) * a.norm() * b.norm() && !is_kept.back()) {
+        path.points.pop_back();
+        path.arc.pop_back();
+        is_kept.pop_back();
+      }
+    }
+    path.points.push_back(x);
+    path.arc.push_back(arc);
+    is_kept.push_back(keep);
+  };
+  path.length = 0;
+  for (int i = 0; i < cells.cell_count; ++i) path.length += mesh.fracture_cells[cells.first_cell + i].length;
+  const auto end_point = [&](bool at_end) -> const FracturePoint& {
+    const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (at_end ? cells.cell_count - 1 : 0)];
+    return mesh.fracture_points[cell.points[at_end ? 1 : 0]];
+  };
+  double arc = 0;
+  Point last = end_point(false).position;
+  for (const Point& x : added_first.added) {
+    arc -= (x - last).norm();
+    last = x;
+  }
+  for (auto x = added_first.added.rbegin(); x != added_first.added.rend(); ++x) {
+    append(*x, arc, false);
+    const Point& next = x + 1 == added_first.added.rend() ? end_point(false).position : *(x + 1);
+    arc += (*x - next).norm();
+  }
+  arc = 0;
+  append(end_point(false).position, 0, true);
+  for (int i = 0; i < cells.cell_count; ++i) {
+    const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
+    arc += cell.length;
+    const FracturePoint& point = mesh.fracture_points[cell.points[1]];
+    const bool is_last = i + 1 == cells.cell_count;
+    append(point.position, is_last ? path.length : arc, is_last || point.kind == FracturePoint::Kind::junction);
+  }
+  arc = path.length;
+  last = end_point(true).position;
+  for (const Point& x : added_last.added) {
+    arc += (x - last).norm();
+    append(x, arc, false);
+    last = x;
+  }
+  path.first_is_tip = end_point(false).kind == FracturePoint::Kind::tip;
+  path.last_is_tip = end_point(true).kind == FracturePoint::Kind::tip;
+  return path;
+}
+
+namespace {
+
+struct Rectangle {
+  Point low, high;
+  double depth(const Point& x) const { return std::min((x - low).minCoeff(), (high - x).minCoeff()); }
+};
+
+Rectangle bounds(const Mesh& mesh) {
+  Rectangle box{mesh.nodes[0], mesh.nodes[0]};
+  for (const Point& x : mesh.nodes) {
+    box.low = box.low.cwiseMin(x);
+    box.high = box.high.cwiseMax(x);
+  }
+  return box;
+}
+
+/// The part of the segment inside, as two parameters; empty when the first is not below the second.
+std::pair<double, double> clipped(const Rectangle& box, const Point& from, const Point& to) {
+  double first = 0, last = 1;
+  for (int k = 0; k < dimension; ++k) {
+    const double d = to[k] - from[k];
+    if (d == 0) {
+      if (from[k] < box.low[k] || from[k] > box.high[k]) return {1, 0};
+      continue;
+    }
+    const double a = (box.low[k] - from[k]) / d, b = (box.high[k] - from[k]) / d;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return {first, last};
+}
+
+/// Onto the outline to the last digit.
+Point snapped(const Rectangle& box, Point x) {
+  const double near = 1e-9 * (box.high - box.low).maxCoeff();
+  for (int k = 0; k < dimension; ++k) {
+    if (std::abs(x[k] - box.low[k]) < near) x[k] = box.low[k];
+    if (std::abs(x[k] - box.high[k]) < near) x[k] = box.high[k];
+  }
+  return x;
+}
+
+/// How near the outline comes to a tip, a kink or a junction that is inside of the rock, or to a segment that runs
+/// along one of its sides (to the segment's farthest place, so that those that cross a side do not count). What lies on
+/// the outer boundary is not counted.
+double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const FracturePath& path : paths)
+    for (const Point& x : path.points)
+      for (int k = 0; k < dimension; ++k) {
+        if (x[1 - k] < box.low[1 - k] || x[1 - k] > box.high[1 - k]) continue;
+        if (box.low[k] > rock.low[k]) gap = std::min(gap, std::abs(x[k] - box.low[k]));
+        if (box.high[k] < rock.high[k]) gap = std::min(gap, std::abs(x[k] - box.high[k]));
+      }
+  for (const FracturePath& path : paths)
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
+      for (int k = 0; k < dimension; ++k) {
+        // The part beside the two sides across k.
+        Rectangle strip = rock;
+        strip.low[1 - k] = box.low[1 - k];
+        strip.high[1 - k] = box.high[1 - k];
+        const Point &a = path.points[i], &b = path.points[i + 1];
+        const auto [first, last] = clipped(strip, a, b);
+        if (last - first <= 1e-9) continue;
+        const double from = a[k] + first * (b[k] - a[k]), to = a[k] + last * (b[k] - a[k]);
+        const auto farthest = [&](double side) { return std::max(std::abs(from - side), std::abs(to - side)); };
+        if (box.low[k] > rock.low[k]) gap = std::min(gap, farthest(box.low[k]));
+        if (box.high[k] < rock.high[k]) gap = std::min(gap, farthest(box.high[k]));
+      }
+  return gap;
+}
+
+/// Whether the path leads through x, which then is one of its points.
+bool add_if_on(FracturePath& path, const Point& x, double tolerance) {
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const Segment segment{path.points[i], path.points[i + 1]};
+    if (distance(x, segment) > tolerance) continue;
+    if (x == segment.from || x == segment.to) return true;
+    const double arc = path.arc[i] + (x - segment.from).norm();
+    path.points.insert(path.points.begin() + i + 1, x);
+    path.arc.insert(path.arc.begin() + i + 1, arc);
+    return true;
+  }
+  return false;
+}
+
+/// What has been added at an end may lead to another fracture, at a point of its mesh, before the coarse level knows
+/// of it. Then it is no tip any more, and both paths have a point there.
+std::vector<FracturePath> joined(std::vector<FracturePath> paths, double tolerance) {
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (const bool at_end : {false, true}) {
+      bool& is_tip = at_end ? paths[i].last_is_tip : paths[i].first_is_tip;
+      if (!is_tip || (at_end ? paths[i].arc.back() <= paths[i].length : paths[i].arc.front() >= 0)) continue;
+      const Point end = at_end ? paths[i].points.back() : paths[i].points.front();
+      for (std::size_t k = 0; k < paths.size(); ++k)
+        if (k != i && add_if_on(paths[k], end, tolerance)) is_tip = false;
+    }
+  return paths;
+}
+
+}  // namespace
+
+FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separate_paths, const TipEnd& tip,
+                       const Point& center, double size, double gap, CrackPath::Walls coarse_walls) {
+  const Rectangle rock = bounds(mesh);
+  const std::vector<FracturePath> paths = joined(separate_paths, 1e-10 * (rock.high - rock.low).maxCoeff());
+  Rectangle box;
+  double widest = -1;
+  constexpr double more = 1 + 1e-9;  // by more than rounding, so that domains that are images of one another stay so
+  for (double factor = 1; factor < 1.5 && widest * more < gap; factor += 0.02) {
+    const Point half = Point::Constant(0.5 * factor * size);
+    const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
+    const double found = smallest_gap(larger, rock, paths);
+    if (found <= widest * more) continue;
+    widest = found;
+    box = larger;
+  }
+  FineDomain domain;
+  domain.geometry.outline = {box.low, {box.high[0], box.low[1]}, box.high, {box.low[0], box.high[1]}};
+  for (int f = 0; f < static_cast<int>(paths.size()); ++f) {
+    const FracturePath& path = paths[f];
+    bool is_open = false;  // whether the last crack goes on
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const Point &a = path.points[i], &b = path.points[i + 1];
+      const auto [first, last] = clipped(box, a, b);
+      if (last - first <= 1e-9) {
+        is_open = false;
+        continue;
+      }
+      const auto at = [&](double t) { return snapped(box, t == 0 ? a : t == 1 ? b : Point(a + t * (b - a))); };
+      const auto arc = [&](double t) { return path.arc[i] + t * (path.arc[i + 1] - path.arc[i]); };
+      if (!is_open || first > 0) {
+        domain.geometry.cracks.push_back({{at(first)}, i == 0 && first == 0 && path.first_is_tip, false, {}});
+        domain.sources.push_back({f, {arc(first)}});
+        if (f == tip.fracture && !tip.at_end && i == 0 && first == 0) {
+          domain.crack = static_cast<int>(domain.sources.size()) - 1;
+          domain.is_last = false;
+        }
+      }
+      CrackPath& crack = domain.geometry.cracks.back();
+      crack.points.push_back(at(last));
+      const double middle = 0.5 * (arc(first) + arc(last));
+      crack.walls.push_back(middle < 0 || middle > path.length ? CrackPath::Walls::traction : coarse_walls);
+      domain.sources.back().arc.push_back(arc(last));
+      is_open = last == 1;
+      if (i + 2 == path.points.size() && last == 1) {
+        crack.last_is_tip = path.last_is_tip;
+        if (f == tip.fracture && tip.at_end) domain.crack = static_cast<int>(domain.sources.size()) - 1;
+      }
+    }
+  }
+  if (domain.crack == none) throw std::runtime_error("the domain of a tip does not contain the tip");
+  return domain;
+}
+
+}  // namespace sprekk::fine_fracture

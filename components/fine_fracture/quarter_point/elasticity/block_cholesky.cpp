@@ -1,0 +1,103 @@
+#include "components/fine_fracture/quarter_point/elasticity/block_cholesky.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::fine_fracture {
+
+BlockMatrix::Block& BlockMatrix::at(int row, int column) {
+  const auto place = std::lower_bound(rows.begin() + starts[column], rows.begin() + starts[column + 1], row);
+  return blocks[place - rows.begin()];
+}
+
+BlockCholesky::BlockCholesky(const BlockMatrix& matrix) {
+  find_tree(matrix);
+  factorize(matrix);
+}
+
+/// The elimination tree and the number of blocks in each column of L.
+void BlockCholesky::find_tree(const BlockMatrix& matrix) {
+  const int n = matrix.count();
+  parent_.assign(n, none);
+  starts_.assign(n + 1, 0);
+  std::vector<int> seen_by(n, none);
+  for (int k = 0; k < n; ++k) {
+    seen_by[k] = k;
+    for (int p = matrix.starts[k]; p < matrix.starts[k + 1]; ++p) {
+      for (int i = matrix.rows[p]; seen_by[i] != k; i = parent_[i]) {
+        if (parent_[i] == none) parent_[i] = k;
+        ++starts_[i + 1];
+        seen_by[i] = k;
+      }
+    }
+  }
+  for (int k = 0; k < n; ++k) starts_[k + 1] += starts_[k];
+}
+
+void BlockCholesky::factorize(const BlockMatrix& matrix) {
+  const int n = matrix.count();
+  rows_.resize(starts_[n]);
+  lower_.resize(starts_[n]);
+  inverse_.resize(n);
+  std::vector<int> ends(starts_.begin(), starts_.end() - 1);  // of what is known of each column
+  std::vector<int> seen_by(n, none), reached(n), way(n);
+  std::vector<Block> row(n, Block::Zero());
+  for (int k = 0; k < n; ++k) {
+    // What row k of L has: all that is passed on the way up the tree, from the bottom.
+    int top = n;
+    seen_by[k] = k;
+    for (int p = matrix.starts[k]; p < matrix.starts[k + 1]; ++p) {
+      int length = 0;
+      row[matrix.rows[p]] = matrix.blocks[p];
+      for (int i = matrix.rows[p]; seen_by[i] != k; i = parent_[i]) {
+        way[length++] = i;
+        seen_by[i] = k;
+      }
+      while (length > 0) reached[--top] = way[--length];
+    }
+    const Block diagonal = row[k];
+    Block pivot = diagonal;
+    row[k].setZero();
+    for (; top < n; ++top) {
+      const int i = reached[top];
+      const Block y = row[i];
+      row[i].setZero();
+      const int end = ends[i];
+      for (int p = starts_[i]; p < end; ++p) row[rows_[p]].noalias() -= lower_[p] * y;
+      const Block transposed = inverse_[i] * y;
+      pivot.noalias() -= y.transpose() * transposed;
+      rows_[end] = k;
+      lower_[end] = transposed.transpose();
+      ++ends[i];
+    }
+    invert(k, pivot, diagonal);
+  }
+}
+
+void BlockCholesky::invert(int column, const Block& pivot, const Block& diagonal) {
+  constexpr double rounding = 1e-14;
+  const double a = pivot(0, 0), b = 0.5 * (pivot(0, 1) + pivot(1, 0)), c = pivot(1, 1);
+  const double rest = c - b * b / a;
+  if (!(a > rounding * diagonal(0, 0)) || !(rest > rounding * diagonal(1, 1)))
+    throw std::runtime_error("the matrix is not positive definite");
+  inverse_[column] << c, -b, -b, a;
+  inverse_[column] /= a * rest;
+}
+
+Vector BlockCholesky::solve(Vector b) const {
+  const int n = static_cast<int>(inverse_.size());
+  for (int i = 0; i < n; ++i) {
+    const Point x = b.segment<2>(2 * i);
+    for (int p = starts_[i]; p < starts_[i + 1]; ++p) b.segment<2>(2 * rows_[p]).noalias() -= lower_[p] * x;
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    Point x = inverse_[i] * b.segment<2>(2 * i);
+    for (int p = starts_[i]; p < starts_[i + 1]; ++p) x.noalias() -= lower_[p].transpose() * b.segment<2>(2 * rows_[p]);
+    b.segment<2>(2 * i) = x;
+  }
+  return b;
+}
+
+}  // namespace sprekk::fine_fracture

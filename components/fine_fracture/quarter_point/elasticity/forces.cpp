@@ -1,0 +1,72 @@
+#include "components/fine_fracture/quarter_point/elasticity/forces.hpp"
+
+#include "components/fine_fracture/quarter_point/domain/outline.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+constexpr int edge_points = 4;
+
+void add_edge_force(const EdgeNodes& nodes, const EdgePoint& p, const Point& force, Vector& f) {
+  for (int k = 0; k < 3; ++k) f.segment<2>(2 * nodes[k]) += p.value[k] * force;
+}
+
+void add_outline_tractions(const FineGeometry& geometry, const FineMesh& mesh, const FineLoads& loads, Vector& f) {
+  for (const FineMesh::OutlineEdge& edge : mesh.outline_edges) {
+    if (geometry.side(edge.edge) != FineGeometry::Side::traction) continue;
+    const Segment side = outline_edge(geometry.outline, edge.edge);
+    const Point along = (side.to - side.from).normalized(), normal(along.y(), -along.x());
+    for (const LinePoint& place : line_rule(edge_points)) {
+      const EdgePoint p = edge_point(mesh, edge.nodes, place.t);
+      add_edge_force(edge.nodes, p, place.weight * p.jacobian * loads.boundary_traction(p.x, normal), f);
+    }
+  }
+}
+
+void add_wall_tractions(const FineMesh& mesh, const FineLoads& loads, Vector& f) {
+  for (const FineMesh::WallEdge& edge : mesh.wall_edges) {
+    if (edge.walls != CrackPath::Walls::traction) continue;
+    for (const LinePoint& place : wall_rule(mesh, edge, edge_points)) {
+      const EdgePoint p = edge_point(mesh, edge.nodes[0], place.t);
+      const WallPlace wall = wall_place(mesh, edge, p.x);
+      const Point force = place.weight * p.jacobian * loads.wall_traction(edge.crack, wall.segment, wall.s);
+      add_edge_force(edge.nodes[0], p, force, f);
+      add_edge_force(edge.nodes[1], p, -force, f);
+    }
+  }
+}
+
+}  // namespace
+
+Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const FineLoads& loads) {
+  Vector f = Vector::Zero(2 * mesh.node_count());
+  if (loads.boundary_traction) add_outline_tractions(geometry, mesh, loads, f);
+  if (loads.wall_traction) add_wall_tractions(mesh, loads, f);
+  return f;
+}
+
+OffsetForces::OffsetForces(const FineMesh& mesh) {
+  constexpr int degree = 4, along_rays = 3, across = 4;
+  for (const FineMesh::Element& element : mesh.elements) {
+    for (const TrianglePoint& place : element.tip == none ? triangle_rule(degree) : polar_rule(along_rays, across)) {
+      const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
+      places_.push_back(p.x);
+      shares_.push_back({element.nodes, place.weight * p.jacobian * p.gradient});
+    }
+  }
+}
+
+void OffsetForces::subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const {
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    const Tensor s = symmetric(offsets.col(i));
+    for (int k = 0; k < 6; ++k)
+      forces.segment<2>(2 * shares_[i].nodes[k]) -= s * shares_[i].gradient.row(k).transpose();
+  }
+}
+
+}  // namespace sprekk::fine_fracture

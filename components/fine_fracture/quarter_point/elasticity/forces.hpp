@@ -1,0 +1,30 @@
+// Nodal forces of tractions and of the stress offset.
+#pragma once
+
+#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// The integrals of t . v over the outline and the walls; (x, y) per node, N/m.
+Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const FineLoads& loads);
+
+/// The integral of s : eps(v) over the domain, where s is the stress offset. What follows from the mesh is computed
+/// once.
+class OffsetForces {
+ public:
+  explicit OffsetForces(const FineMesh& mesh);
+  const std::vector<Point>& places() const { return places_; }
+  /// From the offset there, (xx, yy, xy) in Pa, a column a place.
+  void subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const;
+
+ private:
+  struct Share {
+    std::array<int, 6> nodes;
+    Eigen::Matrix<double, 6, 2> gradient;  ///< of their shape functions, times the area that the place stands for, m
+  };
+  std::vector<Point> places_;
+  std::vector<Share> shares_;  ///< by place
+};
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,61 @@
+// Stress-intensity factors of a finite-element solution.
+#pragma once
+
+#include <vector>
+
+#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/interaction_integral.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// Of one tip, in its frame: x1 out of the crack along its direction, x2 = x1 turned by +90 degrees. Pairs are
+/// (K_I, K_II) in Pa m^1/2. K_I > 0 opens; K_II > 0 moves the upper wall (x2 > 0) towards +x1 against the lower.
+struct TipIntensities {
+  int crack;
+  bool is_last;     ///< the last point of the path, else the first
+  Point position;   ///< m
+  Point direction;  ///< x1
+
+  /// The best of what follows: the interaction integral where walls carry tractions up to the tip. Where a jump is
+  /// prescribed up to the tip, that alone determines K: then it is K_extrapolated.
+  Point K;
+  Point K_interaction;   ///< by the interaction integral over the larger domain
+  Point K_inner;         ///< over a smaller one
+  Point K_correlation;   ///< by displacement correlation with quarter points: G sqrt(2 pi / L) / (kappa + 1) [4 dv(L/4)
+                         ///< - dv(L)]
+  Point K_extrapolated;  ///< the same from dv(L/4) and dv(L) extrapolated linearly to the tip
+  double T;              ///< sigma_11 - sigma_22 at the tip, Pa
+  double energy_release_rate;  ///< (K_I^2 + K_II^2) / E', Pa m
+  Point error;  ///< an estimate for K: how far K_interaction is from K_inner, or K_extrapolated from K_correlation
+  double domain_radius;  ///< of the interaction integral, m
+};
+
+/// One of the tips of a geometry.
+struct TipPlace {
+  int crack;
+  bool is_last;
+};
+
+/// How to find them at one tip, in any solution on its mesh.
+class TipEvaluation {
+ public:
+  /// Keeps references to the mesh and to its tip.
+  TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip);
+  /// Where the stress offset is asked for.
+  const std::vector<Point>& offset_places() const { return integrals_.offset_places(); }
+  /// `loads` are those of the solution, `offsets` a column (xx, yy, xy) a place, or none; `displacement` holds (x, y)
+  /// per node.
+  TipIntensities of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
+                    const Vector& displacement) const;
+
+ private:
+  const FineMesh::Tip& tip_;
+  Elasticity rock_;
+  double domain_radius_;
+  bool has_jump_;  ///< prescribed up to the tip
+  InteractionIntegrals integrals_;
+};
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,88 @@
+// The interaction integral in domain form.
+#pragma once
+
+#include <array>
+
+#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// K_I, K_II (Pa m^1/2) and sigma_11 - sigma_22 (Pa) at a tip.
+struct InteractionResult {
+  Point K;
+  double T;
+};
+
+/// With total stress sigma = C eps(u) + s, auxiliary field a and a weight q that is 1 at the tip and 0 at `radius`,
+///
+///   I = int_A [sigma_ij ua_i,1 q_,j + sa_ij u_i,1 q_,j - (sa : eps) q_,1 + q s : epsa_,1] - int_walls q t . ua_,1,
+///
+/// which is the usual domain form (Li, Shih and Needleman 1985; Yau, Wang and Corten 1980) after the body force div s
+/// has been integrated by parts: only values of s occur. Before, the constant state that the walls' traction and s have
+/// at the tip is subtracted, so that integrals converge at the tip. K = E' I / 2, sigma_11 = E' I for a unit force.
+/// Exact for walls that are straight within the radius. On walls of kind jump, t is the mean of both elements'
+/// stress, in the rosette a line fitted to it from behind.
+///
+/// For two radii, the first one the larger, together: they share all but q. The integrals are linear in u, s and t, and
+/// what they are multiplied by follows from the mesh: it is computed once.
+class InteractionIntegrals {
+ public:
+  /// Keeps references to the mesh and to its tip.
+  InteractionIntegrals(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip,
+                       const std::array<double, 2>& radii);
+  /// Where the stress offset is asked for.
+  const std::vector<Point>& offset_places() const { return offset_places_; }
+  /// `offsets`: (xx, yy, xy) in Pa, a column a place; no columns for none.
+  std::array<InteractionResult, 2> of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
+                                      const Vector& displacement) const;
+
+ private:
+  static constexpr int domains = 2, fields = 3, sums = domains * fields;
+  using Sums = Eigen::Vector<double, sums>;  ///< [domain][field]
+  template <int columns>
+  using Rows = Eigen::Matrix<double, sums, columns>;
+
+  /// A place of integration on a wall.
+  struct WallPoint {
+    const FineMesh::WallEdge* edge;
+    Point x, normal;  ///< the normal in the frame of the tip
+    double t;         ///< parameter of the edge
+    double weight;    ///< m
+    int offset;       ///< its column of the offsets, or none
+  };
+  struct WallShare {
+    WallPoint point;
+    Rows<2> of_traction;
+  };
+  struct State;  ///< what one solution has in it
+
+  bool is_own(int tip) const { return &mesh_.tips[tip] == &tip_; }
+  double weight(int node, int domain) const;
+  WallPoint wall_point(const FineMesh::WallEdge& edge, const LinePoint& place);
+  void add_element(const FineMesh::Element& element);
+  Point weight_gradient(const FineMesh::Element& element, const std::array<double, 3>& q) const;
+  void add_wall(const FineMesh::WallEdge& edge);
+  void add_places_of_fit();
+  Point traction_at_tip(const State& state) const;
+  Point wall_traction(const State& state, const FineMesh::WallEdge& edge, const Point& x) const;
+  void fit_traction(State& state) const;
+  Point traction(const State& state, const WallPoint& point) const;
+
+  const FineMesh& mesh_;
+  Elasticity rock_;
+  const FineMesh::Tip& tip_;
+  std::array<double, domains> radii_;
+  Tensor frame_;                                  ///< columns x1, x2
+  const FineMesh::WallEdge* own_wall_ = nullptr;  ///< an edge of the rosette
+  std::vector<Point> offset_places_;              ///< the tip, those in elements, those on walls
+  Rows<Eigen::Dynamic> of_displacement_;
+  Rows<4> of_gradient_ = Rows<4>::Zero();  ///< of a constant one, in the frame of the tip
+  std::vector<Rows<3>> of_offset_;         ///< by place in elements
+  std::vector<WallShare> walls_;
+  std::vector<WallPoint> fit_;
+};
+
+}  // namespace sprekk::fine_fracture

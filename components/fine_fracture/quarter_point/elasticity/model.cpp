@@ -1,0 +1,136 @@
+#include "components/fine_fracture/quarter_point/elasticity/model.hpp"
+
+#include <stdexcept>
+
+#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+using ElementVector = Eigen::Matrix<double, 12, 1>;
+
+ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& element, const Elasticity& rock) {
+  const double lambda = rock.lambda, shear = rock.shear;
+  ElementMatrix stiffness = ElementMatrix::Zero();
+  // Exact for straight elements. In quarter-point elements the usual rule misses a little of the energy, which makes
+  // them less stiff and their stress-intensity factors better than exact integration (2 x 3 polar points) does.
+  for (const TrianglePoint& place : triangle_rule(element.tip == none ? 2 : 5)) {
+    const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
+    const double factor = place.weight * p.jacobian;
+    for (int a = 0; a < 6; ++a) {
+      const double ax = factor * p.gradient(a, 0), ay = factor * p.gradient(a, 1);
+      for (int b = 0; b < 6; ++b) {
+        const double bx = p.gradient(b, 0), by = p.gradient(b, 1);
+        const double xx = ax * bx, yy = ay * by;
+        stiffness(2 * a, 2 * b) += (lambda + 2 * shear) * xx + shear * yy;
+        stiffness(2 * a + 1, 2 * b + 1) += (lambda + 2 * shear) * yy + shear * xx;
+        stiffness(2 * a, 2 * b + 1) += lambda * ax * by + shear * ay * bx;
+        stiffness(2 * a + 1, 2 * b) += lambda * ay * bx + shear * ax * by;
+      }
+    }
+  }
+  return stiffness;
+}
+
+std::vector<ElementMatrix> stiffness_by_element(const FineMesh& mesh, const Elasticity& rock) {
+  std::vector<ElementMatrix> stiffness;
+  stiffness.reserve(mesh.elements.size());
+  for (const auto& element : mesh.elements) stiffness.push_back(element_stiffness(mesh, element, rock));
+  return stiffness;
+}
+
+auto timed(Profile& profile, const char* name, const auto& work) {
+  const ScopedTimer timer(profile, name);
+  return work();
+}
+
+ElementVector gather(const FineMesh::Element& element, const Vector& values) {
+  ElementVector local;
+  for (int k = 0; k < 6; ++k) local.segment<2>(2 * k) = values.segment<2>(2 * element.nodes[k]);
+  return local;
+}
+
+}  // namespace
+
+FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
+                     const std::optional<TipPlace>& wanted, std::shared_ptr<Profile> profile)
+    : profile_(std::move(profile)),
+      geometry_(std::move(geometry)),
+      rock_(rock),
+      mesh_(timed(*profile_, "mesh",
+                  [&] { return std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options)); })),
+      unknowns_(geometry_, *mesh_),
+      stiffness_(timed(*profile_, "assembly", [&] { return stiffness_by_element(*mesh_, rock_); })),
+      factors_(*mesh_, unknowns_, stiffness_, *profile_),
+      offset_forces_(timed(*profile_, "loads", [&] { return OffsetForces(*mesh_); })) {
+  for (const char* name : {"ordering", "factorization", "back-solves"}) profile_->at(name).is_solver = true;
+  const ScopedTimer timer(*profile_, "factors");
+  offset_places_ = offset_forces_.places();
+  for (const FineMesh::Tip& tip : mesh_->tips) {
+    if (wanted && (tip.room.crack != wanted->crack || tip.room.is_last != wanted->is_last)) continue;
+    const std::vector<Point>& places = tips_.emplace_back(*mesh_, rock_, tip).offset_places();
+    offset_places_.insert(offset_places_.end(), places.begin(), places.end());
+  }
+}
+
+Vector FineModel::right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const {
+  Vector f = traction_forces(geometry_, *mesh_, loads);
+  if (offsets.cols() > 0) offset_forces_.subtract_from(f, offsets);
+  for (std::size_t e = 0; e < stiffness_.size(); ++e) {
+    const auto& element = mesh_->elements[e];
+    const ElementVector local = gather(element, u);
+    if (local.isZero(0)) continue;
+    const ElementVector force = stiffness_[e] * local;
+    for (int k = 0; k < 6; ++k) f.segment<2>(2 * element.nodes[k]) -= force.segment<2>(2 * k);
+  }
+  Vector b = Vector::Zero(unknowns_.count());
+  for (int i = 0; i < f.size(); ++i) {
+    if (unknowns_.of(i) != none) b[unknowns_.of(i)] += f[i];
+  }
+  return b;
+}
+
+Vector FineModel::back_solve(const Vector& b) const {
+  const ScopedTimer timer(*profile_, "back-solves");
+  const Vector x = factors_.solve(b);
+  if (!x.allFinite()) throw std::runtime_error("fine level: the displacements are not finite");
+  return x;
+}
+
+FineSolution FineModel::solve(const FineLoads& loads) const {
+  FineSolution solution{mesh_, rock_, {}, {}};
+  Vector& u = solution.displacement;
+  Vector b;
+  Eigen::Matrix3Xd offsets;
+  {
+    const ScopedTimer timer(*profile_, "loads");
+    if (loads.stress_offset) offsets = loads.stress_offset(offset_places_);
+    u = unknowns_.prescribed_values(*mesh_, loads);
+    b = right_hand_side(loads, offsets, u);
+  }
+  const Vector x = back_solve(b);
+  const ScopedTimer timer(*profile_, "factors");
+  for (int i = 0; i < u.size(); ++i) {
+    if (unknowns_.of(i) != none) u[i] += x[unknowns_.of(i)];
+  }
+  Eigen::Index first = static_cast<Eigen::Index>(offset_forces_.places().size());
+  for (const TipEvaluation& tip : tips_) {
+    const Eigen::Index count = offsets.cols() > 0 ? static_cast<Eigen::Index>(tip.offset_places().size()) : 0;
+    solution.tips.push_back(tip.of(loads, offsets.middleCols(offsets.cols() > 0 ? first : 0, count), u));
+    first += count;
+  }
+  return solution;
+}
+
+double FineModel::strain_energy(const FineSolution& solution) const {
+  double energy = 0;
+  for (std::size_t e = 0; e < stiffness_.size(); ++e) {
+    const ElementVector local = gather(mesh_->elements[e], solution.displacement);
+    energy += 0.5 * local.dot(stiffness_[e] * local);
+  }
+  return energy;
+}
+
+}  // namespace sprekk::fine_fracture

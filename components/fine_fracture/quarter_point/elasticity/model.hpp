@@ -1,0 +1,57 @@
+// The elastic problem of the fine level, factorized.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "components/fine_fracture/quarter_point/elasticity/forces.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/solution.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/stiffness_factors.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/unknowns.hpp"
+#include "framework/output/profile.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// Plane-strain elasticity on quadratic triangles with quarter-point rosettes:
+/// div (C eps(u) + s) = 0 with the loads of FineLoads. The matrix is factorized once, and what loads and factors take
+/// from the mesh is computed once; every further solve is a back-substitution.
+class FineModel {
+ public:
+  /// Finds the factors of all tips, or of the one that is wanted. Times its work in `profile`: mesh, assembly,
+  /// ordering, factorization, loads, back-solves, factors. Throws what make_fine_mesh throws, and std::runtime_error
+  /// when the matrix is singular.
+  FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
+            const std::optional<TipPlace>& wanted = {}, std::shared_ptr<Profile> profile = std::make_shared<Profile>());
+
+  const FineGeometry& geometry() const { return geometry_; }
+  const FineMesh& mesh() const { return *mesh_; }
+  const Elasticity& rock() const { return rock_; }
+
+  /// Where each solve asks for the stress offset.
+  const std::vector<Point>& offset_places() const { return offset_places_; }
+
+  /// Throws std::runtime_error when the result is not finite.
+  FineSolution solve(const FineLoads& loads) const;
+  /// Of C eps(u), J/m.
+  double strain_energy(const FineSolution& solution) const;
+
+ private:
+  /// For the unknowns, with u of all that is prescribed and 0 elsewhere.
+  Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const;
+  Vector back_solve(const Vector& b) const;
+
+  std::shared_ptr<Profile> profile_;
+  FineGeometry geometry_;
+  Elasticity rock_;
+  std::shared_ptr<const FineMesh> mesh_;
+  Unknowns unknowns_;
+  std::vector<ElementMatrix> stiffness_;
+  StiffnessFactors factors_;
+  OffsetForces offset_forces_;
+  std::vector<TipEvaluation> tips_;
+  std::vector<Point> offset_places_;  ///< of offset_forces_, then those of tips_
+};
+
+}  // namespace sprekk::fine_fracture

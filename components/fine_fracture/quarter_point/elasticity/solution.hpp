@@ -1,0 +1,28 @@
+// Displacements and stress-intensity factors of the fine level.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "components/fine_fracture/quarter_point/elasticity/element_locator.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/intensities.hpp"
+
+namespace sprekk::fine_fracture {
+
+struct FineSolution {
+  std::shared_ptr<const FineMesh> mesh;
+  Elasticity rock;
+  Vector displacement;               ///< (x, y) per node, m
+  std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips, or the one that is wanted
+
+  /// Places come from an ElementLocator.
+  Point displacement_at(const ElementPlace& place) const;
+  /// du_i/dx_j.
+  Tensor gradient_at(const ElementPlace& place) const;
+  /// C eps(u), Pa: without the offset. Infinite at a tip.
+  Tensor elastic_stress_at(const ElementPlace& place) const {
+    return rock.stress(0.5 * (gradient_at(place) + gradient_at(place).transpose()));
+  }
+};
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,47 @@
+// Which displacements are unknown, which are prescribed, and which are tied across a crack.
+#pragma once
+
+#include <vector>
+
+#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// u = T x + g: every displacement component is an unknown of x (or none) plus a value that the loads prescribe.
+class Unknowns {
+ public:
+  Unknowns(const FineGeometry& geometry, const FineMesh& mesh);
+
+  int count() const { return count_; }
+  /// The unknown of component 2 node + direction, or none.
+  int of(int component) const { return unknown_[component]; }
+  /// g.
+  Vector prescribed_values(const FineMesh& mesh, const FineLoads& loads) const;
+
+ private:
+  struct Prescribed {
+    int node;
+    Point inside;  ///< slightly inside the element that asks
+  };
+  /// u(slave) = u(master) + sign jump.
+  struct Tie {
+    int slave, master;
+    double sign;
+    int wall_edge;
+  };
+  void prescribe_sides(const FineGeometry& geometry, const FineMesh& mesh);
+  void tie_walls(const FineMesh& mesh);
+  void pin_floating_parts(const FineMesh& mesh);
+  void number(const FineMesh& mesh);
+
+  std::vector<Prescribed> prescribed_;
+  std::vector<Tie> ties_;
+  std::vector<char> is_prescribed_;  ///< by node
+  std::vector<char> is_slave_;       ///< by node
+  std::vector<int> pinned_;          ///< components
+  std::vector<int> unknown_;
+  int count_ = 0;
+};
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,60 @@
+#include "framework/discretization/interaction_region.hpp"
+
+#include <algorithm>
+
+namespace sprekk {
+
+namespace {
+
+int index_in(std::span<const int> items, int item) {
+  return static_cast<int>(std::find(items.begin(), items.end(), item) - items.begin());
+}
+
+double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+}  // namespace
+
+void InteractionRegion::assign(const Mesh& mesh, int node) {
+  const auto node_cells = mesh.node_cells[node];
+  const auto node_faces = mesh.node_faces[node];
+  faces.assign(node_faces.begin(), node_faces.end());
+  neighbours.assign(faces.size(), {none, none});
+  subcells.resize(node_cells.size());
+  for (int k = 0; k < subcell_count(); ++k) {
+    Subcell& subcell = subcells[k];
+    subcell.cell = node_cells[k];
+    const Point& center = mesh.cell_center[subcell.cell];
+    std::array<Point, 2> arm, face_center;
+    int found = 0;
+    for (const int face : mesh.cell_faces[subcell.cell]) {
+      if (mesh.face_nodes[face][0] != node && mesh.face_nodes[face][1] != node) continue;
+      const bool is_inner = mesh.face_cells[face][1] != none;
+      const int side = mesh.face_cells[face][0] == subcell.cell ? 0 : 1;
+      const int subface = index_in(node_faces, face);
+      subcell.subfaces[found] = subface;
+      neighbours[subface][side] = k;
+      face_center[found] = mesh.face_center[face];
+      arm[found] = face_center[found] - center;
+      if (is_inner) arm[found] += (mesh.nodes[node] - face_center[found]) / 3;
+      subcell.half_face[found] = (side == 0 ? 0.5 : -0.5) * mesh.face_length[face] * mesh.face_normal[face];
+      ++found;
+    }
+    const double determinant = cross(arm[0], arm[1]);
+    subcell.gradient[0] = Point(arm[1][1], -arm[1][0]) / determinant;
+    subcell.gradient[1] = Point(-arm[0][1], arm[0][0]) / determinant;
+    subcell.area = 0.5 * std::abs(cross(mesh.nodes[node] - center, face_center[1] - face_center[0]));
+  }
+}
+
+Adjacency outer_faces_of_nodes(const Mesh& mesh) {
+  Adjacency outer;
+  outer.offsets.reserve(mesh.node_count() + 1);
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    for (const int face : mesh.node_faces[node])
+      if (mesh.face_cells[face][1] == none) outer.items.push_back(face);
+    outer.offsets.push_back(static_cast<int>(outer.items.size()));
+  }
+  return outer;
+}
+
+}  // namespace sprekk

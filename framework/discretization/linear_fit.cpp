@@ -1,0 +1,36 @@
+#include "framework/discretization/linear_fit.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <set>
+
+#include "framework/mesh/point_location.hpp"
+
+namespace sprekk {
+
+std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
+                                               const std::function<bool(int, int)>& is_like) {
+  const int home = PointLocation(mesh).cell_at(x);
+  if (home == none) return {};
+  std::set<int> around;
+  for (const int node : mesh.cell_nodes[home])
+    for (const int cell : mesh.node_cells[node])
+      if (mesh.cell_region[cell] == mesh.cell_region[home] && (cell == home || !is_like || is_like(home, cell)))
+        around.insert(cell);
+  const std::vector<int> cells(around.begin(), around.end());
+  // Minimizes sum (a + b·(x_cell − x) − value)^2; the weights are the first row of the pseudo-inverse.
+  Eigen::MatrixXd basis(cells.size(), 3);
+  const double scale = std::sqrt(mesh.cell_area[home]);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Point offset = (mesh.cell_center[cells[i]] - x) / scale;
+    basis.row(i) << 1, offset[0], offset[1];
+  }
+  const auto decomposition = basis.completeOrthogonalDecomposition();
+  if (decomposition.rank() < 3) return {{home, 1.0}};
+  const Eigen::MatrixXd inverse = decomposition.pseudoInverse();
+  std::vector<std::pair<int, double>> weights;
+  for (std::size_t i = 0; i < cells.size(); ++i) weights.emplace_back(cells[i], inverse(0, i));
+  return weights;
+}
+
+}  // namespace sprekk

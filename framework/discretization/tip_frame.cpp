@@ -1,0 +1,40 @@
+#include "framework/discretization/tip_frame.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace sprekk {
+
+TipFrame::TipFrame(const Mesh& mesh, int tip) : tip_(mesh.nodes[tip]) {
+  for (const int face : mesh.node_faces[tip]) {
+    if (mesh.face_fracture_cell[face] == none) continue;
+    const Point ahead = (tip_ - mesh.face_center[face]).normalized();
+    axes_ << ahead.x(), -ahead.y(), ahead.y(), ahead.x();
+    size_ = mesh.face_length[face];
+  }
+}
+
+int TipFrame::side_of(const Point& x) const { return axes_.col(1).dot(x - tip_) < 0 ? -1 : 1; }
+
+int TipFrame::side_of_wall(const Mesh& mesh, int face) const {
+  const FractureCell& cell = mesh.fracture_cells[mesh.face_fracture_cell[face]];
+  const bool normal_points_left = axes_.col(1).dot(cell.normal) > 0;
+  const bool is_plus = cell.faces[static_cast<int>(Wall::plus)] == face;
+  return is_plus == normal_points_left ? -1 : 1;  // the normal points out of the plus wall's rock
+}
+
+int TipFrame::side_of_cell(const Mesh& mesh, int cell) const {
+  for (const int face : mesh.cell_faces[cell])
+    if (mesh.face_fracture_cell[face] != none) return side_of_wall(mesh, face);
+  return 0;
+}
+
+TipFrame::Polar TipFrame::polar(const Point& x, int side) const {
+  const Point local = axes_.transpose() * (x - tip_);
+  const double angle = std::atan2(local.y(), local.x());
+  // A fracture that bends a little leaves its line: behind the tip the side decides.
+  const bool is_beyond = angle * side < 0 && std::abs(local.y()) < -0.5 * local.x();
+  return {local.norm(), is_beyond ? angle + 2 * std::numbers::pi * side : angle};
+}
+
+}  // namespace sprekk

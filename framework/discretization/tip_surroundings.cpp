@@ -1,0 +1,51 @@
+#include "framework/discretization/tip_surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sprekk {
+namespace {
+
+const double straight = std::cos(10 * std::numbers::pi / 180);
+
+}  // namespace
+
+NodeWalls::NodeWalls(const Mesh& mesh, int node) {
+  int count = 0;
+  for (const int face : mesh.node_faces[node]) {
+    if (mesh.face_cells[face][1] != none) continue;
+    are_all = are_all && count < 2 && mesh.face_fracture_cell[face] != none;
+    if (are_all) cells[count++] = mesh.face_fracture_cell[face];
+  }
+}
+
+bool is_tip(const Mesh& mesh, int node) {
+  const NodeWalls walls(mesh, node);
+  return walls.are_all && walls.cells[0] != none && walls.cells[0] == walls.cells[1];
+}
+
+bool tip_field_goes_on(const Mesh& mesh, int node, const FractureCell& last) {
+  if (mesh.node_cells[node].size() < 2) return false;
+  const NodeWalls walls(mesh, node);
+  return walls.are_all && std::all_of(walls.cells.begin(), walls.cells.end(), [&](int i) {
+           return i == none || (mesh.fracture_cells[i].fracture == last.fracture &&
+                                mesh.fracture_cells[i].tangent.dot(last.tangent) > straight);
+         });
+}
+
+std::vector<int> nodes_around_tip(const Mesh& mesh, int tip, int edges) {
+  const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];
+  std::vector<int> reached{tip};
+  for (int layer = 0, begin = 0; layer < edges; ++layer) {
+    const int end = static_cast<int>(reached.size());
+    for (; begin < end; ++begin)
+      for (const int face : mesh.node_faces[reached[begin]])
+        for (const int node : mesh.face_nodes[face])
+          if (std::find(reached.begin(), reached.end(), node) == reached.end() && tip_field_goes_on(mesh, node, last))
+            reached.push_back(node);
+  }
+  return reached;
+}
+
+}  // namespace sprekk

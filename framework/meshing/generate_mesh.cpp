@@ -1,0 +1,59 @@
+#include "framework/meshing/generate_mesh.hpp"
+
+#include "framework/mesh/build_mesh.hpp"
+#include "framework/meshing/distort_mesh.hpp"
+#include "framework/meshing/number_in_space.hpp"
+#include "framework/meshing/read_msh.hpp"
+#include "framework/meshing/regions.hpp"
+#include "framework/meshing/single_cell_corners.hpp"
+#include "framework/meshing/structured_mesh.hpp"
+#include "framework/meshing/unstructured_mesh.hpp"
+
+namespace sprekk {
+namespace {
+
+RawMesh triangulate(const Geometry& geometry, const MeshOptions& options) {
+  if (geometry.is_imported()) return read_msh(geometry.file, geometry.file_origin);
+  if (options.kind == MeshOptions::Kind::structured) return structured_mesh(geometry, options);
+  return unstructured_mesh(geometry, options);
+}
+
+Mesh finish(RawMesh raw, const Geometry& geometry, const MeshOptions& options) {
+  avoid_single_cell_corners(raw);
+  const std::vector<Point> places = raw.nodes;
+  distort_mesh(raw, options.distortion, options.seed);
+  // A distorted mesh has the numbers of the regular one. Those of a structured mesh follow its lines.
+  if (geometry.is_imported() || options.kind == MeshOptions::Kind::unstructured) number_in_space(raw, places);
+  return build_mesh(raw);
+}
+
+}  // namespace
+
+Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options) {
+  validate_geometry(geometry, options);
+  RawMesh raw = triangulate(geometry, options);
+  if (!geometry.is_imported()) return finish(std::move(raw), geometry, options);
+  try {
+    return finish(std::move(raw), geometry, options);
+  } catch (const InputError& error) {
+    // What is wrong with the triangles of a file is the user's to mend: say in which file.
+    throw InputError(geometry.file_origin, "cannot use the mesh file '" + geometry.file + "'", error.what());
+  }
+}
+
+MeshNames mesh_names(const Geometry& geometry) {
+  MeshNames names;
+  if (geometry.is_imported()) {
+    const RawMesh raw = read_msh(geometry.file, geometry.file_origin);
+    names.regions = raw.region_names;
+    names.sides = raw.side_names;
+    for (const auto& fracture : raw.fractures) names.fractures.push_back(fracture.name);
+    return names;
+  }
+  names.regions = region_names(geometry);
+  names.sides.assign(box_sides.begin(), box_sides.end());
+  for (const FractureGeometry& fracture : geometry.fractures) names.fractures.push_back(fracture.name);
+  return names;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,205 @@
+#include "framework/meshing/geometry_spec.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+namespace sprekk {
+namespace {
+
+Origin origin_of(const Node& whole, const std::string& key) {
+  const Node* value = whole.find(key);
+  return value ? value->origin : whole.origin;
+}
+
+struct BoxInput {
+  std::vector<double> x, y;
+};
+
+Spec box_spec(const std::shared_ptr<BoxInput>& input, Box& box) {
+  Spec spec("box", "A rectangle; its sides are called left, right, bottom and top.");
+  spec.quantities("x", input->x, {.unit = "m", .doc = "Where it begins and ends along x.", .required = true});
+  spec.quantities("y", input->y, {.unit = "m", .doc = "Where it begins and ends along y.", .required = true});
+  spec.check([input, &box](const Node& whole) {
+    for (const auto& [key, ends] : {std::pair("x", &input->x), std::pair("y", &input->y)}) {
+      if (ends->size() == 2) continue;
+      throw InputError(origin_of(whole, key), std::string("the box needs two values along ") + key,
+                       std::to_string(ends->size()) + " are given", std::string("write ") + key + ": [0 m, 1 m]");
+    }
+    box.low = {input->x[0], input->y[0]};
+    box.high = {input->x[1], input->y[1]};
+    box.origin = whole.origin;
+  });
+  return spec;
+}
+
+struct FractureInput {
+  std::vector<Point> points;
+  std::optional<Point> center;
+  std::optional<double> length, size, angle;
+};
+
+/// `keep` receives the fracture once it is read.
+Spec fracture_spec(const std::string& name, const Origin& origin, std::function<void(FractureGeometry)> keep) {
+  const auto input = std::make_shared<FractureInput>();
+  Spec spec("fracture", "A polyline, given by its points or as a straight line by center, length and angle.");
+  spec.points("points", input->points,
+              {.unit = "m", .doc = "The points of the polyline; the plus side is to its left."});
+  spec.point("center", input->center, {.unit = "m", .doc = "The middle of a straight fracture."});
+  spec.quantity("length", input->length,
+                {.unit = "m", .range = positive(), .doc = "The length of a straight fracture."});
+  spec.quantity(
+      "angle", input->angle,
+      {.unit = "rad", .doc = "The direction of a straight fracture, counter-clockwise from the x axis; by default 0."});
+  spec.quantity("size", input->size,
+                {.unit = "m", .range = positive(), .doc = "The length of its cells; else the mesh's fracture_size."});
+  spec.check([input, name, origin, keep = std::move(keep)](const Node& whole) {
+    FractureGeometry fracture{name, input->points, input->size, origin};
+    const bool has_points = !input->points.empty(), has_center = input->center.has_value();
+    const bool has_line = has_center || input->length || input->angle;
+    if (has_points && has_line) {
+      throw InputError(whole.origin, "fracture '" + name + "' is given twice",
+                       "it has points and also center, length or angle", "keep one of the two");
+    }
+    if (!has_points && !(has_center && input->length)) {
+      throw InputError(whole.origin, "fracture '" + name + "' is not given completely",
+                       "it needs points, or center and length",
+                       "write points: [[x, y], [x, y]] or center: [x, y], length: …, angle: …");
+    }
+    if (has_center) {
+      const double angle = input->angle.value_or(0);
+      const Point half = 0.5 * *input->length * Point(std::cos(angle), std::sin(angle));
+      fracture.points = {*input->center - half, *input->center + half};
+    }
+    keep(std::move(fracture));
+  });
+  return spec;
+}
+
+Spec region_spec(const std::string& name, const Origin& origin, std::function<void(RegionGeometry)> keep) {
+  const auto polygon = std::make_shared<std::vector<Point>>();
+  Spec spec("region", "A part of the rock that may have properties of its own.");
+  spec.points("polygon", *polygon,
+              {.unit = "m", .doc = "The corners in order, not repeating the first.", .required = true});
+  spec.check([polygon, name, origin, keep = std::move(keep)](const Node&) { keep({name, *polygon, origin}); });
+  return spec;
+}
+
+}  // namespace
+
+Spec geometry_spec(Geometry& geometry, const std::string& folder) {
+  Spec spec("geometry", "The rock, the fractures in it, and its regions.");
+  spec.section("box", box_spec(std::make_shared<BoxInput>(), geometry.box), {.doc = "The rock as a rectangle."});
+  spec.text(
+      "file", geometry.file,
+      {.doc = "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: groups "
+              "of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."});
+  spec.named_sections("fractures", fracture_spec("", {}, [](FractureGeometry) {}),
+                      [&geometry](const std::string& name, const Origin& origin) {
+                        return fracture_spec(name, origin, [&geometry](FractureGeometry f) {
+                          geometry.fractures.push_back(std::move(f));
+                        });
+                      },
+                      {.doc = "The fractures, by name; they may cross and touch one another inside of the rock."});
+  spec.named_sections(
+      "regions", region_spec("", {}, [](RegionGeometry) {}),
+      [&geometry](const std::string& name, const Origin& origin) {
+        return region_spec(name, origin, [&geometry](RegionGeometry r) { geometry.regions.push_back(std::move(r)); });
+      },
+      {.doc =
+           "Polygons that the mesh conforms to, by name; the rest is called rock, and later ones cover earlier ones."});
+  spec.check([&geometry, folder](const Node& whole) {
+    const bool has_box = whole.find("box"), has_file = geometry.is_imported();
+    if (has_box == has_file) {
+      throw InputError(whole.origin,
+                       has_box ? "the geometry has a box and a file" : "the geometry has neither box nor file",
+                       "it needs exactly one of them", "write box: {x: [0 m, 1 m], y: [0 m, 1 m]}");
+    }
+    if (!has_file) return;
+    geometry.file_origin = origin_of(whole, "file");
+    if (std::filesystem::path(geometry.file).is_relative() && folder != ".") {
+      geometry.file = (std::filesystem::path(folder) / geometry.file).string();
+    }
+  });
+  return spec;
+}
+
+Spec mesh_spec(MeshOptions& options) {
+  struct Input {
+    std::string kind = "unstructured", shape = "triangles";
+    std::vector<double> cells;
+  };
+  const auto input = std::make_shared<Input>();
+  Spec spec("mesh", "How the geometry is cut into cells.");
+  spec.choice("kind", input->kind,
+              {{"unstructured", "cells of varying size, made by gmsh"},
+               {"structured",
+                "equal rectangles, cut into triangles by alternating diagonals; fractures must lie on their lines"}},
+              {.doc = "What kind of mesh."});
+  spec.choice("shape", input->shape,
+              {{"triangles", "triangles only"},
+               {"quadrilaterals",
+                "structured: whole rectangles, without diagonals; unstructured: triangles are joined in pairs "
+                "where that gives good convex cells; the others stay"}},
+              {.doc = "What the cells look like; a mesh file brings its own."});
+  spec.quantity("size", options.size,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Edge length away from fractures; by default a fiftieth of the box's longer side."});
+  spec.quantity("fracture_size", options.fracture_size,
+                {.unit = "m", .range = positive(), .doc = "Edge length at fractures; by default size."});
+  spec.quantity("tip_size", options.tip_size,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Edge length at the ends of fractures in the rock; by default that of the fracture."});
+  spec.quantity("growth", options.growth,
+                {.unit = "",
+                 .range = Range{0, 2, false, true},
+                 .doc = "By how much the edge length grows per distance from fractures and tips."});
+  spec.quantity(
+      "gap_edges", options.gap_edges,
+      {.unit = "",
+       .range = between(0, 10),
+       .doc = "Unstructured: how many edges a gap between a fracture and a side, another fracture, another part "
+              "of itself or an edge of a region has across, where that makes shorter ones; 0 leaves gaps alone."});
+  spec.quantity(
+      "gap_length", options.gap_length,
+      {.unit = "",
+       .range = non_negative(),
+       .doc = "Gaps between walls side by side that are longer than so many widths are left alone, but for their "
+              "ends: they would take many cells."});
+  spec.quantity("gap_size", options.gap_size,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Gaps make edges no shorter than this; by default a 500th of the shortest size asked for."});
+  spec.quantities(
+      "cells", input->cells,
+      {.unit = "", .range = positive(), .doc = "Structured: rectangles along x and y; by default as size asks."});
+  spec.quantity("distortion", options.distortion,
+                {.unit = "",
+                 .range = between(0, 0.4),
+                 .doc = "Moves inner nodes at random by up to this part of the shortest edge there, for tests."});
+  spec.integer("seed", options.seed, {.doc = "Which random distortion."});
+  spec.check([input, &options](const Node& whole) {
+    options.origin = whole.origin;
+    options.kind = input->kind == "structured" ? MeshOptions::Kind::structured : MeshOptions::Kind::unstructured;
+    options.shape = input->shape == "triangles" ? MeshOptions::Shape::triangles : MeshOptions::Shape::quadrilaterals;
+    const auto& cells = input->cells;
+    if (cells.empty()) return;
+    const Origin origin = origin_of(whole, "cells");
+    if (options.kind != MeshOptions::Kind::structured) {
+      throw InputError(origin, "an unstructured mesh has no cells along x and y", "its edges have a size",
+                       "write kind: structured, or size: …");
+    }
+    constexpr double most = 1e7;
+    if (cells.size() != 2 || cells[0] != std::floor(cells[0]) || cells[1] != std::floor(cells[1]) ||
+        std::max(cells[0], cells[1]) > most) {
+      throw InputError(origin, "cells are not two whole numbers", "they count the rectangles along x and y",
+                       "write cells: [20, 20]");
+    }
+    options.cells = {static_cast<int>(cells[0]), static_cast<int>(cells[1])};
+  });
+  return spec;
+}
+
+}  // namespace sprekk

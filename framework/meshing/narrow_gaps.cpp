@@ -1,0 +1,171 @@
+#include "framework/meshing/narrow_gaps.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+namespace {
+
+/// By how much the width of a gap may vary along a part that counts as one.
+constexpr double evenness = 1.25;
+/// Lines that join each other count as neighbours across a gap where the way along the fractures is at least so many
+/// times the gap.
+constexpr double least_detour = 1.5;
+
+/// From one place along a fracture to another, m.
+struct Stretch {
+  double from, to;
+};
+
+double way_between(const Stretch& a, const Stretch& b) { return std::max({0.0, b.from - a.to, a.from - b.to}); }
+
+/// Where a fracture touches what leads to another line.
+struct Joint {
+  Stretch at;     ///< of the fracture
+  double beyond;  ///< m, the way from there along the other line's fracture
+};
+
+struct Line {
+  Segment segment;
+  int fracture;     ///< or none
+  Stretch stretch;  ///< of the fracture
+};
+
+std::vector<Line> lines_of(const Geometry& geometry) {
+  std::vector<Line> lines;
+  for (std::size_t f = 0; f < geometry.fractures.size(); ++f) {
+    double way = 0;
+    const auto& points = geometry.fractures[f].points;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const Segment segment{points[i], points[i + 1]};
+      lines.push_back({segment, static_cast<int>(f), {way, way + segment.length()}});
+      way += segment.length();
+    }
+  }
+  const auto add_polygon = [&](const std::vector<Point>& corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      lines.push_back({{corners[i], corners[(i + 1) % corners.size()]}, none, {}});
+  };
+  const auto& [low, high, origin] = geometry.box;
+  add_polygon({low, {high.x(), low.y()}, high, {low.x(), high.y()}});
+  for (const RegionGeometry& region : geometry.regions) add_polygon(region.polygon);
+  return lines;
+}
+
+class Search {
+ public:
+  Search(const Geometry& geometry, const GapLimits& limits, const std::function<double(const Point&)>& wanted,
+         const std::function<void(const NarrowGap&)>& keep)
+      : lines_(lines_of(geometry)),
+        touch_(point_tolerance(geometry.box)),
+        limits_(limits),
+        wanted_(wanted),
+        keep_(keep) {}
+
+  void run() {
+    struct Pair {
+      double gap;
+      int one, other;
+    };
+    std::vector<Pair> pairs;
+    const int count = static_cast<int>(lines_.size());
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j < i; ++j) {
+        if (lines_[i].fracture == none && lines_[j].fracture == none) continue;
+        const double gap = distance(lines_[i].segment, lines_[j].segment);
+        if (gap < touch_) touching_.insert(touching_.end(), {{&lines_[i], &lines_[j]}, {&lines_[j], &lines_[i]}});
+        if (gap >= touch_ && gap < limits_.widest) pairs.push_back({gap, i, j});
+      }
+    }
+    // The narrowest ones first: most others ask for nothing more then.
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.gap < b.gap; });
+    for (const auto& [gap, one, other] : pairs) {
+      look_along(lines_[one], lines_[other]);
+      look_along(lines_[other], lines_[one]);
+    }
+  }
+
+ private:
+  void look_along(const Line& line, const Line& other) {
+    const std::vector<Joint> joints = joints_between(line, other);
+    divide(line, {0, 1}, other, joints);
+  }
+
+  /// Where the fractures of two lines, which do not touch, lead from one to the other.
+  std::vector<Joint> joints_between(const Line& line, const Line& other) const {
+    if (line.fracture == other.fracture) return {{other.stretch, 0}};
+    const Line &of_fracture = line.fracture != none ? line : other, &fixed = line.fracture != none ? other : line;
+    std::vector<Joint> joints;
+    for (const auto& [next, there] : touching_) {
+      const bool leads = fixed.fracture == none ? there == &fixed : there->fracture == fixed.fracture;
+      if (next->fracture != of_fracture.fracture || !leads) continue;
+      joints.push_back({next->stretch, fixed.fracture == none ? 0 : way_between(there->stretch, fixed.stretch)});
+    }
+    return joints;
+  }
+
+  /// Infinite without joints.
+  static double way_to(const std::vector<Joint>& joints, const Stretch& stretch) {
+    double way = std::numeric_limits<double>::infinity();
+    for (const Joint& joint : joints) way = std::min(way, way_between(stretch, joint.at) + joint.beyond);
+    return way;
+  }
+
+  /// `range`: of the line, from 0 to 1. Halves it until the gap is even enough, or nowhere narrow.
+  void divide(const Line& line, const Stretch& range, const Line& other, const std::vector<Joint>& joints) {
+    const auto at = [&](double t) -> Point {
+      return t == 1 ? line.segment.to : Point(line.segment.from + t * (line.segment.to - line.segment.from));
+    };
+    const double half = 0.5 * (range.from + range.to);
+    const Segment part{at(range.from), at(range.to)};
+    const double gap = distance(part, other.segment), length = part.length();
+    const auto [shortest_way, longest_way] = way_along(line, range, other, joints);
+    if (longest_way < least_detour * gap) return;
+    double wanted = 0, widest = 0;  // the distance from a segment is convex along a line: widest at an end
+    bool is_narrow = false;
+    for (const Point& x : {part.from, at(half), part.to}) {
+      const double here = distance(x, other.segment), wanted_here = wanted_(x);
+      is_narrow = is_narrow || here < wanted_here;
+      wanted = std::max(wanted, wanted_here);
+      widest = std::max(widest, here);
+    }
+    if (gap >= wanted + 0.25 * limits_.slope * length) return;
+    const bool is_even = widest <= std::max(evenness * gap, limits_.least);
+    if (is_even && is_narrow && shortest_way >= least_detour * gap) {
+      keep_({part, gap});
+    } else if (!is_even || length > (evenness - 1) * gap) {
+      divide(line, {range.from, half}, other, joints);
+      divide(line, {half, range.to}, other, joints);
+    }
+  }
+
+  /// Along the fractures of two lines from a part of the one to the other: the shortest way, and a bound for the
+  /// longest.
+  static Stretch way_along(const Line& line, const Stretch& range, const Line& other,
+                           const std::vector<Joint>& joints) {
+    const auto at = [&](double t) { return line.stretch.from + t * (line.stretch.to - line.stretch.from); };
+    const Stretch part = line.fracture == none ? other.stretch : Stretch{at(range.from), at(range.to)};
+    const double way = way_to(joints, part);
+    return {way, line.fracture == none ? way : way + part.to - part.from};
+  }
+
+  const std::vector<Line> lines_;
+  std::vector<std::pair<const Line*, const Line*>> touching_;  ///< each pair both ways
+  const double touch_;
+  const GapLimits limits_;
+  const std::function<double(const Point&)>& wanted_;
+  const std::function<void(const NarrowGap&)>& keep_;
+};
+
+}  // namespace
+
+void for_each_narrow_gap(const Geometry& geometry, const GapLimits& limits,
+                         const std::function<double(const Point&)>& wanted,
+                         const std::function<void(const NarrowGap&)>& keep) {
+  Search(geometry, limits, wanted, keep).run();
+}
+
+}  // namespace sprekk

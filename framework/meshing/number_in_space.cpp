@@ -1,0 +1,42 @@
+#include "framework/meshing/number_in_space.hpp"
+
+#include "framework/mesh/order_in_space.hpp"
+
+namespace sprekk {
+
+namespace {
+
+template <class Item>
+void arrange(std::vector<Item>& items, const std::vector<int>& order) {
+  std::vector<Item> arranged;
+  arranged.reserve(items.size());
+  for (const int i : order) arranged.push_back(items[i]);
+  items = std::move(arranged);
+}
+
+}  // namespace
+
+void number_in_space(RawMesh& mesh, const std::vector<Point>& places) {
+  std::vector<Point> centers;
+  centers.reserve(mesh.cells.size());
+  for (const Ring& cell : mesh.cells) {
+    Point sum = Point::Zero();
+    for (const int node : cell) sum += places[node];
+    centers.push_back(sum / cell.size());
+  }
+  const std::vector<int> cells = order_in_space(centers), nodes = order_in_space(places);
+  arrange(mesh.cells, cells);
+  arrange(mesh.regions, cells);
+  arrange(mesh.nodes, nodes);
+
+  std::vector<int> number(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) number[nodes[i]] = static_cast<int>(i);
+  for (Ring& cell : mesh.cells)
+    for (int& node : cell) node = number[node];
+  for (auto& edge : mesh.boundary_edges)
+    for (int& node : edge.nodes) node = number[node];
+  for (auto& fracture : mesh.fractures)
+    for (int& node : fracture.nodes) node = number[node];
+}
+
+}  // namespace sprekk

@@ -1,0 +1,49 @@
+// The edge length that a mesh shall have, as a function of place.
+#pragma once
+
+#include <vector>
+
+#include "framework/mesh/planar.hpp"
+#include "framework/meshing/geometry.hpp"
+
+namespace sprekk {
+
+/// The smallest of: the far size; at each fracture its size plus growth times the distance from it; at each of its
+/// ends inside the box the tip size plus growth times the distance from the end; at each gap that is narrower than what
+/// these ask for, and no longer than gap_length, its width over gap_edges plus growth (at most half) times the
+/// distance.
+class SizeField {
+ public:
+  /// The geometry is that of a box and valid, except that sizes may still be absurdly small.
+  SizeField(const Geometry& geometry, const MeshOptions& options);
+
+  double at(const Point& x) const;
+  double smallest() const;  ///< that it asks for anywhere, m
+
+  /// An upper estimate of the number of triangles that the size field asks for: the integral of 4 / (sqrt(3) h^2),
+  /// separately for the box, the fractures and their ends.
+  double estimated_triangles() const;
+
+ private:
+  struct Source {
+    Segment segment;  ///< a point when from == to
+    double size;
+    double growth;
+    double reach;  ///< the distance at which the far size is reached
+  };
+  /// Whether it asks for anything.
+  bool add_source(const Segment& segment, double size, double growth);
+  void add_gaps(const Geometry& geometry, const MeshOptions& options);
+  static double lowered(double size, const Source& source, const Point& x);
+  void fill_buckets();
+  void put_into_buckets(int source);
+  int bucket(int axis, double coordinate) const;
+
+  Box box_;
+  double far_size_, growth_;
+  std::vector<Source> sources_;
+  int buckets_a_side_ = 1;
+  std::vector<std::vector<int>> buckets_;  ///< the sources that reach into each part of the box
+};
+
+}  // namespace sprekk

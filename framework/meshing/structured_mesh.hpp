@@ -1,0 +1,15 @@
+// Rectangles, whole or cut into triangles with alternating diagonals.
+#pragma once
+
+#include "framework/mesh/raw_mesh.hpp"
+#include "framework/meshing/geometry.hpp"
+
+namespace sprekk {
+
+/// Rectangles of equal size; for triangles they are cut by diagonals whose direction alternates like a chess board
+/// ("union jack"). Fractures must lie on grid lines and diagonals, else InputError; cells take the region of their
+/// centre. The geometry is a
+/// valid one.
+RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options);
+
+}  // namespace sprekk

@@ -1,0 +1,13 @@
+// Triangles of varying size in a box, made by gmsh.
+#pragma once
+
+#include "framework/mesh/raw_mesh.hpp"
+#include "framework/meshing/geometry.hpp"
+
+namespace sprekk {
+
+/// Frontal-Delaunay triangles (gmsh's algorithm 6) with the edge lengths of SizeField; fractures and the edges of
+/// polygons are edges of the mesh. The geometry is a valid one. Throws std::runtime_error if gmsh fails.
+RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options);
+
+}  // namespace sprekk

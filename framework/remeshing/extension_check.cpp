@@ -1,0 +1,418 @@
+#include "framework/remeshing/extension_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <tuple>
+
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk {
+namespace {
+
+using Reason = ExtensionError::Reason;
+
+/// A segment counts as approached only when the path comes nearer than its beginning is.
+constexpr double approach = 0.9;
+/// Parts of one and the same path may be as near to each other as this part of the way between them along the path.
+constexpr double self_gap = 0.25;
+
+struct OwnEnd {
+  FracturePoint::Kind kind;
+  Point position, before;
+};
+
+OwnEnd own_end(const Mesh& mesh, int fracture, bool at_end) {
+  const auto& [name, first, count] = mesh.fractures[fracture];
+  const FractureCell& cell = mesh.fracture_cells[at_end ? first + count - 1 : first];
+  const FracturePoint& point = mesh.fracture_points[cell.points[at_end ? 1 : 0]];
+  return {point.kind, point.position, mesh.fracture_points[cell.points[at_end ? 0 : 1]].position};
+}
+
+Segment segment_of(const Mesh& mesh, int fracture_cell) {
+  const auto [a, b] = mesh.fracture_cells[fracture_cell].points;
+  return {mesh.fracture_points[a].position, mesh.fracture_points[b].position};
+}
+
+Segment segment_of_face(const Mesh& mesh, int face) {
+  return {mesh.nodes[mesh.face_nodes[face][0]], mesh.nodes[mesh.face_nodes[face][1]]};
+}
+
+double extent(const Mesh& mesh) {
+  Point low = mesh.nodes.front(), high = low;
+  for (const Point& x : mesh.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  return (high - low).norm();
+}
+
+/// Of `path`, the point nearest to `other`, or where they cross.
+Point meeting_point(const Segment& path, const Segment& other) {
+  Point crossing;
+  if (cross_inside(path, other, crossing)) return crossing;
+  const double from = distance(path.from, other), to = distance(path.to, other);
+  const double a = distance(other.from, path), b = distance(other.to, path);
+  if (std::min(from, to) <= std::min(a, b)) return from <= to ? path.from : path.to;
+  return a <= b ? other.from : other.to;
+}
+
+/// Whether an edge lies on the line through another one.
+bool is_in_line(const Segment& edge, const Segment& line) {
+  constexpr double straight = 1e-6;  // rad
+  const Point along = line.to - line.from;
+  return std::max(std::abs(cross(along, edge.from - line.from)), std::abs(cross(along, edge.to - line.from))) <=
+         straight * along.norm() * std::max(line.length(), (edge.to - line.from).norm());
+}
+
+void join(const Segment& edge, Segment& line) {
+  const Point along = line.to - line.from;
+  for (const Point& x : {edge.from, edge.to}) {
+    if ((x - line.from).dot(along) < 0) line.from = x;
+    if ((x - line.to).dot(along) > 0) line.to = x;
+  }
+}
+
+/// The straight part of a side that a face belongs to: what counts shall not depend on how short edges are.
+Segment straight_side(const Mesh& mesh, int face) {
+  const Segment given = segment_of_face(mesh, face);
+  Segment line = given;
+  for (int other = 0; other < mesh.face_count(); ++other) {
+    if (mesh.face_side[other] != mesh.face_side[face]) continue;
+    const Segment edge = segment_of_face(mesh, other);
+    if (is_in_line(edge, given)) join(edge, line);
+  }
+  return line;
+}
+
+/// The part of a fracture without a bend that a cell belongs to.
+Segment straight_part(const Mesh& mesh, int fracture_cell) {
+  const auto& [name, first, count] = mesh.fractures[mesh.fracture_cells[fracture_cell].fracture];
+  const Segment given = segment_of(mesh, fracture_cell);
+  Segment line = given;
+  for (const int step : {1, -1}) {
+    for (int cell = fracture_cell + step; cell >= first && cell < first + count; cell += step) {
+      const Segment edge = segment_of(mesh, cell);
+      if (!is_in_line(edge, given)) break;
+      join(edge, line);
+    }
+  }
+  return line;
+}
+
+/// Whether a part of a path leads away from a straight line that is near to the path's beginning.
+bool leads_away(const Segment& step, const Point& beginning, const Segment& line) {
+  return distance(step.to, line) - distance(step.from, line) >= std::sin(least_incidence) * step.length() &&
+         distance(step, line) >= approach * distance(beginning, line);
+}
+
+class Check {
+ public:
+  Check(const Mesh& mesh, const std::vector<PathExtension>& extensions, double size)
+      : mesh_(mesh), size_(size), touch_(1e-12 * extent(mesh)), extensions_(extensions) {}
+
+  std::vector<PathExtension> run() {
+    for (index_ = 0; index_ < static_cast<int>(extensions_.size()); ++index_) {
+      auto& [fracture, at_end, points] = extensions_[index_];
+      if (fracture < 0 || fracture >= static_cast<int>(mesh_.fractures.size())) {
+        throw std::invalid_argument("extension of fracture " + std::to_string(fracture) + ", which does not exist");
+      }
+      check_end();
+      check_form();
+      is_joined_.assign(mesh_.fractures.size(), false);
+      const bool ends_on_boundary = snap(points.back());
+      if (!ends_on_boundary) join(points.back());
+      paths_.push_back(path());
+      check_boundary(ends_on_boundary);
+      check_fractures();
+      check_itself();
+      for (int other = 0; other < index_; ++other) check_other(other);
+      refuse_obstacle();
+    }
+    return extensions_;
+  }
+
+ private:
+  [[noreturn]] void refuse(Reason reason, const Point& where, const std::string& problem,
+                           const std::string& why) const {
+    throw ExtensionError(reason, index_, where,
+                         "fracture '" + mesh_.fractures[extensions_[index_].fracture].name +
+                             "' cannot be extended: it " + problem + " at " + to_text(where) + " (" + why + ")");
+  }
+
+  void check_end() const {
+    const auto& [fracture, at_end, points] = extensions_[index_];
+    const OwnEnd end = own_end(mesh_, fracture, at_end);
+    if (end.kind != FracturePoint::Kind::tip) {
+      refuse(Reason::no_tip, end.position, "already ends",
+             end.kind == FracturePoint::Kind::junction ? "at another fracture" : "on the outer boundary");
+    }
+    for (int i = 0; i < index_; ++i) {
+      if (extensions_[i].fracture == fracture && extensions_[i].at_end == at_end) {
+        refuse(Reason::no_tip, end.position, "is extended twice", "an end grows along one path at a time");
+      }
+    }
+  }
+
+  void check_form() const {
+    const auto& [fracture, at_end, points] = extensions_[index_];
+    const OwnEnd end = own_end(mesh_, fracture, at_end);
+    if (points.empty()) refuse(Reason::no_path, end.position, "gets no new point", "the path is empty");
+    Point from = end.position, before = end.before;
+    for (const Point& to : points) {
+      if (!to.allFinite()) refuse(Reason::no_path, from, "gets a point that is no number", "after this one");
+      if ((to - from).norm() <= std::max(touch_, 1e-6 * size_)) {
+        refuse(Reason::no_path, from, "gets a segment without length", "two points of the path are one");
+      }
+      if ((to - from).dot(from - before) < -1e-12 * (to - from).norm() * (from - before).norm()) {
+        refuse(Reason::turns_back, from, "turns back", "by more than 90 degrees");
+      }
+      before = from;
+      from = to;
+    }
+  }
+
+  /// Puts an end onto the outer boundary that is meant to lie there.
+  bool snap(Point& end) const {
+    double least = boundary_snap * size_;
+    Point nearest = end;
+    for (int face = 0; face < mesh_.face_count(); ++face) {
+      if (mesh_.face_side[face] == none) continue;
+      const Segment s = segment_of_face(mesh_, face);
+      if (distance(end, s) >= least) continue;
+      least = distance(end, s);
+      const Point along = s.to - s.from;
+      const double t = (end - s.from).dot(along) / along.squaredNorm();
+      // On a side along an axis the coordinate is taken over to the bit.
+      nearest = t <= 0 ? s.from : t >= 1 ? s.to : Point(s.from + t * along);
+      for (int axis = 0; axis < 2; ++axis) {
+        if (s.from[axis] == s.to[axis]) nearest[axis] = s.from[axis];
+      }
+    }
+    const bool is_near = least < boundary_snap * size_;
+    if (is_near) end = nearest;
+    return is_near;
+  }
+
+  /// Puts an end onto a point of other fractures that is meant to be there, and notes these.
+  void join(Point& end) {
+    const int own = extensions_[index_].fracture;
+    double least = joint_snap * size_;
+    const FracturePoint* nearest = nullptr;
+    for (const FracturePoint& point : mesh_.fracture_points) {
+      const bool is_own = std::any_of(point.cells.begin(), point.cells.end(),
+                                      [&](int cell) { return mesh_.fracture_cells[cell].fracture == own; });
+      if (is_own || point.kind == FracturePoint::Kind::on_boundary || (point.position - end).norm() >= least) continue;
+      least = (point.position - end).norm();
+      nearest = &point;
+    }
+    if (!nearest) return;
+    end = nearest->position;
+    for (const FracturePoint& point : mesh_.fracture_points) {
+      if (point.position != end) continue;
+      for (const int cell : point.cells) is_joined_[mesh_.fracture_cells[cell].fracture] = true;
+    }
+  }
+
+  /// Whether a fracture cell begins where the path ends. Then the angle between both must not be small.
+  bool is_joint(const Segment& path, const Segment& cell, const std::string& name) const {
+    if (path.to != cell.from && path.to != cell.to) return false;
+    const Point back = path.from - path.to, along = cell.from + cell.to - 2 * path.to;
+    if (std::atan2(std::abs(cross(back, along)), back.dot(along)) < least_incidence)
+      refuse(Reason::too_near, path.to, "runs along " + name, "it would meet it at less than 15 degrees");
+    return true;
+  }
+
+  std::vector<Segment> path() const {
+    const auto& [fracture, at_end, points] = extensions_[index_];
+    std::vector<Segment> segments;
+    Point from = own_end(mesh_, fracture, at_end).position;
+    for (const Point& to : points) {
+      segments.push_back({from, to});
+      from = to;
+    }
+    return segments;
+  }
+
+  /// How near the current path may come to something that is this far from its beginning.
+  double allowed(double distance_of_tip) const { return std::min(least_gap * size_, approach * distance_of_tip); }
+
+  /// The same for a part of the same fracture, by the way between both along it.
+  double allowed_to_itself(double way) const { return std::min(least_gap * size_, self_gap * way); }
+
+  void check_boundary(bool ends_on_boundary) {
+    const auto& segments = paths_[index_];
+    const Point tip = segments.front().from;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const Segment& s = segments[i];
+      const bool is_ending = ends_on_boundary && i + 1 == segments.size();
+      for (int face = 0; face < mesh_.face_count(); ++face) {
+        if (mesh_.face_side[face] == none) continue;
+        const Segment side = segment_of_face(mesh_, face);
+        if (is_ending && distance(s.to, side) <= touch_) {
+          const double sine = std::abs(cross(s.to - s.from, side.to - side.from)) / (s.length() * side.length());
+          if (sine < std::sin(least_incidence)) {
+            refuse(Reason::too_near, s.to, "runs along the outer boundary", "it would meet it at less than 15 degrees");
+          }
+          continue;
+        }
+        if (distance(s, side) < allowed(distance(tip, side)) && leads_away(s, tip, straight_side(mesh_, face)))
+          continue;
+        note(i, side, is_ending ? 0 : allowed(distance(tip, side)), Reason::leaves_mesh, "the outer boundary");
+      }
+    }
+  }
+
+  /// What stands in the way of a path. Meeting it is worse than being near to it, and of two such the first counts.
+  struct Obstacle {
+    bool is_met;
+    std::size_t segment;
+    double way, gap;  ///< m, along the segment and between both
+    Point where;
+    Reason reason;
+    std::string name;
+  };
+
+  void note(std::size_t segment, const Segment& other, double allowed_gap, Reason reason, const std::string& name) {
+    const Segment& s = paths_[index_][segment];
+    const double gap = distance(s, other);
+    if (gap > touch_ && gap >= allowed_gap) return;
+    const Point where = meeting_point(s, other);
+    const Obstacle obstacle{gap <= touch_, segment, (where - s.from).norm(), gap, where, reason, name};
+    const auto rank = [](const Obstacle& o) { return std::tuple(!o.is_met, o.segment, o.way); };
+    if (!obstacle_ || rank(obstacle) < rank(*obstacle_)) obstacle_ = obstacle;
+  }
+
+  void refuse_obstacle() const {
+    if (!obstacle_) return;
+    const auto& [is_met, segment, way, gap, where, reason, name] = *obstacle_;
+    if (!is_met) {
+      std::ostringstream why;
+      why << "at " << gap / size_ << " edge lengths, at least " << least_gap << " are needed";
+      refuse(Reason::too_near, where, "passes too near to " + name, why.str());
+    }
+    if (reason == Reason::leaves_mesh) refuse(reason, where, "leaves the mesh", "a path may end on the outer boundary");
+    refuse(reason, where, "meets " + name, "a path may end at a point of its mesh, and not cross it");
+  }
+
+  std::string name_of(int fracture) const { return "fracture '" + mesh_.fractures[fracture].name + "'"; }
+
+  void check_fractures() {
+    const auto& [fracture, at_end, points] = extensions_[index_];
+    const auto& segments = paths_[index_];
+    const Point tip = segments.front().from;
+    double way_ahead = 0;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f) {
+        const auto& [name, first, count] = mesh_.fractures[f];
+        double way_behind = 0;
+        for (int n = 0; n < count; ++n) {
+          // From the end that grows backwards, so that the way along the fracture adds up.
+          const int cell = at_end ? first + count - 1 - n : first + n;
+          const Segment other = segment_of(mesh_, cell);
+          const bool is_ending = is_joined_[f] && i + 1 == segments.size();
+          if (is_ending) {
+            if (!is_joint(segments[i], other, name_of(f))) note(i, other, 0, Reason::crosses_fracture, name_of(f));
+          } else if (f != fracture) {
+            if (distance(segments[i], other) < allowed(distance(tip, other)) &&
+                leads_away(segments[i], tip, straight_part(mesh_, cell)))
+              continue;
+            note(i, other, allowed(distance(tip, other)), Reason::crosses_fracture, name_of(f));
+          } else if (i > 0 || n > 0) {
+            note(i, other, allowed_to_itself(way_ahead + way_behind), Reason::crosses_fracture, "itself");
+          }
+          way_behind += other.length();
+        }
+      }
+      way_ahead += segments[i].length();
+    }
+  }
+
+  void check_itself() {
+    const auto& segments = paths_[index_];
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      double way = 0;
+      for (std::size_t j = i; j-- > 0;) {
+        if (j + 1 < i) note(i, segments[j], allowed_to_itself(way), Reason::crosses_fracture, "itself");
+        way += segments[j].length();
+      }
+    }
+  }
+
+  void check_other(int other) {
+    const double tips = (paths_[index_].front().from - paths_[other].front().from).norm();
+    for (std::size_t i = 0; i < paths_[index_].size(); ++i) {
+      for (const Segment& segment : paths_[other]) {
+        note(i, segment, allowed(tips), Reason::crosses_fracture,
+             "the extension of " + name_of(extensions_[other].fracture));
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const double size_;
+  const double touch_;  ///< m; nearer is in contact
+  std::vector<PathExtension> extensions_;
+  std::vector<std::vector<Segment>> paths_;
+  std::vector<bool> is_joined_;  ///< per fracture: whether the path ends on it
+  int index_ = 0;                ///< of the extension that is looked at
+  std::optional<Obstacle> obstacle_;
+};
+
+}  // namespace
+
+std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
+                                            double size) {
+  return Check(mesh, extensions, size).run();
+}
+
+bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, const Point& from, const Point& to,
+                    double size) {
+  const Segment step{from, to};
+  const auto is_near = [&](const Segment& other) {
+    return distance(step, other) < std::min(1.5 * least_gap * size, (1 + approach) / 2 * distance(beginning, other));
+  };
+  for (int face = 0; face < mesh.face_count(); ++face)
+    if (mesh.face_side[face] != none && is_near(segment_of_face(mesh, face)) &&
+        !leads_away(step, beginning, straight_side(mesh, face)))
+      return true;
+  for (int cell = 0; cell < mesh.fracture_cell_count(); ++cell)
+    if (mesh.fracture_cells[cell].fracture != fracture && is_near(segment_of(mesh, cell)) &&
+        !leads_away(step, beginning, straight_part(mesh, cell)))
+      return true;
+  return false;
+}
+
+FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point& from, const Point& direction) {
+  if (!(direction.norm() > 0)) throw std::invalid_argument("free_length: the direction has no length");
+  const Point u = direction.normalized();
+  FreeLength free{std::numeric_limits<double>::infinity(), FreeLength::Met::nothing, none, from};
+  const auto meet = [&](const Segment& s, FreeLength::Met met, int index) {
+    const Point v = s.to - s.from, w = s.from - from;
+    const double determinant = cross(u, v), length = v.norm();
+    double t;
+    if (std::abs(determinant) > 1e-14 * length) {
+      t = cross(w, v) / determinant;
+      const double along = cross(w, u) / determinant;
+      if (along < -1e-12 || along > 1 + 1e-12) return;
+    } else {
+      // Parallel: met at its nearer end when it lies ahead on the same line.
+      if (std::abs(cross(w, u)) > 1e-12 * length) return;
+      t = std::min(w.dot(u), (w + v).dot(u));
+    }
+    if (t < 0 || t >= free.length) return;
+    free = {t, met, index, from + t * u};
+  };
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    if (mesh.face_side[face] != none) {
+      meet(segment_of_face(mesh, face), FreeLength::Met::boundary, mesh.face_side[face]);
+    }
+  }
+  const auto& own = mesh.fractures.at(fracture);
+  const int own_last = at_end ? own.first_cell + own.cell_count - 1 : own.first_cell;
+  for (int cell = 0; cell < mesh.fracture_cell_count(); ++cell) {
+    if (cell != own_last) meet(segment_of(mesh, cell), FreeLength::Met::fracture, mesh.fracture_cells[cell].fracture);
+  }
+  return free;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,32 @@
+// The part of a mesh around paths, filled with new triangles that have the paths as edges.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "framework/mesh/planar.hpp"
+#include "framework/mesh/raw_mesh.hpp"
+#include "framework/remeshing/extend_fractures.hpp"
+#include "framework/remeshing/path_nodes.hpp"
+
+namespace sprekk {
+
+/// New triangles for the cavities, with the numbers of nodes that are in `nodes`: those of the placed paths come first.
+struct Refill {
+  std::vector<bool> is_removed;  ///< per old cell
+  std::vector<Point> nodes;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<RawMesh::BoundaryEdge> boundary_edges;                ///< of the new triangles
+  double smallest_angle = std::numeric_limits<double>::infinity();  ///< rad, of the new triangles
+  int single_corners = 0;                                           ///< new triangles with two barriers
+};
+
+/// Tries methods and sizes of cavities until angles are good, and returns the best. `raw` and `merged` describe the
+/// mesh without its walls split, `segments` are the edges of each placed path. Throws std::runtime_error when nothing
+/// works.
+Refill refill_cavities(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
+                       const PathNodes& path_nodes, const std::vector<std::vector<Segment>>& segments,
+                       const CavityOptions& options);
+
+}  // namespace sprekk

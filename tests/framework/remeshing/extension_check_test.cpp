@@ -1,0 +1,140 @@
+#include "framework/remeshing/extension_check.hpp"
+
+#include "framework/mesh/planar.hpp"
+#include "framework/meshing/generate_mesh.hpp"
+#include "tests/framework/remeshing/growth_checks.hpp"
+
+namespace sprekk::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using Reason = ExtensionError::Reason;
+
+constexpr double size = 0.1;
+
+/// "main" grows; "wall" stands across its way, and "edge" reaches the right side.
+Mesh sample() {
+  Geometry geometry = box(0, 4, 0, 2);
+  geometry.fractures = {fracture("main", {{0.5, 0.5}, {1, 1}, {1.5, 1}}), fracture("wall", {{2.5, 0.5}, {2.5, 1.5}}),
+                        fracture("edge", {{3, 1}, {4, 1}})};
+  return generate_mesh(geometry, {.size = size});
+}
+
+void expect_refused(const std::vector<PathExtension>& extensions, Reason reason, const Point& where,
+                    const std::string& words) {
+  static const Mesh mesh = sample();
+  try {
+    check_extensions(mesh, extensions, size);
+    ADD_FAILURE() << "was not refused: " << words;
+  } catch (const ExtensionError& error) {
+    EXPECT_EQ(error.reason(), reason) << error.what();
+    EXPECT_NEAR((error.where() - where).norm(), 0, 1e-12) << to_text(error.where()) << ' ' << error.what();
+    EXPECT_EQ(error.extension(), static_cast<int>(extensions.size()) - 1);
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("cannot be extended"), HasSubstr(words)));
+  }
+}
+
+TEST(CheckExtensions, AcceptsFreePathsAndPutsEndsOntoTheBoundary) {
+  const Mesh mesh = sample();
+  const auto checked = check_extensions(
+      mesh, {{0, true, {{1.8, 1.2}, {1.9, 1.4}}}, {0, false, {{0.3, 0.4}, {0.0005, 0.33}}}, {1, true, {{2.5, 1.8}}}},
+      size);
+  EXPECT_EQ(checked[0].points[1], Point(1.9, 1.4));
+  EXPECT_EQ(checked[1].points[1].x(), 0);
+  EXPECT_NEAR(checked[1].points[1].y(), 0.33, 1e-15);
+  // A right angle is just allowed, and half an edge length beside another fracture.
+  EXPECT_NO_THROW(check_extensions(mesh, {{0, true, {{1.5, 1.3}}}}, size));
+  EXPECT_NO_THROW(check_extensions(mesh, {{0, true, {{2.4499, 1.2}}}}, size));
+}
+
+TEST(CheckExtensions, RefusesOtherFractures) {
+  expect_refused({{0, true, {{3, 1}}}}, Reason::crosses_fracture, {2.5, 1}, "meets fracture 'wall'");
+  // Between two points of the mesh of the other.
+  expect_refused({{0, true, {{2.5, 1.25}}}}, Reason::crosses_fracture, {2.5, 1.25}, "meets fracture 'wall'");
+  expect_refused({{0, true, {{2.46, 1.2}}}}, Reason::too_near, {2.46, 1.2}, "too near to fracture 'wall'");
+  expect_refused({{0, true, {{2, 1.3}, {2.48, 1.54}}}}, Reason::too_near, {2.48, 1.54}, "too near to fracture 'wall'");
+}
+
+TEST(CheckExtensions, PutsEndsOntoPointsOfOtherFractures) {
+  const Mesh mesh = sample();
+  const auto checked = check_extensions(mesh, {{0, true, {{1.8, 1.1}, {2.4995, 1.2005}}}}, size);
+  EXPECT_NEAR((checked[0].points[1] - Point(2.5, 1.2)).norm(), 0, 1e-12);
+  EXPECT_NO_THROW(check_extensions(mesh, {{0, true, {{2.5, 1.5}}}}, size));               // a tip
+  EXPECT_NO_THROW(check_extensions(mesh, {{0, true, {{2.4, 0.65}, {2.5, 0.9}}}}, size));  // at 22 degrees
+  expect_refused({{0, true, {{2.46, 1}, {2.5, 1.1}}}}, Reason::too_near, {2.46, 1}, "too near to fracture 'wall'");
+  expect_refused({{0, true, {{2.44, 1}, {2.5, 1.3}}}}, Reason::too_near, {2.5, 1.3}, "at less than 15 degrees");
+  // Both tips of one fracture may not end at the same place.
+  expect_refused({{0, true, {{2.5, 1.2}}}, {2, false, {{2.5, 1.2}}}}, Reason::crosses_fracture, {2.5, 1.2},
+                 "meets the extension of fracture 'main'");
+}
+
+TEST(CheckExtensions, RefusesItself) {
+  expect_refused({{0, true, {{1.7, 0.9}, {1.6, 0.7}, {1.4, 0.8}, {1.3, 1.2}}}}, Reason::crosses_fracture, {1.35, 1},
+                 "meets itself");
+  expect_refused({{0, true, {{1.7, 1.2}, {1.9, 1.2}, {1.9, 1.4}, {1.75, 1.4}, {1.75, 1.1}}}}, Reason::crosses_fracture,
+                 {1.75, 1.2}, "meets itself");
+  expect_refused({{0, true, {{1.5, 1.2}, {1.3, 1.2}, {1.3, 1.04}}}}, Reason::too_near, {1.3, 1.04},
+                 "too near to itself");
+  // The two ends of one fracture run into each other.
+  expect_refused({{0, true, {{1.8, 1.3}}}, {0, false, {{0.3, 0.4}, {0.2, 0.6}, {0.3, 1.2}, {1.7, 1.27}}}},
+                 Reason::too_near, {1.7, 1.27}, "the extension of fracture 'main'");
+}
+
+TEST(CheckExtensions, RefusesOtherExtensions) {
+  expect_refused({{0, true, {{2, 1}}}, {1, false, {{2.2, 0.4}, {1.8, 1.2}}}}, Reason::crosses_fracture, {1.9, 1},
+                 "the extension of fracture 'main'");
+}
+
+TEST(CheckExtensions, RefusesTheOutside) {
+  expect_refused({{0, true, {{1.5, 2.5}}}}, Reason::leaves_mesh, {1.5, 2}, "leaves the mesh");
+  expect_refused({{0, true, {{1.5, 1.5}, {1.6, 2.1}, {2, 2.2}}}}, Reason::leaves_mesh, {1.5 + 5. / 60, 2},
+                 "leaves the mesh");
+  expect_refused({{0, true, {{1.7, 1.97}}}}, Reason::too_near, {1.7, 1.97}, "too near to the outer boundary");
+  expect_refused({{0, true, {{1.7, 1.93}, {2.5, 2}}}}, Reason::too_near, {2.5, 2}, "less than 15 degrees");
+}
+
+TEST(CheckExtensions, RefusesWhatIsNoPath) {
+  expect_refused({{0, true, {}}}, Reason::no_path, {1.5, 1}, "no new point");
+  expect_refused({{0, true, {{1.5, 1}}}}, Reason::no_path, {1.5, 1}, "without length");
+  expect_refused({{0, true, {{1.6, std::nan("")}}}}, Reason::no_path, {1.5, 1}, "no number");
+  expect_refused({{0, true, {{1.4, 1.2}}}}, Reason::turns_back, {1.5, 1}, "by more than 90 degrees");
+  expect_refused({{0, true, {{1.8, 1}, {1.7, 1.2}}}}, Reason::turns_back, {1.8, 1}, "turns back");
+  expect_refused({{2, true, {{4.1, 1}}}}, Reason::no_tip, {4, 1}, "already ends");
+  expect_refused({{0, true, {{1.6, 1}}}, {0, true, {{1.6, 1.1}}}}, Reason::no_tip, {1.5, 1}, "extended twice");
+  EXPECT_THROW(check_extensions(sample(), {{3, true, {{1, 1}}}}, size), std::invalid_argument);
+}
+
+TEST(FreeLength, IsTheWayToTheNearestObstacle) {
+  const Mesh mesh = sample();
+  FreeLength free = free_length(mesh, 0, true, {1.5, 1}, {2, 0});
+  EXPECT_EQ(free.met, FreeLength::Met::fracture);
+  EXPECT_EQ(free.index, 1);
+  EXPECT_NEAR(free.length, 1, 1e-14);
+  EXPECT_NEAR((free.where - Point(2.5, 1)).norm(), 0, 1e-14);
+  free = free_length(mesh, 0, true, {1.5, 1}, {1, 1});
+  EXPECT_EQ(free.met, FreeLength::Met::boundary);
+  EXPECT_EQ(mesh.side_names[free.index], "top");
+  EXPECT_NEAR(free.length, std::sqrt(2.0), 1e-14);
+  free = free_length(mesh, 0, false, {0.5, 0.5}, {-3, -4});
+  EXPECT_EQ(mesh.side_names[free.index], "bottom");
+  EXPECT_NEAR(free.length, 0.625, 1e-14);
+  // Through a node of the wall, and to the end of a fracture in line.
+  free = free_length(
+      mesh, 0, true, {1.5, 1},
+      mesh.fracture_points[mesh.fracture_cells[mesh.fractures[1].first_cell + 3].points[0]].position - Point(1.5, 1));
+  EXPECT_EQ(free.index, 1);
+  EXPECT_EQ(free.met, FreeLength::Met::fracture);
+  free = free_length(mesh, 0, true, {2.7, 1}, {1, 0});
+  EXPECT_EQ(free.index, 2);
+  EXPECT_NEAR(free.length, 0.3, 1e-12);
+  // Backwards it is the fracture itself that is met, behind its last cell.
+  free = free_length(mesh, 0, true, {1.5, 1.1}, {-1, -1});
+  EXPECT_EQ(free.met, FreeLength::Met::fracture);
+  EXPECT_EQ(free.index, 0);
+  EXPECT_EQ(free_length(mesh, 0, true, {5, 5}, {1, 1}).met, FreeLength::Met::nothing);
+  EXPECT_THROW(free_length(mesh, 0, true, {1, 1}, {0, 0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sprekk::test
