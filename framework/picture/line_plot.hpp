@@ -28,7 +28,7 @@ struct Panel {
   double width = 440, height = 300;  ///< px, without the legend below
 };
 
-/// An <svg> element that can stand in a page; a curve of very many points is thinned to what can be seen.
+/// An `<svg>` element that can stand in a page; a curve of very many points is thinned to what can be seen.
 std::string svg(const Panel& panel);
 
 /// The panels as one SVG file, `columns` beside each other.

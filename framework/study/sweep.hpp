@@ -11,7 +11,7 @@
 namespace sprekk {
 
 struct SweepOptions {
-  std::optional<std::filesystem::path> folder;  ///< results/<study> by default
+  std::optional<std::filesystem::path> folder;  ///< `results/<study>` by default
   int processes = 0;                            ///< at a time; 0: as many as there are cores
   bool quiet = false;
   bool only_list = false;                  ///< says what would be done, and does nothing
