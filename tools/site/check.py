@@ -40,7 +40,7 @@ class Page(HTMLParser):
 
 
 def loaded_by_style(text):
-    return [target for target in re.findall(r"""(?:url\(|@import\s+)\s*["']?([^"')\s;]+)""", text) if not target.startswith("data:")]
+    return [target for target in re.findall(r"""(?:url\(|@import\s+(?!url\())\s*["']?([^"')\s;]+)""", text) if not target.startswith("data:")]
 
 
 def problems(folder):
