@@ -161,7 +161,7 @@ class Biot : public Coupler {
     return {.owner = context.name,
             .name = name,
             .location = Location::cell,
-            .role = Role::derived,
+            .role = Role::derived(),
             .unit = "m^2",
             .doc = doc,
             .accepted_with = fluid_.pressure().name(),

@@ -163,7 +163,7 @@ class WallExchange : public Coupler {
     return {.owner = context.name,
             .name = name,
             .location = Location::wall,
-            .role = Role::derived,
+            .role = Role::derived(),
             .unit = "m^2",
             .doc = doc,
             .accepted_with = with.name()};

@@ -33,9 +33,9 @@ Rock::Rock(const ComponentContext& context, const Options& options)
                                                .name = "displacement",
                                                .location = Location::cell,
                                                .components = 2,
+                                               .role = Role::unknown(BlockKind::bulk_elastic),
                                                .unit = "m",
-                                               .doc = "Displacement of the rock",
-                                               .smoothing = "elasticity"})),
+                                               .doc = "Displacement of the rock"})),
       stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
   check_conditions(options_, mesh_, context.origin);
   if (mesh_.wall_count() > 0)
@@ -43,7 +43,7 @@ Rock::Rock(const ComponentContext& context, const Options& options)
                                                  .name = "wall_traction",
                                                  .location = Location::fracture_cell,
                                                  .components = 2,
-                                                 .role = Role::input,
+                                                 .role = Role::input(BlockKind::interface),
                                                  .unit = "Pa",
                                                  .doc = "Traction on the plus wall, normal and tangential (Eq. 4)"});
 }

@@ -30,10 +30,7 @@ UnknownBlock describe(const Mesh& mesh, const Field& field, int first) {
   block.first = first;
   block.entities = field.entities();
   block.components = field.spec().components;
-  const std::string& smoothing = field.spec().smoothing;
-  block.kind = smoothing == "elasticity"        ? UnknownBlock::Kind::elasticity
-               : smoothing == "scalar_elliptic" ? UnknownBlock::Kind::scalar_elliptic
-                                                : UnknownBlock::Kind::local;
+  block.kind = field.spec().role.kind();
   block.coordinates = coordinates(mesh, field.spec().location);
   return block;
 }

@@ -42,7 +42,7 @@ bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved, boo
     if (!has(conserved, block.row)) continue;
     if (has(conserved, block.column)) {
       if (block.largest_exchange > 0) exchanged = std::max(exchanged, largest_weight(block) * block.largest_exchange);
-    } else if (assembly.unknowns()[block.column]->spec().smoothing != "local") {
+    } else if (is_bulk(assembly.unknowns()[block.column]->spec().role.kind())) {
       const double* values = block.matrix->valuePtr();
       is_answered =
           is_answered || std::any_of(values, values + block.matrix->nonZeros(), [](double v) { return v != 0; });

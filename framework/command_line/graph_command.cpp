@@ -55,7 +55,7 @@ void print_graph(const Model& model, std::ostream& out) {
   for (const Scene::ComponentEntry& entry : model.scene().components) {
     std::string unknowns;
     for (const auto& field : model.fields().all())
-      if (field->spec().owner == entry.name && field->spec().role == Role::unknown)
+      if (field->spec().owner == entry.name && field->spec().role.is_unknown())
         unknowns += "\\n" + field->spec().name + " (" + std::to_string(field->size()) + ")";
     out << "  \"" << entry.name << "\" [label=\"" << entry.name << "\\n" << entry.type << unknowns << "\"];\n";
   }

@@ -23,7 +23,15 @@ int entity_count(const Mesh& mesh, Location location) {
 }
 
 Field::Field(FieldSpec spec, int entities)
-    : spec_(std::move(spec)), entities_(entities), now_(Vector::Zero(entities * spec_.components)), accepted_(now_) {}
+    : spec_(std::move(spec)), entities_(entities), now_(Vector::Zero(entities * spec_.components)), accepted_(now_) {
+  if (spec_.role.is_derived() || !is_bulk(spec_.role.kind())) return;
+  if (spec_.location != Location::cell && spec_.location != Location::face && spec_.location != Location::node)
+    throw std::logic_error("field " + name() + ": a block of the bulk is not on fractures");
+  const int components = spec_.role.kind() == BlockKind::bulk_elastic ? dimension : 1;
+  if (spec_.components != components)
+    throw std::logic_error("field " + name() + ": a block of this kind has " + std::to_string(components) +
+                           " components, not " + std::to_string(spec_.components));
+}
 
 void Field::set(Vector values) {
   if (values.size() != size()) throw std::logic_error("field " + name() + ": wrong number of values");

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "framework/field/role.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/types.hpp"
 
@@ -14,20 +15,14 @@ namespace sprekk {
 enum class Location { cell, face, node, fracture_cell, fracture_point, wall };
 int entity_count(const Mesh& mesh, Location location);
 
-/// unknown: determined by its owner's balance law. input: given to its owner; a coupler may determine it, else it keeps
-/// its initial value. derived: follows from the others, kept because its accepted value is needed or for output.
-enum class Role { unknown, input, derived };
-
 struct FieldSpec {
   std::string owner;  ///< the component's name in the scene
   std::string name;
   Location location;
   int components = 1;
-  Role role = Role::unknown;
+  Role role;  ///< with the kind of its block, where it is solved for
   std::string unit;
   std::string doc;
-  /// How a preconditioner smooths the block of an unknown: "scalar_elliptic", "elasticity" or "local".
-  std::string smoothing = "local";
   /// Of an input that makes no sense unless a coupler determines it: the type of coupler that would; else "".
   std::string needs_coupler = "";
   /// Of a derived field that keeps the books of another (what has been stored, what has flowed out): that field's full
@@ -42,6 +37,8 @@ struct FieldSpec {
 /// Values are entity-major: value c of entity i is values[i * components + c].
 class Field {
  public:
+  /// Throws std::logic_error where the kind of the block does not fit: an elastic one has `dimension` components, an
+  /// elliptic one has one, and neither is on fractures.
   Field(FieldSpec spec, int entities);
 
   const FieldSpec& spec() const { return spec_; }
@@ -65,9 +62,7 @@ class Field {
   const std::string& determined_by() const { return determined_by_; }
   void determine(const std::string& coupler);  ///< throws std::logic_error if another coupler does already
   /// Whether the field is solved for somewhere: an unknown, or an input that a coupler determines.
-  bool is_solved() const {
-    return spec_.role == Role::unknown || (spec_.role == Role::input && !determined_by_.empty());
-  }
+  bool is_solved() const { return spec_.role.is_unknown() || (spec_.role.is_input() && !determined_by_.empty()); }
 
  private:
   FieldSpec spec_;

@@ -92,7 +92,7 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
   for (UnknownBlock block : system.blocks) {
     block.stabilization.resize(0);
     blocks_.push_back(block);
-    if (block.kind != UnknownBlock::Kind::local)
+    if (block.kind != BlockKind::interface)
       std::fill_n(is_local_.begin() + block.first, block.entities * block.components, 0);
   }
   for (std::size_t i = 0; i < held_.size(); ++i) is_local_[i] |= held_[i];

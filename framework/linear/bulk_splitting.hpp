@@ -20,7 +20,7 @@ struct SubMatrix {
   bool has_row(int row) const { return matrix.outerIndexPtr()[row + 1] > matrix.outerIndexPtr()[row]; }
 };
 
-/// Splits the unknowns of a system in one process into B (bulk) and F (UnknownBlock::Kind::local), each in their order,
+/// Splits the unknowns of a system in one process into B (bulk) and F (BlockKind::interface), each in their order,
 /// and the matrix into four. It stays while the pattern does. `held`: of every unknown, whether it belongs to F though
 /// it is one of the bulk (unknowns_that_fractures_hold): all those of an entity, or none; empty for none.
 class BulkSplitting {

@@ -26,7 +26,7 @@ std::vector<double> values_of(const SparseMatrix& a) { return {a.valuePtr(), a.v
 bool has_both_kinds(const LinearSystem& system) {
   bool bulk = false, local = false;
   for (const UnknownBlock& block : system.blocks)
-    (block.kind == UnknownBlock::Kind::local ? local : bulk) |= block.entities > 0;
+    (block.kind == BlockKind::interface ? local : bulk) |= block.entities > 0;
   return bulk && local;
 }
 

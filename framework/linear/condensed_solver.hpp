@@ -12,7 +12,7 @@ namespace sprekk {
 
 class BulkSplitting;
 
-/// With B the unknowns of the bulk and F the local ones (UnknownBlock::Kind), in one process:
+/// With B the unknowns of the bulk and F those on interfaces (BlockKind), in one process:
 ///
 ///   [A_BB A_BF] [x_B]   [b_B]      X = A_BB^-1 A_BF,  S = A_FF − A_FB X
 ///   [A_FB A_FF] [x_F] = [b_F]      S x_F = b_F − A_FB A_BB^-1 b_B,  x_B = A_BB^-1 b_B − X x_F

@@ -99,7 +99,7 @@ class Parts {
 
   void prepare(Part& part) {
     part.modes = block_.components;
-    const bool can_turn = block_.kind == UnknownBlock::Kind::elasticity && block_.components == 2 &&
+    const bool can_turn = block_.kind == BlockKind::bulk_elastic && block_.components == 2 &&
                           static_cast<int>(block_.coordinates.size()) == block_.entities;
     if (can_turn) {
       for (const int entity : part.entities) part.centre += block_.coordinates[entity] / part.entities.size();
@@ -171,20 +171,19 @@ bool are_at_the_same_places(const UnknownBlock& a, const UnknownBlock& b) {
 
 std::vector<char> unknowns_that_fractures_hold(const LinearSystem& system) {
   const auto unknowns = static_cast<std::size_t>(system.local.cols());
-  const auto is_bulk = [](const UnknownBlock& block) { return block.kind != UnknownBlock::Kind::local; };
   std::vector<char> is_balance(unknowns, 0), held(unknowns, 0);
   for (const UnknownBlock& block : system.blocks)
-    if (is_bulk(block)) std::fill_n(is_balance.begin() + block.first, block.entities * block.components, 1);
+    if (is_bulk(block.kind)) std::fill_n(is_balance.begin() + block.first, block.entities * block.components, 1);
   for (const int sum : system.sums) is_balance[sum] = 0;
   for (const UnknownBlock& block : system.blocks) {
-    if (!is_bulk(block) || block.entities == 0 || block.components >= most_modes) continue;
+    if (!is_bulk(block.kind) || block.entities == 0 || block.components >= most_modes) continue;
     std::vector<char> is_sum(block.entities, 0);
     for (const int sum : system.sums)
       if (sum >= block.first && sum < block.first + block.entities * block.components)
         is_sum[(sum - block.first) / block.components] = 1;
     for (const int entity : Parts(system, block, is_balance).to_fix(is_sum))
       for (const UnknownBlock& other : system.blocks)
-        if (is_bulk(other) && are_at_the_same_places(block, other))
+        if (is_bulk(other.kind) && are_at_the_same_places(block, other))
           std::fill_n(held.begin() + other.first + entity * other.components, other.components, 1);
   }
   return held;

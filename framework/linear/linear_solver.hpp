@@ -8,22 +8,18 @@
 #include <utility>
 #include <vector>
 
+#include "framework/linear/block_kind.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {
 
-/// What a preconditioner may know of one block of unknowns. The framework knows no physics: whoever declares the field
-/// says how its block is best smoothed.
+/// What solvers may know of one block of unknowns.
 struct UnknownBlock {
   std::string name;  ///< of the field, "rock.displacement"
   int first = 0;     ///< first unknown
   int entities = 0;  ///< cells, fracture cells, …; unknowns are entity-major: first + entity * components + c
   int components = 1;
-  enum class Kind {
-    scalar_elliptic,
-    elasticity,
-    local
-  } kind = Kind::local;            ///< local: few, on fractures; solve exactly
+  BlockKind kind = BlockKind::interface;
   std::vector<Point> coordinates;  ///< one an entity, for rigid-body modes and partitioning
   Vector stabilization;   ///< one an unknown: diagonal to add to the block in a preconditioner or split (fixed stress),
                           ///< or empty

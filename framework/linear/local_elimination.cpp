@@ -28,7 +28,7 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
   const std::vector<int>& unknowns = partition.local().unknowns;
   std::vector<bool> is_placed(unknowns.size(), false);
   for (const UnknownBlock& block : system.blocks) {
-    if (block.kind != UnknownBlock::Kind::local) continue;
+    if (block.kind != BlockKind::interface) continue;
     const bool has_places = static_cast<int>(block.coordinates.size()) == block.entities && spacing > 0;
     for (int entity = 0; entity < block.entities; ++entity) {
       CellKey key{-1, block.entities, entity};
@@ -100,7 +100,7 @@ SparseMatrix columns_of_part(const SparseMatrix& rows, const Partition& partitio
 }  // namespace
 
 Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), -1), place_of(system.local.cols(), 0) {
-  for (const auto kind : {UnknownBlock::Kind::scalar_elliptic, UnknownBlock::Kind::elasticity})
+  for (const auto kind : {BlockKind::bulk_elliptic, BlockKind::bulk_elastic})
     for (const UnknownBlock& block : system.blocks) {
       if (block.kind != kind || block.entities == 0) continue;
       const int part = static_cast<int>(parts.size());

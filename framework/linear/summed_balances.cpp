@@ -15,7 +15,7 @@ namespace {
 SparseMatrix local_rows(const LinearSystem& system) {
   std::vector<char> is_local(system.local.cols(), 0);
   for (const UnknownBlock& block : system.blocks)
-    if (block.kind == UnknownBlock::Kind::local)
+    if (block.kind == BlockKind::interface)
       std::fill_n(is_local.begin() + block.first, block.entities * block.components, 1);
   SparseMatrix whole(system.local.cols(), system.local.cols());
   if (parallel::size() == 1) {
@@ -110,7 +110,7 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
   std::vector<std::vector<int>> groups;
   std::vector<Column> columns(rows.cols());
   for (const UnknownBlock& block : blocks) {
-    if (block.kind != UnknownBlock::Kind::local || !block.may_store) continue;
+    if (block.kind != BlockKind::interface || !block.may_store) continue;
     const int first = block.first, size = block.entities * block.components;
     std::vector<int> parent(size);
     std::iota(parent.begin(), parent.end(), 0);

@@ -112,7 +112,7 @@ LinearReport UmfpackSolver::order() {
 
 std::vector<int> UmfpackSolver::order_of_entities() const {
   const bool has_local = std::any_of(system_.blocks.begin(), system_.blocks.end(), [](const UnknownBlock& block) {
-    return block.kind == UnknownBlock::Kind::local && block.entities > 0;
+    return block.kind == BlockKind::interface && block.entities > 0;
   });
   if (has_local) return {};  // their zero diagonals need pivots that an ordering of entities would not foresee
   const EntityGraph graph(scaled_.matrix, system_.blocks);

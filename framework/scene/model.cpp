@@ -71,7 +71,7 @@ void Model::check_determined() const {
     const auto entry = std::find_if(scene_.components.begin(), scene_.components.end(),
                                     [&](const Scene::ComponentEntry& c) { return c.name == spec.owner; });
     const Origin origin = entry != scene_.components.end() ? entry->origin : scene_.whole.origin;
-    if (spec.role == Role::input && !spec.needs_coupler.empty() && field->determined_by().empty())
+    if (spec.role.is_input() && !spec.needs_coupler.empty() && field->determined_by().empty())
       throw InputError(origin, "nobody determines " + field->name(),
                        "component '" + spec.owner + "' needs a coupler of type '" + spec.needs_coupler + "'",
                        "add '- {type: " + spec.needs_coupler + ", between: [" + spec.owner + ", …]}' to 'couplers:'");
@@ -197,7 +197,7 @@ Notes Model::input_notes() const {
 std::vector<OutputField> Model::output() const {
   std::vector<OutputField> fields;
   for (const auto& field : fields_.all())
-    if (field->spec().role != Role::derived && field->size() > 0) fields.push_back(output_field(*field));
+    if (!field->spec().role.is_derived() && field->size() > 0) fields.push_back(output_field(*field));
   for (const Part* part : parts_) part->output(fields);
   return fields;
 }

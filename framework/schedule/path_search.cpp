@@ -53,7 +53,7 @@ void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
       largest = std::max(largest, change(u).lpNorm<Eigen::Infinity>());
     }
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    if (system.blocks[u].kind != UnknownBlock::Kind::local) continue;
+    if (system.blocks[u].kind != BlockKind::interface) continue;
     Vector values = unknowns_[u]->now();
     for (int i = 0; i < values.size(); ++i) {
       const double turns = (i + 1) * golden_ratio;

@@ -126,7 +126,7 @@ UnknownBlock block(const char* name, int first, int cells, int components) {
   block.first = first;
   block.entities = cells;
   block.components = components;
-  block.kind = components == 2 ? UnknownBlock::Kind::elasticity : UnknownBlock::Kind::scalar_elliptic;
+  block.kind = components == 2 ? BlockKind::bulk_elastic : BlockKind::bulk_elliptic;
   return block;
 }
 

@@ -101,7 +101,7 @@ Multigrid::Multigrid(const SparseMatrix& rows, const std::vector<int>& ids, cons
   const auto map = tpetra::make_map(ids, unknowns);
   const RCP<tpetra::Operator> matrix = tpetra::make_matrix(rows, map, map);
   const bool has_coordinates = block.entities > 0 && static_cast<int>(block.coordinates.size()) == block.entities;
-  const bool is_elastic = block.kind == UnknownBlock::Kind::elasticity;
+  const bool is_elastic = block.kind == BlockKind::bulk_elastic;
 
   ParameterList list;
   list.set("verbosity", "none");

@@ -23,8 +23,20 @@ Mesh small_mesh() {
 struct Blocks : testing::Test {
   const Mesh mesh = small_mesh();
   const int n = mesh.cell_count();
-  Field p{{.owner = "a", .name = "p", .location = Location::cell, .unit = "", .doc = ""}, n};
-  Field q{{.owner = "a", .name = "q", .location = Location::cell, .unit = "", .doc = ""}, n};
+  Field p{{.owner = "a",
+           .name = "p",
+           .location = Location::cell,
+           .role = Role::unknown(BlockKind::interface),
+           .unit = "",
+           .doc = ""},
+          n};
+  Field q{{.owner = "a",
+           .name = "q",
+           .location = Location::cell,
+           .role = Role::unknown(BlockKind::interface),
+           .unit = "",
+           .doc = ""},
+          n};
   BlockSystem system{mesh, {&p, &q}};
   Operator steady = chain(1), coupling = chain(0.5);
 

@@ -11,8 +11,12 @@ namespace {
 class LevelsOfPressures : public ::testing::Test {
  protected:
   Field& add(const std::string& owner) {
-    return fields_.add(
-        mesh_, {.owner = owner, .name = "pressure", .location = Location::cell, .unit = "Pa", .doc = "A pressure"});
+    return fields_.add(mesh_, {.owner = owner,
+                               .name = "pressure",
+                               .location = Location::cell,
+                               .role = Role::unknown(BlockKind::interface),
+                               .unit = "Pa",
+                               .doc = "A pressure"});
   }
   void float_(const Field& field) { levels_.floats(field, {"scene.yaml", 3, 1}, "nothing holds it", "hold it"); }
 

@@ -20,7 +20,13 @@ Operator some_matrix(double scale) {
 Vector some_values(double start) { return Vector::LinSpaced(n, start, start + 1).array().sin(); }
 
 struct KeptProducts : testing::Test {
-  Field field{{.owner = "a", .name = "b", .location = Location::cell, .unit = "", .doc = ""}, n};
+  Field field{{.owner = "a",
+               .name = "b",
+               .location = Location::cell,
+               .role = Role::unknown(BlockKind::interface),
+               .unit = "",
+               .doc = ""},
+              n};
   Operator a = some_matrix(1), other = some_matrix(3);
   Products products;
 

@@ -26,9 +26,20 @@ Mesh small_mesh() {
 struct Ring : testing::Test {
   const Mesh mesh = small_mesh();
   const int n = mesh.cell_count();
-  Field content{{.owner = "a", .name = "content", .location = Location::cell, .unit = "", .doc = ""}, n};
-  Field bulk{
-      {.owner = "a", .name = "bulk", .location = Location::cell, .unit = "", .doc = "", .smoothing = "elasticity"}, n};
+  Field content{{.owner = "a",
+                 .name = "content",
+                 .location = Location::cell,
+                 .role = Role::unknown(BlockKind::interface),
+                 .unit = "",
+                 .doc = ""},
+                n};
+  Field bulk{{.owner = "a",
+              .name = "bulk",
+              .location = Location::cell,
+              .role = Role::unknown(BlockKind::bulk_elliptic),
+              .unit = "",
+              .doc = ""},
+             n};
   double capacity = 1e-14, outwards = 0;
   bool is_fixed = false, is_answered = false;
   Operator exchange = ring(0);

@@ -136,7 +136,7 @@ TEST_P(Condensed, KeepsACellOfABulkThatFloats) {
   const int spring = n * n;
   entries.insert(entries.end(), {{3, spring, 1.0}, {spring, spring, 1.0}, {spring, 3, -2.0}});
   std::vector<UnknownBlock> blocks = floating.blocks;
-  blocks.push_back({"spring.force", spring, 1, 1, UnknownBlock::Kind::local, {}, {}});
+  blocks.push_back({"spring.force", spring, 1, 1, BlockKind::interface, {}, {}});
   const LinearSystem held = test::make_system(n * n + 1, entries, blocks);
   const Vector exact = test::random_vector(n * n + 1, 5);
   EXPECT_LT((solve(held, held.local * exact) - exact).norm(), 1e-9);
@@ -155,7 +155,7 @@ LinearSystem with_local_unknowns(int n, int count) {
   for (int i = 0; i < count; ++i)
     entries.insert(entries.end(), {{i, n * n + i, 1.0}, {n * n + i, n * n + i, 1.0}, {n * n + i, i, -2.0}});
   std::vector<UnknownBlock> blocks = bulk.blocks;
-  blocks.push_back({"springs.force", n * n, count, 1, UnknownBlock::Kind::local, {}, {}});
+  blocks.push_back({"springs.force", n * n, count, 1, BlockKind::interface, {}, {}});
   return test::make_system(n * n + count, entries, blocks);
 }
 

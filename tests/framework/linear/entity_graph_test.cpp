@@ -13,7 +13,7 @@ UnknownBlock field(const std::string& name, int first, int components, const std
   block.first = first;
   block.components = components;
   block.entities = static_cast<int>(places.size());
-  block.kind = UnknownBlock::Kind::scalar_elliptic;
+  block.kind = BlockKind::bulk_elliptic;
   block.coordinates = places;
   return block;
 }

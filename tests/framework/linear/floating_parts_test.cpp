@@ -45,11 +45,10 @@ class Springs {
     add(local, local, 1);
     add(local, 0, 1);
     add(0, local, 1);
-    using Kind = UnknownBlock::Kind;
     system = test::make_system(local + 1, entries_,
-                               {{"rock.displacement", 0, points, 2, Kind::elasticity, places_, {}},
-                                {"pore.pressure", 2 * points, points, 1, Kind::scalar_elliptic, places_, {}},
-                                {"contact.traction", local, 1, 1, Kind::local, {}, {}}});
+                               {{"rock.displacement", 0, points, 2, BlockKind::bulk_elastic, places_, {}},
+                                {"pore.pressure", 2 * points, points, 1, BlockKind::bulk_elliptic, places_, {}},
+                                {"contact.traction", local, 1, 1, BlockKind::interface, {}, {}}});
   }
 
   LinearSystem system;
@@ -82,7 +81,7 @@ double condition_of_the_rest(const LinearSystem& system, const std::vector<char>
   std::vector<int> rest;
   for (const UnknownBlock& block : system.blocks)
     for (int i = 0; i < block.entities * block.components; ++i)
-      if (block.kind != UnknownBlock::Kind::local && !held[block.first + i]) rest.push_back(block.first + i);
+      if (block.kind != BlockKind::interface && !held[block.first + i]) rest.push_back(block.first + i);
   const Eigen::MatrixXd whole = system.local;
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(whole(rest, rest));
   return svd.singularValues()[0] / svd.singularValues()[rest.size() - 1];
@@ -124,7 +123,7 @@ TEST(FloatingLevels, LoseOneCell) {
   for (const double storage : {0.0, 1e-13, 1e-5}) {
     LinearSystem closed = test::poisson(9, true);
     for (int i = 0; i < 81; ++i) closed.local.coeffRef(i, i) += storage;
-    closed.blocks.push_back({"conduit.pressure", 81, 0, 1, UnknownBlock::Kind::local, {}, {}});
+    closed.blocks.push_back({"conduit.pressure", 81, 0, 1, BlockKind::interface, {}, {}});
     const std::vector<char> held = unknowns_that_fractures_hold(closed);
     EXPECT_EQ(count(held), storage < 1e-6 ? 1 : 0) << storage;
     EXPECT_LT(condition_of_the_rest(closed, held), 1e7);

@@ -214,7 +214,7 @@ TEST_P(EveryDirectSolver, TakesWhatIsSmallInASumForWhatItIs) {
     rest.first = cells + 1;
     const int size = cells + 1 + rest.entities;
     system = test::make_system(
-        size, entries, {system.blocks[0], {"conduit.aperture", cells, 1, 1, UnknownBlock::Kind::local, {}, {}}, rest});
+        size, entries, {system.blocks[0], {"conduit.aperture", cells, 1, 1, BlockKind::interface, {}, {}}, rest});
     Vector exact = test::random_vector(size, 3);
     exact[cells] = 0;
     Vector x;

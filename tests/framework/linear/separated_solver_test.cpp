@@ -30,11 +30,10 @@ LinearSystem two_problems(double factor, double link = 0) {
     for (SparseMatrix::InnerIterator entry(small.local, row); entry; ++entry)
       entries.emplace_back(first + row, first + static_cast<int>(entry.col()), factor * entry.value());
   if (link != 0) entries.emplace_back(0, first, link);
-  using Kind = UnknownBlock::Kind;
   return test::make_system(n * n + m * m, entries,
-                           {{"a", 0, first, 1, Kind::scalar_elliptic, {}, {}},
-                            {"b", first, m * m, 1, Kind::elasticity, {}, {}},
-                            {"c", first + m * m, n * n - first, 1, Kind::scalar_elliptic, {}, {}}});
+                           {{"a", 0, first, 1, BlockKind::bulk_elliptic, {}, {}},
+                            {"b", first, m * m, 1, BlockKind::bulk_elastic, {}, {}},
+                            {"c", first + m * m, n * n - first, 1, BlockKind::bulk_elliptic, {}, {}}});
 }
 
 Vector solve(LinearSolver& solver, const LinearSystem& system, const Vector& b) {

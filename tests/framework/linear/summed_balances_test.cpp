@@ -76,7 +76,7 @@ TEST_P(SummedBalancesOf, OrdersOnce) {
       entries.emplace_back(row, static_cast<int>(entry.col()), entry.value());
   for (int i = 0; i < 30; ++i) entries.insert(entries.end(), {{i, aperture + i, 1}, {aperture + i, aperture + i, 1}});
   std::vector<UnknownBlock> blocks = chain.blocks;
-  blocks.push_back({"conduit.aperture", aperture, 30, 1, UnknownBlock::Kind::local, {}, {}});
+  blocks.push_back({"conduit.aperture", aperture, 30, 1, BlockKind::interface, {}, {}});
   blocks.back().may_store = false;
   LinearSystem system = test::make_system(aperture + 30, entries, blocks);
   const auto solver = make();

@@ -28,7 +28,7 @@ inline Vector random_vector(int n, unsigned seed) {
 /// -Laplace u, five points, zero outside the n × n interior nodes, scaled by h^2. With `floating`, no boundary value.
 inline LinearSystem poisson(int n, bool floating = false) {
   std::vector<Triplet> entries;
-  UnknownBlock block{"pore.pressure", 0, n * n, 1, UnknownBlock::Kind::scalar_elliptic, {}, {}};
+  UnknownBlock block{"pore.pressure", 0, n * n, 1, BlockKind::bulk_elliptic, {}, {}};
   const auto id = [n](int i, int j) { return j * n + i; };
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
@@ -61,10 +61,9 @@ struct Exchange {
       entries.emplace_back(n + i, i, -1);
       entries.emplace_back(n + i, i + 1, 1);
     }
-    using Kind = UnknownBlock::Kind;
-    return make_system(
-        2 * n - 1, entries,
-        {{"conduit.pressure", 0, n, 1, Kind::local, {}, {}}, {"conduit.flux", n, n - 1, 1, Kind::local, {}, {}}});
+    return make_system(2 * n - 1, entries,
+                       {{"conduit.pressure", 0, n, 1, BlockKind::interface, {}, {}},
+                        {"conduit.flux", n, n - 1, 1, BlockKind::interface, {}, {}}});
   }
   Vector right_hand_side() const {
     Vector b = Vector::Zero(2 * n - 1);
@@ -104,7 +103,7 @@ inline LinearSystem random_dominant(int n, unsigned seed) {
     }
     entries.emplace_back(i, i, 1.1 * sum);
   }
-  return make_system(n, entries, {{"some.field", 0, n, 1, UnknownBlock::Kind::local, {}, {}}});
+  return make_system(n, entries, {{"some.field", 0, n, 1, BlockKind::interface, {}, {}}});
 }
 
 /// One backward Euler step of Biot's equations in two halves of a unit square, joined by a fracture along the middle,
@@ -225,7 +224,6 @@ struct FracturedBiot {
   }
 
   std::vector<UnknownBlock> blocks() const {
-    using Kind = UnknownBlock::Kind;
     std::vector<Point> rock, fracture;
     for (int half = 0; half < 2; ++half)
       for (int j = 0; j <= n / 2; ++j)
@@ -234,12 +232,12 @@ struct FracturedBiot {
     const double lambda = young * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
     const double shear = young / (2 * (1 + poisson_ratio));
     const Vector fixed_stress = Vector::Constant(nodes(), biot * biot / (lambda + shear) / (n * n));
-    return {{"rock.displacement", 0, nodes(), 2, Kind::elasticity, rock, {}},
-            {"pore.pressure", 2 * nodes(), nodes(), 1, Kind::scalar_elliptic, rock, fixed_stress},
-            {"contact.traction", traction(0, 0), columns(), 2, Kind::local, fracture, {}},
-            {"contact.jump", jump(0, 0), columns(), 2, Kind::local, fracture, {}},
-            {"exchange.flux", wall_flux(0, 0), columns(), 2, Kind::local, fracture, {}},
-            {"conduit.pressure", fracture_pressure(0), columns(), 1, Kind::local, fracture, {}}};
+    return {{"rock.displacement", 0, nodes(), 2, BlockKind::bulk_elastic, rock, {}},
+            {"pore.pressure", 2 * nodes(), nodes(), 1, BlockKind::bulk_elliptic, rock, fixed_stress},
+            {"contact.traction", traction(0, 0), columns(), 2, BlockKind::interface, fracture, {}},
+            {"contact.jump", jump(0, 0), columns(), 2, BlockKind::interface, fracture, {}},
+            {"exchange.flux", wall_flux(0, 0), columns(), 2, BlockKind::interface, fracture, {}},
+            {"conduit.pressure", fracture_pressure(0), columns(), 1, BlockKind::interface, fracture, {}}};
   }
 };
 

@@ -193,7 +193,12 @@ TEST_F(CheckpointTest, FingerprintIsTheFowlerNollVoHash) {
 class CheckpointFields : public CheckpointTest {
  protected:
   static FieldSpec cell_field(const std::string& name) {
-    return {.owner = "pore", .name = name, .location = Location::cell, .unit = "Pa", .doc = ""};
+    return {.owner = "pore",
+            .name = name,
+            .location = Location::cell,
+            .role = Role::unknown(BlockKind::interface),
+            .unit = "Pa",
+            .doc = ""};
   }
 };
 

@@ -137,7 +137,13 @@ TEST_F(VtuWriter, AMeshWithoutFracturesGivesAnEmptyFractureGrid) {
 }
 
 TEST_F(VtuWriter, TheFieldOfARunIsWrittenAsItIsNow) {
-  Field field({.owner = "pore", .name = "pressure", .location = Location::cell, .unit = "Pa", .doc = ""}, 2);
+  Field field({.owner = "pore",
+               .name = "pressure",
+               .location = Location::cell,
+               .role = Role::unknown(BlockKind::interface),
+               .unit = "Pa",
+               .doc = ""},
+              2);
   field.set_both(Vector::Constant(2, 1));
   field.set(Vector::Constant(2, 5));
   const OutputField out = output_field(field);

@@ -28,11 +28,13 @@ Case grown_at_first_point() {
 }
 
 FieldSpec spec(Location location, int components = 1, bool is_amount = false) {
-  FieldSpec spec;
-  spec.owner = "part";
-  spec.name = "value";
-  spec.location = location;
-  spec.components = components;
+  FieldSpec spec{.owner = "part",
+                 .name = "value",
+                 .location = location,
+                 .components = components,
+                 .role = Role::unknown(BlockKind::interface),
+                 .unit = "",
+                 .doc = ""};
   spec.is_amount = is_amount;
   return spec;
 }

@@ -48,11 +48,12 @@ constexpr double standard = 100;  // s
 /// A schedule `text` for the components `tips` and `rock`, the latter with one unknown.
 struct Schedule {
   explicit Schedule(const std::string& text) {
-    FieldSpec spec;
-    spec.owner = "rock";
-    spec.name = "height";
-    spec.location = Location::cell;
-    fields.add(mesh, spec);
+    fields.add(mesh, {.owner = "rock",
+                      .name = "height",
+                      .location = Location::cell,
+                      .role = Role::unknown(BlockKind::interface),
+                      .unit = "",
+                      .doc = ""});
     ScheduleReading reading;
     reading.component_names = {"rock", "tips"};
     ScheduleContext context{mesh, fields, {&rock, &tips}, {}, {{"rock", &rock}, {"tips", &tips}}, standard, &growing};

@@ -48,7 +48,13 @@ struct Equation {
   }
 
   Mesh mesh;
-  Field x{{.owner = "a", .name = "x", .location = Location::cell, .unit = "", .doc = ""}, 2};
+  Field x{{.owner = "a",
+           .name = "x",
+           .location = Location::cell,
+           .role = Role::unknown(BlockKind::interface),
+           .unit = "",
+           .doc = ""},
+          2};
   ArcTangent part{x};
 };
 

@@ -22,7 +22,12 @@ TEST(RelativeChange, IsTheLargestOfAnyUnitAndFieldsOfOneUnitShareTheirScale) {
   const Mesh mesh = two_triangles();
   FieldStore fields;
   const auto add = [&](const char* name, const char* unit) -> Field& {
-    return fields.add(mesh, {.owner = "x", .name = name, .location = Location::cell, .unit = unit, .doc = ""});
+    return fields.add(mesh, {.owner = "x",
+                             .name = name,
+                             .location = Location::cell,
+                             .role = Role::unknown(BlockKind::interface),
+                             .unit = unit,
+                             .doc = ""});
   };
   Field &large = add("large", "m"), &small = add("small", "m"), &pressure = add("pressure", "Pa");
   const std::vector<const Field*> all = {&large, &small, &pressure};

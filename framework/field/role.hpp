@@ -1,0 +1,32 @@
+// Who determines the values of a field, and what its equations are to linear solvers.
+#pragma once
+
+#include "framework/linear/block_kind.hpp"
+
+namespace sprekk {
+
+/// unknown: determined by its owner's balance law. input: given to its owner; a coupler may determine it, else it keeps
+/// its initial value. derived: follows from the others, kept because its accepted value is needed or for output.
+///
+/// There is no default: a wrong kind of block gives the right answer, but many times slower, and nothing would tell.
+class Role {
+ public:
+  static constexpr Role unknown(BlockKind kind) { return {Who::unknown, kind}; }
+  static constexpr Role input(BlockKind kind) { return {Who::input, kind}; }
+  static constexpr Role derived() { return {Who::derived, BlockKind::interface}; }
+
+  constexpr bool is_unknown() const { return who_ == Who::unknown; }
+  constexpr bool is_input() const { return who_ == Who::input; }
+  constexpr bool is_derived() const { return who_ == Who::derived; }
+  /// Of an unknown or an input; nobody asks for that of a derived field.
+  constexpr BlockKind kind() const { return kind_; }
+
+ private:
+  enum class Who { unknown, input, derived };
+  constexpr Role(Who who, BlockKind kind) : who_(who), kind_(kind) {}
+
+  Who who_;
+  BlockKind kind_;
+};
+
+}  // namespace sprekk
