@@ -31,7 +31,7 @@ class Aperture : public Coupler {
   void begin_step(const StepTime&) override {}
 
   /// The pressure holds the fracture open, and what opens stores fluid.
-  void relate_levels(Levels& levels) const override { levels.hold(fluid_.pressure()); }
+  void hold_constants(ConstantModes& modes) const override { modes.hold(fluid_.pressure()); }
 
   void assemble(Assembly& assembly, const StepTime&) const override {
     const Field& aperture = fluid_.aperture();

@@ -78,18 +78,18 @@ class Biot : public Coupler {
     const Field& pressure = fluid_.pressure();
     if (!assembly.has_row(pressure)) return;
     if (decoupled_) return;
+    BalanceRows fluid = assembly.balance(pressure);
     if (has_grains_) {
-      assembly.add(pressure, grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()));
-      assembly.compare_round_off(pressure, grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
+      fluid.store(grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()),
+                  grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
       assembly.derivative(pressure, pressure, grains_);
-      assembly.turn_over(pressure, grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()));
     }
     assembly.linear(pressure, rock_.volume_change(), 1, &alpha_.values());
     assembly.add(pressure, -alpha_.values().cwiseProduct(counted_volume_.accepted()));
     Vector change = rock_.volume_change().constant - counted_volume_.accepted();
     for (const LinearExpression::Term& term : rock_.volume_change().terms)
       change += assembly.product(term.matrix, *term.field);
-    assembly.turn_over(pressure, alpha_.values().cwiseProduct(change));
+    fluid.turn_over(alpha_.values().cwiseProduct(change));
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime&) override {
@@ -127,8 +127,8 @@ class Biot : public Coupler {
   }
 
   /// The level of the pressure loads the rock, and the grains store fluid.
-  void relate_levels(Levels& levels) const override {
-    if (!decoupled_) levels.hold(fluid_.pressure());
+  void hold_constants(ConstantModes& modes) const override {
+    if (!decoupled_) modes.hold(fluid_.pressure());
   }
 
   void note_step(Notes& notes, const StepTime&) const override {

@@ -75,8 +75,7 @@ class WallExchange : public Coupler {
     if (assembly.has_row(pressure)) {
       const Vector& received = assembly.has_row(flux) ? exchanged_.accepted() : exchanged_.now();
       const Vector uncounted = of_both_walls_ * (received - counted_.accepted());
-      assembly.add(pressure, uncounted);
-      assembly.turn_over(pressure, uncounted);
+      assembly.balance(pressure).store(uncounted);
       if (assembly.has_row(flux)) assembly.linear(pressure, inflow_, flux, step.dt);
     }
     if (!assembly.has_row(flux)) return;
@@ -132,8 +131,8 @@ class WallExchange : public Coupler {
     balances["fluid"].stored -= (exchanged_.now() - counted_.now()).sum();
   }
 
-  void relate_levels(Levels& levels) const override {
-    if (fluid_) levels.tie(fluid_->pressure(), fracture_.pressure());
+  void hold_constants(ConstantModes& modes) const override {
+    if (fluid_) modes.tie(fluid_->pressure(), fracture_.pressure());
   }
 
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {

@@ -332,27 +332,22 @@ void MatrixFlow::begin_step(const StepTime& step) {
 
 void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(pressure_)) return;
-  assembly.conserve(pressure_, "fluid");
-  assembly.add(pressure_, capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()));
-  assembly.compare_round_off(pressure_, capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
+  BalanceRows fluid = assembly.balance(pressure_, "fluid");
+  fluid.store(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()),
+              capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, pressure_, capacity_of_pressure_);
   // What flows depends on differences of pressure only, so its terms are added together, and compared with what flows
   // through faces: terms of the pressure itself would hide it where the level is high. Where all terms vanish the
   // residual is small against the flow before the step.
   const double largest_before = flow(pressure_.accepted(), pressure_.accepted_version()).largest_outflow;
   const Flow& flows = flow(pressure_.now(), pressure_.version());
-  assembly.exchange(pressure_, step.dt * flows.outflow, step.dt * flows.leaving);
+  fluid.exchange(step.dt * flows.outflow, step.dt * flows.leaving,
+                 step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, pressure_, outflow_of_pressure_, step.dt);
-  assembly.compare_round_off_of_exchange(pressure_,
-                                         step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * largest_before);
-  assembly.turn_over(pressure_, capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()));
-  assembly.turn_over(pressure_, step.dt * flows.leaving);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
-  if (source_.isZero(0)) return;
-  assembly.add(pressure_, -step.dt * source_);
-  assembly.turn_over(pressure_, step.dt * source_);
+  if (!source_.isZero(0)) fluid.supply(step.dt * source_);
 }
 
 void MatrixFlow::forget_flow() {
@@ -425,12 +420,12 @@ std::vector<double> MatrixFlow::switch_times() const {
   return times;
 }
 
-void MatrixFlow::relate_levels(Levels& levels) const {
+void MatrixFlow::hold_constants(ConstantModes& modes) const {
   const bool has_pressure = std::any_of(options_.boundary.begin(), options_.boundary.end(),
                                         [](const auto& side) { return side.second.pressure.has_value(); });
   if (is_sealed_ ? storage_.values().minCoeff() > 0 : has_pressure || storage_.values().maxCoeff() > 0) return;
-  levels.floats(pressure_, origin_, "nothing stores fluid and no side has a pressure: any constant may be added to it",
-                "give a storage, or the pressure of a side");
+  modes.floats(pressure_, origin_, "nothing stores fluid and no side has a pressure: any constant may be added to it",
+               "give a storage, or the pressure of a side");
 }
 
 void MatrixFlow::output(std::vector<OutputField>& fields) const {

@@ -7,54 +7,44 @@
 namespace sprekk {
 
 Assembly::Assembly(std::vector<const Field*> unknowns, Want want, Products* products)
-    : unknowns_(std::move(unknowns)), want_(want), products_(products != nullptr ? products : &own_products_) {
+    : unknowns_(std::move(unknowns)),
+      want_(want),
+      products_(products != nullptr ? products : &own_products_),
+      balances_(unknowns_.size()) {
   for (const Field* field : unknowns_) {
     index_[field] = static_cast<int>(residuals_.size());
     residuals_.push_back(Vector::Zero(field->size()));
   }
   magnitudes_.assign(unknowns_.size(), 0);
   round_off_bases_.assign(unknowns_.size(), 0);
-  sums_.resize(unknowns_.size());
 }
 
-void Assembly::InSum::add(const Vector& values) {
-  residual += values;
-  const double size = values.lpNorm<1>();
-  magnitude = std::max(magnitude, size);
-  round_off_base = std::max(round_off_base, size);
-}
-
-void Assembly::conserve(const Field& row, const std::string& quantity) {
+int Assembly::index_of(const Field& row) const {
   const auto found = index_.find(&row);
-  if (found == index_.end()) return;
-  const int i = found->second;
-  if (sums_[i].residual.size() > 0) throw std::logic_error(row.name() + " is conserved: this was said twice");
-  sums_[i].residual = sums_[i].turnover = Vector::Zero(row.size());
-  sums_[i].add(residuals_[i]);
-  auto conserved = std::find_if(conserved_.begin(), conserved_.end(),
-                                [&](const Conserved& one) { return one.quantity == quantity; });
-  if (conserved == conserved_.end()) conserved = conserved_.insert(conserved_.end(), {quantity, {}});
-  conserved->rows.push_back(i);
+  return found == index_.end() ? -1 : found->second;
 }
 
-void Assembly::turn_over(const Field& row, const Vector& amounts) {
-  const auto found = index_.find(&row);
-  if (found != index_.end()) sums_[found->second].turnover += amounts.cwiseAbs();
+BalanceRows Assembly::balance(const Field& row, const std::string& quantity) {
+  const int i = index_of(row);
+  if (i >= 0) balances_.declare(i, row.name(), quantity, residuals_[i]);
+  return {*this, row, i};
 }
 
-void Assembly::add(const Field& row, const Vector& values) { exchange(row, values, values); }
+BalanceRows Assembly::balance(const Field& row) { return {*this, row, index_of(row)}; }
 
-void Assembly::exchange(const Field& row, const Vector& values, const Vector& leaving) {
-  const auto found = index_.find(&row);
-  if (found == index_.end()) return;
-  const int i = found->second;
-  if (values.size() != residuals_[i].size()) throw std::logic_error("assembly of " + row.name() + ": wrong size");
+void Assembly::add(const Field& row, const Vector& values) {
+  if (const int i = index_of(row); i >= 0) add(i, values, values);
+}
+
+void Assembly::add(int i, const Vector& values, const Vector& in_sum) {
+  if (values.size() != residuals_[i].size() || in_sum.size() != values.size())
+    throw std::logic_error("assembly of " + unknowns_[i]->name() + ": wrong size");
   if (values.size() == 0) return;
   residuals_[i] += values;
   const double largest = values.lpNorm<Eigen::Infinity>();
   magnitudes_[i] = std::max(magnitudes_[i], largest);
   round_off_bases_[i] = std::max(round_off_bases_[i], largest);
-  if (sums_[i].residual.size() > 0) sums_[i].add(leaving);
+  balances_.add(i, in_sum);
 }
 
 void Assembly::compare_with(const Field& row, double magnitude) {
@@ -65,16 +55,14 @@ void Assembly::compare_with(const Field& row, double magnitude) {
 }
 
 void Assembly::compare_round_off(const Field& row, double largest) {
-  compare_round_off_of_exchange(row, largest);
-  const auto found = index_.find(&row);
-  if (found == index_.end()) return;
-  InSum& sum = sums_[found->second];
-  sum.round_off_base = std::max(sum.round_off_base, row.size() * largest);
+  const int i = index_of(row);
+  if (i < 0) return;
+  compare_round_off_of_rows(i, largest);
+  balances_.compare_round_off(i, row.size() * largest);
 }
 
-void Assembly::compare_round_off_of_exchange(const Field& row, double largest) {
-  const auto found = index_.find(&row);
-  if (found != index_.end()) round_off_bases_[found->second] = std::max(round_off_bases_[found->second], largest);
+void Assembly::compare_round_off_of_rows(int unknown, double largest) {
+  round_off_bases_[unknown] = std::max(round_off_bases_[unknown], largest);
 }
 
 void Assembly::fix(const Field& row, int i, double target, double scale) {
@@ -127,8 +115,8 @@ void Assembly::linear(const Field& row, const Operator& matrix, const Field& col
     throw std::logic_error("term of " + row.name() + " in " + column.name() + ": wrong shape");
   const int i = found->second;
   const FieldProduct& product = products_->now(matrix, column);
-  const bool is_conserved = sums_[i].residual.size() > 0;
-  Vector scaled(is_conserved ? row.size() : 0);
+  const bool is_balance = balances_.are_rows_of(i);
+  Vector scaled(is_balance ? row.size() : 0);
   double largest = 0, largest_absolute = 0, sum_of_absolute = 0;
   for (int r = 0; r < row.size(); ++r) {
     const double scale = weights ? factor * (*weights)[r] : factor;
@@ -138,14 +126,14 @@ void Assembly::linear(const Field& row, const Operator& matrix, const Field& col
     const double absolute = std::abs(scale) * product.size[r];
     largest_absolute = std::max(largest_absolute, absolute);
     sum_of_absolute += absolute;
-    if (is_conserved) scaled[r] = matrix.is_exchange() ? scale : value;
+    if (is_balance) scaled[r] = matrix.is_exchange() ? scale : value;
   }
-  if (is_conserved) {
+  if (is_balance) {
     if (matrix.is_exchange())
       scaled = scaled.cwiseProduct(matrix.leaving() * column.now()).eval();
     else
-      sums_[i].round_off_base = std::max(sums_[i].round_off_base, sum_of_absolute);
-    sums_[i].add(scaled);
+      balances_.compare_round_off(i, sum_of_absolute);
+    balances_.add(i, scaled);
   }
   magnitudes_[i] = std::max(magnitudes_[i], largest);
   round_off_bases_[i] = std::max(round_off_bases_[i], largest_absolute);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/balances.hpp"
 #include "framework/assembly/linear_expression.hpp"
 #include "framework/assembly/products.hpp"
 #include "framework/field/field.hpp"
@@ -27,21 +29,15 @@ class Assembly {
 
   /// residual(row) += values.
   void add(const Field& row, const Vector& values);
-  /// The same for what rows exchange: `leaving` adds up to what `values` would without round-off (Operator).
-  void exchange(const Field& row, const Vector& values, const Vector& leaving);
-  /// The rows are balances of a quantity. With those of other fields that say the same, in the same unit, they may be
-  /// added up; then only what leaves all of them stays of exchanges.
-  void conserve(const Field& row, const std::string& quantity);
-  /// What balances turn over in the step: what each row stores, what is brought in, what leaves all rows of the
-  /// quantity; the sign does not matter. Errors of the balances are to be small against its sum, and not only against
-  /// what rows exchange, which may be any multiple of it.
-  void turn_over(const Field& row, const Vector& amounts);
+  /// The rows are balances of a quantity; said once, by the field's owner, before any of their terms. With those of
+  /// other fields that say the same, in the same unit, they may be added up.
+  BalanceRows balance(const Field& row, const std::string& quantity);
+  /// For what others add to balances that the owner of the field has declared, if it has.
+  BalanceRows balance(const Field& row);
   /// Something else that the residual is to be small against, in the units of the equation.
   void compare_with(const Field& row, double magnitude);
   /// A bound of the numbers whose differences make up the residual: they leave round-off of their own size in it.
   void compare_round_off(const Field& row, double largest);
-  /// The same for what rows exchange, whose round-off is absent in their sum.
-  void compare_round_off_of_exchange(const Field& row, double largest);
   /// d residual(row) / d column += factor · diag(weights) · block; ignored unless both are unknowns here. `block` and
   /// `weights` must outlive the assembly.
   void derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor = 1,
@@ -61,7 +57,7 @@ class Assembly {
   /// residual(row) += factor · diag(weights) · expression, with its derivatives.
   void linear(const Field& row, const LinearExpression& expression, double factor = 1, const Vector* weights = nullptr);
 
-  /// For terms that a part puts together itself. Those of exchanges with `exchange`.
+  /// For terms that a part puts together itself. Those of exchanges with BalanceRows::exchange.
   const Vector& product(const Operator& matrix, const Field& column) { return products_->value_now(matrix, column); }
   const Vector& accepted_product(const Operator& matrix, const Field& column) {
     return products_->value_accepted(matrix, column);
@@ -87,11 +83,6 @@ class Assembly {
     const SparseMatrix* in_sum;  ///< what counts in a sum of rows
     double largest_exchange;     ///< largest absolute entry of an exchange, 0 if it is none
   };
-  /// Balances of one quantity.
-  struct Conserved {
-    std::string quantity;
-    std::vector<int> rows;  ///< indices into unknowns()
-  };
   const std::vector<const Field*>& unknowns() const { return unknowns_; }
   const Vector& residual(int unknown) const { return residuals_[unknown]; }
   /// The largest entry of any single term of the equation: what a residual is small against.
@@ -99,23 +90,15 @@ class Assembly {
   /// The largest sum of absolute products in a row: round-off is a small multiple of machine epsilon times this.
   double round_off_base(int unknown) const { return round_off_bases_[unknown]; }
   const std::vector<Block>& blocks() const { return blocks_; }
-  const std::vector<Conserved>& conserved() const { return conserved_; }
-  /// Of rows that are conserved: the residual without what they exchange, to be added up. Then the same figures as
-  /// above, for the sum: the largest sum over all rows of absolute values of a term, and of the numbers whose
-  /// differences it is.
-  const Vector& in_sum(int unknown) const { return sums_[unknown].residual; }
-  double magnitude_of_sum(int unknown) const { return sums_[unknown].magnitude; }
-  double round_off_base_of_sum(int unknown) const { return sums_[unknown].round_off_base; }
-  /// Of each row, not negative; as wrong as a residual where the row is another process's.
-  const Vector& turnover(int unknown) const { return sums_[unknown].turnover; }
+  /// Those of the rows that are balances of something.
+  const Balances& balances() const { return balances_; }
 
  private:
-  struct InSum {
-    Vector residual;  ///< empty where nothing is conserved
-    Vector turnover;
-    double magnitude = 0, round_off_base = 0;
-    void add(const Vector& values);
-  };
+  friend class BalanceRows;
+  int index_of(const Field& row) const;  ///< -1 where it is not in the solve
+  /// `in_sum`: what of the values stays when rows are added up.
+  void add(int unknown, const Vector& values, const Vector& in_sum);
+  void compare_round_off_of_rows(int unknown, double largest);
   void keep_block(const Field& row, const Field& column, const SparseMatrix& block, double factor,
                   const Vector* weights, const Operator* kept);
 
@@ -126,8 +109,7 @@ class Assembly {
   std::map<const Field*, int> index_;
   std::vector<Vector> residuals_;
   std::vector<double> magnitudes_, round_off_bases_;
-  std::vector<InSum> sums_;
-  std::vector<Conserved> conserved_;
+  Balances balances_;
   std::vector<Block> blocks_;
   std::vector<Fixed> fixed_;
   std::deque<SparseMatrix> owned_;  ///< blocks that were moved in

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 
 #include "framework/field/ownership.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -97,9 +96,10 @@ bool BlockSystem::has_same_fixed(const Assembly& assembly) const {
 
 /// Where equations say that they are balances, the others are none.
 void BlockSystem::mark_balances(const Assembly& assembly) {
-  for (UnknownBlock& block : system_.blocks) block.may_store = assembly.conserved().empty();
-  for (const Assembly::Conserved& conserved : assembly.conserved())
-    for (const int unknown : conserved.rows) system_.blocks[unknown].may_store = true;
+  const std::vector<Balances::Quantity>& quantities = assembly.balances().quantities();
+  for (UnknownBlock& block : system_.blocks) block.may_store = quantities.empty();
+  for (const Balances::Quantity& quantity : quantities)
+    for (const int unknown : quantity.unknowns) system_.blocks[unknown].may_store = true;
 }
 
 void BlockSystem::build_pattern(const Assembly& assembly) {
@@ -178,7 +178,7 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
   if (same_pattern) {
     stays = known_rows(assembly);
     const bool all_stay = std::all_of(stays.begin(), stays.end(), [](char stay) { return stay; });
-    if (all_stay && system_.number != 0) return summed_.empty() ? system_ : with_sums_;
+    if (all_stay && system_.number != 0) return sums_.with_sums(system_);
   } else {
     build_pattern(assembly);
     system_.pattern_number = new_system_number();
@@ -201,57 +201,14 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
     }
   }
   apply_fixed(assembly);
-  sum_balances(assembly);
-  return summed_.empty() ? system_ : with_sums_;
+  sums_.put_into(system_, assembly, owned_, first_);
+  return sums_.with_sums(system_);
 }
 
 void BlockSystem::use_answered_sums(bool wanted) {
-  if (uses_answered_sums_ == wanted) return;
-  uses_answered_sums_ = wanted;
+  if (sums_.are_used_where_answered == wanted) return;
+  sums_.are_used_where_answered = wanted;
   system_.number = 0;  // the last matrix is not what the next is to be, though its blocks may be the same
-}
-
-void BlockSystem::sum_balances(const Assembly& assembly) {
-  summed_.clear();
-  if (!uses_sums_) return;
-  std::map<int, SumRow> rows;  // by their place
-  std::vector<int> sums;
-  for (const Assembly::Conserved& conserved : assembly.conserved()) {
-    if (!puts_sum_for(assembly, conserved)) continue;
-    SumRow sum = sum_of_rows(assembly, conserved, owned_, first_);
-    if (sum.columns.empty()) continue;  // a level that nothing holds, as the solver will find
-    const int row = row_to_replace(assembly, conserved, owned_, first_);
-    sums.push_back(row);
-    const auto place = std::lower_bound(system_.rows.begin(), system_.rows.end(), row);
-    const bool is_mine = place != system_.rows.end() && *place == row;
-    summed_.push_back({conserved, is_mine ? static_cast<int>(place - system_.rows.begin()) : -1});
-    if (is_mine) rows[summed_.back().place] = std::move(sum);
-  }
-  if (summed_.empty()) return;
-  with_sums_.rows = system_.rows;
-  with_sums_.blocks = system_.blocks;
-  with_sums_.sums = std::move(sums);
-  with_sums_.pattern_number = 0;
-  with_sums_.number = new_system_number();
-  const SparseMatrix& plain = system_.local;
-  std::vector<int> outer{0}, inner;
-  std::vector<double> values;
-  for (int row = 0; row < plain.rows(); ++row) {
-    const auto sum = rows.find(row);
-    const int start = plain.outerIndexPtr()[row], end = plain.outerIndexPtr()[row + 1];
-    inner.insert(
-        inner.end(), sum == rows.end() ? plain.innerIndexPtr() + start : sum->second.columns.data(),
-        sum == rows.end() ? plain.innerIndexPtr() + end : sum->second.columns.data() + sum->second.columns.size());
-    values.insert(values.end(), sum == rows.end() ? plain.valuePtr() + start : sum->second.values.data(),
-                  sum == rows.end() ? plain.valuePtr() + end : sum->second.values.data() + sum->second.values.size());
-    outer.push_back(static_cast<int>(inner.size()));
-  }
-  SparseMatrix& local = with_sums_.local;
-  local.resize(plain.rows(), plain.cols());
-  local.resizeNonZeros(inner.size());
-  std::copy(outer.begin(), outer.end(), local.outerIndexPtr());
-  std::copy(inner.begin(), inner.end(), local.innerIndexPtr());
-  std::copy(values.begin(), values.end(), local.valuePtr());
 }
 
 void BlockSystem::apply_fixed(const Assembly& assembly) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/assembly/assembly.hpp"
-#include "framework/assembly/weak_sums.hpp"
+#include "framework/assembly/balance_sums.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/mesh/mesh.hpp"
 
@@ -26,30 +26,16 @@ class BlockSystem {
   const LinearSystem& matrix(const Assembly& assembly);
   /// The residual of the owned rows.
   Vector residual(const Assembly& assembly) const;
-  /// Whether sums of balances take the place of one of them where the rows alone lose the level of what they exchange
-  /// (is_weak). Direct solvers only: the row of a sum is no elliptic one.
-  void use_sums(bool wanted) { uses_sums_ = wanted; }
-  bool uses_sums() const { return uses_sums_; }
-  /// Also where other unknowns of a bulk answer to the level. Costs a row that feels all of them.
+  /// Sums of balances in the place of one of them, where that is allowed and needed.
+  const BalanceSums& sums() const { return sums_; }
+  void use_sums(bool wanted) { sums_.are_used = wanted; }
   void use_answered_sums(bool wanted);
-  bool uses_answered_sums() const { return uses_answered_sums_; }
-  /// Whether the sum of these balances takes the place of one of them.
-  bool puts_sum_for(const Assembly& assembly, const Assembly::Conserved& conserved) const {
-    return uses_sums_ && is_weak(assembly, conserved, uses_answered_sums_);
-  }
   /// Of all processes: the sum of the residuals of conserved rows, without round-off of what is exchanged.
   double residual_of_sum(const Assembly& assembly, int unknown) const {
     return sum_of_residuals(assembly, unknown, owned_[unknown]);
   }
   /// Of every row of an unknown: whether it is this process's.
   const std::vector<char>& owned(int unknown) const { return owned_[unknown]; }
-  /// The balances of which one row of the last matrix is the sum, and its place among the owned rows, -1 where another
-  /// process has it.
-  struct Summed {
-    Assembly::Conserved conserved;
-    int place;
-  };
-  const std::vector<Summed>& summed() const { return summed_; }
   /// The preconditioner's diagonal of a block (see UnknownBlock::stabilization).
   void set_stabilization(const Field& field, const Vector& diagonal);
 
@@ -73,8 +59,6 @@ class BlockSystem {
   void build_pattern(const Assembly& assembly);
   void mark_balances(const Assembly& assembly);
   void apply_fixed(const Assembly& assembly);
-  /// Puts sums of balances in the place of one of them, or leaves none.
-  void sum_balances(const Assembly& assembly);
 
   std::vector<const Field*> unknowns_;
   std::vector<int> first_;
@@ -82,9 +66,7 @@ class BlockSystem {
   int size_ = 0;
   std::vector<std::vector<char>> owned_;  ///< [unknown][row of the field]
   LinearSystem system_;
-  bool uses_sums_ = false, uses_answered_sums_ = false;
-  std::vector<Summed> summed_;
-  LinearSystem with_sums_;                       ///< instead of system_, where there are any
+  BalanceSums sums_;
   std::vector<int> destinations_;                ///< of every kept entry of every block, in order
   std::vector<std::size_t> first_destinations_;  ///< by block
   std::vector<Known> known_;

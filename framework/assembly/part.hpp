@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/assembly/assembly.hpp"
-#include "framework/assembly/levels.hpp"
+#include "framework/assembly/constant_modes.hpp"
 #include "framework/assembly/notes.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
@@ -100,8 +100,8 @@ class Part {
   virtual void stabilize(const std::string& /*scheme*/, Stabilization&) const {}
   /// Which components cannot be in a solve without which others.
   virtual std::vector<Dependence> dependences() const { return {}; }
-  /// Says what holds the level of potentials and what does not.
-  virtual void relate_levels(Levels&) const {}
+  /// Says which potentials may be shifted by a constant, and what holds them.
+  virtual void hold_constants(ConstantModes&) const {}
   /// Times (s) that a step must end at, because data jump there.
   virtual std::vector<double> switch_times() const { return {}; }
   /// Quantities for history.csv, and fields for pictures.

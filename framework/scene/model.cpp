@@ -60,7 +60,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   now_doing("the first evaluation of all data");
   check_determined();
   refusing_bad_data([this] { check_data(); });
-  check_levels();
+  check_constant_modes();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_);
 }
 
@@ -96,10 +96,10 @@ void Model::check_data() {
     for (Part* part : parts_) part->evaluate_data(at);
 }
 
-void Model::check_levels() const {
-  Levels levels;
-  for (const Part* part : parts_) part->relate_levels(levels);
-  levels.require_held();
+void Model::check_constant_modes() const {
+  ConstantModes modes;
+  for (const Part* part : parts_) part->hold_constants(modes);
+  modes.require_held();
 }
 
 namespace {

@@ -53,7 +53,7 @@ class Model {
  private:
   void check_determined() const;
   void check_data();
-  void check_levels() const;
+  void check_constant_modes() const;
 
   Scene scene_;
   Mesh mesh_;

@@ -87,12 +87,12 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
     const auto begin = std::lower_bound(rows.begin(), rows.end(), first);
     right.segment(begin - rows.begin(), std::lower_bound(begin, rows.end(), end) - begin).setZero();
   }
-  for (const BlockSystem::Summed& summed : system_.summed()) {
+  for (const BalanceSums::Replaced& sum : system_.sums().replaced()) {
     double total = 0;
-    for (const int u : summed.conserved.rows)
+    for (const int u : sum.quantity.unknowns)
       if (!check.is_round_off[u] || !check.is_round_off_in_sum[u] || check.is_unbalanced[u])
         total += system_.residual_of_sum(*assembly_, u);
-    if (summed.place >= 0) right[summed.place] = -total;
+    if (sum.place >= 0) right[sum.place] = -total;
   }
   return right;
 }
@@ -101,9 +101,9 @@ std::vector<char> Newton::is_settled(const ResidualCheck& check) const {
   std::vector<char> settled(unknowns_.size(), 0);
   if (!check.finite) return settled;
   settled = check.is_round_off;
-  for (const Assembly::Conserved& conserved : assembly_->conserved()) {
-    const bool holds = std::ranges::all_of(conserved.rows, [&](int u) { return check.is_round_off_in_sum[u]; });
-    for (const int unknown : conserved.rows) settled[unknown] = settled[unknown] && holds;
+  for (const Balances::Quantity& quantity : assembly_->balances().quantities()) {
+    const bool holds = std::ranges::all_of(quantity.unknowns, [&](int u) { return check.is_round_off_in_sum[u]; });
+    for (const int unknown : quantity.unknowns) settled[unknown] = settled[unknown] && holds;
   }
   return settled;
 }
@@ -261,7 +261,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
       // give is as much as round-off allows.
       const bool stalls = check.imbalance > 0.5 * last_imbalance;
       last_imbalance = check.imbalance;
-      if (stalls && system_.uses_sums() && !system_.uses_answered_sums())
+      if (stalls && system_.sums().are_used && !system_.sums().are_used_where_answered)
         system_.use_answered_sums(true);
       else
         holds = stalls;

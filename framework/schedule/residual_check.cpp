@@ -20,12 +20,13 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   check.mean_squares.resize(2 * unknowns, 0);
   check.magnitudes.resize(2 * unknowns, 0);
   check.fixed_errors.resize(2 * unknowns, 0);
-  for (const Assembly::Conserved& conserved : assembly.conserved()) {
-    if (!system.puts_sum_for(assembly, conserved)) continue;
-    for (const int u : conserved.rows) {
+  const Balances& balances = assembly.balances();
+  for (const Balances::Quantity& quantity : balances.quantities()) {
+    if (!system.sums().replace_a_row(assembly, quantity)) continue;
+    for (const int u : quantity.unknowns) {
       const double value = std::abs(system.residual_of_sum(assembly, u));
-      const double magnitude = parallel::max(assembly.magnitude_of_sum(u));
-      const double noise = round_off * parallel::max(assembly.round_off_base_of_sum(u));
+      const double magnitude = parallel::max(balances.magnitude(u));
+      const double noise = round_off * parallel::max(balances.round_off_base(u));
       if (value > tolerance * magnitude + noise) check.rows_hold = false;
       check.magnitudes[unknowns + u] = magnitude;
       if (value <= noise) continue;
@@ -42,37 +43,37 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
 void check_balances(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
   constexpr double looser = 100;
   check.is_unbalanced.assign(assembly.unknowns().size(), 0);
-  for (const Assembly::Conserved& conserved : assembly.conserved()) {
-    if (std::ranges::any_of(assembly.fixed(), [&](const Assembly::Fixed& fixed) {
-          return std::ranges::find(conserved.rows, fixed.unknown) != conserved.rows.end();
-        }))
+  const Balances& balances = assembly.balances();
+  for (const Balances::Quantity& quantity : balances.quantities()) {
+    if (std::ranges::any_of(assembly.fixed(),
+                            [&](const Assembly::Fixed& fixed) { return quantity.has(fixed.unknown); }))
       continue;
     enum { rows, total, turnover, noise_of_total, count };
     Vector sums = Vector::Zero(count);
-    for (const int u : conserved.rows) {
+    for (const int u : quantity.unknowns) {
       const std::vector<char>& owned = system.owned(u);
       const double noise = round_off * parallel::max(assembly.round_off_base(u));
-      const Vector &residual = assembly.residual(u), &in_sum = assembly.in_sum(u), &amounts = assembly.turnover(u);
+      const Vector &residual = assembly.residual(u), &in_sum = balances.residual(u), &amounts = balances.turnover(u);
       for (int row = 0; row < residual.size(); ++row) {
         if (!owned[row]) continue;
         sums[rows] += std::max(0.0, std::abs(residual[row]) - noise);
         sums[total] += in_sum[row];
         sums[turnover] += amounts[row];
       }
-      sums[noise_of_total] += round_off * assembly.round_off_base_of_sum(u);
+      sums[noise_of_total] += round_off * balances.round_off_base(u);
     }
     parallel::sum(sums);
     if (sums[turnover] == 0) continue;
     const double error = std::max(sums[rows], std::abs(sums[total]) - sums[noise_of_total]);
     if (error <= looser * tolerance * sums[turnover]) continue;
     check.balances_hold = false;
-    for (const int u : conserved.rows) check.is_unbalanced[u] = 1;
+    for (const int u : quantity.unknowns) check.is_unbalanced[u] = 1;
     const double relative = error / sums[turnover];
     if (relative <= check.imbalance) continue;
     check.imbalance = relative;
     if (!check.rows_hold) continue;  // else the row that is worst tells more
     check.largest = relative;
-    check.equation = "the balance of " + conserved.quantity;
+    check.equation = "the balance of " + quantity.name;
   }
 }
 

@@ -34,7 +34,7 @@ struct ResidualCheck {
 /// each field's is such an equation, too.
 ///
 /// What is exchanged may be any multiple of what is stored, and a residual that is small against it may be all of that.
-/// So the balances of a conserved quantity also hold against their turnover (Assembly::turn_over): neither the sum of
+/// So the balances of a conserved quantity also hold against their turnover (BalanceRows): neither the sum of
 /// all absolute residuals nor their sum without what is exchanged, which has more digits, is above 100 × tolerance
 /// times it, but for round-off. Not where values are fixed in place of balances, which lets an unknown amount in.
 /// Collective.

@@ -189,7 +189,7 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
 void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assemble_fluxes(assembly, step);
   if (!assembly.has_row(pressure_)) return;
-  assembly.conserve(pressure_, "fluid");
+  BalanceRows fluid = assembly.balance(pressure_, "fluid");
   const int count = mesh_.fracture_cell_count();
   Vector stored(count), capacity(count), stored_by_aperture(count);
   for (int i = 0; i < count; ++i) {
@@ -199,18 +199,15 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
     stored[i] = length * (aperture_.now()[i] - aperture_.accepted()[i]) + capacity[i] * change;
     stored_by_aperture[i] = length * (1 + compressibility_[i] * change);
   }
-  assembly.add(pressure_, stored);
   // The changes are small differences of apertures and of pressures.
   double subtracted = 0;
   for (int i = 0; i < count; ++i)
     subtracted = std::max({subtracted, mesh_.fracture_cells[i].length * std::abs(aperture_.now()[i]),
                            std::abs(capacity[i] * pressure_.now()[i])});
-  assembly.compare_round_off(pressure_, subtracted);
+  fluid.store(stored, subtracted);
   assembly.diagonal(pressure_, pressure_, capacity);
   assembly.diagonal(pressure_, aperture_, stored_by_aperture);
-  assembly.add(pressure_, -step.dt * source_);
-  assembly.turn_over(pressure_, stored);
-  assembly.turn_over(pressure_, step.dt * source_);
+  fluid.supply(step.dt * source_);
 
   std::vector<Triplet> outflow;
   Vector leaving = Vector::Zero(count);
@@ -223,10 +220,8 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   }
   SparseMatrix divergence(count, flux_.size());
   divergence.setFromTriplets(outflow.begin(), outflow.end());
-  assembly.exchange(pressure_, divergence * flux_.now(), leaving);
-  assembly.turn_over(pressure_, leaving);
   // In a steady flow nothing else is left than what fluxes leave of one another.
-  assembly.compare_round_off_of_exchange(pressure_, step.dt * flux_.now().lpNorm<Eigen::Infinity>());
+  fluid.exchange(divergence * flux_.now(), leaving, step.dt * flux_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, flux_, std::move(divergence));
 }
 
@@ -271,13 +266,13 @@ std::vector<double> FractureFlow::switch_times() const {
   return times;
 }
 
-void FractureFlow::relate_levels(Levels& levels) const {
+void FractureFlow::hold_constants(ConstantModes& modes) const {
   const bool has_open_end =
       std::any_of(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; });
   if (has_open_end || !prescribed_.empty() || compressibility_.values().maxCoeff() > 0) return;
-  levels.floats(pressure_, origin_,
-                "the fluid is incompressible and no pressure is given: any constant may be added to it",
-                "give a compressibility, or a pressure under 'prescribed' or 'boundary'");
+  modes.floats(pressure_, origin_,
+               "the fluid is incompressible and no pressure is given: any constant may be added to it",
+               "give a compressibility, or a pressure under 'prescribed' or 'boundary'");
 }
 
 void FractureFlow::report(std::vector<Quantity>& quantities) const {

@@ -39,7 +39,7 @@ class FractureFlow : public Component, public FractureFluid {
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
   std::vector<double> switch_times() const override;
-  void relate_levels(Levels& levels) const override;
+  void hold_constants(ConstantModes& modes) const override;
   void report(std::vector<Quantity>& quantities) const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;

@@ -116,17 +116,19 @@ class Exchange : public Part {
   }
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime&) const override {
-    assembly.conserve(x_, "quantity");
+    BalanceRows rows = assembly.balance(x_, "quantity");
     const Vector stored = capacity * (x_.now() - x_.accepted()), source = Vector::Unit(2, 0);
-    assembly.add(x_, stored);
-    assembly.add(x_, -source);
+    if (tells_) {
+      rows.store(stored);
+      rows.supply(source);
+    } else {
+      assembly.add(x_, stored);
+      assembly.add(x_, -source);
+    }
     assembly.diagonal(x_, x_, Vector::Constant(2, capacity));
     assembly.linear(x_, exchange_, x_);
     // What flows in a circle, say: it does not change, and is no part of any sum.
     assembly.compare_with(x_, 1e12);
-    if (!tells_) return;
-    assembly.turn_over(x_, stored);
-    assembly.turn_over(x_, source);
   }
   static constexpr double capacity = 2;
 

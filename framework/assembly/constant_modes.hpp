@@ -1,4 +1,4 @@
-// What holds the level of a potential, so that no constant can be added to all of its values.
+// What holds a potential, so that no constant can be added to all of its values (docs/numerics/constant_modes.md).
 #pragma once
 
 #include <map>
@@ -14,14 +14,14 @@ namespace sprekk {
 
 /// Components say which of their unknowns float, couplers what ties or holds them. A field of which nobody says that it
 /// floats is held.
-class Levels {
+class ConstantModes {
  public:
-  /// Its own equations and data leave its level open: `why`, and what would hold it.
+  /// Its own equations and data leave a constant open: `why`, and what would hold it.
   void floats(const Field& field, const Origin& where, const std::string& why, const std::string& suggestion);
   void hold(const Field& field) { held_.insert(&field); }
-  /// What holds the level of one holds that of the other.
+  /// They share one constant: what holds one holds the other.
   void tie(const Field& one, const Field& other) { ties_.emplace_back(&one, &other); }
-  /// Throws InputError naming a field whose level nothing holds.
+  /// Throws InputError naming a field whose constant nothing holds.
   void require_held() const;
 
  private:

@@ -1,4 +1,4 @@
-#include "framework/assembly/levels.hpp"
+#include "framework/assembly/constant_modes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace sprekk {
 namespace {
 
-class LevelsOfPressures : public ::testing::Test {
+class ConstantModesOfPressures : public ::testing::Test {
  protected:
   Field& add(const std::string& owner) {
     return fields_.add(mesh_, {.owner = owner,
@@ -18,20 +18,20 @@ class LevelsOfPressures : public ::testing::Test {
                                .unit = "Pa",
                                .doc = "A pressure"});
   }
-  void float_(const Field& field) { levels_.floats(field, {"scene.yaml", 3, 1}, "nothing holds it", "hold it"); }
+  void float_(const Field& field) { modes_.floats(field, {"scene.yaml", 3, 1}, "nothing holds it", "hold it"); }
 
   Mesh mesh_;
   FieldStore fields_;
   Field &rock_ = add("rock"), &fracture_ = add("fracture"), &other_ = add("other");
-  Levels levels_;
+  ConstantModes modes_;
 };
 
-TEST_F(LevelsOfPressures, AreHeldWhenNobodySaysOtherwise) { EXPECT_NO_THROW(levels_.require_held()); }
+TEST_F(ConstantModesOfPressures, AreHeldWhenNobodySaysOtherwise) { EXPECT_NO_THROW(modes_.require_held()); }
 
-TEST_F(LevelsOfPressures, AreMissedWithTheReason) {
+TEST_F(ConstantModesOfPressures, AreMissedWithTheReason) {
   float_(rock_);
   try {
-    levels_.require_held();
+    modes_.require_held();
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
@@ -39,19 +39,19 @@ TEST_F(LevelsOfPressures, AreMissedWithTheReason) {
   }
 }
 
-TEST_F(LevelsOfPressures, AreHeldByCouplers) {
+TEST_F(ConstantModesOfPressures, AreHeldByCouplers) {
   float_(rock_);
-  levels_.hold(rock_);
-  EXPECT_NO_THROW(levels_.require_held());
+  modes_.hold(rock_);
+  EXPECT_NO_THROW(modes_.require_held());
 }
 
-TEST_F(LevelsOfPressures, AreHeldThroughAChainOfTies) {
+TEST_F(ConstantModesOfPressures, AreHeldThroughAChainOfTies) {
   float_(rock_);
   float_(fracture_);
-  levels_.tie(rock_, fracture_);
-  EXPECT_THROW(levels_.require_held(), InputError);
-  levels_.tie(fracture_, other_);
-  EXPECT_NO_THROW(levels_.require_held());
+  modes_.tie(rock_, fracture_);
+  EXPECT_THROW(modes_.require_held(), InputError);
+  modes_.tie(fracture_, other_);
+  EXPECT_NO_THROW(modes_.require_held());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Balances that exchange far more than they hold: what their sum is, and when it takes the place of one of them.
-#include "framework/assembly/weak_sums.hpp"
+#include "framework/assembly/balance_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ struct Ring : testing::Test {
   std::unique_ptr<Assembly> assemble() {
     auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{&bulk, &content},
                                                Assembly::Want::residual_and_derivatives);
-    assembly->conserve(content, "it");
+    assembly->balance(content, "it");
     assembly->add(content, capacity * content.now() - source());
     assembly->diagonal(content, content, Vector::Constant(n, capacity));
     assembly->linear(content, exchange, content, 2);
@@ -97,9 +97,9 @@ TEST_F(Ring, AddsUpWithoutWhatIsExchanged) {
   content.set(Vector::LinSpaced(n, 1e6, 2e6));
   exchange = ring(3);
   const auto assembly = assemble();
-  const SumRow sum = sum_of_rows(*assembly, assembly->conserved()[0], owned, {0, n});
+  const SumRow sum = sum_of_rows(*assembly, assembly->balances().quantities()[0], owned, {0, n});
   ASSERT_EQ(static_cast<int>(sum.columns.size()), n);
-  EXPECT_EQ(row_to_replace(*assembly, assembly->conserved()[0], owned, {0, n}), n);
+  EXPECT_EQ(row_to_replace(*assembly, assembly->balances().quantities()[0], owned, {0, n}), n);
   for (int i = 0; i < n; ++i) {
     EXPECT_EQ(sum.columns[i], n + i);
     EXPECT_EQ(sum.values[i], capacity + (i == 0 ? 2 * 3 : 0));
@@ -111,7 +111,7 @@ TEST_F(Ring, AddsUpWithoutWhatIsExchanged) {
 TEST_F(Ring, IsWeakWhereOnlyLittleHoldsTheLevel) {
   const auto is_weak_now = [&] {
     const auto assembly = assemble();
-    return is_weak(*assembly, assembly->conserved()[0]);
+    return is_weak(*assembly, assembly->balances().quantities()[0]);
   };
   EXPECT_TRUE(is_weak_now());
   capacity = 1e-5;
@@ -126,10 +126,10 @@ TEST_F(Ring, IsWeakWhereOnlyLittleHoldsTheLevel) {
   is_answered = true;
   EXPECT_FALSE(is_weak_now());
   const auto answered = assemble();
-  EXPECT_TRUE(is_weak(*answered, answered->conserved()[0], true));
+  EXPECT_TRUE(is_weak(*answered, answered->balances().quantities()[0], true));
   exchange = ring(0.1);
   const auto held = assemble();
-  EXPECT_FALSE(is_weak(*held, held->conserved()[0], true));
+  EXPECT_FALSE(is_weak(*held, held->balances().quantities()[0], true));
 }
 
 TEST_F(Ring, KeepsItsLevelInASystemWithSums) {
@@ -138,7 +138,7 @@ TEST_F(Ring, KeepsItsLevelInASystemWithSums) {
     BlockSystem system(mesh, {&bulk, &content});
     const auto assembly = assemble();
     system.matrix(*assembly);
-    EXPECT_TRUE(system.summed().empty());
+    EXPECT_TRUE(system.sums().replaced().empty());
     system = BlockSystem(mesh, {&bulk, &content});
     system.use_sums(true);
     LinearOptions options;
@@ -146,9 +146,9 @@ TEST_F(Ring, KeepsItsLevelInASystemWithSums) {
     const auto solver = make_linear_solver(options);
     const LinearReport factored = solver->factor(system.matrix(*assembly));
     ASSERT_TRUE(factored.solved) << factored.reason;
-    ASSERT_EQ(system.summed().size(), 1u);
+    ASSERT_EQ(system.sums().replaced().size(), 1u);
     Vector right = -system.residual(*assembly), update;
-    right[system.summed()[0].place] = -system.residual_of_sum(*assembly, 1);
+    right[system.sums().replaced()[0].place] = -system.residual_of_sum(*assembly, 1);
     ASSERT_TRUE(solver->solve(right, update).solved);
     const Vector values = update.tail(n);
     EXPECT_NEAR(values.mean(), rest / (c * n), 1e-12 * rest / (c * n)) << c;
@@ -160,7 +160,7 @@ TEST_F(Ring, HasNoSumWhereNothingHoldsTheLevel) {
   BlockSystem system(mesh, {&bulk, &content});
   system.use_sums(true);
   system.matrix(*assemble());
-  EXPECT_TRUE(system.summed().empty());
+  EXPECT_TRUE(system.sums().replaced().empty());
 }
 
 }  // namespace

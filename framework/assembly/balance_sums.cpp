@@ -1,4 +1,4 @@
-#include "framework/assembly/weak_sums.hpp"
+#include "framework/assembly/balance_sums.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,6 @@
 
 namespace sprekk {
 namespace {
-
-bool has(const Assembly::Conserved& conserved, int unknown) {
-  return std::find(conserved.rows.begin(), conserved.rows.end(), unknown) != conserved.rows.end();
-}
 
 double largest_weight(const Assembly::Block& block) {
   return std::abs(block.factor) * (block.weights ? block.weights->lpNorm<Eigen::Infinity>() : 1);
@@ -32,15 +28,15 @@ void for_entries(const Assembly::Block& block, const SparseMatrix& entries, cons
 
 }  // namespace
 
-bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved, bool also_answered) {
+bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_answered) {
   constexpr double weak = 1e-6;
   for (const Assembly::Fixed& fixed : assembly.fixed())
-    if (has(conserved, fixed.unknown)) return false;
+    if (quantity.has(fixed.unknown)) return false;
   double exchanged = 0;
   bool is_answered = false;
   for (const Assembly::Block& block : assembly.blocks()) {
-    if (!has(conserved, block.row)) continue;
-    if (has(conserved, block.column)) {
+    if (!quantity.has(block.row)) continue;
+    if (quantity.has(block.column)) {
       if (block.largest_exchange > 0) exchanged = std::max(exchanged, largest_weight(block) * block.largest_exchange);
     } else if (is_bulk(assembly.unknowns()[block.column]->spec().role.kind())) {
       const double* values = block.matrix->valuePtr();
@@ -53,18 +49,18 @@ bool is_weak(const Assembly& assembly, const Assembly::Conserved& conserved, boo
   if (exchanged == 0) return false;
   double held = 0;
   for (const Assembly::Block& block : assembly.blocks())
-    if (has(conserved, block.row) && has(conserved, block.column) && block.in_sum->nonZeros() > 0)
+    if (quantity.has(block.row) && quantity.has(block.column) && block.in_sum->nonZeros() > 0)
       held += largest_weight(block) *
               Eigen::Map<const Vector>(block.in_sum->valuePtr(), block.in_sum->nonZeros()).lpNorm<1>();
   return parallel::sum(held) <= weak * exchanged;
 }
 
-SumRow sum_of_rows(const Assembly& assembly, const Assembly::Conserved& conserved,
+SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
   std::vector<int> columns;
   std::vector<double> values;
   for (const Assembly::Block& block : assembly.blocks())
-    if (has(conserved, block.row))
+    if (quantity.has(block.row))
       for_entries(block, *block.in_sum, owned[block.row], [&](int, int column, double value) {
         columns.push_back(first[block.column] + column);
         values.push_back(value);
@@ -90,12 +86,12 @@ SumRow sum_of_rows(const Assembly& assembly, const Assembly::Conserved& conserve
   return sum;
 }
 
-int row_to_replace(const Assembly& assembly, const Assembly::Conserved& conserved,
+int row_to_replace(const Assembly& assembly, const Balances::Quantity& quantity,
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
   double strongest = 0;
   int mine = -1;
   for (const Assembly::Block& block : assembly.blocks()) {
-    if (!has(conserved, block.row) || block.row != block.column || block.largest_exchange == 0) continue;
+    if (!quantity.has(block.row) || block.row != block.column || block.largest_exchange == 0) continue;
     for_entries(block, *block.matrix, owned[block.row], [&](int row, int column, double value) {
       if (row != column || std::abs(value) <= strongest) return;
       strongest = std::abs(value);
@@ -108,10 +104,55 @@ int row_to_replace(const Assembly& assembly, const Assembly::Conserved& conserve
 
 double sum_of_residuals(const Assembly& assembly, int unknown, const std::vector<char>& owned) {
   double sum = 0;
-  const Vector& residual = assembly.in_sum(unknown);
+  const Vector& residual = assembly.balances().residual(unknown);
   for (int row = 0; row < residual.size(); ++row)
     if (owned[row]) sum += residual[row];
   return parallel::sum(sum);
+}
+
+void BalanceSums::put_into(const LinearSystem& plain, const Assembly& assembly,
+                           const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
+  replaced_.clear();
+  if (!are_used) return;
+  std::map<int, SumRow> rows;  // by their place
+  std::vector<int> sums;
+  for (const Balances::Quantity& quantity : assembly.balances().quantities()) {
+    if (!replace_a_row(assembly, quantity)) continue;
+    SumRow sum = sum_of_rows(assembly, quantity, owned, first);
+    if (sum.columns.empty()) continue;  // a mode that nothing holds, as the solver will find
+    const int row = row_to_replace(assembly, quantity, owned, first);
+    sums.push_back(row);
+    const auto place = std::lower_bound(plain.rows.begin(), plain.rows.end(), row);
+    const bool is_mine = place != plain.rows.end() && *place == row;
+    replaced_.push_back({quantity, is_mine ? static_cast<int>(place - plain.rows.begin()) : -1});
+    if (is_mine) rows[replaced_.back().place] = std::move(sum);
+  }
+  if (replaced_.empty()) return;
+  with_sums_.rows = plain.rows;
+  with_sums_.blocks = plain.blocks;
+  with_sums_.sums = std::move(sums);
+  with_sums_.pattern_number = 0;
+  with_sums_.number = new_system_number();
+  const SparseMatrix& rows_of_plain = plain.local;
+  std::vector<int> outer{0}, inner;
+  std::vector<double> values;
+  for (int row = 0; row < rows_of_plain.rows(); ++row) {
+    const auto sum = rows.find(row);
+    const int start = rows_of_plain.outerIndexPtr()[row], end = rows_of_plain.outerIndexPtr()[row + 1];
+    inner.insert(inner.end(), sum == rows.end() ? rows_of_plain.innerIndexPtr() + start : sum->second.columns.data(),
+                 sum == rows.end() ? rows_of_plain.innerIndexPtr() + end
+                                   : sum->second.columns.data() + sum->second.columns.size());
+    values.insert(
+        values.end(), sum == rows.end() ? rows_of_plain.valuePtr() + start : sum->second.values.data(),
+        sum == rows.end() ? rows_of_plain.valuePtr() + end : sum->second.values.data() + sum->second.values.size());
+    outer.push_back(static_cast<int>(inner.size()));
+  }
+  SparseMatrix& local = with_sums_.local;
+  local.resize(rows_of_plain.rows(), rows_of_plain.cols());
+  local.resizeNonZeros(inner.size());
+  std::copy(outer.begin(), outer.end(), local.outerIndexPtr());
+  std::copy(inner.begin(), inner.end(), local.innerIndexPtr());
+  std::copy(values.begin(), values.end(), local.valuePtr());
 }
 
 }  // namespace sprekk

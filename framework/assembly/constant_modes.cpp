@@ -1,18 +1,19 @@
-#include "framework/assembly/levels.hpp"
+#include "framework/assembly/constant_modes.hpp"
 
 #include <algorithm>
 
 namespace sprekk {
 
-void Levels::floats(const Field& field, const Origin& where, const std::string& why, const std::string& suggestion) {
+void ConstantModes::floats(const Field& field, const Origin& where, const std::string& why,
+                           const std::string& suggestion) {
   if (!floats(&field)) floating_.push_back({&field, where, why, suggestion});
 }
 
-bool Levels::floats(const Field* field) const {
+bool ConstantModes::floats(const Field* field) const {
   return std::any_of(floating_.begin(), floating_.end(), [&](const Floating& one) { return one.field == field; });
 }
 
-void Levels::require_held() const {
+void ConstantModes::require_held() const {
   std::set<const Field*> held = held_;
   const auto is_held = [&](const Field* field) { return held.count(field) > 0 || !floats(field); };
   for (bool changed = true; changed;) {

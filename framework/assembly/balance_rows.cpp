@@ -1,0 +1,29 @@
+#include "framework/assembly/balance_rows.hpp"
+
+#include "framework/assembly/assembly.hpp"
+
+namespace sprekk {
+
+void BalanceRows::store(const Vector& amounts, double largest) {
+  assembly_.add(row_, amounts);
+  if (largest > 0) assembly_.compare_round_off(row_, largest);
+  turn_over(amounts);
+}
+
+void BalanceRows::supply(const Vector& amounts) {
+  assembly_.add(row_, -amounts);
+  turn_over(amounts);
+}
+
+void BalanceRows::exchange(const Vector& outflow, const Vector& leaving, double largest) {
+  if (unknown_ < 0) return;
+  assembly_.add(unknown_, outflow, leaving);
+  assembly_.compare_round_off_of_rows(unknown_, largest);
+  turn_over(leaving);
+}
+
+void BalanceRows::turn_over(const Vector& amounts) {
+  if (unknown_ >= 0) assembly_.balances_.turn_over(unknown_, amounts);
+}
+
+}  // namespace sprekk

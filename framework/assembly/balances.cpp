@@ -1,0 +1,33 @@
+#include "framework/assembly/balances.hpp"
+
+#include <stdexcept>
+
+namespace sprekk {
+
+void Balances::declare(int unknown, const std::string& field, const std::string& quantity, const Vector& so_far) {
+  if (are_rows_of(unknown)) throw std::logic_error(field + " is a balance: this was said twice");
+  of_[unknown].residual = of_[unknown].turnover = Vector::Zero(so_far.size());
+  add(unknown, so_far);
+  auto found = std::ranges::find(quantities_, quantity, &Quantity::name);
+  if (found == quantities_.end()) found = quantities_.insert(quantities_.end(), {quantity, {}});
+  found->unknowns.push_back(unknown);
+}
+
+void Balances::add(int unknown, const Vector& values) {
+  if (!are_rows_of(unknown)) return;
+  Rows& rows = of_[unknown];
+  rows.residual += values;
+  const double size = values.lpNorm<1>();
+  rows.magnitude = std::max(rows.magnitude, size);
+  rows.round_off_base = std::max(rows.round_off_base, size);
+}
+
+void Balances::turn_over(int unknown, const Vector& amounts) {
+  if (are_rows_of(unknown)) of_[unknown].turnover += amounts.cwiseAbs();
+}
+
+void Balances::compare_round_off(int unknown, double largest) {
+  of_[unknown].round_off_base = std::max(of_[unknown].round_off_base, largest);
+}
+
+}  // namespace sprekk
