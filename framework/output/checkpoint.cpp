@@ -13,7 +13,7 @@ namespace sprekk {
 namespace {
 
 const std::string format_name = "sprekk checkpoint";
-constexpr int format_version = 9;  // raised whenever the layout of the file changes
+constexpr int format_version = 10;  // raised whenever the layout of the file changes
 
 std::span<const double> span_of(const Vector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
@@ -59,17 +59,6 @@ void write_content(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.text("program_version", checkpoint.program_version);
   file.text("scene_name", checkpoint.scene_name);
   file.text("scene_fingerprint", checkpoint.scene_fingerprint);
-  file.doubles("clock/time", std::array{checkpoint.clock.time});
-  file.integers("clock/step", std::array{checkpoint.clock.step});
-  file.doubles("clock/next_step", std::array{checkpoint.clock.next_step});
-  file.doubles("clock/held_step", std::array{checkpoint.clock.held_step});
-  file.doubles("clock/failed_step", std::array{checkpoint.clock.failed_step});
-  file.integers("clock/failed_wait", std::array{checkpoint.clock.failed_wait, checkpoint.clock.failed_patience});
-  const auto& released = checkpoint.clock.released;
-  const auto& expected = checkpoint.clock.expected;
-  file.integers("clock/recurrence_known", std::array{released ? 1 : 0, expected ? 1 : 0});
-  file.doubles("clock/recurrence", std::array{released.value_or(0), checkpoint.clock.level, checkpoint.clock.pause,
-                                              checkpoint.clock.rise, expected.value_or(0), checkpoint.clock.patience});
   file.text("notes", text_of(checkpoint.notes));
   write_mesh(file, checkpoint.mesh);
   file.text("fields/names", nlohmann::json(names_of(checkpoint.fields)).dump());
@@ -88,17 +77,6 @@ Checkpoint read_content(const Hdf5Reader& file) {
   checkpoint.program_version = file.text("program_version");
   checkpoint.scene_name = file.text("scene_name");
   checkpoint.scene_fingerprint = file.text("scene_fingerprint");
-  checkpoint.clock = {file.doubles("clock/time").at(0),        file.integers("clock/step").at(0),
-                      file.doubles("clock/next_step").at(0),   file.doubles("clock/held_step").at(0),
-                      file.doubles("clock/failed_step").at(0), file.integers("clock/failed_wait").at(0),
-                      file.integers("clock/failed_wait").at(1)};
-  const std::vector<double> recurrence = file.doubles("clock/recurrence");
-  if (file.integers("clock/recurrence_known").at(0) != 0) checkpoint.clock.released = recurrence.at(0);
-  checkpoint.clock.level = recurrence.at(1);
-  checkpoint.clock.pause = recurrence.at(2);
-  checkpoint.clock.rise = recurrence.at(3);
-  if (file.integers("clock/recurrence_known").at(1) != 0) checkpoint.clock.expected = recurrence.at(4);
-  checkpoint.clock.patience = recurrence.at(5);
   checkpoint.notes = read_notes(file.text("notes"));
   checkpoint.mesh = read_mesh(file);
   const auto fields = read_names(file, "fields/names");

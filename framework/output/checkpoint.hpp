@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,19 +12,6 @@
 namespace sprekk {
 
 struct Checkpoint {
-  struct Clock {
-    double time = 0;         ///< s, of the accepted step
-    int step = 0;            ///< accepted steps so far
-    double next_step = 0;    ///< s, the size that the controller wants to try next
-    double held_step = 0;    ///< s, the size that it holds after a growth event, or 0
-    double failed_step = 0;  ///< s, a size that failed and waits to be tried again, or 0
-    int failed_wait = 0, failed_patience = 3;
-    std::optional<double> released = std::nullopt;  ///< s, when steps were last held small no more
-    double level = 0;                               ///< of what holds steps, at that time
-    double pause = 0, rise = 1;                     ///< s and of that level, from the release before to its hold
-    std::optional<double> expected = std::nullopt;  ///< s, when steps are to be held the next time
-    double patience = 0;                            ///< s, how long that is waited for once it is overdue
-  };
   struct Values {
     Vector now, accepted;
   };
@@ -33,11 +19,11 @@ struct Checkpoint {
   std::string scene_name;         ///< for messages
   std::string scene_fingerprint;  ///< see fingerprint()
   std::string program_version;    ///< of the program that wrote it
-  Clock clock;
   std::vector<NoteRecord> notes;  ///< of all steps so far
   Mesh mesh;
   std::map<std::string, Values> fields;  ///< by full name
-  std::map<std::string, Vector> extra;   ///< state of accelerators, controllers, tips: by a name of their choice
+  std::map<std::string, Vector>
+      extra;  ///< state of accelerators, of the time steps, of tips: by a name of their choice
 };
 
 /// 16 hexadecimal digits that change with the text (FNV-1a, 64 bits). The caller leaves out of the text what may

@@ -46,8 +46,8 @@ void require_empty(const std::filesystem::path& folder) {
 
 }  // namespace
 
-RunOutput::Continued RunOutput::continued(const Checkpoint& checkpoint) {
-  Continued from{checkpoint.clock.time, std::nullopt};
+RunOutput::Continued RunOutput::continued(const Checkpoint& checkpoint, double time) {
+  Continued from{time, std::nullopt};
   const auto rows = checkpoint.extra.find(rows_of_tables);
   if (rows != checkpoint.extra.end() && rows->second.size() == 2)
     from.rows = Rows{static_cast<long>(rows->second[0]), static_cast<long>(rows->second[1])};
@@ -101,15 +101,13 @@ void RunOutput::write_fields(double time, int step, const Mesh& mesh, const std:
 
 RunOutput::Rows RunOutput::rows() const { return {history_ ? history_->rows() : 0, coupling_ ? coupling_->rows() : 0}; }
 
-void RunOutput::write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const Notes& notes,
-                                 const Rows& rows, std::map<std::string, Vector> extra,
-                                 const std::string& fingerprint) {
+void RunOutput::write_checkpoint(const Model& model, const Notes& notes, const Rows& rows,
+                                 std::map<std::string, Vector> extra, const std::string& fingerprint) {
   if (!parallel::is_root()) return;
   Checkpoint checkpoint;
   checkpoint.scene_name = model.scene().name;
   checkpoint.scene_fingerprint = fingerprint;
   checkpoint.program_version = build_info().version;
-  checkpoint.clock = clock;
   checkpoint.notes = records_of(notes);
   checkpoint.mesh = model.mesh();
   checkpoint.fields = field_values(model.fields());

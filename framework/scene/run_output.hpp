@@ -30,7 +30,7 @@ class RunOutput {
     double time;               ///< s
     std::optional<Rows> rows;  ///< checkpoints of old have none
   };
-  static Continued continued(const Checkpoint& checkpoint);
+  static Continued continued(const Checkpoint& checkpoint, double time);
 
   /// Creates the folder and locks it, or continues what is in it. Throws InputError when another run is at work there
   /// or when a table is missing. Collective.
@@ -40,8 +40,8 @@ class RunOutput {
   void write_fields(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields);
   Rows rows() const;  ///< of the tables as they are; 0 on processes other than the first
   /// `rows`: what the tables had when the state was the one of the checkpoint.
-  void write_checkpoint(const Model& model, const Checkpoint::Clock& clock, const Notes& notes, const Rows& rows,
-                        std::map<std::string, Vector> extra, const std::string& fingerprint);
+  void write_checkpoint(const Model& model, const Notes& notes, const Rows& rows, std::map<std::string, Vector> extra,
+                        const std::string& fingerprint);
 
   std::filesystem::path path() const { return folder_.path(); }
   std::filesystem::path checkpoint_path() const { return path() / "checkpoint.h5"; }

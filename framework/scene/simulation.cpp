@@ -191,19 +191,11 @@ Run::Run(const Scene& scene, const RunOptions& options)
 void Run::restore() {
   restore_fields(*checkpoint_, *options_.checkpoint, model_->fields());
   model_->restore_extra_state(checkpoint_->extra);
-  const Checkpoint::Clock& clock = checkpoint_->clock;
-  controller_.restore(clock.time, clock.step, clock.next_step, clock.held_step,
-                      {.size = clock.failed_step, .wait = clock.failed_wait, .patience = clock.failed_patience},
-                      {.released = clock.released,
-                       .level = clock.level,
-                       .pause = clock.pause,
-                       .rise = clock.rise,
-                       .expected = clock.expected,
-                       .patience = clock.patience});
+  controller_.restore(checkpoint_->extra);
   step_notes_.restore(notes_of(checkpoint_->notes));
   books_.restore(checkpoint_->extra);
-  restored_steps_ = clock.step;
-  continued_ = RunOutput::continued(*checkpoint_);
+  restored_steps_ = controller_.steps();
+  continued_ = RunOutput::continued(*checkpoint_, controller_.time());
   checkpoint_.reset();
 }
 
@@ -403,33 +395,22 @@ ExitCode Run::loop(const InterruptGuard& interrupt) {
     const double due = checkpoint_interval(model_->scene().output.checkpoint_every, now() - began_, cost);
     return parallel::any(now() - last_checkpoint > due);
   };
-  const auto clock = [&] {
-    const FailedStep& failed = controller_.failed();
-    const Recurrence& recurrence = controller_.recurrence();
-    return Checkpoint::Clock{.time = controller_.time(),
-                             .step = controller_.steps(),
-                             .next_step = controller_.wanted(),
-                             .held_step = controller_.held(),
-                             .failed_step = failed.size,
-                             .failed_wait = failed.wait,
-                             .failed_patience = failed.patience,
-                             .released = recurrence.released,
-                             .level = recurrence.level,
-                             .pause = recurrence.pause,
-                             .rise = recurrence.rise,
-                             .expected = recurrence.expected,
-                             .patience = recurrence.patience};
+  using State = std::map<std::string, Vector>;
+  const auto steps = [&] {
+    State state;
+    controller_.save(state);
+    return state;
   };
-  const auto checkpoint = [&](const Checkpoint::Clock& at, const RunOutput::Rows& rows) {
+  const auto checkpoint = [&](State extra, const RunOutput::Rows& rows) {
     const double begin = now();
-    std::map<std::string, Vector> extra = model_->extra_state();
+    extra.merge(model_->extra_state());
     books_.save(extra);
-    output_.write_checkpoint(*model_, at, step_notes_, rows, std::move(extra), fingerprint_);
+    output_.write_checkpoint(*model_, step_notes_, rows, std::move(extra), fingerprint_);
     last_checkpoint = now();
     cost = last_checkpoint - begin;
   };
   while (!controller_.is_finished() && !is_stopped_) {
-    const Checkpoint::Clock before = clock();
+    const State before = steps();
     const RunOutput::Rows rows_before = output_.rows();
     const bool advanced = advance();
     if (is_interrupted_) {
@@ -437,19 +418,19 @@ ExitCode Run::loop(const InterruptGuard& interrupt) {
       return ExitCode::interrupted;
     }
     if (!advanced) {
-      checkpoint(clock(), output_.rows());
+      checkpoint(steps(), output_.rows());
       return ExitCode::failed;
     }
     progress_.reached(controller_.time(), controller_.steps());
     if (interrupt.is_interrupted() && !controller_.is_finished()) {
       reason_ = "interrupted";
-      checkpoint(clock(), output_.rows());
+      checkpoint(steps(), output_.rows());
       return ExitCode::interrupted;
     }
-    if (checkpoint_is_due()) checkpoint(clock(), output_.rows());
+    if (checkpoint_is_due()) checkpoint(steps(), output_.rows());
   }
   if (is_stopped_) progress_.stopped(controller_.time(), controller_.steps(), ends_early_);
-  checkpoint(clock(), output_.rows());
+  checkpoint(steps(), output_.rows());
   return ExitCode::done;
 }
 

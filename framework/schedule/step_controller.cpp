@@ -10,6 +10,42 @@ namespace {
 constexpr double rounding = 1e-9;    ///< of the standard step: times nearer than this are the same
 constexpr double least_rise = 1e-2;  ///< of a level; what is less tells no rate
 
+std::string key_of(const char* name) { return std::string("time_steps.") + name; }
+
+/// A value that is not there is an empty vector.
+struct Saving {
+  std::map<std::string, Vector>& state;
+  void operator()(const char* name, double value) const { state[key_of(name)] = Vector::Constant(1, value); }
+  void operator()(const char* name, const std::optional<double>& value) const {
+    state[key_of(name)] = value ? Vector::Constant(1, *value) : Vector();
+  }
+};
+
+struct Restoring {
+  const std::map<std::string, Vector>& state;
+  void operator()(const char* name, double& value) const { value = number(name); }
+  void operator()(const char* name, int& value) const { value = static_cast<int>(number(name)); }
+  void operator()(const char* name, std::optional<double>& value) const {
+    value = values(name).size() == 0 ? std::nullopt : std::optional(number(name));
+  }
+
+ private:
+  const Vector& values(const char* name) const {
+    const auto found = state.find(key_of(name));
+    if (found == state.end()) throw unusable("has no " + key_of(name));
+    return found->second;
+  }
+  double number(const char* name) const {
+    const Vector& found = values(name);
+    if (found.size() != 1) throw unusable(key_of(name) + " is not one number");
+    return found[0];
+  }
+  static InputError unusable(const std::string& why) {
+    return InputError("cannot restart: the state of the time steps is damaged (" + why +
+                      ") start the run from its beginning, without --restart");
+  }
+};
+
 }  // namespace
 
 Spec TimeOptions::spec() {
@@ -167,14 +203,26 @@ void StepController::observe(double level) {
 
 double StepController::shortest_wait() const { return std::max(0.1 * options_.step, options_.smallest.value_or(0)); }
 
-void StepController::restore(double time, int steps, double wanted, double held, const FailedStep& failed,
-                             const Recurrence& recurrence) {
-  failed_ = failed;
-  recurrence_ = recurrence;
-  time_ = time;
-  steps_ = steps;
-  wanted_ = wanted;
-  held_ = held;
+/// Each value that a controller keeps, once, with its name in checkpoints.
+template <class Controller, class Visit>
+void StepController::visit_values(Controller& controller, const Visit& visit) {
+  visit("time", controller.time_);
+  visit("steps", controller.steps_);
+  visit("wanted", controller.wanted_);
+  visit("held", controller.held_);
+  visit("failed.size", controller.failed_.size);
+  visit("failed.wait", controller.failed_.wait);
+  visit("failed.patience", controller.failed_.patience);
+  visit("recurrence.released", controller.recurrence_.released);
+  visit("recurrence.level", controller.recurrence_.level);
+  visit("recurrence.pause", controller.recurrence_.pause);
+  visit("recurrence.rise", controller.recurrence_.rise);
+  visit("recurrence.expected", controller.recurrence_.expected);
+  visit("recurrence.patience", controller.recurrence_.patience);
 }
+
+void StepController::save(std::map<std::string, Vector>& state) const { visit_values(*this, Saving{state}); }
+
+void StepController::restore(const std::map<std::string, Vector>& state) { visit_values(*this, Restoring{state}); }
 
 }  // namespace sprekk

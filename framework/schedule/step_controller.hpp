@@ -1,6 +1,7 @@
 // Who decides the next time step.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,18 +75,19 @@ class StepController {
   /// each time after twice the time at least: a level may come to rest below 1.
   void observe(double level);
   double held() const { return held_; }  ///< s, 0 when nothing is held
-  const Recurrence& recurrence() const { return recurrence_; }
-
   const FailedStep& failed() const { return failed_; }
 
-  /// Continues from a checkpoint.
-  void restore(double time, int steps, double wanted, double held = 0, const FailedStep& failed = {},
-               const Recurrence& recurrence = {});
+  /// All that it keeps, for checkpoints: adds named values, and takes them back (as Part::save and Part::restore do).
+  /// Throws InputError when one is missing or is no single number; the controller is then of no use.
+  void save(std::map<std::string, Vector>& state) const;
+  void restore(const std::map<std::string, Vector>& state);
 
  private:
   double grown() const;
   double shortest_wait() const;
   void remember_success(const StepTime& step);
+  template <class Controller, class Visit>
+  static void visit_values(Controller& controller, const Visit& visit);
 
   TimeOptions options_;
   FailedStep failed_;

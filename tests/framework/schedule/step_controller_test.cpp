@@ -22,6 +22,19 @@ std::vector<double> ends(StepController controller) {
   return ends;
 }
 
+using State = std::map<std::string, Vector>;
+
+State state_of(const StepController& controller) {
+  State state;
+  controller.save(state);
+  return state;
+}
+
+StepController continued(const State& state, StepController fresh) {
+  fresh.restore(state);
+  return fresh;
+}
+
 TEST(StepController, EndsStepsAtTheTargets) {
   EXPECT_EQ(ends(StepController(hours(3), {1.5, 7})), (std::vector<double>{1, 1.5, 2.5, 3}));
 }
@@ -72,9 +85,9 @@ TEST(StepController, ForgetsAFailureWhenTheSizeSucceeds) {
 }
 
 TEST(StepController, ContinuesWhereItWas) {
-  StepController whole(hours(3), {1.5}), part(hours(3), {1.5});
+  StepController whole(hours(3), {1.5});
   whole.accepted(whole.next(), 1);
-  part.restore(whole.time(), whole.steps(), whole.wanted());
+  const StepController part = continued(state_of(whole), {hours(3), {1.5}});
   EXPECT_EQ(ends(part), ends(whole));
 }
 
@@ -264,13 +277,13 @@ TEST(StepController, AnExpectationIsMetBeforeTheWayToATargetIsHalved) {
 }
 
 TEST(StepController, ContinuesWithTheLastPause) {
-  StepController whole(hours(10), {}), part(hours(10), {});
+  StepController whole(hours(10), {});
   whole.hold(0.01, 1);
   whole.release(0);
   EXPECT_TRUE(whole.rejected(whole.next(), 0.4));
   whole.accepted(whole.next(), 1);
   whole.hold(0.01, 1);
-  part.restore(whole.time(), whole.steps(), whole.wanted(), whole.held(), whole.failed(), whole.recurrence());
+  StepController part = continued(state_of(whole), {hours(10), {}});
   part.release(0);
   EXPECT_NEAR(part.next().dt, 0.4, 1e-15);
 }
@@ -284,8 +297,7 @@ TEST(StepController, ContinuesWithWhatItExpects) {
   whole.hold(0.01, 1);
   whole.release(0.6);
   for (int i = 0; i < 6; ++i) {
-    StepController part(hours(20), {});
-    part.restore(whole.time(), whole.steps(), whole.wanted(), whole.held(), whole.failed(), whole.recurrence());
+    StepController part = continued(state_of(whole), {hours(20), {}});
     EXPECT_EQ(part.next().end, whole.next().end) << i;
     whole.accepted(whole.next(), 1);
     whole.observe(0.99);
@@ -318,10 +330,10 @@ TEST(StepController, ARetryWhileHeldGrowsBackToWhatIsHeld) {
 }
 
 TEST(StepController, ContinuesWhatWasHeld) {
-  StepController whole(hours(3), {}), part(hours(3), {});
+  StepController whole(hours(3), {});
   whole.hold(0.25, 1);
   whole.accepted(whole.next(), 1);
-  part.restore(whole.time(), whole.steps(), whole.wanted(), whole.held());
+  StepController part = continued(state_of(whole), {hours(3), {}});
   EXPECT_EQ(part.held(), 0.25);
   EXPECT_EQ(ends(part), ends(whole));
   part.release(0);
