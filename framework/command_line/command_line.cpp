@@ -19,9 +19,9 @@
 #include "framework/output/progress.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/report/report.hpp"
-#include "framework/scene/note_records.hpp"
-#include "framework/scene/simulation.hpp"
-#include "framework/scene/stop_condition.hpp"
+#include "framework/run/note_records.hpp"
+#include "framework/run/simulation.hpp"
+#include "framework/run/stop_condition.hpp"
 
 namespace sprekk {
 

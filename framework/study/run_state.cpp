@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "framework/scene/simulation.hpp"
+#include "framework/run/exit_code.hpp"
 
 namespace sprekk {
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "framework/scene/simulation.hpp"
+#include "framework/run/exit_code.hpp"
 #include "framework/study/study.hpp"
 
 namespace sprekk {

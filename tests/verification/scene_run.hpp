@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/config/node.hpp"
-#include "framework/scene/mesh_growth.hpp"
+#include "framework/run/mesh_growth.hpp"
 #include "framework/scene/model.hpp"
 #include "framework/schedule/step_controller.hpp"
 

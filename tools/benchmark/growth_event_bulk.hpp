@@ -9,7 +9,7 @@
 #include "framework/assembly/block_system.hpp"
 #include "framework/linear/bulk_splitting.hpp"
 #include "framework/linear/umfpack_solver.hpp"
-#include "framework/scene/mesh_growth.hpp"
+#include "framework/run/mesh_growth.hpp"
 
 namespace sprekk::growth_event {
 

@@ -1,4 +1,4 @@
-#include "framework/scene/books.hpp"
+#include "framework/run/books.hpp"
 
 #include <fmt/format.h>
 

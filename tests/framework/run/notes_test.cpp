@@ -1,4 +1,4 @@
-#include "framework/scene/note_records.hpp"
+#include "framework/run/note_records.hpp"
 
 #include <gtest/gtest.h>
 

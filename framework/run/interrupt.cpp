@@ -1,4 +1,4 @@
-#include "framework/scene/interrupt.hpp"
+#include "framework/run/interrupt.hpp"
 
 #include <csignal>
 

@@ -1,4 +1,4 @@
-#include "framework/scene/run_output.hpp"
+#include "framework/run/run_output.hpp"
 
 #include <exception>
 
@@ -6,7 +6,7 @@
 #include "framework/output/build_info.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
-#include "framework/scene/note_records.hpp"
+#include "framework/run/note_records.hpp"
 
 namespace sprekk {
 
@@ -115,6 +115,10 @@ void RunOutput::write_checkpoint(const Model& model, const Notes& notes, const R
   checkpoint.extra[rows_of_tables] =
       Eigen::Vector2d(static_cast<double>(rows.history), static_cast<double>(rows.coupling));
   sprekk::write_checkpoint(checkpoint_path(), checkpoint);
+}
+
+void RunOutput::write_record(const RunRecord& record, const Profile& profile) const {
+  if (parallel::is_root()) record.write(path() / "run.json", profile);
 }
 
 }  // namespace sprekk

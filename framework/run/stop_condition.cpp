@@ -1,4 +1,4 @@
-#include "framework/scene/stop_condition.hpp"
+#include "framework/run/stop_condition.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "framework/scene/mesh_growth.hpp"
+#include "framework/run/mesh_growth.hpp"
 
 #include <algorithm>
 
@@ -6,9 +6,8 @@
 
 namespace sprekk {
 
-MeshGrowth::MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log,
-                       std::function<void(const Model&)> retire)
-    : model_(model), controller_(controller), log_(std::move(log)), retire_(std::move(retire)) {}
+MeshGrowth::MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log, Observer changed)
+    : model_(model), controller_(controller), log_(std::move(log)), changed_(std::move(changed)) {}
 
 /// Puts the model onto the mesh with the paths that the step has found, from its accepted state.
 MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
@@ -26,7 +25,7 @@ MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
     reason_ = "the state could not be settled on the mesh that has grown: " + changed.settling.reason;
     return Outcome::failed;
   }
-  if (retire_) retire_(*model_);
+  if (changed_) changed_(*model_, *changed.model);
   model_ = std::move(changed.model);
   ++changes_;
   return Outcome::changed;

@@ -6,10 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/output/profile.hpp"
-#include "framework/output/run_record.hpp"
-#include "framework/scene/model.hpp"
-#include "framework/schedule/step_controller.hpp"
+#include "framework/run/exit_code.hpp"
+#include "framework/scene/scene.hpp"
 
 namespace sprekk {
 
@@ -20,14 +18,9 @@ struct RunOptions {
   bool quiet = false;
 };
 
-enum class ExitCode { done = 0, failed = 1, wrong_input = 2, interrupted = 130 };
-
 /// Runs a scene to its end. Writes run.json, history.csv, coupling.csv, fields and checkpoints into the output folder.
 /// An interrupt (SIGINT, SIGTERM) ends the run after the current step with a checkpoint; a failure leaves the
 /// checkpoint of the last accepted step. Throws InputError before anything is written.
 ExitCode run_scene(const Scene& scene, const RunOptions& options);
-
-/// What identifies a scene for a restart: all of it except the end time, the output and the name.
-std::string scene_fingerprint(const Scene& scene);
 
 }  // namespace sprekk

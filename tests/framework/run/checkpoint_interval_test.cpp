@@ -1,4 +1,4 @@
-#include "framework/scene/checkpoint_interval.hpp"
+#include "framework/run/checkpoint_interval.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,10 +14,10 @@ class MeshGrowth {
  public:
   enum class Outcome { nothing, changed, failed };
 
-  /// Replaces `model` whenever its mesh grows; `retire` is called with the old one before. All must outlive this
-  /// object.
-  MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log = {},
-             std::function<void(const Model&)> retire = {});
+  using Observer = std::function<void(const Model& before, const Model& after)>;
+
+  /// Replaces `model` whenever its mesh grows, and tells `changed` first. All must outlive this object.
+  MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log = {}, Observer changed = {});
 
   /// After a step that has converged, before it is accepted. changed: it is to be repeated (GrowStep, repeat_step).
   Outcome before_acceptance();
@@ -34,7 +34,7 @@ class MeshGrowth {
   std::unique_ptr<Model>& model_;
   StepController& controller_;
   IterationLog log_;
-  std::function<void(const Model&)> retire_;
+  Observer changed_;
   std::string reason_;
   long changes_ = 0;
   double smallest_angle_ = 1.1;

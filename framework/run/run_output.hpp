@@ -9,6 +9,7 @@
 #include "framework/output/field_output.hpp"
 #include "framework/output/output_folder.hpp"
 #include "framework/output/run_lock.hpp"
+#include "framework/output/run_record.hpp"
 #include "framework/output/table_writer.hpp"
 #include "framework/scene/model.hpp"
 #include "framework/schedule/schedule_step.hpp"
@@ -42,6 +43,8 @@ class RunOutput {
   /// `rows`: what the tables had when the state was the one of the checkpoint.
   void write_checkpoint(const Model& model, const Notes& notes, const Rows& rows, std::map<std::string, Vector> extra,
                         const std::string& fingerprint);
+
+  void write_record(const RunRecord& record, const Profile& profile) const;  ///< run.json
 
   std::filesystem::path path() const { return folder_.path(); }
   std::filesystem::path checkpoint_path() const { return path() / "checkpoint.h5"; }

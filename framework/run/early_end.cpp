@@ -1,0 +1,17 @@
+#include "framework/run/early_end.hpp"
+
+#include "framework/output/progress.hpp"
+
+namespace sprekk {
+
+void EarlyEnd::look_at(const Model& model, const StepTime& step, const std::vector<Quantity>& quantities) {
+  if (is_steady(model, step)) steady_since_ = step.start;
+  has_stopped_ = stop_.is_reached(quantities);
+}
+
+std::string EarlyEnd::text() const {
+  if (has_stopped_) return stop_.text();
+  return steady_since_ ? "steady since " + duration_text(*steady_since_) : "";
+}
+
+}  // namespace sprekk

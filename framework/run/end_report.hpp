@@ -1,0 +1,18 @@
+// What the terminal shows when a run is over.
+#pragma once
+
+#include "framework/output/run_record.hpp"
+#include "framework/run/run_output.hpp"
+#include "framework/run/simulation_state.hpp"
+
+namespace sprekk {
+
+/// The profile, the notes, why the run ended where it did, and where its checkpoint and results are. `record` is
+/// complete. On the first process only.
+void report_end(const RunRecord& record, const Profile& profile, const SimulationState& state, const RunOutput& output,
+                bool is_quiet);
+
+/// When what a run has found cannot be written any more: where its last checkpoint is. On the first process only.
+void report_last_checkpoint(const RunOutput& output);
+
+}  // namespace sprekk

@@ -1,0 +1,54 @@
+#include "framework/run/restart.hpp"
+
+#include <algorithm>
+
+#include "framework/mesh/partition.hpp"
+#include "framework/output/parameter_difference.hpp"
+#include "framework/output/table_writer.hpp"
+#include "framework/output/vtu_writer.hpp"
+#include "framework/parallel/parallel.hpp"
+#include "framework/run/note_records.hpp"
+#include "framework/run/recorded_parameters.hpp"
+#include "framework/run/scene_fingerprint.hpp"
+
+namespace sprekk {
+
+Restart::Restart(const Scene& scene, const std::filesystem::path& file, RunOutput& output) : file_(file) {
+  // A file that is missing is told by its reader, not as a folder that cannot be locked.
+  if (std::error_code error; std::filesystem::exists(file, error)) output.lock();
+  checkpoint_ = read_checkpoint(file);
+  require_scene(checkpoint_, file, scene.name, scene_fingerprint(scene),
+                parameter_difference(file.parent_path() / "run.json", recorded_parameters(scene)));
+}
+
+Mesh Restart::mesh() const {
+  Mesh mesh = checkpoint_.mesh;
+  partition(mesh, parallel::size());
+  return mesh;
+}
+
+void Restart::restore(SimulationState& state) const {
+  restore_fields(checkpoint_, file_, state.model->fields());
+  state.model->restore_extra_state(checkpoint_.extra);
+  state.controller.restore(checkpoint_.extra);
+  state.notes.restore(notes_of(checkpoint_.notes));
+  state.books.restore(checkpoint_.extra);
+}
+
+RunOutput::Continued Restart::continued(const SimulationState& restored) const {
+  return RunOutput::continued(checkpoint_, restored.controller.time());
+}
+
+void require_columns(const std::vector<Quantity>& quantities, const RunOutput& output) {
+  const std::vector<std::string> columns = TableWriter::columns_of(output.path() / "history.csv");
+  if (columns.empty()) return;
+  for (const Quantity& quantity : quantities) {
+    const std::string column = labelled(quantity.name, quantity.unit);
+    if (std::find(columns.begin(), columns.end(), column) == columns.end())
+      throw InputError(
+          "history.csv of the run that is to go on has no column " + column +
+          " (a probe that it did not have) restart with the probes it had, or start the scene anew with -o");
+  }
+}
+
+}  // namespace sprekk

@@ -1,0 +1,33 @@
+// The checkpoint that a run goes on from.
+#pragma once
+
+#include <filesystem>
+
+#include "framework/output/checkpoint.hpp"
+#include "framework/run/run_output.hpp"
+#include "framework/run/simulation_state.hpp"
+
+namespace sprekk {
+
+class Restart {
+ public:
+  /// Reads the file, and locks the output's folder, in which it is. Throws InputError when the file is no checkpoint of
+  /// this scene, naming the parameters that differ, or when another run is at work in the folder. Collective.
+  Restart(const Scene& scene, const std::filesystem::path& file, RunOutput& output);
+
+  Mesh mesh() const;  ///< of the checkpoint, which may have grown; divided among today's processes
+
+  /// Puts the checkpoint's values into the state, whose model is on `mesh()`. Throws InputError when they do not fit.
+  void restore(SimulationState& state) const;
+  RunOutput::Continued continued(const SimulationState& restored) const;
+
+ private:
+  std::filesystem::path file_;
+  Checkpoint checkpoint_;
+};
+
+/// A run that goes on appends to its tables, whose columns are there. Throws InputError when history.csv lacks the
+/// column of one of the quantities.
+void require_columns(const std::vector<Quantity>& quantities, const RunOutput& output);
+
+}  // namespace sprekk

@@ -1,0 +1,223 @@
+#include "framework/run/simulation.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "framework/linear/blas_memory.hpp"
+#include "framework/output/activity.hpp"
+#include "framework/output/progress.hpp"
+#include "framework/parallel/parallel.hpp"
+#include "framework/run/checkpoints.hpp"
+#include "framework/run/early_end.hpp"
+#include "framework/run/effort.hpp"
+#include "framework/run/end_report.hpp"
+#include "framework/run/interrupt.hpp"
+#include "framework/run/mesh_growth.hpp"
+#include "framework/run/output_times.hpp"
+#include "framework/run/restart.hpp"
+#include "framework/run/run_output.hpp"
+#include "framework/run/run_recorder.hpp"
+#include "framework/run/scene_fingerprint.hpp"
+#include "framework/run/simulation_state.hpp"
+#include "framework/run/step_attempts.hpp"
+
+namespace sprekk {
+
+namespace {
+
+OutputFolder choose_folder(const Scene& scene, const RunOptions& options) {
+  if (options.checkpoint) {
+    const std::filesystem::path folder = options.checkpoint->parent_path();
+    return OutputFolder::given(folder.empty() ? "." : folder, OutputFolder::Purpose::restart);
+  }
+  if (options.folder) return OutputFolder::given(*options.folder);
+  return OutputFolder::for_scene(scene.name);
+}
+
+std::optional<Restart> read_if_given(const Scene& scene, const RunOptions& options, RunOutput& output) {
+  return options.checkpoint ? std::optional<Restart>(std::in_place, scene, *options.checkpoint, output) : std::nullopt;
+}
+
+/// A run that goes on has the mesh of its checkpoint.
+std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Restart>& restart, IterationLog log,
+                                  Progress& progress) {
+  progress.watch();
+  progress.phase("building the model");
+  return restart ? std::make_unique<Model>(scene, restart->mesh(), std::move(log))
+                 : std::make_unique<Model>(scene, std::move(log));
+}
+
+/// Steps end at output times and where data jump.
+SimulationState first_state(const Scene& scene, std::unique_ptr<Model> model, const OutputTimes& output_times) {
+  std::vector<double> targets = model->switch_times();
+  targets.insert(targets.end(), output_times.all().begin(), output_times.all().end());
+  return {std::move(model), StepController(scene.time, std::move(targets))};
+}
+
+/// One run from its first step to its end, however it ends.
+class Simulation {
+ public:
+  Simulation(const Scene& scene, const RunOptions& options);
+  ExitCode run();
+
+ private:
+  IterationLog log();
+  ExitCode step_to_the_end(const InterruptGuard& interrupt);
+  void accept(const StepTime& step, int iterations);
+  bool follow_growth();  ///< false when the mesh could not
+  void finish(ExitCode code);
+  void fail(const std::string& reason);
+
+  const RunOptions& options_;
+  RunRecorder recorder_;
+  Progress progress_;
+  ActivityListener activities_{[this](const std::string& what) { progress_.part(what); }};
+  RunOutput output_;
+  OutputTimes output_times_;
+  std::optional<Restart> restart_;  ///< until it has been taken over
+  std::optional<RunOutput::Continued> continued_;
+  SimulationState state_;
+  EarlyEnd early_end_;
+  Profile profile_;
+  Effort effort_;
+  MeshGrowth growth_;
+  StepAttempts attempts_;
+  std::string reason_;  ///< why the run has not come to its end
+};
+
+Simulation::Simulation(const Scene& scene, const RunOptions& options)
+    : options_(options),
+      recorder_(options.scene_files),
+      progress_(Progress::style_for(STDERR_FILENO, parallel::is_root(), options.quiet), std::cerr, scene.time.start,
+                scene.time.end),
+      output_(choose_folder(scene, options)),
+      output_times_(scene),
+      restart_(read_if_given(scene, options, output_)),
+      state_(first_state(scene, make_model(scene, restart_, log(), progress_), output_times_)),
+      early_end_(scene, state_.model->quantities()),
+      growth_(state_.model, state_.controller, log(),
+              [this](const Model& before, const Model& after) { effort_.mesh_changed(before, after); }),
+      attempts_(state_, growth_, effort_, profile_, progress_) {
+  recorder_.set_up_ends();
+  if (!restart_) return;
+  restart_->restore(state_);
+  continued_ = restart_->continued(state_);
+  restart_.reset();
+  require_columns(state_.model->quantities(), output_);
+}
+
+IterationLog Simulation::log() {
+  return [this](const IterationRecord& record) {
+    output_.write_iteration(record);
+    progress_.part(fmt::format("{}, iteration {}, residual {:.1e} of {}", record.step, record.iteration,
+                               record.residual, record.equation),
+                   true);
+  };
+}
+
+ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
+  const StepController& controller = state_.controller;
+  Checkpoints checkpoints(state_, output_, scene_fingerprint(state_.model->scene()));
+  while (!controller.is_finished() && !early_end_.is_reached()) {
+    checkpoints.step_begins();
+    const StepAttempts::Outcome outcome = attempts_.run();
+    if (outcome != StepAttempts::Outcome::converged) reason_ = attempts_.reason();
+    if (outcome == StepAttempts::Outcome::interrupted) {
+      checkpoints.write_begin_of_step();
+      return ExitCode::interrupted;
+    }
+    if (outcome == StepAttempts::Outcome::failed) {
+      checkpoints.write();
+      return ExitCode::failed;
+    }
+    accept(attempts_.step(), attempts_.iterations());
+    if (!follow_growth()) {
+      checkpoints.write();
+      return ExitCode::failed;
+    }
+    progress_.reached(controller.time(), controller.steps());
+    if (interrupt.is_interrupted() && !controller.is_finished()) {
+      reason_ = "interrupted";
+      checkpoints.write();
+      return ExitCode::interrupted;
+    }
+    checkpoints.write_if_due();
+  }
+  if (early_end_.is_reached()) progress_.stopped(controller.time(), controller.steps(), early_end_.text());
+  checkpoints.write();
+  return ExitCode::done;
+}
+
+void Simulation::accept(const StepTime& step, int iterations) {
+  Model& model = *state_.model;
+  // All of these before the step is accepted: which cells slip shows in what changed since the last accepted step.
+  const std::vector<Quantity> quantities = model.quantities();
+  state_.notes.at_time(step.end);
+  for (const Part* part : model.parts()) part->note_step(state_.notes, step);
+  state_.books.note_step(model.balances(), state_.notes);
+  early_end_.look_at(model, step, quantities);
+  const bool writes_fields = early_end_.is_reached() || output_times_.contains(step.end);
+  const std::vector<OutputField> fields = writes_fields ? model.output() : std::vector<OutputField>();
+  model.accept();
+  state_.controller.accepted(step, iterations);
+  recorder_.accepted(quantities);
+  const ScopedTimer timer(profile_, "output");
+  output_.write_history(step, iterations, quantities);
+  if (writes_fields) output_.write_fields(step.end, state_.controller.steps(), model.mesh(), fields);
+}
+
+bool Simulation::follow_growth() {
+  progress_.phase("letting the mesh follow");
+  const ScopedTimer timer(profile_, "change of mesh");
+  if (growth_.after_acceptance() != MeshGrowth::Outcome::failed) return true;
+  reason_ = growth_.reason();
+  return false;
+}
+
+void Simulation::finish(ExitCode code) {
+  recorder_.end(code, reason_, state_.model->scene(), early_end_);
+  recorder_.add(growth_);
+  effort_.finish(*state_.model, recorder_.record(), profile_);
+  recorder_.close(state_.notes, profile_);
+  output_.write_record(recorder_.record(), profile_);
+  report_end(recorder_.record(), profile_, state_, output_, options_.quiet);
+}
+
+/// When what a run has found cannot be written any more: its last checkpoint stays, and what it knows of the tables.
+void Simulation::fail(const std::string& reason) {
+  recorder_.fail(reason);
+  try {
+    output_.write_record(recorder_.record(), profile_);
+  } catch (const std::exception&) {
+    // The reason is told by whoever catches what led here.
+  }
+  report_last_checkpoint(output_);
+}
+
+ExitCode Simulation::run() {
+  reserve_blas_memory();
+  recorder_.begin(*state_.model);
+  const InterruptGuard interrupt;
+  output_.open(continued_, state_.model->scene().output.fields);
+  output_.write_record(recorder_.record(), profile_);
+  for (const NoteRecord& note : recorder_.record().notes) progress_.event("note: " + described(note));
+  ExitCode code = ExitCode::failed;
+  try {
+    code = step_to_the_end(interrupt);
+  } catch (const std::exception& error) {
+    progress_.close();
+    fail(error.what());
+    throw;
+  }
+  progress_.close();
+  finish(code);
+  return code;
+}
+
+}  // namespace
+
+ExitCode run_scene(const Scene& scene, const RunOptions& options) { return Simulation(scene, options).run(); }
+
+}  // namespace sprekk

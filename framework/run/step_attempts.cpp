@@ -1,0 +1,86 @@
+#include "framework/run/step_attempts.hpp"
+
+#include <fmt/format.h>
+
+#include <new>
+#include <optional>
+
+#include "framework/parallel/interruption.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk {
+
+StepAttempts::Outcome StepAttempts::run() {
+  for (bool has_grown = false;;) {
+    step_ = state_.controller.next();
+    progress_.phase(fmt::format("step {} from {} over {}", state_.controller.steps() + 1, duration_text(step_.start),
+                                duration_text(step_.dt)));
+    // On a mesh that has grown within the step the attempt must come to its end: a restart would not know of the
+    // change.
+    if (const auto given_up = attempt(!has_grown)) return *given_up;
+    effort_.attempted(status_);
+    if (!status_.converged) {
+      if (!cut()) return Outcome::failed;
+      continue;
+    }
+    const MeshGrowth::Outcome growth = follow_growth();
+    if (growth == MeshGrowth::Outcome::nothing) return Outcome::converged;
+    if (growth == MeshGrowth::Outcome::failed) return Outcome::failed;
+    has_grown = true;
+  }
+}
+
+std::optional<StepAttempts::Outcome> StepAttempts::attempt(bool may_be_interrupted) {
+  try {
+    const ScopedTimer timer(profile_, "steps");
+    std::optional<interruption::Allowed> allowed;
+    if (may_be_interrupted) allowed.emplace();
+    status_ = state_.model->attempt(step_);
+    return std::nullopt;
+  } catch (const DataError& error) {
+    return give_up(name() + " has no data: " + error.what());
+  } catch (const Interrupted&) {
+    give_up("interrupted");
+    return Outcome::interrupted;
+  } catch (const std::bad_alloc&) {
+    if (parallel::size() > 1) throw;
+    return give_up(name() + " needs more memory than there is");
+  }
+}
+
+StepAttempts::Outcome StepAttempts::give_up(const std::string& why) {
+  state_.model->rewind();
+  reason_ = why;
+  return Outcome::failed;
+}
+
+MeshGrowth::Outcome StepAttempts::follow_growth() {
+  const ScopedTimer timer(profile_, "change of mesh");
+  const MeshGrowth::Outcome outcome = growth_.before_acceptance();
+  if (outcome == MeshGrowth::Outcome::failed) reason_ = growth_.reason();
+  return outcome;
+}
+
+/// False when the step is as small as allowed.
+bool StepAttempts::cut() {
+  state_.model->rewind();
+  effort_.rejected();
+  // A step that asks for another size has not failed.
+  const bool has_failed = status_.retry_dt <= 0;
+  reason_ = fmt::format("{} {}: {}", name(), has_failed ? "did not converge" : "is too long", status_.reason);
+  if (!state_.controller.rejected(step_, status_.retry_dt)) {
+    reason_ += " (the step is as small as allowed)";
+    return false;
+  }
+  const std::string next = duration_text(state_.controller.next().dt);
+  progress_.event(has_failed ? fmt::format("step cut: {}; again over {}", reason_, next)
+                             : fmt::format("step from {} shortened from {} to {}: {}", duration_text(step_.start),
+                                           duration_text(step_.dt), next, status_.reason));
+  return true;
+}
+
+std::string StepAttempts::name() const {
+  return fmt::format("the step from {} over {}", duration_text(step_.start), duration_text(step_.dt));
+}
+
+}  // namespace sprekk
