@@ -120,6 +120,9 @@ std::vector<int> UmfpackSolver::order_of_entities() const {
   if (n == static_cast<int>(scaled_.matrix.rows())) return {};
   void* symbolic = nullptr;
   std::array<double, UMFPACK_CONTROL> control = control_;
+  // Pivots will come from the diagonal. Without values UMFPACK does not see that, and would order columns alone: with
+  // 1.4 times the fill, and 3 times where many entities feel some that do not feel them, as around tips of fractures.
+  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
   constexpr int worth_dissecting = 4000;  // below, minimum degree is quicker and leaves no more fill
   if (n < worth_dissecting) control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
   if (umfpack_di_symbolic(n, n, graph.starts().data(), graph.neighbours().data(), nullptr, &symbolic, control.data(),
@@ -141,6 +144,7 @@ LinearReport UmfpackSolver::factor_values() {
   ++counts_.factorizations;
   if (status == UMFPACK_WARNING_singular_matrix) return LinearReport::failure(describe_zero_pivot());
   if (status != UMFPACK_OK) return LinearReport::failure(status_text(status));
+  factor_entries_ = static_cast<long>(info[UMFPACK_LNZ] + info[UMFPACK_UNZ]);
 
   // The ratio of the pivots costs nothing and is small for every matrix that is singular to working precision; it may
   // be small for good ones too, so those are looked at more closely.

@@ -26,6 +26,7 @@ class UmfpackSolver final : public LinearSolver {
   void solve_unchecked(Eigen::Ref<Vector> b) const;
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
   std::string name() const override { return "umfpack"; }
+  long factor_entries() const { return factor_entries_; }  ///< of both factors, of the last factorization
 
  private:
   LinearReport order();
@@ -42,6 +43,7 @@ class UmfpackSolver final : public LinearSolver {
   Equilibrated scaled_;
   void* symbolic_ = nullptr;
   void* numeric_ = nullptr;
+  long factor_entries_ = 0;
   mutable std::vector<int> integer_work_;
   mutable std::vector<double> work_;
   mutable Vector right_hand_side_;
