@@ -107,6 +107,35 @@ class Checks(unittest.TestCase):
         board = change("matrix", "pore.pressure[Pa]", slice(None, None, 2), 1e5)
         self.found(check_pressure.failures(P, board), "peaks")
 
+    def test_a_load_that_has_drained_lowers_the_pressure_when_it_is_taken_away(self):
+        """In a step that was not written the load was larger than ever since: what drained then is missing now. The lowest
+        pressure is that of a box that has drained under the load, and then feels all of it taken away."""
+        p = {**P, "alpha": 1.0, "history": "cycle"}
+        factor = p["alpha"] / (p["alpha"] ** 2 + p["storage"] * physics.in_plane_modulus(p))
+        instant = at_rest()
+        now = physics.end(p) / 8  # the horizontal load is 0, and half as far it is as large as at any time
+        instant.time = now
+        instant.matrix.cell_data["rock.stress_xx_yy_xy[Pa]"][:] = [*physics.stresses(p, now), 0.0]
+        instant.fractures.cell_data["contact.jump.normal[m]"][:] = 0
+        drop = -factor * np.mean(physics.stresses(p, 0.0))  # the load that has been, and rest
+        for part, times, count in ((0.99, [0.0, now], 0), (0.99, [now], 1), (1.1, [0.0, now], 1)):
+            instant.matrix.cell_data["pore.pressure[Pa]"][:] = p["initial"] - part * drop
+            instant.fractures.cell_data["conduit.pressure[Pa]"][:] = p["initial"]
+            below = [f for f in check_pressure.failures(p, [instant], {"time[s]": np.array(times)}) if "below" in f]
+            self.assertEqual(len(below), count, (part, times, below))
+
+    def test_a_bound_is_missed_by_a_part_of_what_is_around_only(self):
+        """The fluid in the fracture is 1 MPa lower: cells beside it may be 40 kPa too high, others may not, nor by 100 kPa."""
+        for value, is_beside, count in ((4e4, True, 0), (1e5, True, 1), (4e4, False, 1)):
+            instant = at_rest()
+            instant.fractures.cell_data["contact.jump.normal[m]"][:] = 0
+            instant.fractures.cell_data["conduit.pressure[Pa]"][:] = P["initial"] - 1e6
+            instant.matrix.cell_data["pore.pressure[Pa]"][:] = P["initial"]
+            cell = check_pressure.at_walls(instant)[0, 0] if is_beside else 0
+            instant.matrix.cell_data["pore.pressure[Pa]"][cell] += value
+            above = [f for f in check_pressure.failures(P, [instant]) if "above" in f]
+            self.assertEqual(len(above), count, (value, is_beside, above))
+
     def test_a_ring_around_a_fracture_is_no_alternation(self):
         """The fracture has fallen below the rock, and with it the cells beside it; those that touch it with a corner are
         peaks. A checkerboard of a tenth on top of it is one."""
@@ -133,7 +162,7 @@ class Checks(unittest.TestCase):
 
 class Growing(unittest.TestCase):
     """A state at rest, as of a scene that grows, and the books of a run that has injected twice and drawn out once."""
-    P = {**P, "family": "growing", "lines": {"f0": ((1.0, 2.0), (3.0, 2.0))}, "gravity": True, "toughness": 1e6, "fracture_size": 0.05,
+    P = {**P, "family": "growing", "lines": {"f0": ((1.0, 2.0), (3.0, 2.0))}, "gravity": True, "scheme": "monolithic", "toughness": 1e6, "fracture_size": 0.05,
          "source": [(2e-8, 0.0, 3600.0), (1e-8, 7200.0, 10800.0), (-1e-8, 10800.0, 14400.0)]}
 
     def history(self):
@@ -188,8 +217,16 @@ class Growing(unittest.TestCase):
         lines = after.fractures
         lines.cells = lines.cells[1:]
         lines.cell_data = {name: values[1:] for name, values in lines.cell_data.items()}
-        self.assertEqual([i.follows for i in check_growing.with_growth([before, after])], [True, False])
+        self.assertEqual([i.follows for i in check_growing.with_growth(self.P, [before, after])], [True, False])
         self.assertEqual(check_growing.failures(self.P, [before, after], self.history()), [])
+
+    def test_slip_is_not_compared_across_steps_that_are_not_written(self):
+        """A substep that slides, and one in which the walls stick under less shear: only the sum of both is written."""
+        state = at_rest()
+        state.fractures.cell_data["contact.traction.tangential[Pa]"][1] = 1e6
+        state.fractures.cell_data["rock.wall_traction.tangential[Pa]"][1] = 1e6
+        self.found([state], self.history(), "slip without its friction")
+        self.assertEqual(check_growing.failures({**self.P, "scheme": "subcycled"}, [state], self.history()), [])
 
     def test_scenes_have_what_the_family_promises(self):
         drawn = [ranges.draw(1, number, "growing") for number in range(300)]

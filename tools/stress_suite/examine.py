@@ -29,7 +29,7 @@ def check_fields(p, folder):
     if found or not instants:
         return found
     return (check_contact.failures(p, instants) + check_balance.failures(p, instants, history, main=0) +
-            check_pressure.failures(p, instants))
+            check_pressure.failures(p, instants, history))
 
 
 def examine(program, chosen, number, folder, keep=False):
