@@ -13,6 +13,8 @@ SOURCE_FOLDERS = ("framework", "components", "couplers", "tests", "tools")
 # Outside headers that take seconds and hundreds of megabytes to compile, or may not meet each other.
 HEAVY = re.compile(r"^(Tpetra|Belos|MueLu|Ifpack2|Amesos2|Xpetra|Zoltan2|Teuchos|Kokkos|vtk|gmsh\.h|hdf5\.h|H5"
                    r"|muParser|yaml-cpp|umfpack|dmumps|mpi\.h)")
+# Outside headers of libraries that are slow to load: only modules, which are opened when they are needed, may name them.
+OF_MODULES = re.compile(r"^(Tpetra|Belos|MueLu|Ifpack2|Amesos2|Xpetra|Zoltan2|Teuchos|Kokkos|vtk|gmsh\.h)")
 PHYSICS = re.compile(r"\w*(pressure|displacement|aperture|permeability|porosity|viscosity|friction|dilation|traction"
                      r"|darcy|toughness|transmissivity|biot|poroelastic)\w*", re.IGNORECASE)
 # Tests of behaviour instead of one file.
@@ -60,6 +62,15 @@ def heavy_violations(includes_of):
             is_private = user.endswith(".cpp") and user.rpartition("/")[0] == path.rpartition("/")[0]
             if path in headers and not is_private:
                 yield f"{path} brings {heavy[0]} to {user} (a heavy header must stay within .cpp files of one folder)"
+
+
+def module_violations(path, includes):
+    """Libraries that are slow to load are reached by modules (framework/module/module.hpp)."""
+    if not path.startswith(("framework/", "components/", "couplers/")) or "_module/" in path:
+        return
+    for header in includes:
+        if OF_MODULES.match(header):
+            yield f"{path} includes {header} (each start would load its library; it belongs into a module)"
 
 
 def physics_violations(path, text):
@@ -117,6 +128,7 @@ def violations(root):
     for path, text in sources(root):
         includes = includes_of[path] = INCLUDE.findall(text)
         found += include_violations(path, includes)
+        found += module_violations(path, includes)
         found += physics_violations(path, text)
         found += counterpart_violations(root, path, includes)
         parts = path.split("/")
@@ -137,6 +149,8 @@ PLANTED = (
     ("couplers/b.cpp", '# include "components/flow/flow.hpp"\n', "couplers/b.cpp includes components/flow/flow.hpp"),
     ("framework/a/a.hpp", "#include <vtkNew.h>\n", "framework/a/a.hpp brings vtkNew.h to components/capabilities/c.hpp"),
     ("components/flow/flow.hpp", "#include <Tpetra_CrsMatrix.hpp>\n", "brings Tpetra_CrsMatrix.hpp to components/flow/mpfa/mpfa.cpp"),
+    ("framework/a/a.cpp", "#include <gmsh.h>\n", "framework/a/a.cpp includes gmsh.h"),
+    ("couplers/b.cpp", "#include <vtkNew.h>\n", "couplers/b.cpp includes vtkNew.h"),
     ("framework/a/a.hpp", "#include <yaml-cpp/yaml.h>\n", "brings yaml-cpp/yaml.h to components"),
     ("framework/a/a.cpp", "\n\ndouble fluid_pressure = 0;\n", "framework/a/a.cpp:3 names fluid_pressure"),
     ("framework/a/a.cpp", "struct BiotTerm;\n", "names BiotTerm"),
@@ -147,10 +161,11 @@ PLANTED = (
 
 CLEAN = {
     "framework/a/a.hpp": '#include "framework/b/b.hpp"\n#include <vector>\n// the pressure of "pore.pressure"\n',
-    "framework/a/a.cpp": '#include <vtkNew.h>\nconst char* example = "pore.pressure";\n/* traction\n*/\n',
+    "framework/a/a.cpp": '#include <hdf5.h>\nconst char* example = "pore.pressure";\n/* traction\n*/\n',
     "framework/b/b.hpp": "",
-    "framework/b/private.hpp": "#include <vtkNew.h>\n",
+    "framework/b/private.hpp": "#include <hdf5.h>\n",
     "framework/b/b.cpp": '#include "framework/b/private.hpp"\n',
+    "framework/b/x_module/x.cpp": "#include <vtkNew.h>\n",
     "components/capabilities/c.hpp": '#include "framework/a/a.hpp"\n',
     "components/flow/flow.hpp": '#include "components/capabilities/c.hpp"\ndouble pressure = 0;\n',
     "components/flow/mpfa/mpfa.cpp": '#include "components/flow/flow.hpp"\n',
@@ -160,7 +175,7 @@ CLEAN = {
     "tests/framework/a/together_test.cpp": '#include "framework/a/a.hpp"\n',
     "tests/verification/mandel_test.cpp": "",
     **{f"{folder}/README.md": "What belongs here.\n" for folder in (
-        "framework/a", "framework/b", "components/capabilities", "components/flow", "components/flow/mpfa")},
+        "framework/a", "framework/b", "framework/b/x_module", "components/capabilities", "components/flow", "components/flow/mpfa")},
 }
 
 

@@ -26,7 +26,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
       const SparseMatrix block = sub_matrix(system.local, partition, row_part, column_part);
       if (!parallel::any(block.nonZeros() > 0)) continue;
       couplings_[row_part].push_back(
-          {column_part, DistributedMatrix(block, partition.parts[row_part].owned, partition.parts[column_part].owned,
+          {column_part, trilinos().matrix(block, partition.parts[row_part].owned, partition.parts[column_part].owned,
                                           static_cast<int>(partition.parts[row_part].unknowns.size()))});
     }
   }
@@ -43,7 +43,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
         diagonal.insert(static_cast<int>(k), owned[k]) = block.stabilization[owned[k]];
       a += diagonal;
     }
-    cycles_.push_back(std::make_unique<Multigrid>(a, partition.parts[part].owned, block));
+    cycles_.push_back(trilinos().multigrid(a, partition.parts[part].owned, block));
   }
 }
 
@@ -61,7 +61,7 @@ Vector BlockPreconditioner::without_couplings(int part, const Vector& r, const s
   for (Eigen::Index k = 0; k < rest.size(); ++k) rest[k] = r[owned_rows_[part][k]];
   for (const Coupling& coupling : couplings_[part])
     if (coupling.column_part < static_cast<int>(solutions.size()))
-      coupling.matrix.subtract_product(solutions[coupling.column_part], rest);
+      coupling.matrix->subtract_product(solutions[coupling.column_part], rest);
   return rest;
 }
 
@@ -75,7 +75,7 @@ void BlockPreconditioner::apply(const Vector& r, Vector& z) const {
     if (local_unknowns_ > 0) {
       const Vector response = solve_local(rest_local);
       for (const Coupling& coupling : couplings_[part])
-        if (coupling.column_part == local) coupling.matrix.subtract_product(response, rest);
+        if (coupling.column_part == local) coupling.matrix->subtract_product(response, rest);
     }
     solutions.emplace_back(rest.size());
     cycles_[part]->apply(rest, solutions.back());

@@ -6,8 +6,7 @@
 
 #include "framework/linear/linear_solver.hpp"
 #include "framework/linear/local_elimination.hpp"
-#include "framework/linear/trilinos/distributed_matrix.hpp"
-#include "framework/linear/trilinos/multigrid.hpp"
+#include "framework/linear/trilinos_module/trilinos_module.hpp"
 
 namespace sprekk {
 
@@ -26,7 +25,7 @@ class BlockPreconditioner {
  private:
   struct Coupling {
     int column_part;
-    DistributedMatrix matrix;
+    std::unique_ptr<DistributedMatrix> matrix;
   };
   Vector without_couplings(int part, const Vector& r, const std::vector<Vector>& solutions) const;
   Vector solve_local(Vector owned) const;

@@ -1,11 +1,11 @@
 #include <stdexcept>
 
+#include "framework/linear/belos_solver.hpp"
 #include "framework/linear/condensed_solver.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/linear/mumps_solver.hpp"
 #include "framework/linear/separated_solver.hpp"
 #include "framework/linear/summed_balances.hpp"
-#include "framework/linear/trilinos/belos_solver.hpp"
 #include "framework/linear/umfpack_solver.hpp"
 #include "framework/parallel/parallel.hpp"
 

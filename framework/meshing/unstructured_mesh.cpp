@@ -1,7 +1,5 @@
 #include "framework/meshing/unstructured_mesh.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,10 +8,11 @@
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/cell_edges.hpp"
 #include "framework/meshing/arrangement.hpp"
-#include "framework/meshing/gmsh_model.hpp"
+#include "framework/meshing/gmsh_module/gmsh_module.hpp"
 #include "framework/meshing/join_triangles.hpp"
 #include "framework/meshing/regions.hpp"
 #include "framework/meshing/size_field.hpp"
+#include "framework/module/module.hpp"
 
 namespace sprekk {
 namespace {
@@ -66,45 +65,42 @@ double random_factor(const Geometry& geometry, const SizeField& sizes, const Arr
   return std::clamp(0.1 * share * share, least, standard);
 }
 
-/// The curves between neighbouring points of an arrangement, numbered as gmsh knows them.
-class Curves {
+/// The lines between neighbouring points of an arrangement, as gmsh shall see them, and what it finds along them.
+class Lines {
  public:
-  Curves(const Arrangement& arrangement, const Frame& frame) : arrangement_(arrangement), frame_(frame) {
-    for (std::size_t i = 0; i < arrangement.points.size(); ++i) {
-      const Point x = frame.inward(arrangement.points[i]);
-      gmsh::model::geo::addPoint(x.x(), x.y(), 0, 0, static_cast<int>(i) + 1);
+  Lines(const Arrangement& arrangement, const Frame& frame) : arrangement_(arrangement), frame_(frame) {
+    for (const Point& point : arrangement.points) {
+      const Point x = frame.inward(point);
+      given_.points.push_back({x.x(), x.y()});
     }
-    std::vector<int> outline, inner;
     for (std::size_t s = 0; s < arrangement.chains.size(); ++s) {
       const auto& chain = arrangement.chains[s];
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        const auto key = std::minmax(chain[i], chain[i + 1]);
-        if (tags_.count(key)) continue;
-        const int tag = gmsh::model::geo::addLine(chain[i] + 1, chain[i + 1] + 1);
-        tags_[key] = tag;
-        (s < box_segments ? outline : inner).push_back(tag);
+        const int line = static_cast<int>(given_.lines.size());
+        if (!number_.emplace(std::minmax(chain[i], chain[i + 1]), line).second) continue;
+        given_.lines.push_back({chain[i], chain[i + 1]});
+        (s < box_segments ? given_.outline : given_.inner).push_back(line);
       }
     }
-    const int loop = gmsh::model::geo::addCurveLoop(outline);
-    const int surface = gmsh::model::geo::addPlaneSurface({loop});
-    gmsh::model::geo::synchronize();
-    if (!inner.empty()) gmsh::model::mesh::embed(1, inner, 2, surface);
   }
 
-  /// gmsh's numbers of the nodes along a segment, from its beginning to its end, after meshing.
-  std::vector<std::size_t> nodes_along(int segment) const {
+  PlanarTriangles triangles(const SizeField& sizes, double random_factor) const {
+    PlanarLines lines = given_;
+    lines.size_at = [&](double x, double y) { return sizes.at(frame_.outward(x, y)) / frame_.scale; };
+    lines.random_factor = random_factor;
+    return module<GmshModule>("gmsh").triangles(lines);
+  }
+
+  /// The nodes along a segment, from its beginning to its end.
+  std::vector<int> nodes_along(int segment, const PlanarTriangles& mesh) const {
     const auto& chain = arrangement_.chains[segment];
-    std::vector<std::size_t> nodes;
+    std::vector<int> nodes;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      std::vector<std::size_t> tags;
-      std::vector<double> coordinates, parameters;
-      gmsh::model::mesh::getNodes(tags, coordinates, parameters, 1, tags_.at(std::minmax(chain[i], chain[i + 1])), true,
-                                  false);
       const Point from = arrangement_.points[chain[i]], along = arrangement_.points[chain[i + 1]] - from;
-      std::vector<std::pair<double, std::size_t>> ordered;
-      for (std::size_t n = 0; n < tags.size(); ++n) {
-        const Point x = frame_.outward(coordinates[3 * n], coordinates[3 * n + 1]);
-        ordered.emplace_back((x - from).dot(along), tags[n]);
+      std::vector<std::pair<double, int>> ordered;
+      for (const int node : mesh.line_nodes[number_.at(std::minmax(chain[i], chain[i + 1]))]) {
+        const auto [x, y] = mesh.nodes[node];
+        ordered.emplace_back((frame_.outward(x, y) - from).dot(along), node);
       }
       std::sort(ordered.begin(), ordered.end());
       for (std::size_t n = i == 0 ? 0 : 1; n < ordered.size(); ++n) nodes.push_back(ordered[n].second);
@@ -115,40 +111,22 @@ class Curves {
  private:
   const Arrangement& arrangement_;
   const Frame& frame_;
-  std::map<std::pair<int, int>, int> tags_;  ///< by the numbers of the end points, smaller one first
+  PlanarLines given_;
+  std::map<std::pair<int, int>, int> number_;  ///< of a line, by the numbers of its end points, smaller one first
 };
 
-/// gmsh's number of the node at a point of the arrangement.
-std::size_t node_at(int point) {
-  std::vector<std::size_t> tags;
-  std::vector<double> coordinates, parameters;
-  gmsh::model::mesh::getNodes(tags, coordinates, parameters, 0, point + 1, false, false);
-  return tags.at(0);
-}
-
-void fetch_mesh(const Geometry& geometry, const Arrangement& arrangement, const Frame& frame, const Curves& curves,
-                RawMesh& mesh) {
-  std::vector<std::size_t> tags, elements;
-  std::vector<double> coordinates, parameters;
-  gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
-  std::vector<int> number(tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()) + 1);
-  for (std::size_t i = 0; i < tags.size(); ++i) {
-    number[tags[i]] = static_cast<int>(i);
-    mesh.nodes.push_back(frame.outward(coordinates[3 * i], coordinates[3 * i + 1]));
-  }
-  tags.clear();
-  constexpr int three_node_triangle = 2;
-  gmsh::model::mesh::getElementsByType(three_node_triangle, elements, tags);
-  for (std::size_t i = 0; i + 2 < tags.size(); i += 3) {
-    mesh.cells.push_back({number[tags[i]], number[tags[i + 1]], number[tags[i + 2]]});
-  }
+RawMesh raw_mesh(const Geometry& geometry, const Arrangement& arrangement, const Frame& frame, const Lines& lines,
+                 const PlanarTriangles& made) {
+  RawMesh mesh;
+  for (const auto& [x, y] : made.nodes) mesh.nodes.push_back(frame.outward(x, y));
+  for (const auto& [a, b, c] : made.triangles) mesh.cells.push_back({a, b, c});
 
   mesh.side_names.assign(box_sides.begin(), box_sides.end());
   constexpr int side_of_segment[box_segments] = {2, 1, 3, 0};  // bottom, right, top, left
   for (int s = 0; s < box_segments; ++s) {
-    const auto nodes = curves.nodes_along(s);
+    const auto nodes = lines.nodes_along(s, made);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      mesh.boundary_edges.push_back({{number[nodes[i]], number[nodes[i + 1]]}, side_of_segment[s]});
+      mesh.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, side_of_segment[s]});
     }
   }
   // The frame's rounding is taken back where a position was given.
@@ -158,18 +136,17 @@ void fetch_mesh(const Geometry& geometry, const Arrangement& arrangement, const 
       mesh.nodes[node][axis] = side % 2 == 0 ? geometry.box.low[axis] : geometry.box.high[axis];
     }
   }
-  for (std::size_t i = 0; i < arrangement.points.size(); ++i) {
-    mesh.nodes[number[node_at(static_cast<int>(i))]] = arrangement.points[i];
-  }
+  for (std::size_t i = 0; i < arrangement.points.size(); ++i) mesh.nodes[made.point_nodes[i]] = arrangement.points[i];
   int segment = box_segments;
   for (const FractureGeometry& fracture : geometry.fractures) {
     RawMesh::Chain chain{fracture.name, {}};
     for (std::size_t i = 0; i + 1 < fracture.points.size(); ++i) {
-      const auto nodes = curves.nodes_along(segment++);
-      for (std::size_t n = i == 0 ? 0 : 1; n < nodes.size(); ++n) chain.nodes.push_back(number[nodes[n]]);
+      const auto nodes = lines.nodes_along(segment++, made);
+      chain.nodes.insert(chain.nodes.end(), nodes.begin() + (i == 0 ? 0 : 1), nodes.end());
     }
     mesh.fractures.push_back(std::move(chain));
   }
+  return mesh;
 }
 
 /// Sizes beyond what gmsh can do: measured with lines at all angles, it folds none up to 400,000 edges across a box.
@@ -190,17 +167,10 @@ void refuse_folds(const Geometry& geometry, const SizeField& sizes, const RawMes
 RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options) {
   const SizeField sizes(geometry, options);
   const Arrangement arrangement = arrange(all_segments(geometry), point_tolerance(geometry.box));
-  RawMesh mesh;
-  const GmshModel model;
-  model.run("mesh the geometry", [&] {
-    const Frame frame(geometry.box);
-    const Curves curves(arrangement, frame);
-    gmsh::model::mesh::setSizeCallback(
-        [&](int, int, double x, double y, double) { return sizes.at(frame.outward(x, y)) / frame.scale; });
-    gmsh::option::setNumber("Mesh.RandomFactor", random_factor(geometry, sizes, arrangement));
-    gmsh::model::mesh::generate(2);
-    fetch_mesh(geometry, arrangement, frame, curves, mesh);
-  });
+  const Frame frame(geometry.box);
+  const Lines lines(arrangement, frame);
+  const PlanarTriangles made = lines.triangles(sizes, random_factor(geometry, sizes, arrangement));
+  RawMesh mesh = raw_mesh(geometry, arrangement, frame, lines, made);
   refuse_folds(geometry, sizes, mesh);
   assign_regions(geometry, mesh);
   if (options.shape == MeshOptions::Shape::quadrilaterals) join_triangles(mesh);

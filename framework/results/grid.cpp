@@ -1,36 +1,25 @@
 #include "framework/results/grid.hpp"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkErrorCode.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkObject.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 
+#include "framework/module/module.hpp"
 #include "framework/output/time_series.hpp"
+#include "framework/output/vtk_module/vtk_module.hpp"
 
 namespace sprekk {
 namespace {
 
-/// `sources`: for each entity of the grid, the tuple that holds its values.
-void add_arrays(vtkFieldData& data, Grid::Place place, const std::vector<vtkIdType>& sources, Grid& grid) {
-  for (int i = 0; i < data.GetNumberOfArrays(); ++i) {
-    vtkDataArray* const array = data.GetArray(i);
-    if (array == nullptr || array->GetName() == nullptr) continue;
-    const int components = array->GetNumberOfComponents();
-    Grid::Values values{array->GetName(), place, components, {}};
-    for (const vtkIdType k : sources)
-      for (int c = 0; c < components; ++c) values.values.push_back(array->GetComponent(k, c));
+/// `sources`: for each entity of the grid, the entity of the file that holds its values.
+void add_arrays(const std::vector<GridData::Array>& arrays, Grid::Place place, const std::vector<int>& sources,
+                Grid& grid) {
+  for (const GridData::Array& array : arrays) {
+    Grid::Values values{array.name, place, array.components, {}};
+    for (const int k : sources)
+      for (int c = 0; c < array.components; ++c)
+        values.values.push_back(array.values[static_cast<std::size_t>(k) * array.components + c]);
     grid.arrays.push_back(std::move(values));
   }
 }
@@ -44,28 +33,14 @@ const Grid::Values* Grid::find(const std::string& name) const {
 }
 
 Grid read_grid(const std::filesystem::path& vtu) {
-  vtkObject::GlobalWarningDisplayOff();  // failures are thrown below, not printed
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(vtu.c_str());
-  if (!std::filesystem::exists(vtu) || reader->CanReadFile(vtu.c_str()) == 0)
-    throw std::runtime_error("cannot read " + vtu.string());
-  reader->Update();
-  if (reader->GetErrorCode() != vtkErrorCode::NoError)
-    throw std::runtime_error("cannot read " + vtu.string() + " (" +
-                             vtkErrorCode::GetStringFromErrorCode(reader->GetErrorCode()) + ")");
-  vtkUnstructuredGrid& read = *reader->GetOutput();
+  const GridData read = module<VtkModule>("vtk").read(vtu);
   Grid grid;
-  for (vtkIdType i = 0; i < read.GetNumberOfPoints(); ++i) {
-    double position[3];
-    read.GetPoint(i, position);
-    grid.points.push_back({position[0], position[1]});
-  }
-  vtkNew<vtkIdList> corners;
-  std::vector<vtkIdType> cell_of;  // of each triangle or line of the grid
-  for (vtkIdType i = 0; i < read.GetNumberOfCells(); ++i) {
-    read.GetCellPoints(i, corners);
-    const auto corner = [&](int k) { return static_cast<int>(corners->GetId(k)); };
-    const int count = static_cast<int>(corners->GetNumberOfIds());
+  for (int i = 0; i < read.point_count(); ++i) grid.points.push_back({read.points[3 * i], read.points[3 * i + 1]});
+  std::vector<int> cell_of;  // of each triangle or line of the grid
+  for (int i = 0; i < read.cell_count(); ++i) {
+    const auto first = i == 0 ? 0 : read.cell_ends[i - 1];
+    const auto corner = [&](int k) { return static_cast<int>(read.cell_points[first + k]); };
+    const int count = static_cast<int>(read.cell_ends[i] - first);
     grid.points_per_cell = count == 2 ? 2 : 3;
     for (int k = 2; k < std::max(count, 3); ++k) {
       cell_of.push_back(i);
@@ -73,10 +48,10 @@ Grid read_grid(const std::filesystem::path& vtu) {
       if (count > 2) grid.cells.push_back(corner(k));
     }
   }
-  std::vector<vtkIdType> all_points(static_cast<std::size_t>(read.GetNumberOfPoints()));
+  std::vector<int> all_points(read.point_count());
   std::iota(all_points.begin(), all_points.end(), 0);
-  add_arrays(*read.GetCellData(), Grid::Place::cell, cell_of, grid);
-  add_arrays(*read.GetPointData(), Grid::Place::point, all_points, grid);
+  add_arrays(read.on_cells, Grid::Place::cell, cell_of, grid);
+  add_arrays(read.on_points, Grid::Place::point, all_points, grid);
   return grid;
 }
 

@@ -1,6 +1,7 @@
-# sprekk_library(name folder libraries…): a static library of all sources below `folder`.
+# sprekk_library(name folder libraries…): a static library of all sources below `folder`, without those of modules.
 function(sprekk_library name folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "_module/")
   if(sources)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC ${ARGN})
@@ -8,12 +9,23 @@ function(sprekk_library name folder)
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ${ARGN})
   endif()
-  # Debian's Trilinos 13.2 has one header that C++20 rejects: what includes it is compiled as C++17.
-  foreach(source ${sources})
-    if(source MATCHES "/trilinos/")
-      set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS -std=c++17)
-    endif()
-  endforeach()
+endfunction()
+
+# sprekk_module(name folder user libraries…): sprekk_<name>.so of all sources below `folder` (framework/module/module.hpp),
+# made whenever the library `user`, which opens it, is made. It knows headers of this tree alone: it links none of its libraries.
+# Outside libraries that no other part of the program names are loaded together with it, instead of at every start.
+function(sprekk_module name folder user)
+  set(target sprekk_${name}_module)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+  add_library(${target} MODULE ${sources})
+  set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME sprekk_${name} CXX_VISIBILITY_PRESET hidden
+                                             VISIBILITY_INLINES_HIDDEN ON LIBRARY_OUTPUT_DIRECTORY ${SPREKK_MODULES}
+                                             BUILD_RPATH "" INSTALL_RPATH "")
+  target_compile_definitions(${target} PRIVATE SPREKK_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${target} PRIVATE ${ARGN})
+  target_link_options(${target} PRIVATE -Wl,--no-undefined)
+  add_dependencies(${user} ${target})
+  install(TARGETS ${target} LIBRARY DESTINATION lib/sprekk)
 endfunction()
 
 # sprekk_plugins(name folder libraries…): an object library, whose self-registering sources all reach the program.

@@ -14,7 +14,7 @@
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/mesh_quality.hpp"
 #include "framework/meshing/generate_mesh.hpp"
-#include "framework/meshing/gmsh_model.hpp"
+#include "framework/meshing/gmsh_module/gmsh_model.hpp"
 
 namespace sprekk::test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/meshing/generate_mesh.hpp"
-#include "framework/meshing/gmsh_model.hpp"
+#include "framework/meshing/gmsh_module/gmsh_model.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 #include "tests/framework/meshing/mutated_meshes.hpp"
 

@@ -1,14 +1,11 @@
-#include "framework/linear/trilinos/tpetra_conversion.hpp"
+#include "framework/linear/trilinos_module/tpetra_conversion.hpp"
 
 #include <cstdlib>
-
-#include "framework/parallel/parallel.hpp"
 
 namespace sprekk::tpetra {
 
 void start() {
   static const bool started = [] {
-    parallel::start_mpi();
     if (!Tpetra::isInitialized()) {
       // It insists on arguments, and keeps them.
       static char name[] = "sprekk";

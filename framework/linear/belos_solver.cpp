@@ -1,7 +1,5 @@
-#include "framework/linear/trilinos/belos_solver.hpp"
+#include "framework/linear/belos_solver.hpp"
 
-#include <BelosBlockGmresSolMgr.hpp>
-#include <BelosTpetraAdapter.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,34 +9,24 @@
 #include "framework/linear/equilibration.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
-#include "framework/linear/trilinos/tpetra_conversion.hpp"
+#include "framework/linear/trilinos_module/trilinos_module.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
 namespace {
 
-using Teuchos::RCP;
-using Teuchos::rcp;
-
 // The preconditioner M of A as one of R A C: C^-1 M R^-1.
-class ScaledPreconditioner final : public tpetra::Operator {
+class ScaledPreconditioner {
  public:
-  ScaledPreconditioner(const LinearSystem& system, RCP<const tpetra::Map> map, const Vector& row_scale,
-                       const Vector& own_column_scale)
-      : map_(std::move(map)), row_scale_(row_scale), column_scale_(own_column_scale), preconditioner_(system) {}
+  ScaledPreconditioner(const LinearSystem& system, const Vector& row_scale, const Vector& own_column_scale)
+      : row_scale_(row_scale), column_scale_(own_column_scale), preconditioner_(system) {}
 
-  RCP<const tpetra::Map> getDomainMap() const override { return map_; }
-  RCP<const tpetra::Map> getRangeMap() const override { return map_; }
-  void apply(const tpetra::MultiVector& x, tpetra::MultiVector& y, Teuchos::ETransp, double, double) const override {
-    Vector z;
-    for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-      preconditioner_.apply(tpetra::view(x, static_cast<int>(column)).cwiseQuotient(row_scale_), z);
-      tpetra::copy(z.cwiseQuotient(column_scale_), y, static_cast<int>(column));
-    }
+  void apply(const Vector& x, Vector& y) const {
+    preconditioner_.apply(x.cwiseQuotient(row_scale_), y);
+    y = y.cwiseQuotient(column_scale_).eval();
   }
 
  private:
-  RCP<const tpetra::Map> map_;
   Vector row_scale_, column_scale_;
   BlockPreconditioner preconditioner_;
 };
@@ -50,14 +38,13 @@ struct BelosSolver::Data {
   int unknowns = 0;
   std::vector<int> block_ends;  ///< first unknown after every block, ascending
   Equilibrated scaled;
-  RCP<const tpetra::Map> map;
-  RCP<tpetra::Matrix> matrix;  ///< that of `scaled`
-  RCP<ScaledPreconditioner> preconditioner;
+  std::unique_ptr<ScaledPreconditioner> preconditioner;
+  std::unique_ptr<Gmres> gmres;  ///< for the matrix of `scaled`
 };
 
 BelosSolver::BelosSolver(double tolerance, int max_iterations)
     : tolerance_(tolerance), max_iterations_(max_iterations), data_(std::make_unique<Data>()) {
-  tpetra::start();
+  trilinos();
   use_one_blas_thread();
 }
 
@@ -86,11 +73,13 @@ LinearReport BelosSolver::factor(const LinearSystem& system) {
     for (const UnknownBlock& block : system.blocks)
       data_->block_ends.push_back(block.first + block.entities * block.components);
     std::sort(data_->block_ends.begin(), data_->block_ends.end());
-    data_->map = tpetra::make_map(system.rows, data_->unknowns);
-    data_->matrix = tpetra::make_matrix(scaled.matrix, data_->map, data_->map);
     Vector own_column_scale(system.rows.size());
     for (std::size_t k = 0; k < system.rows.size(); ++k) own_column_scale[k] = scaled.column_scale[system.rows[k]];
-    data_->preconditioner = rcp(new ScaledPreconditioner(system, data_->map, scaled.row_scale, own_column_scale));
+    data_->preconditioner = std::make_unique<ScaledPreconditioner>(system, scaled.row_scale, own_column_scale);
+    const auto precondition = [&preconditioner = *data_->preconditioner](const Vector& r, Vector& z) {
+      preconditioner.apply(r, z);
+    };
+    data_->gmres = trilinos().gmres(scaled.matrix, system.rows, precondition, std::min(100, max_iterations_));
     last_report_ = LinearReport::success();
   } catch (const std::exception& error) {
     last_report_ = LinearReport::failure(std::string("the preconditioner could not be set up: ") + error.what());
@@ -136,7 +125,6 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   LinearReport report = LinearReport::success();
   if (b_norm == 0) return report;
 
-  const auto residual = rcp(new tpetra::VectorOf(data_->map));
   Vector r = b, y = x;
   double r_norm = b_norm, wanted_norm = 0.5 * tolerance_ * b_norm;
   BlockResidual measured;
@@ -147,27 +135,16 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   };
   // GMRES trusts a recurrence and one norm; this loop trusts the residual of every block, and starts again from it.
   for (int restart = 0; restart < 6 && report.iterations < max_iterations_; ++restart) {
-    tpetra::copy(r, *residual);
-    const auto step = rcp(new tpetra::VectorOf(data_->map));
-    using Problem = Belos::LinearProblem<double, tpetra::MultiVector, tpetra::Operator>;
-    const auto problem = rcp(new Problem(data_->matrix, step, residual));
-    problem->setRightPrec(data_->preconditioner);
-    problem->setProblem();
     constexpr double deepest = 1e-12, shallowest = 0.1;  // of one restart
-    const auto parameters = rcp(new Teuchos::ParameterList);
-    parameters->set("Convergence Tolerance", std::clamp(wanted_norm / r_norm, deepest, shallowest));
-    parameters->set("Maximum Iterations", max_iterations_ - report.iterations);
-    parameters->set("Num Blocks", std::min(100, max_iterations_));
-    parameters->set("Maximum Restarts", max_iterations_);
-    parameters->set("Verbosity", static_cast<int>(Belos::Errors));
-    Belos::BlockGmresSolMgr<double, tpetra::MultiVector, tpetra::Operator> gmres(problem, parameters);
+    Gmres::Result step;
     try {
-      gmres.solve();
+      step = data_->gmres->solve(r, std::clamp(wanted_norm / r_norm, deepest, shallowest),
+                                 max_iterations_ - report.iterations);
     } catch (const std::exception& error) {
       return LinearReport::failure(std::string("GMRES broke down: ") + error.what());
     }
-    report.iterations += gmres.getNumIters();
-    y += whole_vector(data_->rows, tpetra::view(*step), data_->unknowns);
+    report.iterations += step.iterations;
+    y += whole_vector(data_->rows, step.x, data_->unknowns);
     r = b - data_->scaled.matrix * y;
     r_norm = std::sqrt(parallel::sum(r.squaredNorm()));
     const BlockResidual before = measured;

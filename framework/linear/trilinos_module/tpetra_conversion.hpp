@@ -17,7 +17,7 @@ using VectorOf = Tpetra::Vector<double>;
 using Operator = Tpetra::Operator<double>;
 using Id = Map::global_ordinal_type;
 
-/// Starts MPI and Tpetra once, and ends Tpetra at exit.
+/// Starts Tpetra once, and ends it at exit. MPI must run.
 void start();
 /// The entries that this process holds of `count` in all.
 Teuchos::RCP<const Map> make_map(const std::vector<int>& ids, int count);

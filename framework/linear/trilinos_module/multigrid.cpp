@@ -1,10 +1,9 @@
-#include "framework/linear/trilinos/multigrid.hpp"
+#include "framework/linear/trilinos_module/multigrid.hpp"
 
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <stdexcept>
 
-#include "framework/linear/trilinos/tpetra_conversion.hpp"
-#include "framework/parallel/parallel.hpp"
+#include "framework/linear/trilinos_module/tpetra_conversion.hpp"
 
 namespace sprekk {
 namespace {
@@ -65,8 +64,7 @@ RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, 
 
 // On several processes the coarse levels move to fewer and the coarsest to one: Debian's Amesos2 KLU2, the coarse
 // solver, is wrong on more than one.
-void set_levels(ParameterList& list, int unknowns, bool has_coordinates) {
-  const bool is_parallel = parallel::size() > 1;
+void set_levels(ParameterList& list, int unknowns, bool has_coordinates, bool is_parallel) {
   constexpr int rows_per_process = 3000;
   const int coarsest = std::min(1500, unknowns / 4);
   list.set("coarse: max size", coarsest);
@@ -88,44 +86,48 @@ void set_levels(ParameterList& list, int unknowns, bool has_coordinates) {
   list.sublist("repartition: params").set("algorithm", "multijagged");
 }
 
-}  // namespace
+class MueLuMultigrid final : public Multigrid {
+ public:
+  MueLuMultigrid(const SparseMatrix& rows, const std::vector<int>& ids, const UnknownBlock& block) {
+    const std::vector<int> entities = entities_of(ids, block);
+    const int unknowns = static_cast<int>(rows.cols());
+    const auto map = tpetra::make_map(ids, unknowns);
+    const RCP<tpetra::Operator> matrix = tpetra::make_matrix(rows, map, map);
+    const bool has_coordinates = block.entities > 0 && static_cast<int>(block.coordinates.size()) == block.entities;
+    const bool is_elastic = block.kind == BlockKind::bulk_elastic;
 
-struct Multigrid::Data {
-  RCP<MueLu::TpetraOperator<double>> cycle;
+    ParameterList list;
+    list.set("verbosity", "none");
+    list.set("number of equations", block.components);
+    list.set("multigrid algorithm", "sa");
+    list.set("aggregation: type", "uncoupled");
+    list.set("smoother: type", "RELAXATION");
+    list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
+    set_levels(list, unknowns, has_coordinates, map->getComm()->getSize() > 1);
+    ParameterList& user = list.sublist("user data");
+    user.set("Nullspace", make_near_null_space(entities, block, map,
+                                               is_elastic && has_coordinates && block.components == dimension));
+    if (has_coordinates) user.set("Coordinates", make_coordinates(entities, block));
+    cycle_ = MueLu::CreateTpetraPreconditioner(matrix, list);
+  }
+
+  void apply(const Vector& b, Vector& x) const override {
+    const auto map = cycle_->getDomainMap();
+    tpetra::MultiVector right(map, 1), left(map, 1);
+    tpetra::copy(b, right);
+    cycle_->apply(right, left);
+    x = tpetra::view(left);
+  }
+
+ private:
+  RCP<MueLu::TpetraOperator<double>> cycle_;
 };
 
-Multigrid::Multigrid(const SparseMatrix& rows, const std::vector<int>& ids, const UnknownBlock& block)
-    : data_(std::make_unique<Data>()) {
-  const std::vector<int> entities = entities_of(ids, block);
-  const int unknowns = static_cast<int>(rows.cols());
-  const auto map = tpetra::make_map(ids, unknowns);
-  const RCP<tpetra::Operator> matrix = tpetra::make_matrix(rows, map, map);
-  const bool has_coordinates = block.entities > 0 && static_cast<int>(block.coordinates.size()) == block.entities;
-  const bool is_elastic = block.kind == BlockKind::bulk_elastic;
+}  // namespace
 
-  ParameterList list;
-  list.set("verbosity", "none");
-  list.set("number of equations", block.components);
-  list.set("multigrid algorithm", "sa");
-  list.set("aggregation: type", "uncoupled");
-  list.set("smoother: type", "RELAXATION");
-  list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
-  set_levels(list, unknowns, has_coordinates);
-  ParameterList& user = list.sublist("user data");
-  user.set("Nullspace",
-           make_near_null_space(entities, block, map, is_elastic && has_coordinates && block.components == dimension));
-  if (has_coordinates) user.set("Coordinates", make_coordinates(entities, block));
-  data_->cycle = MueLu::CreateTpetraPreconditioner(matrix, list);
-}
-
-Multigrid::~Multigrid() = default;
-
-void Multigrid::apply(const Vector& b, Vector& x) const {
-  const auto map = data_->cycle->getDomainMap();
-  tpetra::MultiVector right(map, 1), left(map, 1);
-  tpetra::copy(b, right);
-  data_->cycle->apply(right, left);
-  x = tpetra::view(left);
+std::unique_ptr<Multigrid> make_multigrid(const SparseMatrix& rows, const std::vector<int>& ids,
+                                          const UnknownBlock& block) {
+  return std::make_unique<MueLuMultigrid>(rows, ids, block);
 }
 
 }  // namespace sprekk

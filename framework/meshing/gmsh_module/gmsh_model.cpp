@@ -1,4 +1,4 @@
-#include "framework/meshing/gmsh_model.hpp"
+#include "framework/meshing/gmsh_module/gmsh_model.hpp"
 
 #include <gmsh.h>
 

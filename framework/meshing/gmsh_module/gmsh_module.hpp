@@ -1,0 +1,36 @@
+// What Sprekk asks of gmsh: triangles between lines in the plane.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace sprekk {
+
+/// Lines that meet at their ends only. All numbers count from 0.
+struct PlanarLines {
+  std::vector<std::array<double, 2>> points;
+  std::vector<std::array<int, 2>> lines;          ///< numbers of the two points of each
+  std::vector<int> outline;                       ///< numbers of the lines around the whole, one after the other
+  std::vector<int> inner;                         ///< numbers of the other lines
+  std::function<double(double, double)> size_at;  ///< the wanted length of edges at (x, y), in the unit of the points
+  double random_factor = 1e-9;                    ///< gmsh's Mesh.RandomFactor: how far points are moved, of the whole
+};
+
+struct PlanarTriangles {
+  std::vector<std::array<double, 2>> nodes;
+  std::vector<std::array<int, 3>> triangles;  ///< numbers of nodes
+  std::vector<std::vector<int>> line_nodes;   ///< the nodes on each line with its ends, in any order
+  std::vector<int> point_nodes;               ///< the node at each point
+};
+
+/// The module "gmsh": gmsh loads a hundred libraries of geometry and windows.
+class GmshModule {
+ public:
+  virtual ~GmshModule() = default;
+  /// Frontal-Delaunay triangles (gmsh's algorithm 6); all lines are edges of the mesh. Throws std::runtime_error
+  /// "gmsh failed to <what> (<gmsh's words>)".
+  virtual PlanarTriangles triangles(const PlanarLines& lines) const = 0;
+};
+
+}  // namespace sprekk

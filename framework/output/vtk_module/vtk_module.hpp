@@ -1,0 +1,36 @@
+// What Sprekk asks of VTK: files of unstructured grids (.vtu).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+/// The content of a .vtu file.
+struct GridData {
+  struct Array {
+    std::string name;
+    int components;
+    std::vector<double> values;  ///< the components of an entity stand together
+  };
+  std::vector<double> points;             ///< x, y, z of each
+  std::vector<std::int64_t> cell_points;  ///< numbers of points, of one cell after the other
+  std::vector<std::int64_t> cell_ends;    ///< of each cell, the number of entries of `cell_points` up to its end
+  std::vector<Array> on_points, on_cells;
+
+  int point_count() const { return static_cast<int>(points.size() / 3); }
+  int cell_count() const { return static_cast<int>(cell_ends.size()); }
+};
+
+/// The module "vtk".
+class VtkModule {
+ public:
+  virtual ~VtkModule() = default;
+  /// Arrays of all types of numbers; those without a name are left out. Throws std::runtime_error for a file that
+  /// cannot be read.
+  virtual GridData read(const std::filesystem::path& vtu) const = 0;
+};
+
+}  // namespace sprekk
