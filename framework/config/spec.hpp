@@ -5,8 +5,8 @@
 //   Options options;
 //   Spec spec("matrix_flow/mpfa", "Darcy flow in the matrix, multi-point flux approximation.");
 //   spec.data("permeability", options.permeability,
-//             {.unit = "m^2", .range = positive(), .doc = "Permeability of the rock.", .source = "Eq. 6", .material =
-//             true});
+//             {.unit = "m^2", .range = positive(), .doc = "Permeability of the rock.", .source = "Eq. 6 of the paper",
+//              .material = true});
 //   spec.read(node, context);
 #pragma once
 

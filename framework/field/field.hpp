@@ -29,7 +29,7 @@ struct FieldSpec {
   /// name. Both are accepted together, also after a substep.
   std::string accepted_with = "";
   /// Of cells: whether the value is an amount in the cell (m^2 of fluid), and not a density or a mean. A change of the
-  /// mesh divides amounts by area, and averages everything else (Eq. 17).
+  /// mesh divides amounts by area, and averages everything else (Eq. 17 of the paper).
   bool is_amount = false;
   std::string full_name() const { return owner + "." + name; }
 };

@@ -15,7 +15,7 @@ namespace sprekk {
 
 inline constexpr int none = -1;
 
-/// The two sides of a fracture, as seen by its normal, which points from `plus` to `minus` (paper, sec. 2.2).
+/// The two sides of a fracture, as seen by its normal, which points from `plus` to `minus` (sec. 2.2 of the paper).
 enum class Wall { plus = 0, minus = 1 };
 
 /// One cell of a fracture grid. The matrix is split along it: it has two matrix faces with equal end points.

@@ -17,7 +17,8 @@ struct MeshChange {
   std::vector<int> fracture_cell;   ///< per new fracture cell: the old one; none where the fracture has grown
   std::vector<int> fracture_point;  ///< per new point: the old one
   /// New cells x old cells: the area of their intersection, m^2; for kept cells their area on the one entry. Rows sum
-  /// to the new cells' areas, columns to the old cells' (to rounding). Eq. 17 divides the rows by their sums.
+  /// to the new cells' areas, columns to the old cells' (to rounding). Eq. 17 of the paper divides the rows by their
+  /// sums.
   SparseMatrix overlap;
   std::vector<int> new_cells;      ///< those with cell[i] == none, ascending
   std::vector<int> removed_cells;  ///< the old cells that are gone, ascending

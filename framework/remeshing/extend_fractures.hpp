@@ -10,8 +10,8 @@
 namespace sprekk {
 
 struct CavityOptions {
-  /// Cells whose centre is nearer than this to the old tip or the new path are made anew, m (paper, sec. 4.1: five
-  /// times the length of growth). Cells next to those that the path crosses always are.
+  /// Cells whose centre is nearer than this to the old tip or the new path are made anew, m (sec. 4.1 of the paper:
+  /// five times the length of growth). Cells next to those that the path crosses always are.
   double radius;
   double size;    ///< edge length at the new path, m
   double growth;  ///< by how many m the edge length grows per m of distance from the path, where the rim lets it

@@ -9,9 +9,9 @@
 namespace sprekk {
 
 /// Carries the accepted values of all fields over: what lies on cells that were kept, and on fractures, to the bit; on
-/// cells that are new the area-weighted mean of what was there (Eq. 17), of amounts the sum of their shares, so that
-/// totals stay. New fracture cells have the values that their components start with. Throws std::logic_error for fields
-/// on faces and nodes, which have no mapping.
+/// cells that are new the area-weighted mean of what was there (Eq. 17 of the paper), of amounts the sum of their
+/// shares, so that totals stay. New fracture cells have the values that their components start with. Throws
+/// std::logic_error for fields on faces and nodes, which have no mapping.
 void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, FieldStore& after);
 
 struct MeshChangeResult {
