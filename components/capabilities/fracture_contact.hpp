@@ -10,9 +10,9 @@ class FractureContact {
  public:
   static constexpr const char* promise = "determines contact tractions from displacement jumps";
   virtual ~FractureContact() = default;
-  /// f of Eqs. 2–4, Pa, (normal, tangential) of each fracture cell; normal negative in contact.
+  /// f of Eqs. 2–4 of the paper, Pa, (normal, tangential) of each fracture cell; normal negative in contact.
   virtual Field& traction() = 0;
-  /// Input, m, (normal, tangential) of each fracture cell (Eq. 1); opening positive.
+  /// Input, m, (normal, tangential) of each fracture cell (Eq. 1 of the paper); opening positive.
   virtual Field& jump() = 0;
   /// How stiffly the rock answers a jump of one cell, Pa/m, (normal, tangential) of each fracture cell: a scale for the
   /// method of solution, which the answer does not depend on.

@@ -10,8 +10,8 @@
 
 namespace sprekk {
 
-/// The coarse level as tips see it: the reconstruction of boundary data of sec. 3.2. Lengths s (m) along a fracture
-/// count from its first point. Tractions and jumps are in global components.
+/// The coarse level as tips see it: the reconstruction of boundary data of sec. 3.2 of the paper. Lengths s (m) along a
+/// fracture count from its first point. Tractions and jumps are in global components.
 class TipSurroundings {
  public:
   virtual ~TipSurroundings() = default;
@@ -28,7 +28,7 @@ class TipSurroundings {
   /// those of the last update, (xx, yy, xy) in Pa, a column a place. Not to be asked when this object is gone.
   using StressOffsets = std::function<Eigen::Matrix3Xd()>;
   virtual StressOffsets stress_offsets(const std::vector<Point>& places) const = 0;
-  /// Whether the walls are held by their jump (Eq. 15) or by their traction.
+  /// Whether the walls are held by their jump (Eq. 15 of the paper) or by their traction.
   virtual bool gives_jumps() const = 0;
   virtual Point wall_traction(int fracture, double s) const = 0;  ///< Pa, n·sigma of the plus wall, fluid included
   virtual Point wall_jump(int fracture, double s) const = 0;      ///< m, u(minus) − u(plus)
@@ -37,7 +37,8 @@ class TipSurroundings {
   virtual double accepted_fluid_pressure(int fracture, bool at_end) const = 0;
   /// m, the tangential and normal jump of the cell at an end, its size.
   virtual double jump_at_tip(int fracture, bool at_end) const = 0;
-  /// epsilon_p of sec. 4.4.2: the part of the coarse mesh size from which on a path is handed to the coarse level.
+  /// epsilon_p of sec. 4.4.2 of the paper: the part of the coarse mesh size from which on a path is handed to the
+  /// coarse level.
   virtual double propagation_threshold() const = 0;
 };
 

@@ -20,7 +20,7 @@ class MatrixFluid {
   /// Pa, the largest of the initial pressures and of those that are prescribed during a step.
   virtual double largest_given_pressure() const = 0;
   /// The porosity, one a cell, if the storage is to be completed by the compressibility of the grains, (alpha − phi)/K
-  /// (below Eq. 7); nullptr if the storage was given as a whole.
+  /// (below Eq. 7 of the paper); nullptr if the storage was given as a whole.
   virtual const Property* porosity_for_storage() const = 0;
 };
 
@@ -30,7 +30,7 @@ class MatrixWalls {
   static constexpr const char* promise =
       "accepts a fluid flux through the walls of fractures and gives the pressure there";
   virtual ~MatrixWalls() = default;
-  /// Input, m/s, one a wall: lambda of Eq. 9, the flux from the fracture into the matrix.
+  /// Input, m/s, one a wall: lambda of Eq. 9 of the paper, the flux from the fracture into the matrix.
   virtual Field& wall_flux() = 0;
   /// Whether fluid can flow in the matrix.
   virtual bool lets_fluid_through() const = 0;

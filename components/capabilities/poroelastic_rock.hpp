@@ -31,10 +31,10 @@ class RockWalls {
  public:
   static constexpr const char* promise = "accepts tractions on the walls of fractures and gives the displacement jump";
   virtual ~RockWalls() = default;
-  /// Input, Pa, (normal, tangential) of each fracture cell: n·sigma on the plus wall (Eq. 4); opposite on the minus
-  /// wall.
+  /// Input, Pa, (normal, tangential) of each fracture cell: n·sigma on the plus wall (Eq. 4 of the paper); opposite on
+  /// the minus wall.
   virtual Field& wall_traction() = 0;
-  /// u(minus) − u(plus) (Eq. 1), m, (normal, tangential) of each fracture cell.
+  /// u(minus) − u(plus) (Eq. 1 of the paper), m, (normal, tangential) of each fracture cell.
   virtual const LinearExpression& displacement_jump() const = 0;
 };
 

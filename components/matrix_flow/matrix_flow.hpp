@@ -1,4 +1,4 @@
-// Flow of a slightly compressible fluid in the matrix (Eq. 6), for any discretization of the flux.
+// Flow of a slightly compressible fluid in the matrix (Eq. 6 of the paper), for any discretization of the flux.
 #pragma once
 
 #include <array>

@@ -61,7 +61,8 @@ void Rock::change_alpha(const Field& pressure, const Vector& alpha) {
 }
 
 void Rock::map_walls() {
-  // Force on the plus wall: L (T_n n + T_t t); opposite on the minus wall (Eq. 4). Jump: minus less plus (Eq. 1).
+  // Force on the plus wall: L (T_n n + T_t t); opposite on the minus wall. Jump: minus less plus (Eqs. 4 and 1 of the
+  // paper).
   std::vector<Triplet> forces, jumps;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];

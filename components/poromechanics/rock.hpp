@@ -1,4 +1,4 @@
-// Quasi-static deformation of the rock (Eqs. 5 and 7), for any discretization of the stress.
+// Quasi-static deformation of the rock (Eqs. 5 and 7 of the paper), for any discretization of the stress.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Frictional contact with dilation (Eqs. 2 and 3), cell by cell.
+// Frictional contact with dilation (Eqs. 2 and 3 of the paper), cell by cell.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ enum class State { stick, slip, open };
 
 /// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. With the
 /// gap h = [u]_n − |[u]_t| tan psi, the slip of the step d = [u]_t − [u]_t,old, and the stiffness c of the walls:
-///   f_n = min(0, f_n + c_n h)                              (Eq. 2)
-///   f_t = projection of f_t + c_t d onto [−b, b],  b = −mu_s min(0, f_n + c_n h)   (Eq. 3)
+///   f_n = min(0, f_n + c_n h)                                                      (Eq. 2 of the paper)
+///   f_t = projection of f_t + c_t d onto [−b, b],  b = −mu_s min(0, f_n + c_n h)   (Eq. 3 of the paper)
 /// which hold for any c > 0 exactly when the conditions do (Alart and Curnier 1991; Hüeber, Stadler, Wohlmuth 2008),
 /// and divided by c (so that every residual is a length), are solved by a semismooth Newton method. f acts on the plus
 /// wall, [u] = u(minus) − u(plus), so friction makes f_t point along the slip: power −f·[u]' ≤ 0 is drawn from the

@@ -1,4 +1,5 @@
-// Lets tips grow together until they arrest (secs. 2.5 and 4.3), whatever computes their stress intensity factors.
+// Lets tips grow together until they arrest (secs. 2.5 and 4.3 of the paper), whatever computes their stress intensity
+// factors.
 #pragma once
 
 #include <functional>
@@ -50,12 +51,12 @@ using FreeLength = std::function<double(int tip, const TipPath& path, const Poin
 /// Whether a tip's stress intensity factors depend on the path of the other.
 using FeelsOther = std::function<bool(int tip, int other)>;
 
-/// Rounds of increments. In each, all tips with K_eq > K_IC advance together, their lengths scaled by Eq. 13, in the
-/// direction and to the length that IncrementSearch finds; then all stress intensity factors are up to date again. A
-/// tip at rest grows when others have raised its K_eq. Unstable growth (K_eq rises with the length) goes on until the
-/// tip has no free length, has added `longest` or `at_most` increments: then it is not arrested. An evaluation that
-/// gives no finite numbers stops its tip where it was before the increment. `feels` saves evaluations where tips do not
-/// see each other; without it all do.
+/// Rounds of increments. In each, all tips with K_eq > K_IC advance together, their lengths scaled by Eq. 13 of the
+/// paper, in the direction and to the length that IncrementSearch finds; then all stress intensity factors are up to
+/// date again. A tip at rest grows when others have raised its K_eq. Unstable growth (K_eq rises with the length) goes
+/// on until the tip has no free length, has added `longest` or `at_most` increments: then it is not arrested. An
+/// evaluation that gives no finite numbers stops its tip where it was before the increment. `feels` saves evaluations
+/// where tips do not see each other; without it all do.
 std::vector<TipOutcome> grow_tips(const std::vector<GrowingTip>& tips, const GrowthOptions& options,
                                   const EvaluateSifs& evaluate, const FreeLength& free_length,
                                   const FeelsOther& feels = {});

@@ -12,8 +12,8 @@ namespace sprekk::fine_fracture {
 struct GrowthOptions {
   std::string direction = "implicit";  ///< implicit, explicit
   std::string length = "arrest";       ///< arrest, fixed
-  double increment = 0;                ///< l_max of Eq. 13, m
-  double energy_exponent = 0.35;       ///< of Eq. 13
+  double increment = 0;                ///< l_max of Eq. 13 of the paper, m
+  double energy_exponent = 0.35;       ///< of Eq. 13 of the paper
   double relaxation = 1;               ///< part of the explicit angle that is taken
   double direction_tolerance = 1e-2;   ///< |K_II|/K_I at the end of an increment
   double arrest_tolerance = 1e-2;      ///< |K_eq/K_IC − 1| where growth ends

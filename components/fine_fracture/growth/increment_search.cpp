@@ -117,8 +117,8 @@ bool IncrementSearch::tells_of_length(const Sifs& end) const {
   return std::abs(phi) < nearly_right && std::abs(excess_in_right_direction(end)) >= phi * phi;
 }
 
-/// K_eq is about K (1 + phi^2), with K_eq = K in the right direction (Eq. 10 to second order), and about as wrong for a
-/// kink whose length plays a part.
+/// K_eq is about K (1 + phi^2), with K_eq = K in the right direction (Eq. 10 of the paper to second order). For a kink
+/// whose length plays a part, the estimate itself is wrong by about phi^2.
 double IncrementSearch::excess_in_right_direction(const Sifs& end) const {
   const double phi = phase_ == Phase::searching ? phase_of(end) : 0;
   return excess(equivalent_sif(end)) + phi * phi;

@@ -1,4 +1,4 @@
-// How far tips that grow together advance (Eq. 13).
+// How far tips that grow together advance (Eq. 13 of the paper).
 #pragma once
 
 #include <algorithm>

@@ -313,7 +313,7 @@ Growing::Growth Tips::grow(const StepTime&) {
   return result;
 }
 
-/// The path with no edges shorter than half of the coarse mesh size, except for a single one (sec. 4.4.2).
+/// The path with no edges shorter than half of the coarse mesh size, except for a single one (sec. 4.4.2 of the paper).
 std::vector<Point> Tips::coarse_path(const Tip& tip, const TipPath& path) const {
   const double shortest = 0.5 * tip.coarse_size;
   std::vector<Point> points;

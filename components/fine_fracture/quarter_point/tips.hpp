@@ -1,4 +1,4 @@
-// The tips of all fractures, each with a fine level of its own around it (secs. 2.5, 3.1, 4.3).
+// The tips of all fractures, each with a fine level of its own around it (secs. 2.5, 3.1, 4.3 of the paper).
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 namespace sprekk::fine_fracture {
 
 struct TipsOptions {
-  double size = 0;          ///< m, l of sec. 4.3
+  double size = 0;          ///< m, l of sec. 4.3 of the paper
   double mesh_ratio = 0.5;  ///< epsilon_m
   int sectors = 16;
   std::optional<double> tolerance;  ///< of the error estimate; none: sizes are those that are given

@@ -1,4 +1,4 @@
-// Flow in fractures (Eq. 8) by the two-point flux approximation along piecewise linear fractures.
+// Flow in fractures (Eq. 8 of the paper) by the two-point flux approximation along piecewise linear fractures.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ class FractureFlow : public Component, public FractureFluid {
   NormalPermeability normal_permeability() const override;
 
  private:
-  /// K/mu (m^2/(Pa s) times m, Eq. 8) of a cell and its derivative by the aperture.
+  /// K/mu (m^2/(Pa s) times m, Eq. 8 of the paper) of a cell and its derivative by the aperture.
   struct Transmissivity {
     double value, by_aperture;
   };

@@ -1,4 +1,4 @@
-// The part of the coarse level around a tip, as the fine level needs it (sec. 3.1, Fig. 2).
+// The part of the coarse level around a tip, as the fine level needs it (sec. 3.1 of the paper, Fig. 2).
 #pragma once
 
 #include <vector>
