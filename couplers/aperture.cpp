@@ -1,4 +1,4 @@
-// aperture: the opening of a fracture makes room for fluid and lets it flow (below Eq. 8).
+// aperture: the opening of a fracture makes room for fluid and lets it flow (below Eq. 8 of the paper).
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "framework/scene/registry.hpp"

@@ -1,4 +1,4 @@
-// biot: pore pressure loads the rock, and the rock's volume change stores fluid (Eqs. 5-7).
+// biot: pore pressure loads the rock, and the rock's volume change stores fluid (Eqs. 5-7 of the paper).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// wall_exchange: fluid flows between a fracture and the matrix through its walls (Eq. 9).
+// wall_exchange: fluid flows between a fracture and the matrix through its walls (Eq. 9 of the paper).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,7 +25,7 @@ struct WallExchangeOptions {
 /// by about kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well
 /// scaled from sealed to wide open walls; the exact divisor leaves a power of two in front of tr p, so that what is
 /// read from the matrix keeps its digits when kappa changes (BulkResponse). lambda leaves the fluid balance of the
-/// fracture: Eq. 8, in which Eq. 9 has the sign of a flux out of the fracture.
+/// fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture.
 ///
 /// What the matrix has received through each wall is kept in `exchanged`, and what of it the fracture has counted in
 /// `counted`, so that nothing is lost when the two are solved one after the other, or one of them in substeps.

@@ -1,4 +1,4 @@
-// wall_traction: forces on the walls of fractures, and the jump that they leave (Eqs. 1 and 4).
+// wall_traction: forces on the walls of fractures, and the jump that they leave (Eqs. 1 and 4 of the paper).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,8 +31,9 @@ struct WallTractionOptions {
   }
 };
 
-/// Determines the wall traction T = f − alpha_i p_i n (Eq. 4) and the jump that the contact sees (Eq. 1). The rows of T
-/// are multiplied by the compliance of the walls, and so are jumps (m): a linear solver can then tell them from zero.
+/// Determines the wall traction T = f − alpha_i p_i n and the jump that the contact sees (Eqs. 4 and 1 of the paper).
+/// The rows of T are multiplied by the compliance of the walls, and so are jumps (m): a linear solver can then tell
+/// them from zero.
 class WallTraction : public Coupler {
  public:
   WallTraction(const CouplerContext& context, const WallTractionOptions& options)
@@ -137,7 +138,7 @@ class WallTraction : public Coupler {
   RockWalls& rock_;
   FractureContact* contact_;
   FractureFluid* fluid_;
-  Property alpha_;  ///< alpha_i of Eq. 4, with a fluid
+  Property alpha_;  ///< alpha_i of Eq. 4 of the paper, with a fluid
   std::uint64_t loaded_with_ = 0;
   Vector compliance_;     ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
   Operator normal_load_;  ///< 2 fracture cells × fracture cells: pressure pushes the plus wall along −n

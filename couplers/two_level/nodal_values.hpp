@@ -1,4 +1,4 @@
-// From values of cells and outer faces to values of nodes, and between nodes (Eqs. 18, 19).
+// From values of cells and outer faces to values of nodes, and between nodes (Eqs. 18, 19 of the paper).
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@ class NodalValues {
     cells_and_faces,  ///< the linear function that fits the cells and the faces with one cell around the node (least
                       ///< squares, weights 1/distance^2): exact for linear fields
     cells,            ///< the same of the cells alone; with less than three around a node, the least gradient that fits
-    mean_of_cells     ///< the area-weighted mean of the cells (Eq. 17): off by the strain times the distance at a wall
+    mean_of_cells  ///< the area-weighted mean of the cells (Eq. 17 of the paper): off by the strain times the distance
+                   ///< at a wall
   };
   /// Keeps a pointer to the mesh.
   NodalValues(const Mesh& mesh, From from);

@@ -1,4 +1,4 @@
-// two_level: gives tips the coarse level's state around them (Eqs. 15-19), and takes their paths over.
+// two_level: gives tips the coarse level's state around them (Eqs. 15-19 of the paper), and takes their paths over.
 #include <fmt/format.h>
 
 #include <stdexcept>
