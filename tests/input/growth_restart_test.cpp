@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Section 5.2 on a coarse mesh and with a low toughness, so that wings soon grow; the mesh follows every 5 mm.
+/// Section 5.2 of the paper on a coarse mesh and with a low toughness, so that wings soon grow; the mesh follows every
+/// 5 mm.
 std::vector<std::string> growing_run(const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"run", config("paper/wing_cracks.yaml")};
   for (const std::string value :

@@ -1,4 +1,4 @@
-// The fine level on a run of section 5.1: refined to a tolerance, and with an error that is known.
+// The fine level on a run of section 5.1 of the paper: refined to a tolerance, and with an error that is known.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The two-level model: stress-intensity factors of section 5.1 against closed forms, and growing wings (section 5.2).
+// The two-level model: stress-intensity factors against closed forms (section 5.1 of the paper), growing wings (5.2).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -81,7 +81,7 @@ TEST(Onset, FactorsHardlyDependOnTheSizeOfTheFineLevel) {
     for (const double value : values) EXPECT_NEAR(value / values.back(), 1, 2e-3);
 }
 
-/// A run of section 5.2 whose first events are looked at.
+/// A run of section 5.2 of the paper whose first events are looked at.
 SceneRun wings(const std::string& extra_key = "time.end", const std::string& extra_value = "100 h") {
   return SceneRun("paper/wing_cracks.yaml", {{extra_key, extra_value}});
 }

@@ -236,7 +236,7 @@ TEST(PressurizedTee, IsReciprocal) {
 }
 
 TEST(CoupledJunctions, KeepTheirFluidAndConverge) {
-  // The scene of section 5.1 with fractures that cross and touch the one that fluid is injected into.
+  // The scene of section 5.1 of the paper with fractures that cross and touch the one that fluid is injected into.
   for (const char* shape : {"triangles", "quadrilaterals"}) {
     SceneRun run("paper/onset_coarse.yaml",
                  {{"geometry.fractures.crossing", "{points: [[0.96, 1.01], [1.03, 1.01]]}"},

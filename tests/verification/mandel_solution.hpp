@@ -14,7 +14,7 @@ struct Mandel {
   double poisson = 0.2, undrained_poisson, shear, skempton, diffusivity;
   std::vector<double> roots;
 
-  /// The rock of Table 1: all from E, nu, alpha, phi, c_p, k, mu.
+  /// The rock of Table 1 of the paper: all from E, nu, alpha, phi, c_p, k, mu.
   Mandel() {
     const double young = 40e9, alpha = 0.8, porosity = 0.01, fluid = 4e-10, mobility = 5e-20 / 1e-4;
     const double bulk = young / (3 * (1 - 2 * poisson));

@@ -43,7 +43,7 @@ long count(const Model& model, const std::string& name) {
   return 0;
 }
 
-/// The scene of section 5.2 shortly after its start, and again with one wing of 20 mm.
+/// The scene of section 5.2 of the paper shortly after its start, and again with one wing of 20 mm.
 MeshChangeResult grow_a_wing(SceneRun& run) {
   run.run_until(200);
   const Mesh& mesh = run.mesh();

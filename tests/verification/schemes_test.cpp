@@ -16,7 +16,7 @@ const char* const fixed_stress_onset =
     "[{iterate: {until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore, conduit], stabilize: fixed_stress}, "
     "{solve: [rock, contact]}]}}]";
 
-/// The scene of sec. 5.1 on a mesh that a test can afford: 10 cells on the fracture.
+/// The scene of sec. 5.1 of the paper on a mesh that a test can afford: 10 cells on the fracture.
 std::vector<Override> small_onset(const std::vector<Override>& more = {}) {
   std::vector<Override> overrides = {{"mesh.size", "0.25 m"}, {"mesh.fracture_size", "0.01 m"}, {"mesh.growth", "0.3"}};
   overrides.insert(overrides.end(), more.begin(), more.end());

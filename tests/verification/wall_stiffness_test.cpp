@@ -133,7 +133,7 @@ TEST(WallStiffness, IsThatOfACellOfElasticRock) {
   EXPECT_LT((coarse - 0.25 * stiffness).norm(), 1e-6 * stiffness.norm());
 }
 
-// Eqs. 2 and 3 hold for one positive stiffness if they hold for another.
+// Eqs. 2 and 3 of the paper hold for one positive stiffness if they hold for another.
 TEST(WallStiffness, DoesNotChangeTheAnswer) {
   for (const double gap : {1.0, 0.1, 0.02}) {
     std::array<int, 3> states{};

@@ -88,7 +88,8 @@ TEST(WingsInSealedRock, TheExplicitRuleAlternatesBeyondTheLimitOfItsIncrement) {
   EXPECT_LT(std::abs(below.back()), std::abs(below[1]));         // it does
 }
 
-/// Mesh, stress and boundary conditions are point-symmetric; rollers on two sides only, as in section 5.2, are not.
+/// Mesh, stress and boundary conditions are point-symmetric; rollers on two sides only, as in section 5.2 of the paper,
+/// are not.
 SceneRun symmetric_run(const std::string& length, const std::string& start) {
   const std::string held = "displacement: [0 m, 0 m]";
   return SceneRun(

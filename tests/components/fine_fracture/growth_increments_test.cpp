@@ -1,4 +1,4 @@
-// Eq. 13.
+// Eq. 13 of the paper.
 #include "components/fine_fracture/growth/increments.hpp"
 
 #include <gtest/gtest.h>

@@ -56,7 +56,8 @@ TEST(MaximumTangentialStress, satisfies_equations_11_and_12) {
     if (std::abs(sifs.k2) > 1e-2 * std::abs(sifs.k1)) {
       const double ratio = sifs.k1 / sifs.k2, sign = sifs.k2 > 0 ? -1 : 1;
       EXPECT_NEAR(angle, 2 * std::atan(ratio / 4 + sign * std::sqrt(ratio * ratio + 8) / 4), 1e-12);
-      // Where shear vanishes under closure the direction tends to 180 degrees and both sides of Eq. 12 to 0.
+      // Where shear vanishes under closure the direction tends to 180 degrees and both sides of Eq. 12 of the paper to
+      // 0.
       EXPECT_LT(sifs.k2 * (std::sin(half) + 9 * std::sin(3 * half)),
                 sifs.k1 * (std::cos(half) + 3 * std::cos(3 * half)))
           << sifs.k1 << " " << sifs.k2;

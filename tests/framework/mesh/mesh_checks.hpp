@@ -32,7 +32,7 @@ inline RegionGeometry region(const std::string& name, std::vector<Point> polygon
   return {name, std::move(polygon), {"scene.yaml", 9, 5}};
 }
 
-/// The paper's sec. 5.1: a box of 2 m with a fracture of 0.1 m at 45 degrees in its middle.
+/// Sec. 5.1 of the paper: a box of 2 m with a fracture of 0.1 m at 45 degrees in its middle.
 inline Geometry paper_geometry() {
   Geometry geometry = box(0, 2, 0, 2);
   const double half = 0.05 / std::sqrt(2.0);

@@ -32,7 +32,7 @@ Shapes shapes_outside_rosettes(const FineMesh& mesh) {
   return shapes;
 }
 
-/// The paper's crack with a wing of one increment at both ends, at the sizes of section 5.2.
+/// The crack of section 5.2 of the paper with a wing of one increment at both ends.
 Shapes wings(double turn, double length) {
   FineGeometry geometry = paper_box();
   const Point end(std::cos(turn), std::sin(turn));
