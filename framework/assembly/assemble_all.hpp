@@ -1,4 +1,4 @@
-// All terms of all parts.
+// Assembles all terms of all parts, and then their prescribed values.
 #pragma once
 
 #include <vector>

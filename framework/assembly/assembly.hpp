@@ -16,12 +16,16 @@
 
 namespace sprekk {
 
+/// The residual and, if wanted, the blocks of the Jacobian of the equations of the given unknowns, in the units that
+/// the parts give their terms. Vectors have one entry a value of the row's field.
 class Assembly {
  public:
+  /// Whether the blocks of the Jacobian are kept, or the residual alone.
   enum class Want { residual, residual_and_derivatives };
 
-  /// The equation that determines a field is named after it: its row i is that of value i of the field.
-  /// `products`: those that are kept from one assembly to the next; without, they live as long as this one.
+  /// The equation that determines a field is named after the field: row i of the equation is that of value i of the
+  /// field. `products`: matrix-vector products that are kept from one assembly to the next; without it, products live
+  /// as long as this assembly.
   Assembly(std::vector<const Field*> unknowns, Want want, Products* products = nullptr);
 
   bool has_row(const Field& row) const { return index_.count(&row) > 0; }
@@ -36,14 +40,15 @@ class Assembly {
   BalanceRows balance(const Field& row);
   /// Something else that the residual is to be small against, in the units of the equation.
   void compare_with(const Field& row, double magnitude);
-  /// A bound of the numbers whose differences make up the residual: they leave round-off of their own size in it.
+  /// Adds a bound of the numbers whose differences make up the residual: these numbers leave round-off of their own
+  /// size in the residual.
   void compare_round_off(const Field& row, double largest);
   /// d residual(row) / d column += factor · diag(weights) · block; ignored unless both are unknowns here. `block` and
   /// `weights` must outlive the assembly.
   void derivative(const Field& row, const Field& column, const SparseMatrix& block, double factor = 1,
                   const Vector* weights = nullptr);
   void derivative(const Field& row, const Field& column, SparseMatrix&& block);
-  /// With a block that stays, the system of the next assembly need not be put together again.
+  /// A block that is an Operator need not be copied again into the system of the next assembly.
   void derivative(const Field& row, const Field& column, const Operator& block, double factor = 1,
                   const Vector* weights = nullptr);
   void derivative(const Field&, const Field&, Operator&&, double = 1, const Vector* = nullptr) = delete;
@@ -67,20 +72,22 @@ class Assembly {
   /// the units of the equation. To be called after all terms: by Part::constrain.
   void fix(const Field& row, int i, double target, double scale);
 
+  /// A row that `fix` has replaced.
   struct Fixed {
     int unknown, row;
     double scale;
-    double error;  ///< |value − target| over the larger of the two: these rows are judged by themselves
+    double error;  ///< |value − target| over the larger of the two; such rows are judged by this alone
   };
   const std::vector<Fixed>& fixed() const { return fixed_; }
 
+  /// A term of the Jacobian: factor · diag(weights) · matrix, added to the derivative of one equation by one unknown.
   struct Block {
     int row, column;  ///< indices into unknowns()
     const SparseMatrix* matrix;
     double factor;
     const Vector* weights;
-    std::uint64_t number;        ///< of the operator, or 0 for entries that may be others in the next assembly
-    const SparseMatrix* in_sum;  ///< what counts in a sum of rows
+    std::uint64_t number;        ///< of the operator, or 0 for entries that may differ in the next assembly
+    const SparseMatrix* in_sum;  ///< the matrix that takes the place of `matrix` in a sum of rows
     double largest_exchange;     ///< largest absolute entry of an exchange, 0 if it is none
   };
   const std::vector<const Field*>& unknowns() const { return unknowns_; }

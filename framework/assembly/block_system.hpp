@@ -11,9 +11,9 @@
 
 namespace sprekk {
 
-/// Numbers the unknowns of a solve one field after the other. Keeps the sparsity pattern from one assembly to the next,
-/// so that only values are copied when nothing but values has changed, and the values of the equations where nothing
-/// has.
+/// Numbers the unknowns of a solve one field after the other, and makes the sparse system of an assembly. The sparsity
+/// pattern is kept from one assembly to the next: when only values have changed, only values are copied, and values of
+/// equations that have not changed stay.
 class BlockSystem {
  public:
   BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns);
@@ -34,7 +34,7 @@ class BlockSystem {
   double residual_of_sum(const Assembly& assembly, int unknown) const {
     return sum_of_residuals(assembly, unknown, owned_[unknown]);
   }
-  /// Of every row of an unknown: whether it is this process's.
+  /// For every row of an unknown: whether this process owns it.
   const std::vector<char>& owned(int unknown) const { return owned_[unknown]; }
   /// The preconditioner's diagonal of a block (see UnknownBlock::stabilization).
   void set_stabilization(const Field& field, const Vector& diagonal);
@@ -54,7 +54,7 @@ class BlockSystem {
   };
   void remember(const Assembly& assembly);
   bool has_same_fixed(const Assembly& assembly) const;
-  /// By unknown: whether its rows have the values that they are to have.
+  /// For each unknown: whether its rows in the system already have the values of the assembly.
   std::vector<char> known_rows(const Assembly& assembly) const;
   void build_pattern(const Assembly& assembly);
   void mark_balances(const Assembly& assembly);

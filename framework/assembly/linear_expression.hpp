@@ -9,11 +9,12 @@
 
 namespace sprekk {
 
-/// What a component gives to others when it cannot give a field: for example the pressure at the walls as a function of
-/// the pressures of the cells and the flux through the walls. All matrices have constant.size() rows.
-/// With several processes only the rows of entities that this one owns are right: whoever needs all values, and not
-/// only those that become rows of an assembly, makes them whole with `replicate`.
+/// A linear function of fields that a component offers where it has no field of that quantity: for example the pressure
+/// at the walls as a function of the pressures of the cells and the flux through the walls. All matrices have
+/// constant.size() rows. With several processes, only the rows of entities that the process owns are right. Code that
+/// needs all values, and not only those that become rows of an assembly, calls `replicate`.
 struct LinearExpression {
+  /// matrix · field.
   struct Term {
     const Field* field;
     Operator matrix;

@@ -8,25 +8,25 @@
 
 namespace sprekk {
 
-/// A sparse matrix that does not change. Each one made has a number of its own, which its copies share: who meets a
-/// number again knows the entries without a look at them. Parts keep what stays for a mesh in such matrices, and what
-/// they compute in each assembly in plain ones.
+/// A sparse matrix that does not change. Each has a unique number, which its copies share: the same number means the
+/// same entries. Parts keep matrices that stay for a mesh as operators, and matrices that they compute in each assembly
+/// as plain sparse matrices.
 ///
-/// Rows of balances may exchange something: what leaves one enters another, and in the sum of all rows it is absent,
-/// but for the round-off of the entries. Who makes such a matrix knows what stays of it in the sum: the part that
-/// leaves all of them together.
+/// Rows of balances may exchange amounts: what leaves one row enters another, and cancels in the sum of all rows, but
+/// for the round-off of the entries. Whoever makes such a matrix knows what stays in the sum: the amounts that leave
+/// all rows together.
 class Operator {
  public:
   Operator() : Operator(SparseMatrix()) {}
   explicit Operator(SparseMatrix entries);
-  /// Of an exchange. The columns of `leaving`, of the same shape, add up to what those of `entries` would without
-  /// round-off.
+  /// An exchange. `leaving` has the shape of `entries`, and its column sums are what those of `entries` would be
+  /// without round-off.
   Operator(SparseMatrix entries, SparseMatrix leaving);
   const SparseMatrix& entries() const { return *entries_; }
   bool is_exchange() const { return leaving_ != nullptr; }
-  /// What counts in a sum of rows: all entries, if it is no exchange.
+  /// The matrix to use in a sum of rows; entries() if this is no exchange.
   const SparseMatrix& leaving() const { return leaving_ ? *leaving_ : *entries_; }
-  /// The largest absolute entry of an exchange; 0 of others.
+  /// The largest absolute entry of an exchange; 0 for other matrices.
   double largest_exchange() const { return largest_exchange_; }
   /// Never 0.
   std::uint64_t number() const { return number_; }
@@ -37,7 +37,7 @@ class Operator {
   std::uint64_t number_;
 };
 
-/// Has exactly one entry in each row, zero or not.
+/// The square matrix with these entries on its diagonal. Zeros are stored as well: each row has exactly one entry.
 SparseMatrix diagonal_matrix(const Vector& entries);
 
 }  // namespace sprekk

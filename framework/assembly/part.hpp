@@ -18,13 +18,13 @@ namespace sprekk {
 
 struct MeshChange;
 
-/// The totals of one conserved quantity since the start of the run: stored + outflow = injected.
+/// The totals of one conserved quantity since the start of the run, which fulfil stored + outflow = injected.
 struct Balance {
   double stored = 0, injected = 0, outflow = 0;
-  /// Sum of the amounts over all places where one was stored, injected or flowed out: what errors are small against.
+  /// Sum of the absolute amounts that were stored, injected or flowed out, place by place: errors are compared with it.
   double throughput = 0;
   std::string unit;
-  bool is_closed = true;  ///< false where values are prescribed instead of the balance: they let an unknown amount in
+  bool is_closed = true;  ///< false where prescribed values replace a balance, which lets an unknown amount in
 };
 
 /// A column of history.csv.
@@ -33,7 +33,7 @@ struct Quantity {
   double value;
 };
 
-/// The equations of one component that have no solution while another's unknowns are held.
+/// States that the equations of `component` have no solution while the unknowns of the component `on` are held.
 struct Dependence {
   std::string component, on;  ///< names in the scene
   std::string because;
@@ -43,38 +43,40 @@ struct Dependence {
 /// start).
 using Stabilization = std::map<const Field*, Vector>;
 
-/// freely: at first. Carefully: when that has failed, so that what makes most steps quick may be left out. In pieces:
-/// the discrete state tells all pieces of piecewise linear terms from one another, and derivatives are those of the
-/// piece that the values are in, not of one where the update is expected. In linear pieces: as well, and coefficients
-/// that make terms nonlinear within a piece stay what they are at the moment of the call.
+/// How parts support the search of Newton's method. `freely`: the first attempt, with all shortcuts that make most
+/// steps quick. `carefully`: an attempt after a failure, without shortcuts. `in_pieces`: the discrete state tells all
+/// pieces of piecewise linear terms apart, and derivatives are those of the piece that the values are in, not of a
+/// piece where the update is expected. `in_linear_pieces`: the same, and coefficients that make terms nonlinear within
+/// a piece keep the values that they have at the moment of the call.
 enum class Look { freely, carefully, in_pieces, in_linear_pieces };
 
-/// A component or a coupler. Repeating a step after a rewind must give the same bits: whatever a part keeps between
-/// calls is in fields, or follows from the mesh, the parameters and the step's time.
+/// A component or a coupler, as the schedule sees it. Repeating a step after a rewind must give the same bits: whatever
+/// a part keeps between calls is in fields, or follows from the mesh, the parameters and the time of the step.
 class Part {
  public:
   virtual ~Part() = default;
 
-  /// Evaluates the data that depend on time, as the step needs them (value_in_step), and nothing else. Called before a
-  /// run for its last and its first step, so that data without a value there are refused. Throws DataError.
+  /// Evaluates the data that depend on time for the step (value_in_step), and does nothing else. Also called before a
+  /// run, for its last and its first step, to refuse data without a value there. Throws DataError.
   virtual void evaluate_data(const StepTime&) {}
-  /// Called when all parts have evaluated their data: rediscretizes what a changed mesh or property makes stale.
+  /// Called when all parts have evaluated their data: renews the discretizations that a changed mesh or property makes
+  /// stale.
   virtual void begin_step(const StepTime& step) = 0;
   /// Adds all terms of all its equations; the assembly keeps what its solve needs.
   virtual void assemble(Assembly& assembly, const StepTime& step) const = 0;
-  /// Fixes values that are prescribed where others have equations (Assembly::fix). Called after all parts have
+  /// Fixes prescribed values in rows to which other parts add terms (Assembly::fix). Called after all parts have
   /// assembled.
   virtual void constrain(Assembly&) const {}
 
   /// Called after the fields have been accepted or rewound, for state that is not in fields.
   virtual void accepted() {}
   virtual void rewound() {}
-  /// Called on a part that has been built on a changed mesh, after its fields have received their values: takes over
-  /// the state of the part `before` that it replaces, and gives new entities their initial state.
+  /// Called on a part that has been built on a changed mesh, after its fields have received their values. Copies the
+  /// state outside of fields from `before`, the same part on the old mesh, and gives new entities their initial state.
   virtual void carry_over(const Part& /*before*/, const MeshChange& /*change*/) {}
   /// Called when the equilibrium on the new mesh has been found, before it is accepted.
   virtual void settled(const MeshChange& /*change*/) {}
-  /// State that is not in fields, for checkpoints: adds named values, and takes them back.
+  /// For checkpoints: `save` adds state that is not in fields as named values, `restore` reads these values.
   virtual void save(std::map<std::string, Vector>& /*state*/) const {}
   virtual void restore(const std::map<std::string, Vector>& /*state*/) {}
 
@@ -92,13 +94,14 @@ class Part {
   virtual void hold_coefficients() {}
   /// Held coefficients are c_0^(1 − share) c^share from now on, c for a share of 1.
   virtual void release_coefficients(double /*share*/) {}
-  /// Puts the fields to where conditions that hold on one side only do not hold, so that what they hold is free.
+  /// Moves the fields to where one-sided conditions (contact) are inactive, so that the unknowns that these conditions
+  /// hold are free.
   virtual void loosen() {}
-  /// The names of the stabilizations that it offers to split schemes.
+  /// The names of the stabilizations that the part offers to split schemes.
   virtual std::vector<std::string> stabilizations() const { return {}; }
-  /// Adds the diagonals of a named stabilization to the fields that it knows how to stabilize.
+  /// Adds the diagonals of a named stabilization for the fields that the part can stabilize.
   virtual void stabilize(const std::string& /*scheme*/, Stabilization&) const {}
-  /// Which components cannot be in a solve without which others.
+  /// Pairs of components of which the first cannot be in a solve without the second.
   virtual std::vector<Dependence> dependences() const { return {}; }
   /// Says which potentials may be shifted by a constant, and what holds them.
   virtual void hold_constants(ConstantModes&) const {}
@@ -107,19 +110,20 @@ class Part {
   /// Quantities for history.csv, and fields for pictures.
   virtual void report(std::vector<Quantity>&) const {}
   virtual void output(std::vector<OutputField>&) const {}
-  /// Adds what can be known before the run: data without effect, data that contradict one another. `sprekk check` shows
-  /// it, and a run at its start.
+  /// Adds notes on the input: data without effect, data that contradict one another. `sprekk check` shows them, and so
+  /// does a run at its start.
   virtual void note_input(Notes&) const {}
-  /// Adds what a step did that its user would not expect. Called on all processes for each step that is about to be
+  /// Adds notes on a step that its user would not expect. Called on all processes for each step that is about to be
   /// accepted, after report().
   virtual void note_step(Notes&, const StepTime&) const {}
   /// How often something was computed or reused, for the end-of-run table: name → count.
   virtual std::map<std::string, long> counts() const { return {}; }
-  /// Entries of the end-of-run table for work of its own inside of steps, without that of the schedule's solvers.
+  /// Entries of the end-of-run table for the part's own work inside of steps, without the work of the schedule's
+  /// solvers.
   virtual std::vector<Profile::Entry> efforts() const { return {}; }
 };
 
-/// All data first: what a part discretizes may depend on properties of another.
+/// Begins a step of all parts. All data come first: what one part discretizes may depend on properties of another.
 inline void begin_step(const std::vector<Part*>& parts, const StepTime& step) {
   for (Part* part : parts) part->evaluate_data(step);
   for (Part* part : parts) part->begin_step(step);

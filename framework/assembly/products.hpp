@@ -10,21 +10,22 @@
 
 namespace sprekk {
 
-/// A product A x with the size of its terms, and the numbers that say of what.
+/// A product A x, with the size of the terms of each row.
 struct FieldProduct {
   Vector value;  ///< A x
   Vector size;   ///< |A| |x|, or empty if nobody asked for it
 };
 
-/// A is compressed.
+/// The product of a matrix in compressed form with a vector.
 FieldProduct multiply(const SparseMatrix& a, const Vector& x, bool with_size = true);
 
-/// A step starts from the values that the one before ended with, and a split scheme moves some of the fields only: most
-/// products of a residual have been computed before. What is kept has the bits of what would be computed.
+/// Keeps products of operators with fields, to be reused while operator and field stay the same. A step starts from the
+/// values that the previous step ended with, and a split scheme moves only some of the fields: most products of a
+/// residual have been computed before. A product that is kept has the same bits as one that is computed anew.
 class Products {
  public:
-  /// With the value of the field now. The reference stays valid until `forget_unused`, or until the field has been
-  /// asked for with two other values.
+  /// The product with the current value of the field. The reference stays valid until `forget_unused`, or until
+  /// products of this operator with two other values of the field have been asked for.
   const FieldProduct& now(const Operator& a, const Field& x) { return of(a, x, x.now(), x.version(), true); }
   /// The same without the sizes, which takes less time.
   const Vector& value_now(const Operator& a, const Field& x) { return of(a, x, x.now(), x.version(), false).value; }

@@ -10,17 +10,17 @@
 
 namespace sprekk {
 
-/// A datum at fixed places, as a step takes it (value_in_step). Its version grows when a value has changed, and only
-/// then: who keeps what was made with the values (operators, factorizations) compares versions. A datum that does not
-/// depend on time is evaluated once.
+/// The values of a datum at fixed places, as a step takes them (value_in_step). The version grows when a value has
+/// changed, and only then: code that keeps results of the values (operators, factorizations) compares versions. A datum
+/// that does not depend on time is evaluated once.
 class Property {
  public:
   /// Without values, for `set`.
   Property() = default;
-  /// With the values at `start` (s), or where they jump there, right after it. Throws DataError.
+  /// Evaluates the datum at `start` (s), or right after it where the datum jumps there. Throws DataError.
   Property(const Data& data, const std::vector<Place>& places, double start);
 
-  /// Takes the values of this step. Throws DataError, and then keeps those that it has.
+  /// Evaluates the datum for this step. Throws DataError, and then the earlier values stay.
   void evaluate(const StepTime& step);
   /// Values that somebody else has computed.
   void set(Vector values);
