@@ -28,13 +28,14 @@ struct FieldSpec {
   /// Of a derived field that keeps the books of another (what has been stored, what has flowed out): that field's full
   /// name. Both are accepted together, also after a substep.
   std::string accepted_with = "";
-  /// Of cells: whether the value is an amount in the cell (m^2 of fluid), and not a density or a mean. A change of the
-  /// mesh divides amounts by area, and averages everything else (Eq. 17 of the paper).
+  /// For fields on cells: whether the value is an amount in the cell (m^2 of fluid), and not a density or a mean. When
+  /// the mesh changes, amounts are divided by area, and all other values are averaged (Eq. 17 of the paper).
   bool is_amount = false;
   std::string full_name() const { return owner + "." + name; }
 };
 
-/// Values are entity-major: value c of entity i is values[i * components + c].
+/// Values on entities of the mesh, at two time levels. Values are entity-major: value c of entity i is
+/// values[i * components + c].
 class Field {
  public:
   /// Throws std::logic_error where the kind of the block does not fit: an elastic one has `dimension` components, an
@@ -49,7 +50,7 @@ class Field {
   const Vector& now() const { return now_; }            ///< the current iterate
   const Vector& accepted() const { return accepted_; }  ///< at the end of the last accepted step
   std::uint64_t version() const { return version_; }    ///< changes whenever `now` does
-  /// The version that had the accepted values, or a number that no version has.
+  /// The version at which `now` had the accepted values, or a number that no version has.
   std::uint64_t accepted_version() const { return accepted_version_; }
 
   void set(Vector values);  ///< throws std::logic_error if the size differs
@@ -58,7 +59,7 @@ class Field {
   void set_accepted(Vector values);
   void rewind();
 
-  /// For inputs: the coupler that determines it, "" when it keeps its given value.
+  /// For inputs: the coupler that determines the field, "" when the field keeps its given value.
   const std::string& determined_by() const { return determined_by_; }
   void determine(const std::string& coupler);  ///< throws std::logic_error if another coupler does already
   /// Whether the field is solved for somewhere: an unknown, or an input that a coupler determines.

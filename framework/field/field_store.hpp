@@ -10,6 +10,7 @@
 
 namespace sprekk {
 
+/// Owns the fields of a model, in the order in which they were added, and accepts or rewinds all of them together.
 class FieldStore {
  public:
   /// Adds a field of zeros. Throws std::logic_error if the name exists.

@@ -9,24 +9,26 @@
 
 namespace sprekk {
 
+/// Parameters of a `grow` step.
 struct GrowOptions {
   std::string component;
   std::vector<std::string> settle;
   std::string update = "after_step";
   int passes = 20;          ///< of repeat_step
-  double cut = 1e-2;        ///< the part of the standard step that follows a growth event
-  double settled = 1e-2;    ///< relative change over a step from which on the standard step returns
-  double overshoot = 0.02;  ///< by how much a step may pass the load of growth before it is repeated with a smaller one
+  double cut = 1e-2;        ///< size of the steps after a growth event, over the standard step
+  double settled = 1e-2;    ///< relative change over a step at and below which the standard step returns
+  double overshoot = 0.02;  ///< by how much the load may pass 1 before the step is repeated with a smaller one
   Origin origin;
   NewtonOptions newton;
   LinearOptions linear;
   Spec spec();
 };
 
-/// Asks the component for its tips' load. A step at whose end the load of a tip that has not grown yet is past
-/// 1 + overshoot is refused, with the size that would just have reached it, so that growth starts when it is due; so is
-/// one in which tips grow further than the mesh can follow. But none is cut below `cut` of the standard step. What the
-/// mesh is to take over is in extensions(): the run does so between two attempts.
+/// Asks the component for the load of its tips, and lets them grow. Growth starts when it is due: a step at whose end
+/// the load of a tip that has not grown yet is above 1 + overshoot is refused, with the step size that would just have
+/// reached that load. A step in which tips grow further than the mesh can follow is refused as well. No step is cut
+/// below `cut` of the standard step. extensions() has the paths that the mesh is to take over; the run changes the mesh
+/// between two attempts.
 class GrowStep : public ScheduleStep {
  public:
   /// Throws InputError when the component has nothing that grows.
@@ -42,13 +44,13 @@ class GrowStep : public ScheduleStep {
   CavityOptions cavity() const { return growing_->cavity(); }
   /// Whether a growth event still shows at the tips.
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
-  /// The largest load of all tips over that at whose time a step that is refused for it would be made to end.
+  /// The largest load of all tips over the load 1 + overshoot/2 at which a refused step would be made to end.
   double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * options_.overshoot); }
   /// Solves for the components of `settle` at fixed values of everything else, with data as in the given step.
   StepStatus settle(const StepTime& step) { return settle_.run(step); }
 
  private:
-  /// Refuses a step, for one at whose end the load is just past that of growth.
+  /// Refuses a step, and asks for one at whose end the load is just above 1.
   StepStatus refused(const std::string& reason, const StepTime& step, double before, double now);
   bool may_shrink(const StepTime& step) const { return step.dt > smallest_step_ * (1 + 1e-9); }
 
@@ -58,7 +60,7 @@ class GrowStep : public ScheduleStep {
   double smallest_step_;  ///< s; no step is refused below it
   Growing::Load load_;
   struct Refusal {
-    double start, dt, load;  ///< s, s, of the tip that was too much
+    double start, dt, load;  ///< s, s, load of the tip for which the step was refused
   };
   std::optional<Refusal> refusal_;  ///< the last one
   std::vector<PathExtension> extensions_;

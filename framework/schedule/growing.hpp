@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// "I have fractures that can grow."
+/// What a component with fractures that can grow offers to the schedule: the load of its tips, and growth.
 class Growing {
  public:
   static constexpr const char* promise = "has fractures that can grow";
@@ -23,12 +23,13 @@ class Growing {
     double unsettled = 0;       ///< largest relative change over the step of what a growth event disturbs at the tips
   };
   virtual Load examine(const StepTime& step) = 0;
+  /// What the tips have grown in a step.
   struct Growth {
-    std::vector<PathExtension> extensions;  ///< what the mesh is to take over
-    bool arrested = true;                   ///< whether all tips came to rest before they had to be taken over
+    std::vector<PathExtension> extensions;  ///< the paths that the mesh is to take over
+    bool arrested = true;                   ///< whether all tips came to rest before the mesh had to take paths over
   };
-  /// Lets the tips grow until they arrest, or until the mesh must take over what they have grown. What is too short
-  /// for that is kept and counts from the next step on, if this one is accepted.
+  /// Lets the tips grow until they arrest, or until the mesh must take their paths over. The component keeps a path
+  /// that is too short for the mesh; such a path counts from the next step on, if this one is accepted.
   virtual Growth grow(const StepTime& step) = 0;
   /// How the mesh changes around a path that it takes over.
   virtual CavityOptions cavity() const = 0;

@@ -9,6 +9,7 @@
 
 namespace sprekk {
 
+/// Parameters of an `iterate` step.
 struct IterateOptions {
   double relative = 1e-8;
   int at_most = 60;
@@ -16,8 +17,9 @@ struct IterateOptions {
   Spec spec();
 };
 
-/// Converged when the true residual of everything that is solved for inside, without any stabilization, is small
-/// against its own terms; not when updates are small.
+/// Repeats the steps inside, with Anderson acceleration if wanted. The iteration has converged when the residual of all
+/// equations that are solved inside, without stabilization, is small against their own terms; small updates do not
+/// count.
 class IterateStep : public ScheduleStep {
  public:
   IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);

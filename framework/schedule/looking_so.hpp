@@ -1,4 +1,4 @@
-// How parts look for a solution, for as long as an object lives.
+// How parts support the search for a solution, for as long as an object lives.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace sprekk {
 
+/// A guard: its constructor passes `look` to all parts, its destructor `after`.
 class LookingSo {
  public:
-  /// `after`: how they look when this object is gone.
   LookingSo(Look look, Look after, const std::vector<Part*>& parts) : after_(after), parts_(parts) {
     for (Part* part : parts_) part->look_for_solution(look);
   }

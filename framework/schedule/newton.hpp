@@ -13,6 +13,7 @@
 
 namespace sprekk {
 
+/// Tolerances (relative) and limits of Newton's method.
 struct NewtonOptions {
   double residual = 1e-10;  ///< largest residual of an equation over the largest of its terms
   double update = 1e-8;     ///< largest change of a field over its largest value
@@ -21,21 +22,23 @@ struct NewtonOptions {
   int pieces = 300;         ///< that the path of the last attempt may have, 0 for no such attempt
 };
 
-/// Converged means: every residual is small against its own terms, and the next (simplified) Newton update, which costs
-/// a back-solve and no factorization, is small against the fields. Full steps at first, as active sets settle by
-/// themselves; descent on the sum of squares of the relative residuals when they have not after `undamped` iterations,
-/// or as soon as the discrete state cycles. When that fails, a second attempt from the same start asks for descent from
-/// its first iteration: full steps may have led to where no descent comes back from.
+/// Solves the equations of the given unknowns. Converged means: every residual is small against its own terms, and the
+/// next (simplified) Newton update, which costs a back-solve and no factorization, is small against the fields.
 ///
-/// When that fails too, and the discrete state has changed, a third attempt follows a path. Contact is piecewise
-/// linear, so residual(x) = s residual(x0) is a line that bends where the state changes. It is followed from s = 1 down
-/// to 0, each piece with its own derivatives, up to the place where the piece ends. Where the next piece has a
-/// determinant of the other sign, s grows until the path turns again. Full steps and descent can cycle or end in a
-/// minimum; the path can only run to a solution, to infinity, or back to where it was (Katzenelson 1965 for monotone
-/// functions; Ralph 1994, "path search"; the turns are those of Lemke's method, with which Klarbring (1986) solved
-/// frictional contact). Coefficients that are not constant within a piece (the cubic law) are held, and ordinary
-/// iterations from the end of the path correct them; when that does not converge, the path is followed with all
-/// derivatives, as far as it goes.
+/// The first attempt takes full steps, as active sets usually settle by themselves. If they have not after `undamped`
+/// iterations, or as soon as the discrete state cycles, a line search asks for descent of the sum of squares of the
+/// relative residuals. If the first attempt fails, a second one from the same start asks for descent from its first
+/// iteration: full steps may have led to a place from which no descent leads back.
+///
+/// If the second attempt fails, and the discrete state has changed, a third attempt follows a path. Contact is
+/// piecewise linear, so residual(x) = s residual(x0) is a polygonal line that bends where the discrete state changes.
+/// The path is followed from s = 1 down to 0, each piece with its own derivatives up to the end of that piece. Where
+/// the determinant changes its sign from one piece to the next, s grows until the path turns again. Full steps and
+/// descent can cycle or end in a minimum; the path can only run to a solution, to infinity, or back to its start
+/// (Katzenelson 1965 for monotone functions; Ralph 1994, "path search"; the turns are those of Lemke's method, with
+/// which Klarbring (1986) solved frictional contact). Coefficients that are not constant within a piece (the cubic law)
+/// are held, and ordinary iterations from the end of the path correct them. If these do not converge, the path is
+/// followed with all derivatives, as far as it goes.
 ///
 /// Repeating a call from the same fields gives the same bits.
 class Newton {
@@ -44,7 +47,8 @@ class Newton {
          const NewtonOptions& options, std::string name, IterationLog log);
   ~Newton();
 
-  /// `stabilization`: diagonals times the change since the start of this call, added to the residuals.
+  /// `stabilization`: diagonals; each, times the change of its field since the start of this call, is added to the
+  /// residual of that field.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization = {});
 
   /// What assembly and linear solver did since the start.
@@ -53,33 +57,34 @@ class Newton {
 
  private:
   std::unique_ptr<Assembly> assemble(const StepTime& step);
-  /// Assembles the state that the fields have now, derivatives too: most states that are looked at are gone on from,
-  /// and derivatives of linear terms cost nothing.
+  /// Assembles residual and derivatives at the current values of the fields, and checks the residual. Derivatives are
+  /// always included: most states that are looked at are accepted, and derivatives of linear terms cost nothing.
   ResidualCheck look(const StepTime& step);
   std::uint64_t discrete_state() const;
   std::vector<Vector> values() const;
   void move(const std::vector<Vector>& from, const Vector& update, double length);
-  /// Minus the residual of the owned rows, of the last matrix; zero for equations that hold to round-off. So the bulk,
-  /// whose equations are linear, is solved for once a step by a solver that condenses it.
+  /// Minus the residual in the owned rows of the last matrix; zero for equations that hold to round-off. With zeros in
+  /// the linear equations of the bulk, a solver that condenses the bulk solves for it only once a step.
   Vector right_hand_side(const ResidualCheck& check) const;
-  /// The largest change of a field over its largest value. Fields whose equation holds to round-off already are left
-  /// out: where nothing flows, a flux is nothing but round-off.
+  /// The largest change of a field over its largest value. Fields whose equation already holds to round-off are left
+  /// out: where nothing flows, a flux is round-off alone.
   double relative_size(const Vector& update, const ResidualCheck& check) const;
-  /// Of each unknown: whether it is to stay, as far as its equation and the sums that it is in can tell.
+  /// For each unknown: whether its equation and the sums that contain the equation ask for no further update.
   std::vector<char> is_settled(const ResidualCheck& check) const;
-  /// end: of all iterations. search: until a line search would begin, where the discrete state has changed meanwhile.
+  /// When an attempt ends. `end`: after all iterations. `search`: where a line search would begin, if the discrete
+  /// state has changed by then.
   enum class Until { end, search };
-  /// Without a line search for the first `undamped` iterations.
+  /// Iterates, without a line search in the first `undamped` iterations.
   StepStatus attempt(const StepTime& step, int undamped, Until until = Until::end);
   /// The third attempt (path_search.cpp).
   StepStatus follow_path(const StepTime& step, Look look);
-  /// From the end of a path with held coefficients, from one where they are released a little to the next.
+  /// Releases held coefficients in small shares from the end of a path, with an attempt at each share.
   StepStatus release_coefficients(const StepTime& step, const std::vector<Vector>& start);
-  /// Releases what Part::hold_coefficients holds as far as `share`, and attempts.
+  /// Releases the coefficients that Part::hold_coefficients holds up to `share`, and attempts to solve.
   StepStatus attempt_with_share(const StepTime& step, double share);
   void set(const std::vector<Vector>& values);
   void step_off_kinks(const LinearSystem& system, const Vector& update);
-  /// Whether the next update is as small as it has to be, too.
+  /// Whether the residuals have converged and the next update is below its tolerance.
   bool is_solution(const ResidualCheck& check);
   ResidualCheck take_step(const StepTime& step, const Vector& update, bool ask_for_descent, double& length);
 

@@ -1,4 +1,4 @@
-// Residuals compared with what they consist of.
+// Residuals compared with the terms that they are sums of.
 #pragma once
 
 #include <string>
@@ -9,29 +9,31 @@
 
 namespace sprekk {
 
+/// How the residuals of an assembly compare with their terms; all figures are relative unless said otherwise.
 struct ResidualCheck {
   bool finite = true;
   bool converged = false;     ///< rows_hold and balances_hold
   bool rows_hold = false;     ///< every residual is small against its terms
-  bool balances_hold = true;  ///< and those of conserved quantities against their turnover
-  double imbalance = 0;       ///< the largest error of a quantity over its turnover, where that is above round-off
-  std::vector<char> is_unbalanced;  ///< of each equation: it is one of a quantity whose balance does not hold
+  bool balances_hold = true;  ///< the residuals of each conserved quantity are small against its turnover
+  double imbalance = 0;       ///< the largest error of a quantity over its turnover, where the error exceeds round-off
+  std::vector<char> is_unbalanced;  ///< for each equation: it belongs to a quantity whose balance does not hold
   double largest = 0;               ///< over the equations: largest residual over the magnitude of the equation's terms
-  std::string equation;             ///< that has it
-  std::vector<char> is_round_off;   ///< of each equation: its residual is round-off of its terms
-  std::vector<char> is_round_off_in_sum;  ///< of each equation, the same of the sum of its rows where that counts
-  /// Of each equation, and then of the sum of each: of its residuals, its terms.
+  std::string equation;             ///< the equation that has the largest
+  std::vector<char> is_round_off;   ///< for each equation: its residual is round-off of its terms
+  std::vector<char> is_round_off_in_sum;  ///< for each equation: the same for the sum of its rows, where that counts
+  /// For each equation, and then for the sum of the rows of each: mean square of the residuals, magnitude of the terms,
+  /// and largest error of fixed rows.
   std::vector<double> mean_squares, magnitudes, fixed_errors;
 
   /// The sum over the equations of mean squared residuals, each relative to the magnitude of its terms in `scales`.
-  /// With the scales of one state two others can be compared: terms that grow with the unknowns would hide progress.
+  /// The scales of one state make two other states comparable: terms that grow with the unknowns would hide progress.
   double merit(const ResidualCheck& scales) const;
 };
 
 /// An equation is fulfilled when its largest residual is at most `tolerance` times the largest of its terms, or is
 /// round-off of those terms. Every equation is measured by its own terms, so the test needs no scales from the user and
-/// does not depend on units. Where the system puts a sum of balances in their place (BlockSystem::use_sums), the sum of
-/// each field's is such an equation, too.
+/// does not depend on units. Where the system puts the sum of balances in the place of one (BlockSystem::use_sums), the
+/// sum of the balances of each field is checked like an equation, too.
 ///
 /// What is exchanged may be any multiple of what is stored, and a residual that is small against it may be all of that.
 /// So the balances of a conserved quantity also hold against their turnover (BalanceRows): neither the sum of

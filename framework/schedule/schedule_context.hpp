@@ -12,6 +12,7 @@
 
 namespace sprekk {
 
+/// The mesh, fields and parts of the model that a schedule is built for.
 struct ScheduleContext {
   const Mesh& mesh;
   FieldStore& fields;
@@ -28,16 +29,17 @@ struct ScheduleContext {
 /// What a `schedule:` is read with, before there is a mesh.
 struct ScheduleReading {
   std::vector<std::string> component_names;  ///< what a `solve` may name
-  LinearOptions linear;                      ///< of a `solve` that does not say otherwise
+  LinearOptions linear;                      ///< for a `solve` without options of its own
   NewtonOptions newton;
   ReadContext read;
   bool is_iterated = false;  ///< whether the step that is being read is inside an `iterate`
-  bool is_substep = false;   ///< and inside a `subcycle` of several
+  bool is_substep = false;   ///< whether it is inside a `subcycle` of several substeps
 };
 using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;
 
 /// Reads the steps of a `schedule:` (a list of steps, run one after the other; one step needs no list). Throws
-/// InputError for unknown steps and components; what it returns, for a stabilization that no part offers.
+/// InputError for unknown steps and components; the builder that it returns throws InputError for a stabilization that
+/// no part offers.
 ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading);
 /// Whether there is a step of that kind, also inside of others.
 bool has_step(const Node& schedule, const std::string& key);

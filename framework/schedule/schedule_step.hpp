@@ -18,18 +18,19 @@ struct IterationRecord {
   std::string step;  ///< which node of the schedule: "solve pore rock", "iterate", …
   int iteration = 0;
   double residual = 0;     ///< the largest relative residual of any equation
-  std::string equation;    ///< the one that has it
+  std::string equation;    ///< the equation with that residual
   double update = 0;       ///< relative; 0 where none is computed
   double step_length = 1;  ///< of the line search; negative where a path turns against the update
 };
 using IterationLog = std::function<void(const IterationRecord&)>;
 
+/// A node of the schedule: advances the fields that it solves for over a time step.
 class ScheduleStep {
  public:
   virtual ~ScheduleStep() = default;
   /// Advances its fields' current values to the end of the time step. Never throws for lack of convergence.
   virtual StepStatus run(const StepTime& step) = 0;
-  /// The fields that it, or a step inside it, solves for.
+  /// The fields that this step, or a step inside it, solves for.
   virtual std::vector<const Field*> unknowns() const = 0;
   /// One line for the graph and for messages.
   virtual std::string describe() const = 0;

@@ -5,6 +5,7 @@
 
 namespace sprekk {
 
+/// Runs its steps one after the other, and stops at the first that does not converge.
 class SequenceStep : public ScheduleStep {
  public:
   explicit SequenceStep(std::vector<std::unique_ptr<ScheduleStep>> steps) : steps_(std::move(steps)) {}

@@ -6,6 +6,7 @@
 
 namespace sprekk {
 
+/// Parameters of a `solve` step.
 struct SolveOptions {
   std::vector<std::string> components;
   Origin origin;  ///< of their names
@@ -17,10 +18,12 @@ struct SolveOptions {
   Spec spec();
 };
 
+/// Solves one simultaneous system for the solved fields of its components by Newton's method; all other fields keep
+/// their latest values.
 class SolveStep : public ScheduleStep {
  public:
-  /// Throws InputError for a stabilization that no part of the scene offers, and where a component is missing without
-  /// which another's equations have no solution.
+  /// Throws InputError for a stabilization that no part of the scene offers, and where a component is missing that the
+  /// equations of another need (Part::dependences).
   SolveStep(const SolveOptions& options, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {fields_.begin(), fields_.end()}; }

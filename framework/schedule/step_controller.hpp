@@ -1,4 +1,4 @@
-// Who decides the next time step.
+// The choice of the next time step.
 #pragma once
 
 #include <map>
@@ -11,6 +11,7 @@
 
 namespace sprekk {
 
+/// Parameters of a scene's `time:`.
 struct TimeOptions {
   double start = 0;                ///< s
   double end = 0;                  ///< s
@@ -32,26 +33,27 @@ struct TimeOptions {
   Spec spec();
 };
 
-/// What is remembered of a step that failed: a size that is not tried again before `wait` steps have been accepted.
+/// The memory of a step that failed: its size is not tried again before `wait` steps have been accepted.
 struct FailedStep {
   double size = 0;   ///< s, 0 for none
   int wait = 0;      ///< accepted steps until it may be tried again
   int patience = 3;  ///< what `wait` starts from; doubles each time the size fails again
 };
 
-/// What holds steps small comes again and again, each time that a level (a load, say) has risen to 1.
+/// The prediction of the next hold, for events that recur: steps are held small each time that a level (a load, say)
+/// has risen to 1.
 struct Recurrence {
   std::optional<double> released = std::nullopt;  ///< s, the time of the last release
   double level = 0;                               ///< at the last release
-  double pause = 0;                               ///< s, from a release to its hold; 0 as long as unknown
-  double rise = 1;                                ///< of the level in that time
+  double pause = 0;                               ///< s, from a release to the next hold; 0 as long as unknown
+  double rise = 1;                                ///< of the level in that pause
   std::optional<double> expected = std::nullopt;  ///< s, the time of the next hold
   double patience = 0;                            ///< s, how long a hold that was overdue is waited for
 };
 
-/// Constant or adaptive steps that end exactly at the targets (output times, switches of sources, the end). A rejected
-/// step is repeated with a smaller one; afterwards steps grow back by `grow` a step, but not at once to what has
-/// failed.
+/// Chooses constant or adaptive steps that end exactly at the targets (output times, switches of sources, the end). A
+/// rejected step is repeated with a smaller size; afterwards sizes grow back by the factor `grow` a step, but not at
+/// once to the size that has failed.
 class StepController {
  public:
   /// `targets`: times (s) that a step must end at, in any order; those outside of the run are ignored.
@@ -66,13 +68,13 @@ class StepController {
   void accepted(const StepTime& step, int iterations);
   /// Cuts the step, to `retry` (s) if that is given; false when it is as small as allowed.
   bool rejected(const StepTime& step, double retry = 0);
-  /// Holds all steps at this size (s) until `release`. The standard size then returns, but the step in which the next
-  /// hold is expected ends there: after the last pause, from a release to its hold, times the rise to 1 that is left
-  /// over the rise in that pause. It is at least a tenth of the standard one.
+  /// Holds all steps at this size (s) until `release`. The standard size then returns, but a step ends at the time at
+  /// which the next hold is expected: the last pause (from a release to the next hold), times the rise of the level to
+  /// 1 that is left, over the rise in that pause. Such a step has at least a tenth of the standard size.
   void hold(double step, double level);
   void release(double level);
-  /// Where the level is after a step. A hold that is overdue is expected anew, from the rise since the release, but
-  /// each time after twice the time at least: a level may come to rest below 1.
+  /// Tells the level after a step. A hold that is overdue is expected anew, from the rise since the release, but each
+  /// time after at least twice the time: a level may come to rest below 1.
   void observe(double level);
   double held() const { return held_; }  ///< s, 0 when nothing is held
   const FailedStep& failed() const { return failed_; }

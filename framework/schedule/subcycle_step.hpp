@@ -6,6 +6,7 @@
 
 namespace sprekk {
 
+/// Parameters of a `subcycle` step.
 struct SubcycleOptions {
   int count = 2;
   Spec spec();

@@ -7,11 +7,14 @@
 
 namespace sprekk {
 
+/// Parameters of a `when` step.
 struct WhenOptions {
   Data condition;
   Spec spec();
 };
 
+/// Runs the step inside if the condition, at the middle of the time step, is not 0; otherwise the fields inside keep
+/// their values.
 class WhenStep : public ScheduleStep {
  public:
   WhenStep(const WhenOptions& options, std::unique_ptr<ScheduleStep> inside)
