@@ -13,8 +13,9 @@ class OutputFolder {
  public:
   enum class Purpose { new_run, restart };
 
-  /// `parent/<scene name>`, or the first of `<scene name>-2`, `-3`, … that is missing or empty. Characters of the name that
-  /// do not belong into a folder's name become '_'. Throws InputError when the file system does not say what is there.
+  /// `parent/<scene name>`, or the first of `<scene name>-2`, `-3`, … that is missing or empty. Characters of the name
+  /// that do not belong into a folder's name become '_'. Throws InputError when the file system does not say what is
+  /// there.
   static OutputFolder for_scene(const std::string& scene_name, const std::filesystem::path& parent = "results");
 
   /// `parent/<scene name>`, whether or not it is there.

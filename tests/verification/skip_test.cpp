@@ -49,7 +49,8 @@ TEST(Skip, RockWithoutPermeabilityHasNoFluxAndStaysUndrained) {
   EXPECT_EQ(count(run, "flux discretizations"), 0);
   EXPECT_EQ(count(run, "flux discretizations: cells"), 0);
   EXPECT_EQ(run.linear_counts().factorizations, 1);
-  // B (1 + nu_u)/3 (sigma_1 + sigma_2) of Table 1 of the paper, whatever the pressure at a side that lets nothing through.
+  // B (1 + nu_u)/3 (sigma_1 + sigma_2) of Table 1 of the paper, whatever the pressure at a side that lets nothing
+  // through.
   for (const double p : run.field("pore.pressure")) EXPECT_NEAR(p, 0.52670 * 1.31043 / 3 * 30e6, 1e-4 * 6.9e6);
 }
 
