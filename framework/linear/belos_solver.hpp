@@ -10,8 +10,8 @@ namespace sprekk {
 
 /// Right-preconditioned GMRES (Belos) on the equilibrated system; starts MPI. Every process must call it. The
 /// preconditioner works in the original units, where the near-null spaces are the rigid-body modes and the constants.
-/// Converged is when the true residual is below `tolerance` times the right-hand side (or at the rounding error), and
-/// in every block below `tolerance` times the sizes of its terms, |A| |x| + |b|.
+/// The solve has converged when the true residual is below `tolerance` times the right-hand side (or at round-off), and
+/// in every block below `tolerance` times the size of the terms, |A| |x| + |b|.
 class BelosSolver final : public LinearSolver {
  public:
   BelosSolver(double tolerance, int max_iterations);

@@ -1,10 +1,10 @@
-// The memory that BLAS works in.
+// The working memory of BLAS.
 #pragma once
 
 namespace sprekk {
 
-/// Under a limit of the address space (`ulimit -v`): lets BLAS take its working memory now. Later OpenBLAS would ask
-/// for it again and again, without end. Throws std::runtime_error when the limit leaves none.
+/// Under a limit of the address space (`ulimit -v`), makes BLAS allocate its working memory now: an allocation that
+/// fails later is repeated by OpenBLAS without end. Throws std::runtime_error when the limit leaves no memory.
 void reserve_blas_memory();
 
 }  // namespace sprekk

@@ -10,10 +10,10 @@
 
 namespace sprekk {
 
-/// An approximate inverse M of the system. The unknowns F on the fractures are eliminated exactly; on the bulk blocks
-/// that remain follows one sweep of block Gauss-Seidel, a multigrid cycle each, flow (with its fixed-stress
-/// stabilization) before displacement. M is linear and fixed, so plain GMRES may use it.
-/// The triangular fixed-stress preconditioner: White, Castelletto and Tchelepi 2016.
+/// An approximate inverse M of the system: the triangular fixed-stress preconditioner (White, Castelletto and Tchelepi
+/// 2016). The unknowns F on the fractures are eliminated exactly. One sweep of block Gauss-Seidel follows on the bulk
+/// blocks that remain, with a multigrid cycle for each, flow (with its fixed-stress stabilization) before displacement.
+/// M is linear and fixed, so plain GMRES may use it.
 class BlockPreconditioner {
  public:
   /// Collective. `system` must outlive the constructor only. Throws std::invalid_argument if a process holds a part of

@@ -20,9 +20,10 @@ struct SubMatrix {
   bool has_row(int row) const { return matrix.outerIndexPtr()[row + 1] > matrix.outerIndexPtr()[row]; }
 };
 
-/// Splits the unknowns of a system in one process into B (bulk) and F (BlockKind::interface), each in their order,
-/// and the matrix into four. It stays while the pattern does. `held`: of every unknown, whether it belongs to F though
-/// it is one of the bulk (unknowns_that_fractures_hold): all those of an entity, or none; empty for none.
+/// Splits the unknowns of a system in one process into B (bulk) and F (BlockKind::interface), each in their order, and
+/// the matrix into four blocks. A splitting can be used as long as the sparsity pattern stays. `held`: for every
+/// unknown, whether it belongs to F although it is one of the bulk (unknowns_that_fractures_hold): all unknowns of an
+/// entity, or none of them; an empty vector stands for none at all.
 class BulkSplitting {
  public:
   explicit BulkSplitting(const LinearSystem& system, std::vector<char> held = {});
@@ -42,8 +43,9 @@ class BulkSplitting {
   bool update(const SparseMatrix& matrix);
   /// Which rows are sums of balances (LinearSystem::sums); belongs to the values, not to the pattern.
   void take_sums(const std::vector<int>& sums) { sums_ = sums; }
-  /// The largest over the blocks of max |b − A x| / max (|A| |x| + |b|), the maxima taken over a block's rows. Where
-  /// only round-off of local unknowns is left of the terms, 1e-4 of the terms that these come from count.
+  /// The largest over the blocks of max |b − A x| / max (|A| |x| + |b|), with maxima over the rows of a block. Where
+  /// the terms of a block are nothing but round-off of local unknowns, 1e-4 of the terms of these unknowns' own rows
+  /// stand in the denominator.
   double backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk, const Vector& b_local) const;
 
   SubMatrix bb, bf, fb, ff;

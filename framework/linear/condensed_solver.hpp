@@ -17,15 +17,15 @@ class BulkSplitting;
 ///   [A_BB A_BF] [x_B]   [b_B]      X = A_BB^-1 A_BF,  S = A_FF − A_FB X
 ///   [A_FB A_FF] [x_F] = [b_F]      S x_F = b_F − A_FB A_BB^-1 b_B,  x_B = A_BB^-1 b_B − X x_F
 ///
-/// The equations of the bulk are linear, so A_BB and A_BF stay as long as the mesh and the time step do. A new system
-/// then costs the factorization of S, and a right-hand side one back-solve with A_BB, or none where b_B = 0, and one
-/// more where X is too large to be kept (BulkResponse). X has a column for each unknown of F that the bulk feels. The
-/// bulks of the last two time steps are kept.
+/// S is the Schur complement of the bulk. The equations of the bulk are linear, so A_BB and A_BF stay as long as the
+/// mesh and the time step do. A new system then costs the factorization of S. A right-hand side costs one back-solve
+/// with A_BB, or none where b_B = 0, and one more where X is too large to be kept (BulkResponse). X has a column for
+/// each unknown of F that has entries in A_BF. The factorizations of the last two bulks are kept, for two time steps.
 ///
-/// Goes to the solver of the whole system where there is nothing to condense, where S costs more than the whole, while
+/// The whole system is solved instead where there is nothing to condense, where S costs more than the whole, as long as
 /// X would cost more than it could have saved so far, and where the first solution with a bulk turns out to be
-/// inaccurate. A block of rock that only fractures hold leaves a cell or two of the bulk to F, with which the rest of
-/// it is held (unknowns_that_fractures_hold).
+/// inaccurate. Where only fractures hold a block of rock, a cell or two of the block join F, so that A_BB is not
+/// singular (unknowns_that_fractures_hold).
 class CondensedSolver final : public LinearSolver {
  public:
   explicit CondensedSolver(const LinearOptions& options);
@@ -47,7 +47,7 @@ class CondensedSolver final : public LinearSolver {
 
   LinearOptions options_;
   std::unique_ptr<BulkSplitting> splitting_;
-  /// Of the last system that was split, and of the last one that was reduced (LinearSystem::number).
+  /// Numbers of the last system that was split, and of the last one that was reduced (LinearSystem::number).
   std::uint64_t pattern_number_ = 0, number_ = 0, reduced_number_ = 0;
   LinearReport reduced_report_;
   std::list<Bulk> bulks_;  ///< the one in use first

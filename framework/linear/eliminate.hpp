@@ -10,9 +10,9 @@ namespace sprekk {
 /// each; the last width - n columns become X. Returns the smallest pivot relative to the largest coefficient of its
 /// row, 0 for a singular matrix, in which case X is meaningless.
 ///
-/// Rows are exchanged only if the diagonal falls below a twentieth of its column: balances of media whose coefficients
-/// differ by many orders stay accurate row by row when each is eliminated by its own unknown, because then no large
-/// multiple of another medium's balance is added and subtracted again.
+/// Rows are exchanged only if the diagonal is below a twentieth of the largest entry of its column. Balances of media
+/// whose coefficients differ by many orders stay accurate row by row when each row is eliminated by its own unknown:
+/// then no large multiple of another medium's balance is added and subtracted again.
 inline double eliminate(double* system, int n, int width) {
   double smallest = 1;
   for (int i = 0; i < n; ++i) {

@@ -1,4 +1,4 @@
-// The graph of the entities that unknowns live on, which is what a fill-reducing ordering needs to see.
+// The graph of the entities that carry unknowns, as input of a fill-reducing ordering.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,10 @@
 
 namespace sprekk {
 
-/// All unknowns of one entity (pressure and displacement of a cell, say) have nearly the same neighbours. An ordering
-/// of entities, each with its unknowns one after the other, fills in as little as one of single unknowns, and is found
-/// in a fraction of the time.
+/// The sparsity graph of a matrix with the unknowns of each entity (pressure and displacement of a cell, say) merged
+/// into one vertex. These unknowns have nearly the same neighbours. So an ordering of entities, each with its unknowns
+/// one after the other, has as little fill-in as an ordering of single unknowns, and is found in a fraction of the
+/// time.
 class EntityGraph {
  public:
   /// Fields whose entities are at the same places, in the same order, share their entities; an unknown
@@ -17,7 +18,7 @@ class EntityGraph {
   EntityGraph(const SparseMatrix& matrix, const std::vector<UnknownBlock>& blocks);
 
   int size() const { return static_cast<int>(starts_.size()) - 1; }
-  /// The entities that entity i is joined to are neighbours()[starts()[i]] … [starts()[i + 1] - 1], ascending.
+  /// The neighbours of entity i are neighbours()[starts()[i]] … [starts()[i + 1] - 1], ascending.
   const std::vector<int>& starts() const { return starts_; }
   const std::vector<int>& neighbours() const { return neighbours_; }
   /// The unknowns in the order of their entities: the inverse of a numbering.

@@ -7,12 +7,12 @@
 
 namespace sprekk {
 
-/// The scaled matrix R A C and its scales. All scales are powers of two, so scaling rounds nothing and a residual of
-/// the scaled system is that of the true one.
+/// The scaled matrix R A C and its scales. All scales are powers of two, so scaling rounds nothing, and the residual of
+/// the scaled system is exactly R times that of the original one.
 struct Equilibrated {
   SparseMatrix matrix;  ///< this process's rows of R A C
-  Vector row_scale;     ///< R, one each row of this process
-  Vector column_scale;  ///< C, one each unknown of the whole system
+  Vector row_scale;     ///< R, one entry for each row of this process
+  Vector column_scale;  ///< C, one entry for each unknown of the whole system
   std::string mistake;  ///< why the matrix cannot be solved: an empty row or column, or an entry that is no number
 };
 

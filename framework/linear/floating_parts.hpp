@@ -1,4 +1,4 @@
-// Which cells of the bulk have to be solved with the fractures, so that the rest of it is held.
+// Which cells of the bulk have to be solved with the fractures, so that the rest of the bulk is not singular.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,16 @@
 
 namespace sprekk {
 
-/// Of every unknown of a system in one process, whether it is one of the bulk that local unknowns alone hold.
+/// For every unknown of a system in one process: whether it is an unknown of the bulk that is to be solved with the
+/// local unknowns, because these alone remove a null space of the bulk.
 ///
-/// A part of a bulk block is what non-zero entries join. Fractures may enclose one: then nothing in the equations of
-/// the bulk holds its level (scalar_elliptic) or its rigid motions in the plane (elasticity), as for a block of rock
-/// between fractures. Motions that disturb no balance of the bulk, to half of the digits, lose as many cells as fix
-/// them, each with its unknowns of all blocks at the same places: the first where it moves most, the next where what is
-/// left moves most. Rows that are sums of balances (LinearSystem::sums) hold nothing here, and their cells come first.
-/// Depends on the matrix alone.
+/// Non-zero entries join the entities of a bulk block to connected parts. Fractures may enclose such a part, as a block
+/// of rock between fractures. Then the equations of the bulk leave a null space: a constant (scalar_elliptic), or the
+/// rigid motions in the plane (elasticity). For each mode that disturbs no balance of the bulk, to half of the digits,
+/// one cell is taken out of the bulk, with its unknowns of all blocks at the same place: first the cell where the mode
+/// is largest, then the cell where the rest of the modes is largest. Rows that are sums of balances
+/// (LinearSystem::sums) do not count as equations that hold a mode, and their cells are taken first. The result depends
+/// on the matrix alone.
 std::vector<char> unknowns_that_fractures_hold(const LinearSystem& system);
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// Remembers the last system that a solver was given, to see what of it changed.
+// Finds out what has changed since the last system that a solver was given.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace sprekk {
 
-/// How much of a system is new.
+/// How much of a system is new: nothing, its values, or its sparsity pattern (and so its values).
 enum class Change { nothing, values, pattern };
 
-/// Compares numbers or bits, so that what is reused gives the same bits as what would be computed anew. Collective:
-/// every process gets the largest change of all.
+/// Remembers the last system, and compares the next one with it by number or bit by bit, so that a factorization that
+/// is reused has the same bits as one that is computed anew. Collective: every process gets the largest change of all.
 class LastSystem {
  public:
   Change compare_and_remember(const LinearSystem& system);

@@ -32,16 +32,18 @@ struct LinearSystem {
   std::vector<int> rows;
   SparseMatrix local;
   std::vector<UnknownBlock> blocks;
-  /// Rows that are sums of balances, of all processes: what is small in them is no round-off of what is large.
+  /// Rows (of all processes) that are sums of balances: their small entries are not round-off of large ones.
   std::vector<int> sums;
-  /// What spares solvers a comparison of all entries: with equal numbers that are not 0, the rows, the blocks (without
-  /// stabilizations), the sums and the sparsity of this process are the same, or everything is.
+  /// Numbers that spare solvers a comparison of all entries. Two systems with the same pattern number, not 0, have the
+  /// same rows, blocks (without stabilizations), sums and sparsity pattern on this process. Two systems with the same
+  /// `number`, not 0, are the same.
   std::uint64_t pattern_number = 0, number = 0;
 };
 
-/// A number that no system has had.
+/// A number that no system has had, for LinearSystem::number and pattern_number.
 std::uint64_t new_system_number();
 
+/// How a factorization or a solve ended.
 struct LinearReport {
   bool solved = false;
   std::string reason;            ///< why not
@@ -90,8 +92,8 @@ struct LinearCounts {
   }
 };
 
-/// Keeps what can be kept between calls: a new matrix with the same pattern reuses the ordering, bitwise the same
-/// system reuses everything.
+/// A solver of linear systems. It reuses earlier work: a new matrix with the same sparsity pattern reuses the ordering,
+/// bitwise the same system reuses the factorization.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -99,15 +101,14 @@ class LinearSolver {
   /// reason, naming the block and entity if it can, for a singular matrix.
   virtual LinearReport factor(const LinearSystem& system) = 0;
   /// Solves for one right-hand side, given on this process's rows; `x` becomes the whole solution on every process.
-  /// The true residual is checked after every solve, and improved by iterative refinement where a direct solver needs
-  /// it.
+  /// The true residual is checked after every solve; direct solvers reduce it by iterative refinement where needed.
   virtual LinearReport solve(const Vector& b_rows, Vector& x) = 0;
-  /// A X = B in place for the columns of B, in one process, without a look at residuals. False for a solver that
-  /// cannot.
+  /// Solves A X = B in place for the columns of B, in one process, without a check of residuals. False for a solver
+  /// that does not offer this.
   virtual bool solve_columns(Eigen::Ref<Eigen::MatrixXd> /*columns*/) { return false; }
-  /// Factorizes A as `factor` does and finds R A^-1 C on the way, in one process: the Schur complement of a border of
-  /// columns C (n × c) and rows R (r × n), for less than the columns of A^-1 C would cost. Nothing for a solver that
-  /// cannot, which has done nothing then.
+  /// Factorizes A as `factor` does, and computes R A^-1 C (r × c) in the same factorization, in one process: the Schur
+  /// complement, without its sign, of a border of columns C (n × c) and rows R (r × n). This costs less than the
+  /// columns of A^-1 C. Returns std::nullopt, and has done nothing, for a solver that does not offer this.
   virtual std::optional<LinearReport> factor_bordered(const LinearSystem& /*system*/, const SparseMatrix& /*columns*/,
                                                       const SparseMatrix& /*rows*/, Eigen::MatrixXd& /*response*/) {
     return std::nullopt;
@@ -119,13 +120,14 @@ class LinearSolver {
   LinearCounts counts_;
 };
 
+/// Parameters of the linear solver: those of a scene's `solver:`, and what the schedule knows.
 struct LinearOptions {
   std::string type = "auto";  ///< auto, umfpack, mumps, belos
   double tolerance = 1e-10;   ///< relative residual of iterative methods
   int max_iterations = 500;
-  bool condense = true;  ///< direct solvers in one process: factorize the bulk once, and then only what is local
-  /// The bulk serves a few systems only before it is another one, as where meshes change with the steps. Then a quick
-  /// factorization counts for more than quick back-solves.
+  bool condense = true;  ///< direct solvers in one process: factorize the bulk once, and then only its Schur complement
+  /// Whether the bulk changes after a few systems, as where the mesh changes with the steps. Then a quick factorization
+  /// counts for more than quick back-solves.
   bool bulk_changes_often = false;
 };
 
@@ -133,20 +135,21 @@ struct LinearOptions {
 /// processes, Belos with the block preconditioner above a size.
 /// Throws std::invalid_argument for an unknown type, and for umfpack on several processes.
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
-/// Whether that is, for a system of this size, a direct solver.
+/// Whether make_linear_solver gives a direct solver for a system of this size.
 bool is_direct(const LinearOptions& options, int unknowns);
-/// The same for Newton's method, in one process: parts that do not feel one another apart (SeparatedSolver), and bulks
-/// condensed if the options say so (CondensedSolver). Belos and several processes get the solver itself.
+/// The solver for Newton's method. In one process, direct solvers solve decoupled blocks apart (SeparatedSolver), and
+/// condense the bulk if the options say so (CondensedSolver). With Belos or several processes this is
+/// make_linear_solver.
 std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options);
 
-/// The name of the BLAS in use and whether it is the slow reference one.
+/// The name of the BLAS in use, and whether it is the slow reference implementation.
 struct BlasInfo {
   std::string name;
   bool is_reference;
 };
 BlasInfo blas_in_use();
-/// Solvers call it before their first factorization: threads inside OpenBLAS gain nothing on the small fronts of
-/// two-dimensional problems, and their number would change the rounding.
+/// Limits BLAS to one thread. Solvers call this before their first factorization: threads inside OpenBLAS gain nothing
+/// on the small fronts of two-dimensional problems, and their number would change the rounding.
 void use_one_blas_thread();
 
 }  // namespace sprekk

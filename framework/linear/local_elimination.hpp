@@ -1,5 +1,5 @@
-// The few unknowns on fractures, seen by a preconditioner of the bulk: solved exactly, and eliminated from the bulk's
-// blocks approximately.
+// How a preconditioner of the bulk treats the few unknowns on fractures: they are solved for exactly, and eliminated
+// from the blocks of the bulk approximately.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace sprekk {
 
-/// A block of the system that a multigrid can treat, or (one, the last) all local unknowns together.
+/// A block of the system for a multigrid cycle, or (the last part of a partition) all local unknowns together.
 struct Part {
   const UnknownBlock* block = nullptr;  ///< null for the local part
   std::vector<int> unknowns;            ///< global numbers of all unknowns of the part, ascending
@@ -17,9 +17,9 @@ struct Part {
   std::vector<int> owned_rows;          ///< their places among this process's rows
 };
 
-/// Bulk parts in the order of block Gauss-Seidel, scalar before elasticity, and then the local part (maybe empty),
-/// which also takes the unknowns that no block names. In Biot's equations the flow block with its stabilization stands
-/// for the Schur complement, so it is solved before the displacement.
+/// The parts of a system: bulk parts in the order of block Gauss-Seidel, scalar before elasticity, and then the local
+/// part (maybe empty), which also has the unknowns that belong to no block. In Biot's equations the flow block with its
+/// stabilization approximates the Schur complement, so it is solved before the displacement.
 struct Partition {
   explicit Partition(const LinearSystem& system);
   std::vector<Part> parts;
@@ -30,10 +30,10 @@ struct Partition {
 /// Rows of this process in part `rows`, columns of all unknowns of part `columns`.
 SparseMatrix sub_matrix(const SparseMatrix& owned_rows, const Partition& partition, int rows, int columns);
 
-/// With F the local unknowns and B a bulk part: A_FF^-1, on every process alike, and A_BF D_FF^-1 A_FB where D keeps of
-/// A_FF the blocks of unknowns at the same fracture cell. The latter joins the two walls of a fracture that sticks and
-/// is as sparse as the stencil there; the coupling along a fracture that it leaves out is a matter of the exact
-/// A_FF^-1.
+/// With F the local unknowns and B a bulk part: A_FF^-1, on every process alike, and A_BF D^-1 A_FB, where D has the
+/// blocks of A_FF between unknowns at the same fracture cell. The second matrix joins the two walls of a fracture that
+/// sticks, and is as sparse as the stencil there. It leaves out the coupling along a fracture, which the exact A_FF^-1
+/// has.
 class LocalElimination {
  public:
   LocalElimination() = default;

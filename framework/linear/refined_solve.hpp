@@ -1,4 +1,4 @@
-// Checks the true residual of a direct solve, and refines it.
+// Checks the true residual of a direct solve, and refines the solution.
 #pragma once
 
 #include <functional>
@@ -10,10 +10,11 @@ namespace sprekk {
 
 /// Solves R A C y = R b by `apply_inverse` (whole vectors, in place, on every process); x = C y. Collective.
 /// Up to three steps of iterative refinement follow while the componentwise backward error of the true residual is
-/// above 1e-13 and falls: it sees blocks whose values are small beside others', which a norm does not. `solved` is
-/// false when the normwise backward error ||r|| / (||A|| ||y|| + ||R b||) stays above 1e-10, or
-/// the relative residual ||r|| / ||R b|| above 0.3: then the matrix is so close to singular that x means nothing. What
-/// is less accurate than round-off is left to the judgement of Newton's method, whose next iteration improves it.
+/// above 1e-13 and falls: unlike a norm, this error sees blocks whose values are small beside those of others. `solved`
+/// is false when the normwise backward error ||r|| / (||A|| ||y|| + ||R b||) stays above 1e-10, or the relative
+/// residual
+/// ||r|| / ||R b|| above 0.3: then the matrix is so near-singular that x means nothing. A solution between these bounds
+/// and round-off is accepted: the next iteration of Newton's method improves it.
 LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scaled, const Vector& b_rows,
                            const std::function<void(Vector&)>& apply_inverse, Vector& x);
 

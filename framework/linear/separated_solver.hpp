@@ -1,4 +1,4 @@
-// Solves systems that fall into parts which do not feel one another, part by part.
+// Solves systems that fall into decoupled parts, part by part.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 
 namespace sprekk {
 
-/// Parts are the sets of blocks that no entry of the matrix joins, in one process: flow and deformation without a
-/// coupling, for example. Each has a factorization of its own, and one without load is not solved for. A system of one
-/// part goes to its solver as it is.
+/// Solves decoupled parts of a system apart, in one process. Parts are sets of blocks between which the matrix has no
+/// entry: flow and deformation without a coupling, for example. Each part has a factorization of its own; a part whose
+/// right-hand side is zero is not solved. A system of one part is passed to its solver as it is.
 class SeparatedSolver final : public LinearSolver {
  public:
   using Maker = std::function<std::unique_ptr<LinearSolver>()>;
@@ -26,7 +26,7 @@ class SeparatedSolver final : public LinearSolver {
  private:
   struct Group {
     std::vector<int> unknowns;  ///< ascending
-    std::vector<int> source;    ///< of every value of its matrix: its place among those of the whole one
+    std::vector<int> source;    ///< for every value of the group's matrix: its place among those of the whole matrix
     LinearSystem system;
     std::unique_ptr<LinearSolver> solver;
   };

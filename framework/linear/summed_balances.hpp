@@ -1,4 +1,4 @@
-// Solves with the sum of balances in place of one of them, where what is exchanged hides what is stored.
+// Solves with the sum of balances in place of one of them, where large exchanges between rows hide what rows store.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,13 @@
 
 namespace sprekk {
 
-/// Rows of one block of local unknowns that exchange something among themselves, [[S, D], [-D^T, 1/C]] for contents and
-/// exchanges: a column of D has two entries that cancel to the bit, what leaves one row enters the other. Where C is
-/// above S/eps, the level of the contents is well determined, by the sum of the rows, but elimination adds S to C and
-/// loses it. Here the sum of such rows, in which D is absent, takes the place of the first of them: the same equations,
-/// and S keeps its digits. Rows are summed where S is below 1e-6 of C, and what leads out of them below 1e-3. A sum
-/// that is zero is a level that nothing holds.
+/// Replaces one row of near-singular balances by their sum. Rows of one block of local unknowns may exchange amounts
+/// among themselves, [[S, D], [-D^T, 1/C]] for contents (potentials) and exchanges (fluxes): a column of D has two
+/// entries that cancel to the bit, as what leaves one row enters the other. Where C is above S/eps, the sum of the rows
+/// determines the constant mode of the potentials well, but elimination adds S to C and loses S. Here the sum of such
+/// rows, in which D is absent, takes the place of the first of them: the equations are equivalent, and S keeps its
+/// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A sum that is
+/// zero belongs to a singular matrix, whose constant mode nothing holds.
 class SummedBalances final : public LinearSolver {
  public:
   explicit SummedBalances(std::unique_ptr<LinearSolver> solver);
@@ -22,7 +23,7 @@ class SummedBalances final : public LinearSolver {
   LinearReport factor(const LinearSystem& system) override;
   LinearReport solve(const Vector& b_rows, Vector& x) override;
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
-  /// Only where there is nothing to sum.
+  /// std::nullopt where there are rows to sum.
   std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
                                               const SparseMatrix& rows, Eigen::MatrixXd& response) override;
   std::string name() const override { return solver_->name(); }

@@ -1,4 +1,4 @@
-// The factors of UMFPACK, taken out for solving with many right-hand sides at once.
+// A copy of UMFPACK's factors, for solving with many right-hand sides at once.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,9 @@
 
 namespace sprekk {
 
-/// The library solves for one vector at a time and so reads all factors for each. Here a few columns are worked on
-/// together, and rows of a factor that only zeros would meet are skipped: columns that couple to few unknowns, as those
-/// of a fracture do, cost a fraction of a back-solve each.
+/// The LU factors of a matrix, and solves for several columns together. UMFPACK itself solves for one vector at a time
+/// and reads all factors for each. Here rows of a factor that meet only zeros are skipped, too: columns with few
+/// non-zeros, as those of a fracture, cost a fraction of a back-solve each.
 class UmfpackFactors {
  public:
   /// `numeric` is UMFPACK's object for the transpose of an n × n matrix A, unscaled.

@@ -11,8 +11,8 @@
 
 namespace sprekk {
 
-/// Sparse LU with METIS ordering. Equal systems give equal bits, whatever was solved before: the ordering looks at the
-/// pattern only.
+/// Sparse LU with METIS ordering. Equal systems give equal bits, whatever was solved before: the ordering depends on
+/// the sparsity pattern only.
 class UmfpackSolver final : public LinearSolver {
  public:
   UmfpackSolver();
@@ -22,7 +22,7 @@ class UmfpackSolver final : public LinearSolver {
 
   LinearReport factor(const LinearSystem& system) override;
   LinearReport solve(const Vector& b_rows, Vector& x) override;
-  /// The same for one column.
+  /// Solves A x = b in place for one column, without a check of the residual.
   void solve_unchecked(Eigen::Ref<Vector> b) const;
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
   std::string name() const override { return "umfpack"; }

@@ -1,20 +1,20 @@
-// A run that is asked to end ends soon, also in the middle of a long step.
+// Interruption: a run that is asked to end does so soon, also in the middle of a long step.
 #pragma once
 
 namespace sprekk {
 
-/// Thrown between iterations of an attempt that shall not go on. It is no std::exception: nobody takes it for a failure
-/// of the attempt. Whoever catches it rewinds what the attempt has begun.
+/// Thrown between iterations of an attempt that shall not go on. This is no std::exception, so that no handler takes it
+/// for a failure of the attempt. Whoever catches it rewinds the attempt.
 struct Interrupted {};
 
 namespace interruption {
 
-/// From now on the run shall end. Safe in signal handlers.
+/// Asks the run to end. Safe in signal handlers.
 void request();
 bool is_requested();  ///< in this process
 void forget();
 
-/// `poll` may throw as long as one of these exists.
+/// A guard: `poll` may throw as long as one of these objects exists.
 class Allowed {
  public:
   Allowed();
@@ -23,7 +23,7 @@ class Allowed {
   Allowed& operator=(const Allowed&) = delete;
 };
 
-/// For loops that all processes go through together: throws Interrupted where that is allowed and any of them has been
+/// For loops that all processes go through together: throws Interrupted where that is allowed and any process has been
 /// asked to end. Collective.
 void poll();
 /// For loops that a process may go through alone: nothing happens in runs of several processes.

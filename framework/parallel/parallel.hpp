@@ -18,7 +18,7 @@ double max(double value);
 bool any(bool value);
 void sum(Vector& values);  ///< entrywise over all ranks
 void max(Vector& values);  ///< entrywise over all ranks
-/// What every rank gives, one after the other in order of rank. Lengths may differ.
+/// The vectors of all ranks, one after the other in order of rank. Their lengths may differ.
 std::vector<int> gather(const std::vector<int>& mine);
 std::vector<double> gather(const std::vector<double>& mine);
 /// Whether all ranks give the same numbers, to the bit or both not a number. Collective.

@@ -1,4 +1,4 @@
-// Our vectors and matrices as Tpetra's. Only the sources of this folder include it.
+// Conversion of our vectors and matrices to Tpetra's. Only the sources of this folder include this header.
 #pragma once
 
 #include <Tpetra_Core.hpp>
