@@ -1,4 +1,4 @@
-// The surroundings of a node in which multi-point methods eliminate what lives on the faces.
+// The region around a node in which multi-point methods eliminate the unknowns on faces.
 #pragma once
 
 #include <array>
@@ -18,9 +18,10 @@ struct Subcell {
   double area;                     ///< m^2
 };
 
-/// A subface is the half of a face next to the node. Its continuity point, at which the values of both sides agree,
-/// lies a third of the way from the face's centre to the node, and in the centre itself for a face with one cell
-/// (Klausen, Radu, Eigestad 2008): so a value at it is the value at the centre of a boundary face or wall.
+/// The subcells and subfaces around a node. A subface is the half of a face next to the node. The values of both sides
+/// agree at the continuity point of a subface, a third of the way from the centre of the face to the node (Klausen,
+/// Radu, Eigestad 2008). For a face with one cell the continuity point is the centre of the face, so that values there
+/// are the values of a boundary face or wall.
 struct InteractionRegion {
   std::vector<Subcell> subcells;  ///< in the order of Mesh::node_cells
   std::vector<int> faces;         ///< of the subfaces, in the order of Mesh::node_faces
@@ -37,7 +38,7 @@ struct InteractionRegion {
   int place(int subface, int subcell) const { return subcells[subcell].subfaces[0] == subface ? 0 : 1; }
 };
 
-/// The faces with one cell at every node, in ascending order.
+/// For every node, its faces with one cell, in ascending order.
 Adjacency outer_faces_of_nodes(const Mesh& mesh);
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// The value at a point of the linear function that fits cell values around it.
+// The value at a point by a linear fit to the values of the cells around it.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@ namespace sprekk {
 /// the cells that share a node with the cell at `x`, in the sense of least squares: exact for linear fields, and a
 /// point source spread with these weights has the total and the position of the point. Empty outside of the mesh.
 ///
-/// Only cells of the region of the cell at `x` count, and of these only the ones that `is_like` (the cell at x, another
-/// one) accepts: a field may have a kink where the rock changes, and a well must not feed the rock on the other side.
-/// With fewer than three cells, or all in a line, it is the value of the cell at `x`.
+/// Only cells of the same region as the cell at `x` count, and of these only cells that is_like(cell at x, cell)
+/// accepts: a field may have a kink where the rock changes, and a well must not feed the rock on the other side. With
+/// fewer than three cells, or with all centres in a line, the result is the value of the cell at `x`.
 std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
                                                const std::function<bool(int, int)>& is_like = {});
 

@@ -13,13 +13,14 @@
 
 namespace sprekk {
 
-/// Which entities each row entity is connected to: the union of those that its nodes list, in ascending order.
+/// The column entities of each row entity: the union of the column entities of its nodes, in ascending order.
 class NodeStencil {
  public:
-  /// `row_nodes` of a row: the nodes that contribute to it. `listed`: the column entities of every node, ascending.
+  /// `row_nodes`: for each row entity the nodes that contribute to it. `listed`: for each node its column entities,
+  /// ascending.
   NodeStencil(const Adjacency& row_nodes, const Adjacency& listed);
 
-  /// Where the column entities that `node` lists stand among those of `row`. `slots` is overwritten.
+  /// Fills `slots` with the places of the column entities of `node` among those of `row`.
   void find_slots(int row, int node, std::vector<int>& slots) const;
 
   const Adjacency& columns() const { return columns_; }
@@ -29,7 +30,7 @@ class NodeStencil {
   Adjacency columns_;
 };
 
-/// The nodes of every entity that contribute to its rows: those for which keep(entity, node) holds.
+/// For every entity, the nodes that contribute to its rows: those for which keep(entity, node) holds.
 template <class Nodes, class Keep>
 Adjacency contributing_nodes(const std::vector<Nodes>& entity_nodes, Keep keep) {
   Adjacency nodes;

@@ -1,4 +1,4 @@
-// Where points lie, seen from the tip of a fracture.
+// The frame of the tip of a fracture: in which direction and on which side of the fracture points lie.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,17 +9,18 @@ namespace sprekk {
 
 /// Polar coordinates around a tip, for fields that differ on both sides of the fracture.
 ///
-/// `side` says from where a point near the fracture is seen: +1 from the left of the direction in which the fracture
-/// points, -1 from its right, 0 where the point itself tells.
+/// `side` says on which side of the fracture a point near it is taken to lie: +1 left of the direction in which the
+/// fracture points, -1 right of it, 0 where the position of the point decides.
 class TipFrame {
  public:
-  /// `tip`: a node that is one (see tips_nearby).
+  /// `tip`: a node that is the tip of a fracture (is_tip).
   TipFrame(const Mesh& mesh, int tip);
 
-  int side_of(const Point& x) const;                   ///< +1 or -1: of the line through the last wall
-  int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1: of the fracture, which may bend
-  int side_of_cell(const Mesh& mesh, int cell) const;  ///< of its wall, 0 without one
+  int side_of(const Point& x) const;                   ///< +1 or -1: the side of the line through the last wall
+  int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1: the side of the fracture, which may bend
+  int side_of_cell(const Mesh& mesh, int cell) const;  ///< the side of the cell's wall, 0 for a cell without a wall
 
+  /// Polar coordinates around the tip.
   struct Polar {
     double radius;  ///< m
     double angle;   ///< rad, from ahead of the tip, continued beyond +-pi
@@ -28,7 +29,7 @@ class TipFrame {
 
   const Point& tip() const { return tip_; }  ///< m
   double size() const { return size_; }      ///< m, of the wall at the tip
-  /// Columns: ahead of the tip, and that turned by +90 degrees.
+  /// Unit vectors as columns: the direction ahead of the tip, and this direction turned by +90 degrees.
   const Eigen::Matrix2d& axes() const { return axes_; }
 
  private:

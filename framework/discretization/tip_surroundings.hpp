@@ -1,4 +1,4 @@
-// Which nodes are tips of fractures, and how far around them nothing else is.
+// Which nodes are tips of fractures, and which nodes around a tip its singular field reaches undisturbed.
 #pragma once
 
 #include <array>
@@ -11,19 +11,20 @@ namespace sprekk {
 /// The fracture cells whose walls are the faces with one cell at a node: {none, none} in the rock.
 struct NodeWalls {
   std::array<int, 2> cells{none, none};
-  bool are_all = true;  ///< of these faces: not on a side, nor where fractures meet
+  bool are_all = true;  ///< whether all faces with one cell are walls of these: not on a side, nor where fractures meet
 
   NodeWalls(const Mesh& mesh, int node);
 };
 
-/// Whether both faces with one cell are walls of the same fracture cell, which ends there.
+/// Whether a node is a tip: both faces with one cell are walls of the same fracture cell, which ends at the node.
 bool is_tip(const Mesh& mesh, int node);
 
-/// Whether the field of a tip, the end of the given fracture cell, goes on at a node: not on sides, on other
-/// fractures, on the tip's own beyond a kink (10 degrees), nor where a single cell is.
+/// Whether the singular field of a tip, the end of the given fracture cell, is undisturbed at a node: not on sides, not
+/// on other fractures, not on the tip's own fracture beyond a kink (10 degrees), and not where the node has one cell.
 bool tip_field_goes_on(const Mesh& mesh, int node, const FractureCell& last);
 
-/// The nodes that are within so many edges from a tip, with itself, along nodes where its field goes on.
+/// The nodes within so many edges of a tip, the tip among them, along nodes where its field is undisturbed
+/// (tip_field_goes_on).
 std::vector<int> nodes_around_tip(const Mesh& mesh, int tip, int edges);
 
 }  // namespace sprekk

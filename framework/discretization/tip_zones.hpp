@@ -1,4 +1,5 @@
-// Where around the tips of fractures their fields are felt, and which cells tell how strong they are.
+// Zones around the tips of fractures in which discretizations use the singular fields, and the cells from which the
+// strength of these fields is read.
 #pragma once
 
 #include <map>
@@ -8,18 +9,18 @@
 
 namespace sprekk {
 
-/// For every node a tip (a node, see tips_nearby) or none, and how much of its field counts there: 1 near the tip, and
-/// less from there on, smoothly down to 0. A field that ended abruptly would leave an error at its end which does not
-/// become smaller with the cells.
+/// For every node a tip (a node, see tips_nearby) or none, and the weight of the tip's singular field there: 1 near the
+/// tip, and farther away smoothly down to 0. A field that ended abruptly would leave an error at the end of the zone
+/// that does not decrease with the cell size.
 ///
 /// A zone reaches half of the way to the nearest other tip, side, junction, other fracture, or place where the tip's
-/// own fracture leaves its line, so that what remains at its end falls with the cells, and eight cells (of the length
-/// of that at the tip) to both sides of the fracture: that limits how many nodes read the same cells. All nodes that
-/// tips_nearby gives the tip belong to it in any case.
+/// own fracture leaves its line: so the error at the end of the zone decreases with the cell size. To both sides of the
+/// fracture it reaches eight times the length of the cell at the tip: this limits how many nodes read the same cells.
+/// All nodes that tips_nearby assigns to the tip belong to the zone in any case.
 struct TipZones {
-  std::vector<int> tip;                   ///< of each node, or none
-  std::vector<double> weight;             ///< of each node, 0 to 1
-  std::map<int, std::vector<int>> cells;  ///< of each tip: those at it and at the nodes next to it, ascending
+  std::vector<int> tip;                   ///< for each node: its tip, or none
+  std::vector<double> weight;             ///< for each node: 0 to 1
+  std::map<int, std::vector<int>> cells;  ///< for each tip: the cells at it and at the nodes next to it, ascending
 };
 
 TipZones tip_zones(const Mesh& mesh);

@@ -1,4 +1,4 @@
-// Which nodes feel the singular fields at the tip of a fracture.
+// Which nodes are so near to the tip of a fracture that its singular fields dominate.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace sprekk {
 
-/// For every node the tip that it is or has within three edges, as a node; or none. A tip: both faces with one cell are
-/// walls of the same fracture cell, which ends there. None for nodes on sides, on other fractures, on the tip's own
-/// beyond a kink (10 degrees), where a single cell is, and about halfway between two tips.
+/// For every node: the tip (a node, see is_tip) that the node is or that lies within three edges of it, or none. The
+/// result is none for nodes on sides, on other fractures, on the tip's own fracture beyond a kink (10 degrees), with
+/// one cell, and about halfway between two tips.
 std::vector<int> tips_nearby(const Mesh& mesh);
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// A place where fractures meet, and the points between their cells there.
+// Adds a place where fractures meet, and the fracture points between the cells that meet there.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace sprekk {
 
-/// `end` 0 or 1, as in FractureCell::points.
+/// One end of a fracture cell; `end` is 0 or 1, as in FractureCell::points.
 struct FractureCellEnd {
   int cell, end;
 };
 
-/// Adds the junction of those ends, in ascending order of their cells, with a point for each pair of cells. The points
-/// between neighbours in a fracture are there already.
+/// Adds the junction of the given ends, which are in ascending order of their cells, with a fracture point for each
+/// pair of cells. Points between neighbours in a fracture exist already.
 void add_junction(Mesh& mesh, const Point& position, const std::vector<FractureCellEnd>& ends);
 
 }  // namespace sprekk

@@ -7,6 +7,7 @@
 
 namespace sprekk {
 
+/// Lists of integers, one for each entity, in compressed form.
 struct Adjacency {
   std::vector<int> offsets{0};
   std::vector<int> items;
@@ -16,7 +17,7 @@ struct Adjacency {
     return {items.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
   }
 
-  /// Adds a list for a new entity: of these items, in any order, each once and ascending.
+  /// Adds the list of a new entity: the given items, in ascending order and each once. Sorts `some`.
   void append_set(std::vector<int>& some) {
     std::sort(some.begin(), some.end());
     items.insert(items.end(), some.begin(), std::unique(some.begin(), some.end()));

@@ -8,6 +8,7 @@
 
 namespace sprekk {
 
+/// Numbers the edges of a plane mesh, and finds their nodes and cells.
 class CellEdges {
  public:
   /// Numbers edges in the order in which the cells first name them. The cells are counter-clockwise.
@@ -16,9 +17,9 @@ class CellEdges {
   CellEdges(const std::vector<Point>& nodes, const std::vector<Ring>& cells);
 
   int size() const { return static_cast<int>(nodes_.size()); }
-  /// From first to second, counter-clockwise in cells(edge)[0].
+  /// The nodes of an edge; from the first to the second, the edge runs counter-clockwise around cells(edge)[0].
   const std::array<int, 2>& nodes(int edge) const { return nodes_[edge]; }
-  /// [1] is none on the boundary of the mesh.
+  /// The cells on both sides of an edge; the second is none on the boundary of the mesh.
   const std::array<int, 2>& cells(int edge) const { return cells_[edge]; }
   /// Edge k of a cell joins its node k and the one after it.
   const Ring& of_cell(int cell) const { return of_cell_[cell]; }

@@ -6,8 +6,8 @@
 namespace sprekk {
 
 /// The mean over a cell of a function of the position (m): exact for polynomials of second order (the mean over the
-/// middles of the edges of each triangle of the cell). The value at the centre, which is exact for linear functions
-/// only, doubles the error of a pressure whose source varies.
+/// middles of the edges of each triangle of the cell). With the value at the centre instead, which is exact for linear
+/// functions only, the error of a pressure with a varying source is twice as large.
 template <typename Function>
 auto cell_mean(const Mesh& mesh, int cell, const Function& value) {
   const auto& corners = mesh.cell_nodes[cell];

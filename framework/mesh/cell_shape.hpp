@@ -8,14 +8,14 @@
 
 namespace sprekk {
 
-/// Positive when the corners are counter-clockwise, m^2.
+/// The signed area of a cell, m^2; positive when the corners are counter-clockwise.
 double signed_area(const std::vector<Point>& nodes, const Ring& corners);
 
-/// The centre of gravity of the area, m. Lies inside when the cell is convex.
+/// The centre of gravity of the area, m; it lies inside when the cell is convex.
 Point centroid(const std::vector<Point>& nodes, const Ring& corners);
 
-/// The smallest of the signed areas that the corners make with their two neighbours, m^2: of a triangle its own area;
-/// positive when a quadrilateral is convex and counter-clockwise.
+/// The smallest signed area of the triangles of each corner with its two neighbours, m^2. For a triangle this is its
+/// own area; for a quadrilateral it is positive when the quadrilateral is convex and counter-clockwise.
 double smallest_corner_area(const std::vector<Point>& nodes, const Ring& corners);
 
 /// The smallest and largest angle between neighbouring edges, rad, both positive in convex cells of either orientation.

@@ -7,9 +7,9 @@
 
 namespace sprekk {
 
-/// Row c·components + k of the result is the sum over the faces f of cell c of ± row f·components + k of `faces`; plus
-/// where c is face_cells[f][0], out of which the face's values point. Rows of cells that are owned by another rank than
-/// `rank` stay empty.
+/// Row c·components + k of the result is the sum over the faces f of cell c of ± row f·components + k of `faces`. The
+/// sign is plus where c is face_cells[f][0]: values of a face point out of that cell. Rows of cells that another rank
+/// than `rank` owns stay empty.
 SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int components, int rank);
 Vector cell_sums(const Mesh& mesh, const Vector& faces, int components);
 

@@ -1,4 +1,4 @@
-// The cells of a mesh as it was given, turned the way that everything else expects.
+// Orients the cells of a given mesh counter-clockwise, as all other code expects.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace sprekk {
 
-/// The rings of nodes of all cells, counter-clockwise. Throws InputError for a cell that names a node that is not
-/// there, a triangle without an area, a quadrilateral that is not convex.
+/// The rings of nodes of all cells, counter-clockwise. Throws InputError for a cell that names a node that does not
+/// exist, for a triangle without area, and for a quadrilateral that is not convex.
 std::vector<Ring> counter_clockwise(const RawMesh& raw);
 
-/// Throws InputError for a triangle without an area and for a quadrilateral that is not convex.
+/// Throws InputError for a triangle without area and for a quadrilateral that is not convex.
 void require_area(const std::vector<Point>& nodes, const Ring& cell);
 
 }  // namespace sprekk

@@ -18,24 +18,25 @@ inline constexpr int none = -1;
 /// The two sides of a fracture, as seen by its normal, which points from `plus` to `minus` (sec. 2.2 of the paper).
 enum class Wall { plus = 0, minus = 1 };
 
-/// One cell of a fracture grid. The matrix is split along it: it has two matrix faces with equal end points.
+/// One cell of a fracture grid. The matrix is split along the cell, which has two matrix faces with equal end points.
 struct FractureCell {
   int fracture;              ///< index into Mesh::fractures
   std::array<int, 2> faces;  ///< the matrix faces that are its walls, by Wall; each has one cell, face_cells[f][0]
-  /// Its ends, indices into Mesh::fracture_points, along the polyline's direction. At a junction: the point between it
-  /// and the next cell of its fracture, or else the first one that it has a part in.
+  /// The ends of the cell along the direction of the polyline, as indices into Mesh::fracture_points. An end at a
+  /// junction is the point between this cell and the next cell of its fracture; where the fracture ends at the
+  /// junction, the first point there that belongs to this cell.
   std::array<int, 2> points;
   Point center;
   double length;
   Point normal;        ///< unit, from the plus to the minus side
   Point tangent;       ///< unit, from points[0] to points[1]; (normal, tangent) is right-handed: tangent = (-n_y, n_x)
-  bool grown = false;  ///< whether it came into being during the run
+  bool grown = false;  ///< whether the cell has grown during the run
 };
 
 /// A point between two fracture cells, or an end of a fracture.
 struct FracturePoint {
-  /// inside: between neighbours in a fracture; tip: ends in the rock; on_boundary: ends on the outer boundary;
-  /// junction: between two of the cells that meet where fractures touch or cross
+  /// inside: between neighbours in a fracture; tip: an end in the rock; on_boundary: an end on the outer boundary;
+  /// junction: between two of the cells that meet where fractures touch or cross.
   enum class Kind { inside, tip, on_boundary, junction };
   Point position;
   std::vector<int> cells;  ///< one for tip and on_boundary, else two, in ascending order
@@ -43,13 +44,14 @@ struct FracturePoint {
   int side;  ///< the boundary side (index into Mesh::side_names) for on_boundary, else none
 };
 
-/// A place where fractures touch or cross. It has a fracture point for each pair of its cells, so that all that passes
-/// between cells passes a point between two of them.
+/// A place where fractures touch or cross. A junction has a fracture point for each pair of its cells, so that each
+/// flux from one cell to another belongs to one point.
 struct Junction {
   std::vector<int> cells;   ///< the fracture cells that meet here, in ascending order; at least two
   std::vector<int> points;  ///< indices into Mesh::fracture_points
 };
 
+/// A fracture: a polyline of fracture cells with consecutive numbers.
 struct Fracture {
   std::string name;
   int first_cell;  ///< its cells are first_cell … first_cell + cell_count - 1, along the polyline

@@ -1,4 +1,4 @@
-// How a mesh that has changed relates to the mesh it was.
+// The record of a change of the mesh.
 #pragma once
 
 #include <vector>
@@ -8,23 +8,23 @@
 
 namespace sprekk {
 
-/// How the entities of a new mesh come from those of the old one; `none` for what is new.
+/// Maps the entities of a new mesh to those of the old mesh; `none` stands for new entities.
 struct MeshChange {
   /// Per new cell: the old cell with the same corners in the same order, so that local face k is the same one, too.
   std::vector<int> cell;
   /// Per new face: the old face with the same end points (and on a wall: on the same side of the same fracture cell).
   std::vector<int> face;
-  std::vector<int> fracture_cell;   ///< per new fracture cell: the old one; none where the fracture has grown
-  std::vector<int> fracture_point;  ///< per new point: the old one
+  std::vector<int> fracture_cell;   ///< per new fracture cell: the same old cell; none where the fracture has grown
+  std::vector<int> fracture_point;  ///< per new fracture point: the same old point
   /// New cells x old cells: the area of their intersection, m^2; for kept cells their area on the one entry. Rows sum
   /// to the new cells' areas, columns to the old cells' (to rounding). Eq. 17 of the paper divides the rows by their
   /// sums.
   SparseMatrix overlap;
   std::vector<int> new_cells;      ///< those with cell[i] == none, ascending
-  std::vector<int> removed_cells;  ///< the old cells that are gone, ascending
+  std::vector<int> removed_cells;  ///< the old cells that no longer exist, ascending
 };
 
-/// Every cell, face, fracture cell and point stays; the overlap is left out.
+/// The change that keeps every cell, face, fracture cell and fracture point; its overlap is empty.
 MeshChange no_change(const Mesh& mesh);
 
 }  // namespace sprekk

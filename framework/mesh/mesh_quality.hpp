@@ -5,6 +5,7 @@
 
 namespace sprekk {
 
+/// Counts, extents and shapes of a mesh.
 struct MeshQuality {
   int cells = 0, faces = 0, nodes = 0, fractures = 0, fracture_cells = 0;
   double area = 0;                                                        ///< m^2

@@ -1,4 +1,4 @@
-// An order of points in which those that follow one another lie close together.
+// An order of points in which consecutive points lie close together.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace sprekk {
 
-/// The numbers of the points along Hilbert's curve over their bounding box; points in one place in ascending order.
-/// What is visited in this order meets its neighbours' data while they are still in the cache.
+/// The numbers of the points along Hilbert's curve over their bounding box; points in one place are in ascending order.
+/// A loop in this order finds the data of neighbours in the cache.
 std::vector<int> order_in_space(const std::vector<Point>& points);
 
 }  // namespace sprekk

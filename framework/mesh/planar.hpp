@@ -9,6 +9,7 @@
 
 namespace sprekk {
 
+/// A straight segment; coordinates in m.
 struct Segment {
   Point from, to;
   double length() const { return (to - from).norm(); }

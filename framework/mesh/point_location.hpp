@@ -7,7 +7,8 @@
 
 namespace sprekk {
 
-/// Looks points up in a grid of buckets over the mesh. Keeps a pointer to the mesh, which must outlive it unchanged.
+/// Finds the cell of a point, by a grid of buckets over the mesh. Keeps a pointer to the mesh, which must stay alive
+/// and unchanged.
 class PointLocation {
  public:
   explicit PointLocation(const Mesh& mesh);
@@ -15,7 +16,7 @@ class PointLocation {
   /// The cell that holds the point, or none outside of the mesh. A point on a face gives the adjacent cell with the
   /// smallest index; points outside by less than 1e-10 of the mesh's extent still count as inside.
   int cell_at(const Point& x) const;
-  /// The same, faster where a guess (a cell, or none) is near: for places that follow one another closely.
+  /// The same, faster where the guess (a cell, or none) is near the point: for a series of points close together.
   int cell_at(const Point& x, int guess) const;
 
  private:

@@ -10,8 +10,10 @@
 
 namespace sprekk {
 
-/// Node positions are in m. Cell i becomes cell i of the Mesh; nodes that no cell uses are dropped.
+/// A plane mesh with chains of edges that are to become fractures. Node positions are in m. Cell i becomes cell i of
+/// the Mesh; nodes that no cell uses are dropped.
 struct RawMesh {
+  /// An edge of the outer boundary, and the side of the domain that it lies on.
   struct BoundaryEdge {
     std::array<int, 2> nodes;
     int side;  ///< index into side_names

@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// Three or four numbers in the order in which one walks around a cell. As small as four integers, and a range.
+/// Three or four numbers (nodes or faces) in their order around a cell. A range, as small as four integers.
 class Ring {
  public:
   Ring() : items_{0, 0, 0, absent} {}
@@ -18,9 +18,9 @@ class Ring {
   int size() const { return items_[3] == absent ? 3 : 4; }
   int operator[](int k) const { return items_[k]; }
   int& operator[](int k) { return items_[k]; }
-  /// The one after item k; after the last comes the first.
+  /// The item after item k; the first after the last.
   int after(int k) const { return items_[k + 1 == size() ? 0 : k + 1]; }
-  /// The one before item k; before the first comes the last.
+  /// The item before item k; the last before the first.
   int before(int k) const { return items_[k == 0 ? size() - 1 : k - 1]; }
 
   const int* begin() const { return items_.data(); }
@@ -28,7 +28,7 @@ class Ring {
   int* begin() { return items_.data(); }
   int* end() { return items_.data() + size(); }
 
-  /// The other way around, from the same first item.
+  /// Reverses the orientation; the first item stays.
   void turn() { std::swap(items_[1], items_[size() - 1]); }
 
   bool operator==(const Ring&) const = default;
