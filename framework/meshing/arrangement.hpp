@@ -1,4 +1,4 @@
-// Segments cut at each other, so that they meet in common points only.
+// Cuts segments at each other, so that they meet in common points only.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,14 @@
 
 namespace sprekk {
 
+/// Segments after cutting: the points, and each segment as a chain of them. Coordinates in m.
 struct Arrangement {
   std::vector<Point> points;
   std::vector<std::vector<int>> chains;  ///< per segment: its points, from its beginning to its end
 };
 
-/// Points nearer than `tolerance` become one: the end points of earlier segments win over those of later ones, and
-/// these over crossings. Segments may touch, cross and overlap.
+/// Cuts the segments, which may touch, cross and overlap. Points nearer to one another than `tolerance` (m) become one
+/// point: an end point of the earliest segment, if there is one, or else a crossing.
 Arrangement arrange(const std::vector<Segment>& segments, double tolerance);
 
 }  // namespace sprekk

@@ -8,8 +8,9 @@
 
 namespace sprekk {
 
-/// Per fracture the smallest index of a fracture that it is connected with, itself included; also by `more` pairs. A
-/// connection within a network closes a ring around a piece of rock that nothing else holds.
+/// For each fracture the smallest index of the fractures that it is connected with, itself included. `more`: further
+/// pairs of connected fractures. A connection within a network closes a ring around a block of rock that only the
+/// fractures hold.
 std::vector<int> fracture_networks(const Mesh& mesh, const std::vector<std::pair<int, int>>& more = {});
 
 }  // namespace sprekk

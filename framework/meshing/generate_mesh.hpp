@@ -9,12 +9,13 @@
 
 namespace sprekk {
 
-/// Validates, triangulates (or reads the file), avoids single cells in corners, distorts if asked, and builds.
+/// Makes the mesh of a scene: validates the geometry, triangulates it (or reads the file), avoids single cells in
+/// corners, distorts the mesh if asked, and splits it along the fractures (build_mesh).
 /// The same input gives the same mesh, apart from its version. Throws InputError for wrong input and
 /// std::runtime_error when the mesh generator fails.
 Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options);
 
-/// What a mesh of the geometry will call its parts, in their order, without meshing; a file is read.
+/// The names of regions, sides and fractures of the mesh of a geometry, in their order.
 struct MeshNames {
   std::vector<std::string> regions, sides, fractures;
 };

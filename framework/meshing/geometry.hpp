@@ -1,4 +1,4 @@
-// What is to be meshed, and how.
+// The geometry of a scene, and the options of its mesh.
 #pragma once
 
 #include <array>
@@ -11,13 +11,14 @@
 
 namespace sprekk {
 
+/// An axis-parallel rectangle from `low` to `high`, m.
 struct Box {
   Point low = Point::Zero(), high = Point::Zero();
   Origin origin;
   Point size() const { return high - low; }
 };
 
-/// A polyline. Its plus side is to the left when one walks from the first point to the last.
+/// A fracture as a polyline. Its plus side is to the left on the way from the first point to the last.
 struct FractureGeometry {
   std::string name;
   std::vector<Point> points;                  ///< m
@@ -25,6 +26,7 @@ struct FractureGeometry {
   Origin origin;
 };
 
+/// A part of the box with a name, for properties of its own.
 struct RegionGeometry {
   std::string name;
   std::vector<Point> polygon;  ///< m, simple, either orientation, not closed by a repeated point
@@ -46,9 +48,12 @@ struct Geometry {
   bool is_imported() const { return !file.empty(); }
 };
 
+/// Parameters of a scene's `mesh:`.
 struct MeshOptions {
+  /// Triangulated by gmsh, or a grid of rectangles.
   enum class Kind { unstructured, structured };
   Kind kind = Kind::unstructured;
+  /// The shape of the cells.
   enum class Shape { triangles, quadrilaterals };
   Shape shape = Shape::triangles;  ///< unstructured quadrilaterals leave some triangles between them
   /// Edge length away from fractures, m; default a fiftieth of the longer side.
@@ -56,13 +61,14 @@ struct MeshOptions {
   std::optional<double> fracture_size = std::nullopt;  ///< edge length at fractures, m; default `size`
   std::optional<double> tip_size = std::nullopt;  ///< edge length at fracture ends, m; default that of the fracture
   double growth = 0.3;                            ///< by how many m the edge length grows per m of distance
-  /// Unstructured: a gap between a fracture and another line has edges of its width over this where that is shorter
-  /// than what else is asked for; 0 leaves gaps alone. With 0.5 angles at ends stay above 18 degrees.
+  /// Unstructured: in a gap between a fracture and another line, the edge length is at most the width of the gap over
+  /// this; 0 does not refine in gaps. With 0.5, angles at ends stay above 18 degrees.
   double gap_edges = 0.5;
-  double gap_length = 2;  ///< walls side by side leave gaps alone that are longer than so many widths
-  std::optional<double> gap_size = std::nullopt;  ///< gaps refine no further, m; default a 500th of the shortest size
-  std::array<int, 2> cells = {0, 0};              ///< structured: rectangles along x and y; 0 means as `size` asks
-  double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge there, 0 to 0.4
+  double gap_length = 2;  ///< gaps between parallel walls are not refined if longer than so many times their width
+  std::optional<double> gap_size =
+      std::nullopt;                   ///< least edge length in gaps, m; default a 500th of the shortest size
+  std::array<int, 2> cells = {0, 0};  ///< structured: rectangles along x and y; 0 means as `size` asks
+  double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge at the node, 0 to 0.4
   int seed = 1;           ///< of the distortion
   Origin origin = {};
 };

@@ -1,4 +1,4 @@
-// How `geometry:` and `mesh:` are written in a scene.
+// The specs of `geometry:` and `mesh:` in a scene.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace sprekk {
 
-/// The spec of `geometry:`. Mesh files are found relative to `folder`, that of the scene. What it reads still has to
-/// pass `validate_geometry`, which needs the mesh options too. The target must outlive the spec.
+/// The spec of `geometry:`. Mesh files are looked for in `folder`, the folder of the scene. The geometry that is read
+/// still has to pass `validate_geometry`, which also needs the mesh options. `geometry` must outlive the spec.
 Spec geometry_spec(Geometry& geometry, const std::string& folder = ".");
 
 /// The spec of `mesh:`.

@@ -8,8 +8,9 @@
 
 namespace sprekk {
 
-/// Points inside of the segment, in its direction, such that the edges between them are about as long as `size` (m)
-/// says at their place; none when one edge fits best. With a constant size all edges are equally long.
+/// Points that divide the segment into edges of about the length `size` (m) at their place, in the direction of the
+/// segment and without its ends; no points when a single edge fits best. With a constant size all edges are equally
+/// long.
 std::vector<Point> graded_division(const Segment& segment, const std::function<double(const Point&)>& size);
 
 }  // namespace sprekk

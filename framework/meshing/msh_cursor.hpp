@@ -8,8 +8,8 @@
 
 namespace sprekk {
 
-/// Gives one value after the other and never looks beyond the end. What is asked for and not there is an InputError
-/// that begins with the place: "line 12: …" in text, "byte 345: …" in binary files.
+/// Reads one value after the other, and never beyond the end. A value that is missing or malformed is an InputError
+/// that begins with the place: "line 12: …" in text files, "byte 345: …" in binary ones.
 class MshCursor {
  public:
   /// `bytes` must outlive the cursor.
@@ -24,16 +24,17 @@ class MshCursor {
   int integer(const char* what);
   std::uint64_t number(const char* what);  ///< of a node or an element, or a count, in files of version 4.1
   double real(const char* what);           ///< finite
-  /// A count of things that take at least `least_bytes` each; refused when the rest of the file cannot hold so many.
+  /// The count of the following items, each of at least `least_bytes`. Throws InputError when the rest of the file
+  /// cannot hold so many.
   std::size_t count(const char* what, std::size_t least_bytes, bool is_wide);
 
-  /// Values that are text in binary files, too.
+  /// Reads values that are text also in binary files.
   int text_integer(const char* what);
   std::string_view word(const char* what);  ///< up to the next blank or line break
-  std::string_view rest_of_line();          ///< and goes to the next one
+  std::string_view rest_of_line();          ///< moves to the start of the next line
   void skip_blanks();                       ///< line breaks as well
   void skip_bytes(std::size_t count, const char* what);
-  /// Goes behind the next occurrence of `text`; false, without a move, if there is none.
+  /// Moves behind the next occurrence of `text`; returns false, without a move, if there is none.
   bool skip_past(std::string_view text);
 
   [[noreturn]] void fail(const std::string& problem) const { fail_at(at_, problem); }

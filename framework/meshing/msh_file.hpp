@@ -1,4 +1,4 @@
-// What stands in a mesh file, before a mesh is made of it.
+// The content of a mesh file, before a mesh is made of it.
 #pragma once
 
 #include <array>
@@ -13,8 +13,9 @@
 namespace sprekk {
 
 /// Nodes, lines and cells of a file in gmsh's format MSH, version 2.2 or 4.1, text or binary
-/// (https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format). Points and what stands in other sections is left out.
+/// (https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format). Point elements and other sections are left out.
 struct MshFile {
+  /// A node with its number in the file.
   struct Node {
     std::uint64_t number;
     std::array<double, 3> position;  ///< m
@@ -28,20 +29,21 @@ struct MshFile {
     std::size_t place;
   };
 
-  std::vector<Node> nodes;  ///< ascending by number, none twice
+  std::vector<Node> nodes;  ///< ascending by number, each once
   std::vector<Element> lines, cells;
   std::vector<std::vector<int>> group_lists;         ///< positive numbers of groups, each once
   std::map<std::pair<int, int>, std::string> names;  ///< of groups, by dimension and number
 
-  /// "line 12" or "byte 345" of a place.
+  /// Names a place for messages: "line 12" or "byte 345".
   std::string where(std::size_t place) const;
   std::string_view bytes;  ///< of the whole file
   bool is_binary = false;
 };
 
-/// `bytes` must outlive the result. Throws InputError, beginning with the line or the byte, for whatever is not such a
-/// file: another version, a section that ends early, a count or a number that the file does not bear out, numbers that
-/// are not finite, elements of another kind, an element of an entity that the file does not list.
+/// Parses a mesh file. `bytes` must outlive the result. Throws InputError, beginning with the line or the byte, for a
+/// malformed file: another version, a section that ends early, a count or a number of a node that does not match the
+/// rest of the file, numbers that are not finite, elements of another kind, an element of an entity that the file does
+/// not list.
 MshFile parse_msh(std::string_view bytes);
 
 }  // namespace sprekk

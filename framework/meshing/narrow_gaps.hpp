@@ -1,4 +1,4 @@
-// Where lines of a geometry lie close to each other.
+// Finds where lines of a geometry lie close to each other.
 #pragma once
 
 #include <functional>
@@ -9,26 +9,27 @@
 
 namespace sprekk {
 
-/// A part of a fracture, of a side of the box or of an edge of a region that has another line beside it.
+/// A part of a fracture, of a side of the box or of an edge of a region, with another line close beside it.
 struct NarrowGap {
   Segment part;
   double width;  ///< m, the least distance between the part and the other line
 };
 
-/// Gaps narrower than this part of the edge length asked for are not told apart by default.
+/// The default of GapLimits::least, over the edge length that is asked for.
 inline constexpr double least_gap_part = 0.002;
 
-/// All in m, or m a metre.
+/// Limits of the search for narrow gaps.
 struct GapLimits {
-  double least;   ///< narrower gaps are not told apart
-  double widest;  ///< wider gaps are never narrow
-  double slope;   ///< by how much the wanted width varies at most
+  double least;   ///< m; gaps narrower than this are treated as equally wide
+  double widest;  ///< m; gaps wider than this are never narrow
+  double slope;   ///< m per m; the largest slope of the wanted width
 };
 
-/// Calls `keep` for gaps between a fracture and a side, an edge of a region, another fracture or itself where they are
-/// narrower than `wanted` (m, at a place), part by part: along a part the width varies by at most a quarter, or is
-/// below `least`. `wanted` may fall by what `keep` does: narrow gaps come first. Lines that touch have an angle between
-/// them and no gap, and so have lines to which the way along the fracture is shorter than 1.5 times the gap.
+/// Calls `keep` for gaps that are narrower than `wanted` (m, at a place), between a fracture and a side, an edge of a
+/// region, another fracture or the fracture itself. Gaps are given part by part: along a part the width varies by at
+/// most a quarter, or is below `least`. `keep` may reduce what `wanted` returns; the narrowest gaps come first. Lines
+/// that touch form an angle and no gap; so do two places of a fracture whose distance along the fracture is shorter
+/// than 1.5 times the gap.
 void for_each_narrow_gap(const Geometry& geometry, const GapLimits& limits,
                          const std::function<double(const Point&)>& wanted,
                          const std::function<void(const NarrowGap&)>& keep);

@@ -12,7 +12,7 @@ namespace sprekk {
 /// x-y plane. gmsh itself never opens the file: it runs what is no mesh as a script. Physical groups of surfaces are
 /// regions (`rock` where there is none). Physical groups of curves on the outer boundary are sides (`boundary` where
 /// there is none), those inside are fractures, directed as the first of their lines in the file. Throws InputError,
-/// with `origin` and the line (or the byte) of the file, for files that cannot be read or say what cannot be
+/// with `origin` and the line (or the byte) of the file, for files that cannot be read or are malformed
 /// (`parse_msh`), other elements than three-node triangles and four-node quadrilaterals, nodes off the plane or farther
 /// than 1e12 m, cells without an area, cells in two groups, two groups with one name, and curve groups that branch,
 /// close, fall apart, leave the cells' edges, or lie partly inside and partly on the boundary.

@@ -11,7 +11,7 @@ namespace sprekk {
 /// `rock`, then the polygons' names.
 std::vector<std::string> region_names(const Geometry& geometry);
 
-/// Gives every cell the last polygon that holds its centre, or region 0.
+/// Sets the region of every cell: that of the last polygon that contains the centre of the cell, or else region 0.
 void assign_regions(const Geometry& geometry, RawMesh& mesh);
 
 }  // namespace sprekk

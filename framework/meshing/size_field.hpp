@@ -1,4 +1,4 @@
-// The edge length that a mesh shall have, as a function of place.
+// The wanted edge length of a mesh, as a function of place.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace sprekk {
 
-/// The smallest of: the far size; at each fracture its size plus growth times the distance from it; at each of its
-/// ends inside the box the tip size plus growth times the distance from the end; at each gap that is narrower than what
-/// these ask for, and no longer than gap_length, its width over gap_edges plus growth (at most half) times the
-/// distance.
+/// The wanted edge length, m. It is the smallest of: the far size; for each fracture its size plus growth times the
+/// distance from it; for each fracture end inside the box the tip size plus growth times the distance from the end; for
+/// each gap that is narrower than these lengths, and no longer than gap_length allows, its width over gap_edges plus
+/// growth (at most a half) times the distance.
 class SizeField {
  public:
   /// The geometry is that of a box and valid, except that sizes may still be absurdly small.
   SizeField(const Geometry& geometry, const MeshOptions& options);
 
   double at(const Point& x) const;
-  double smallest() const;  ///< that it asks for anywhere, m
+  double smallest() const;  ///< the smallest edge length anywhere, m
 
   /// An upper estimate of the number of triangles that the size field asks for: the integral of 4 / (sqrt(3) h^2),
   /// separately for the box, the fractures and their ends.
@@ -31,7 +31,7 @@ class SizeField {
     double growth;
     double reach;  ///< the distance at which the far size is reached
   };
-  /// Whether it asks for anything.
+  /// Whether the source asks for a length below the far size; only then it is added.
   bool add_source(const Segment& segment, double size, double growth);
   void add_gaps(const Geometry& geometry, const MeshOptions& options);
   static double lowered(double size, const Source& source, const Point& x);

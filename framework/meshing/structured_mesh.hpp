@@ -8,8 +8,7 @@ namespace sprekk {
 
 /// Rectangles of equal size; for triangles they are cut by diagonals whose direction alternates like a chess board
 /// ("union jack"). Fractures must lie on grid lines and diagonals, else InputError; cells take the region of their
-/// centre. The geometry is a
-/// valid one.
+/// centre. The geometry must be valid (validate_geometry).
 RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options);
 
 }  // namespace sprekk

@@ -7,7 +7,8 @@
 namespace sprekk {
 
 /// Frontal-Delaunay triangles (gmsh's algorithm 6) with the edge lengths of SizeField; fractures and the edges of
-/// polygons are edges of the mesh. The geometry is a valid one. Throws std::runtime_error if gmsh fails.
+/// polygons are edges of the mesh. The geometry must be valid (validate_geometry). Throws std::runtime_error if gmsh
+/// fails.
 RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options);
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// Which cells of a mesh make room for a path.
+// Chooses the cells that are removed for a path: the cavity.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,16 @@ namespace sprekk {
 /// The cell across local face k, also across a fracture; none on the outer boundary.
 int cell_across(const Mesh& mesh, int cell, int k);
 
-/// Marks the cells that make room for paths (the walls of fractures count as closed; `merged` gives the nodes of
-/// the closed mesh, see to_raw_mesh). These are, for each path: cells whose centre is within the radius of a segment;
-/// cells that a segment meets, and all around their nodes. Then what remains between is taken in: cells with all
-/// sides but one at the cavity, cells with no other neighbours, and those around a node where the cavity would touch
-/// itself.
+/// Marks the cells that are removed for paths. The walls of fractures count as closed; `merged` has the nodes of the
+/// closed mesh (see to_raw_mesh). For each path these are cells whose centre is within the radius (m) of a segment,
+/// cells that a segment meets, and all cells around the nodes of the latter. Then cells join the cavity that have at
+/// most one face which is not at the cavity, or no neighbour outside of it, and cells around a node where the cavity
+/// would touch itself.
 std::vector<bool> choose_cavity(const Mesh& mesh, const std::vector<int>& merged,
                                 const std::vector<std::vector<Segment>>& paths, const std::vector<double>& radii);
 
-/// Numbers the connected parts of the marked cells; none for the others. Parts are ordered by their lowest cell.
+/// For each cell the number of its connected part of marked cells; none for cells without mark. Parts are ordered by
+/// their lowest cell.
 std::vector<int> connected_parts(const Mesh& mesh, const std::vector<bool>& is_marked);
 
 /// Whether a segment has a point in common with a cell.

@@ -1,4 +1,4 @@
-// Where fractures may grow to.
+// Checks of the paths along which fractures are to grow.
 #pragma once
 
 #include <stdexcept>
@@ -19,12 +19,13 @@ struct PathExtension {
 /// A path that a fracture cannot take: what, where and why, so that its growth can be stopped.
 class ExtensionError : public std::runtime_error {
  public:
+  /// Why the path is refused.
   enum class Reason {
     no_tip,            ///< the end lies on the outer boundary or on another fracture already, or grows twice
     no_path,           ///< no points, points that are not finite, or segments without length
-    turns_back,        ///< by more than 90 degrees
+    turns_back,        ///< turns by more than 90 degrees
     leaves_mesh,       ///< crosses the outer boundary
-    crosses_fracture,  ///< or touches one (another, itself, or another extension) other than with its end at a point
+    crosses_fracture,  ///< crosses or touches a fracture (another, itself, an extension) other than at a fracture point
     too_near           ///< passes a fracture or the outer boundary at less than least_gap sizes
   };
   ExtensionError(Reason reason, int extension, const Point& where, const std::string& what)
@@ -41,29 +42,31 @@ class ExtensionError : public std::runtime_error {
 
 /// The least distance between a path and anything else, in edge lengths.
 inline constexpr double least_gap = 0.5;
-/// An end nearer than this to the outer boundary, in edge lengths, is meant to lie on it.
+/// An end nearer than this to the outer boundary, in edge lengths, is moved onto the boundary.
 inline constexpr double boundary_snap = 0.01;
-/// An end nearer than this to a fracture point of another fracture, in edge lengths, is meant to join it there.
+/// An end nearer than this to a fracture point of another fracture, in edge lengths, is moved to that point.
 inline constexpr double joint_snap = 0.01;
 /// A path that meets the outer boundary or another fracture at less than this angle passes too near to it, rad (15
 /// degrees).
 inline constexpr double least_incidence = 0.2617993877991494;
 
-/// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). What is nearer to the
-/// old tip than the least gap may be passed at nine tenths of that distance, and left at 15 degrees or more. Returns
-/// the extensions with ends near the outer boundary, or near a point of another fracture inside of the rock, put onto
-/// it.
+/// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). A fracture or
+/// boundary that is nearer to the old tip than the least gap may be passed at nine tenths of the tip's distance, and
+/// left at 15 degrees or more. Returns the extensions; ends near the outer boundary, or near a fracture point of
+/// another fracture inside of the rock, are moved onto it.
 std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                             double size);
 
-/// Whether a straight step of a path comes so near to the outer boundary or to another fracture that check_extensions
-/// would soon refuse the path: nearer than 1.5 times the least gap, and nearer than the path's beginning by more than
-/// half of what is allowed. `beginning`: the old tip; `size` as there.
+/// Whether a straight step of a path, from `from` to `to`, comes so near to the outer boundary or to another fracture
+/// that check_extensions would soon refuse the path: nearer than 1.5 times the least gap, and nearer than the beginning
+/// of the path by more than half of what check_extensions allows. `beginning`: the old tip; `size` (m) as in
+/// check_extensions.
 bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, const Point& from, const Point& to,
                     double size);
 
-/// What a straight path meets first.
+/// The first fracture or side that a straight path meets, and the distance to it.
 struct FreeLength {
+  /// What the path meets.
   enum class Met { nothing, fracture, boundary };
   double length;  ///< m; infinite when nothing is met (from a point outside of the mesh)
   Met met;
@@ -71,8 +74,8 @@ struct FreeLength {
   Point where;  ///< from + length * direction
 };
 
-/// The way along the ray from `from` to the nearest fracture or the outer boundary. The last segment of the fracture's
-/// own given end does not count. `direction` need not be of unit length; it must not be zero (std::invalid_argument).
+/// The distance along the ray from `from` to the nearest fracture or the outer boundary. The last segment of `fracture`
+/// at the given end does not count. `direction` need not be of unit length; a zero vector throws std::invalid_argument.
 FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point& from, const Point& direction);
 
 }  // namespace sprekk

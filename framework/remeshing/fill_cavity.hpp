@@ -1,4 +1,4 @@
-// New triangles for a part of the plane whose boundary edges are given.
+// Fills a part of the plane with given boundary edges with triangles.
 #pragma once
 
 #include <array>
@@ -9,20 +9,22 @@
 
 namespace sprekk {
 
-/// What a filling must keep: all of the edges.
+/// The edges of a cavity, on its rim and inside. The triangles that fill it have all of them as edges.
 struct CavityOutline {
+  /// An edge between two points of the outline.
   struct Edge {
     std::array<int, 2> points;
-    enum class Place { rim, inside } place;  ///< rim edges run counter-clockwise: the cavity is to their left
-    bool is_barrier;                         ///< the outer boundary or a fracture
+    /// Rim edges run counter-clockwise: the cavity is to their left.
+    enum class Place { rim, inside } place;
+    bool is_barrier;  ///< whether the edge belongs to the outer boundary or to a fracture
   };
-  std::vector<Point> points;  ///< m, each at one edge at least; no two rim edges leave the same point
+  std::vector<Point> points;  ///< m, each at one or more edges; no two rim edges start at the same point
   std::vector<Edge> edges;
 };
 
-/// Triangles with edge lengths that go from those of the inner edges towards those of the rim, growing by `growth` m a
-/// metre, or up to 0.4 where the rim is near. `size_factor` makes all but the given edges so many times as long. The
-/// points of the outline come first. Throws std::runtime_error when this fails.
+/// Triangles whose edge lengths change from those of the inner edges to those of the rim, by `growth` m per m, or up to
+/// 0.4 m per m where the rim is near. `size_factor` scales the lengths of all but the given edges. The points of the
+/// outline come first. Throws std::runtime_error when no triangulation is found.
 Triangulation fill_cavity(const CavityOutline& outline, double size_factor, double growth);
 
 }  // namespace sprekk

@@ -33,7 +33,7 @@ class Corners {
 double common_area(const Corners& a, const Corners& b);
 
 /// Calls visit(i, j, area) for each pair of a cell of `one` and one of `other` with common area, i ascending, then
-/// j ascending. Looks pairs up in buckets: the work is about proportional to the number of pairs.
+/// j ascending. Buckets are used to find pairs: the work is about proportional to the number of pairs.
 void for_each_overlap(const std::vector<Corners>& one, const std::vector<Corners>& other,
                       const std::function<void(int, int, double)>& visit);
 

@@ -10,13 +10,13 @@
 
 namespace sprekk {
 
-/// Places of nodes are in `nodes`; what raw mesh nodes there are comes first.
+/// The nodes of new paths. `nodes` has the positions of all nodes, m: the nodes of the raw mesh come first.
 struct PathNodes {
   std::vector<Point> nodes;
   std::vector<std::vector<int>> paths;  ///< per extension, from the old tip (a raw node) to the new end
-  /// Faces between regions and on the outer boundary that get further nodes, in no order.
+  /// For faces between regions and on the outer boundary that are divided: the new nodes on the face, in no order.
   std::map<int, std::vector<int>> on_face;
-  /// Places along paths where a narrow gap asks for shorter edges, m.
+  /// A place along a path where a narrow gap asks for shorter edges, m.
   struct Narrow {
     Point position;
     double size;
@@ -24,15 +24,16 @@ struct PathNodes {
   std::vector<Narrow> narrow;
 };
 
-/// An interface between regions and a path that come nearer to each other than this, in edge lengths, meet in a node.
+/// A path and an interface between regions that are nearer to each other than this, in edge lengths, meet in a node.
 inline constexpr double interface_snap = 0.1;
 
-/// Divides paths into edges of about `size`, each segment into one or more; where the outer boundary or another
-/// fracture is nearer than `gap_edges` times that, into shorter ones that fit between (no shorter than the cells of the
-/// other fracture, which stay). Where a path crosses an interface between regions both get a node. A path bends by up
-/// to interface_snap to pass through a node of an interface, and a point of the path this near to an interface moves
-/// onto it; interfaces stay as they are. An end on the outer boundary becomes a node of that, one at a point of another
-/// fracture is its node. `merged` is that of to_raw_mesh. The extensions have been checked.
+/// Divides paths into edges of about `size` (m), each segment into one or more. Where the outer boundary or another
+/// fracture is nearer than `gap_edges` times `size`, edges are shorter, to fit into the gap, but no shorter than the
+/// cells of the other fracture, which stay. Where a path crosses an interface between regions, both get a node. A path
+/// bends by up to interface_snap to pass through a node of an interface, and a point of the path that near to an
+/// interface moves onto it; interfaces stay as they are. An end on the outer boundary becomes a node of the boundary;
+/// an end at a point of another fracture is that fracture's node. `merged` is that of to_raw_mesh. The extensions must
+/// have passed check_extensions.
 PathNodes place_path_nodes(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
                            const std::vector<PathExtension>& extensions, double size, double gap_edges);
 

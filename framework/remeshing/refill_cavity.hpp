@@ -12,7 +12,8 @@
 
 namespace sprekk {
 
-/// New triangles for the cavities, with the numbers of nodes that are in `nodes`: those of the placed paths come first.
+/// New triangles for the cavities. Their corners are numbers in `nodes`, in which the nodes of the placed paths come
+/// first.
 struct Refill {
   std::vector<bool> is_removed;  ///< per old cell
   std::vector<Point> nodes;
@@ -22,9 +23,9 @@ struct Refill {
   int single_corners = 0;                                           ///< new triangles with two barriers
 };
 
-/// Tries methods and sizes of cavities until angles are good, and returns the best. `raw` and `merged` describe the
-/// mesh without its walls split, `segments` are the edges of each placed path. Throws std::runtime_error when nothing
-/// works.
+/// Fills the cavities around placed paths. Tries several methods and sizes of cavities until the angles are good, and
+/// returns the best result. `raw` and `merged` describe the mesh with closed walls (to_raw_mesh), `segments` are the
+/// edges of each placed path. Throws std::runtime_error when all of them fail.
 Refill refill_cavities(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
                        const PathNodes& path_nodes, const std::vector<std::vector<Segment>>& segments,
                        const CavityOptions& options);

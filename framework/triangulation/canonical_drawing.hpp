@@ -1,4 +1,4 @@
-// What a mesh generator is given, so that its mesh depends on the shape alone.
+// A canonical form of the input of a mesh generator, so that the mesh depends on the shape alone.
 #pragma once
 
 #include <array>
@@ -9,21 +9,21 @@
 
 namespace sprekk {
 
-/// Points and lines between them, numbered from 0, in a frame and an order that follow from their shape: drawings that
+/// Points and lines between them, numbered from 0, in a frame and an order that follow from their shape. Drawings that
 /// differ by a shift, by half a turn, or by the order and direction of their parts become the same to the last bit (but
-/// where rounding decides), and so does what a generator makes of them. Growth that is point-symmetric stays so.
+/// where rounding decides), and so do their meshes. So point-symmetric growth stays point-symmetric.
 ///
-/// The frame has its origin in the middle of the points, and there a size between 1 and 2; the scale is a power of two,
-/// which costs no digits. Places are multiples of 2^-32, as mesh_region() wants them.
+/// The frame has its origin in the middle of the points, and the drawing has a size between 1 and 2 in it. The scale is
+/// a power of two, so that scaling rounds nothing. Coordinates are multiples of 2^-32, as mesh_region() requires.
 struct CanonicalDrawing {
-  /// `points` (m) has two different ones at least; each line joins two of them.
+  /// `points` (m) has at least two different points; each line joins two of them.
   CanonicalDrawing(const std::vector<Point>& points, const std::vector<std::array<int, 2>>& lines);
 
   std::vector<Point> points;              ///< ascending, in the frame
   std::vector<std::array<int, 2>> lines;  ///< ascending, each from its lower to its higher point
-  std::vector<int> point_number;          ///< here, of each given point
-  std::vector<int> line_number;           ///< here, of each given line
-  std::vector<bool> is_reversed;          ///< per given line: it runs the other way here
+  std::vector<int> point_number;          ///< per given point: its number in `points`
+  std::vector<int> line_number;           ///< per given line: its number in `lines`
+  std::vector<bool> is_reversed;          ///< per given line: whether it runs the other way in `lines`
 
   Point inward(const Point& x) const { return (x - origin_) / scale_; }
   Point outward(const Point& x) const { return origin_ + scale_ * x; }

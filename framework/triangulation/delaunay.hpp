@@ -1,4 +1,4 @@
-// A Delaunay triangulation to which points are added, with edges that stay.
+// A constrained Delaunay triangulation to which points are added.
 #pragma once
 
 #include <array>
@@ -9,14 +9,15 @@
 
 namespace sprekk {
 
-/// Of points whose coordinates are multiples of 2^-32 between -2 and 2: whether three of them turn left is then decided
-/// without rounding. Four points, numbers 0 to 3, are corners of a square far outside of all others. Points are added
-/// by dividing the triangle where they lie, and edges flipped until no circumcircle has a corner of a neighbour in it
-/// (Lawson 1977); fixed edges are recovered by flips (Sloan 1993), and are not flipped any more.
+/// A Delaunay triangulation with fixed edges. Coordinates are multiples of 2^-32 between -2 and 2: the orientation of
+/// three points is then decided without rounding. Points 0 to 3 are corners of a square far outside of all others. A
+/// new point divides the triangle in which it lies, and edges are flipped until no circumcircle contains a corner of a
+/// neighbour (Lawson 1977). Fixed edges are recovered by flips (Sloan 1993), and are not flipped afterwards.
 class Delaunay {
  public:
   static constexpr double grid = 0x1p-32;
   static constexpr int outer_points = 4;
+  /// Whether an edge may be flipped (free), or is fixed, as a line inside of the region or as its boundary.
   enum class Edge : char { free, line, boundary };
 
   /// Edge k leads from corner k to the next one. Corners are counter-clockwise.
@@ -31,16 +32,16 @@ class Delaunay {
   const std::vector<Point>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  /// Adds a point that no fixed edge is near of; near it are triangles that have been changed last. Returns its number.
-  /// Throws std::runtime_error when there is such a point already.
+  /// Adds a point that is not near a fixed edge, and returns its number. The search for its triangle starts at the last
+  /// change, so consecutive points should be near each other. Throws std::runtime_error when the point exists already.
   int add(const Point& x);
   /// Makes an edge between two points. Throws std::runtime_error when another point or a fixed edge is in its way.
   void fix(int from, int to, Edge kind);
-  /// Flips what is not Delaunay any more after edges have been fixed.
+  /// Flips edges that violate the Delaunay criterion after edges have been fixed.
   void restore();
 
-  /// The triangle where x lies, on a straight way from the middle of an edge of a triangle; none if a fixed edge is in
-  /// the way or the point lies on an edge.
+  /// The triangle that contains x, found along the straight line from the middle of an edge of a triangle; none if a
+  /// fixed edge crosses that line, or x lies on an edge.
   int straight_to(int triangle, int edge, const Point& x) const;
   /// Adds a point inside of a triangle. `changed()` then tells which triangles are new.
   int add_inside(int triangle, const Point& x);
@@ -53,13 +54,14 @@ class Delaunay {
   };
   int find(const Point& x) const;
   int corner_of(int triangle, int point) const;
-  /// Behind an edge that has a triangle there: the corner that is not on the edge.
+  /// The corner, not on the edge, of the triangle across the edge, which must exist.
   int point_behind(int triangle, int edge) const;
   void set_across(int triangle, int old_neighbour, int neighbour);
   bool can_flip(int triangle, int edge) const;
   void flip(int triangle, int edge);
   bool is_delaunay(int triangle, int edge) const;
-  /// The edge from one point to another, or where the way from one to the other leaves the first triangle.
+  /// The edge between two points, if it exists; and the edge through which the line between two points leaves the first
+  /// triangle.
   std::optional<Place> edge_between(int from, int to) const;
   std::optional<Place> first_crossed(int from, int to) const;
   template <class Visit>
@@ -67,7 +69,7 @@ class Delaunay {
 
   std::vector<Point> points_;
   std::vector<Triangle> triangles_;
-  std::vector<int> triangle_at_;  ///< one of those that have a point
+  std::vector<int> triangle_at_;  ///< per point: one of its triangles
   std::vector<int> changed_;
   int last_ = 0;
 };

@@ -1,4 +1,4 @@
-// Better shapes for triangles whose sizes are right.
+// Improves the shapes of triangles whose sizes are right.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@ namespace sprekk {
 
 /// In each round, flips edges that have a free end where the worse of the two triangles' shapes gets better, then moves
 /// every free point towards the mean of its neighbours if the worst shape around it gets no worse (Laplacian smoothing,
-/// guarded). Shape is area over the sum of squared edge lengths. No shape around becomes worse than the worst before,
-/// so that a valid mesh stays valid. Triangles are counter-clockwise, and edges between two points that are not free
-/// stay. The order of points and triangles decides; it costs about 0.5 microseconds a triangle and round.
+/// guarded). Shape is area over the sum of squared edge lengths. No shape becomes worse than the worst one around it
+/// before, so a valid mesh stays valid. Triangles are counter-clockwise, and edges between two points that are not free
+/// stay. The result depends on the order of points and triangles; a round costs about 0.5 microseconds a triangle.
 void smooth_triangles(std::vector<Point>& points, std::vector<Ring>& triangles, const std::vector<char>& is_free,
                       int rounds);
 

@@ -8,6 +8,7 @@
 
 namespace sprekk {
 
+/// Triangles, with edges and points that must stay.
 struct Triangulation {
   /// An edge that must stay an edge.
   struct FixedEdge {
@@ -15,7 +16,7 @@ struct Triangulation {
     bool is_barrier;  ///< an outer boundary or a fracture: no triangle shall have two of them
   };
   std::vector<Point> points;                  ///< m
-  std::vector<bool> is_fixed;                 ///< per point: stays where it is
+  std::vector<bool> is_fixed;                 ///< per point: whether it must not move
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise
   std::vector<FixedEdge> fixed_edges;         ///< all edges of the region's boundary, and others inside
 };
@@ -23,12 +24,12 @@ struct Triangulation {
 /// The smallest angle of all triangles, rad.
 double smallest_angle(const Triangulation& triangulation);
 
-/// Triangles with two barriers, of the kind that makes the local problems of multi-point schemes singular.
+/// The number of triangles with two barriers: these make the local problems of multi-point schemes singular.
 int single_corner_count(const Triangulation& triangulation);
 
-/// Raises the smallest angles: flips edges that are not fixed, moves points that are not fixed where that raises the
-/// smallest angle around them, and divides triangles that have two barriers (by a flip, or by halving their third edge,
-/// which adds a point, if that is not on the region's boundary).
+/// Raises the smallest angles. Flips edges that are not fixed, moves points that are not fixed where a move raises the
+/// smallest angle around them, and divides triangles with two barriers: by a flip, or by halving the third edge, which
+/// adds a point, if this edge is not on the boundary of the region.
 void improve(Triangulation& triangulation);
 
 }  // namespace sprekk

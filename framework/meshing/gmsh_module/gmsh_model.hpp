@@ -6,8 +6,9 @@
 
 namespace sprekk {
 
-/// Starts gmsh at the first use in a process (0.1 s) and leaves it running: nobody else may initialize or finalize it.
-/// One model at a time; it is removed, with its size callback, at the end of life. Not for several threads.
+/// A guard for a model of gmsh. The first object in a process starts gmsh (0.1 s), which then stays: no other code may
+/// initialize or finalize gmsh. There may be one model at a time; the destructor removes it with its size callback. Not
+/// for several threads.
 class GmshModel {
  public:
   GmshModel();
@@ -15,7 +16,7 @@ class GmshModel {
   GmshModel(const GmshModel&) = delete;
   GmshModel& operator=(const GmshModel&) = delete;
 
-  /// Calls `work`, which talks to gmsh. What gmsh throws (std::string) becomes a std::runtime_error
+  /// Calls `work`, which uses gmsh. An exception of gmsh (std::string) becomes a std::runtime_error
   /// "gmsh failed to <purpose> (<gmsh's words>)".
   void run(const std::string& purpose, const std::function<void()>& work) const;
 };
