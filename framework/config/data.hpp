@@ -20,7 +20,7 @@ struct Place {
   double t = 0;
 };
 
-/// A datum has no finite value somewhere, or leaves its range: the scene's mistake, found when it is evaluated.
+/// A mistake of the scene that is found when a datum is evaluated: it has no finite value, or leaves its range.
 class DataError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -32,7 +32,7 @@ class Data {
  public:
   Data(double constant = 0);  // NOLINT: a number is a datum
   using Function = std::function<double(const Place&)>;
-  /// `switch_times` (s): where the function jumps in time; kept sorted, each once.
+  /// `switch_times` (s): the times at which the function jumps; kept sorted, each once.
   Data(Function function, bool depends_on_time, bool depends_on_space, std::vector<double> switch_times = {});
 
   double at(const Place& place) const { return function_ ? function_(place) : constant_; }
@@ -40,10 +40,10 @@ class Data {
   bool is_zero() const { return !function_ && constant_ == 0; }
   bool depends_on_time() const { return depends_on_time_; }
   bool depends_on_space() const { return depends_on_space_; }
-  /// The ends of the time windows (s), sorted, for the time stepper to hit exactly. A window [from, to) has its value
-  /// at `from` and zero at `to`: the value at a switch time is the one that holds right after it. A step that ends at
-  /// a switch time should therefore take its data from before it (value_in_step). Jumps hidden in an expression, if(t <
-  /// 6*h, …), are not among them.
+  /// The ends of the time windows (s), sorted; time steps end there exactly. A window [from, to) has its value at
+  /// `from` and zero at `to`: the value at a switch time is the value right after it. So a step that ends at a switch
+  /// time should take the value from before that time (value_in_step). Jumps inside of an expression, if(t < 6*h, …),
+  /// are not included.
   const std::vector<double>& switch_times() const { return switch_times_; }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// What is being read: the parameter's name, what is declared about it, and what the scene's names mean.
+/// The parameter that is read: its name, its declaration, and the context that gives names of the scene their meaning.
 struct DataRequest {
   std::string name;
   const About& about;
@@ -23,14 +23,14 @@ TensorData read_tensor(const Node& node, const DataRequest& request);
 template <class Value, class Read>
 std::vector<Value> read_by_region(const Node& node, const DataRequest& request, const Read& read);
 
-/// Throws InputError when a constant is out of the parameter's range; else returns the datum, which checks itself
-/// when it is evaluated.
+/// Throws InputError when a constant is out of the range of the parameter. Other data are returned with a check that is
+/// made at each evaluation.
 Data within_range(Data data, const Origin& where, const DataRequest& request);
 
 /// One datum out of one per region.
 Data by_region(std::vector<Data> values);
 
-// What the readers of nodes share.
+// Functions that the readers of nodes share.
 void require_known_keys(const Node& map, const std::vector<std::string>& allowed, const DataRequest& request);
 const Node& required_entry(const Node& map, const std::string& key, const DataRequest& request);
 double read_number(const Node& node, const std::string& unit, const Range& range, const std::string& name);

@@ -12,9 +12,10 @@ namespace sprekk {
 /// The datum `scale` times the expression; a constant one when no variable occurs. Throws InputError when malformed.
 Data parse_expression(const std::string& text, double scale, const Origin& where);
 
-/// What a constant expression without a unit behind it lacks, for a quantity of this dimension. none: it has the
-/// dimension, since it changes like it with the units that it is made of, or it is zero. An expression of x, y or t
-/// lacks nothing: x, y and t are in SI units, and so is what is made of them.
+/// Whether a constant expression without a unit behind it lacks a unit, for a quantity of a given dimension. `none`:
+/// the units in the expression give it that dimension, or it is zero. `any`: the expression has no unit at all.
+/// `of_a_term`: the units in it do not give that dimension. An expression of x, y or t lacks nothing: x, y and t are in
+/// SI units, and so is their result.
 enum class LackOfUnit { none, any, of_a_term };
 /// Throws InputError when malformed.
 LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, const Origin& where);

@@ -1,4 +1,4 @@
-// The user's mistakes, as opposed to failures of a run or of the program.
+// Mistakes in the input, as opposed to failures of a run or of the program.
 #pragma once
 
 #include <stdexcept>
@@ -12,10 +12,10 @@ struct Origin {
   std::string source;  ///< a file's name as the user gave it, or "--set"
   int line = 0;
   int column = 0;
-  std::string text() const;  ///< "scene.yaml:12:5", or as much of it as is known
+  std::string text() const;  ///< "scene.yaml:12:5", without the parts that are unknown
 };
 
-/// Wrong input: the command line answers with exit code 2 and has written nothing.
+/// Wrong input. The command line answers with exit code 2 and writes nothing.
 /// Message grammar: problem (why) suggestion.
 class InputError : public std::runtime_error {
  public:
@@ -36,7 +36,7 @@ std::string quoted(const std::string& text);
 /// "a, b, c", shortened when there are very many.
 std::string listed(const std::vector<std::string>& names);
 
-/// The nearest of `names` to `word` by edit distance, or the only one that begins with `word`, or "" when none is near
+/// The name nearest to `word` by edit distance, or the only name that begins with `word`, or "" when no name is near
 /// enough to be meant. Upper and lower case count as nearly the same.
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
 

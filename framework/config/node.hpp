@@ -9,8 +9,10 @@
 
 namespace sprekk {
 
+/// A value of a scene with its origin: a scalar, a list, a map or nothing.
 class Node {
  public:
+  /// What the node is.
   enum class Kind { null, scalar, list, map };
   struct Entry;
 
@@ -30,6 +32,7 @@ class Node {
   std::string text() const;  ///< as YAML on one line: "[1 m, {a: b}]"
 };
 
+/// A key of a map with its value.
 struct Node::Entry {
   std::string key;
   Origin origin;  ///< of the key

@@ -6,8 +6,8 @@
 
 namespace sprekk {
 
-/// A decimal number; `length` is what it takes of the text. Not a number: nothing. Infinite, NaN, or beyond the range
-/// of a double: `is_finite` is false.
+/// A decimal number at the beginning of a text, and the number of characters that it takes. `is_finite` is false for
+/// infinities, NaN, and numbers beyond the range of a double.
 struct LeadingNumber {
   double value = 0;
   std::size_t length = 0;

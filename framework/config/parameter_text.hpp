@@ -1,4 +1,4 @@
-// What is said about a parameter in `explain` and in the reference pages.
+// The texts on a parameter in `explain` and in the reference pages.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The factor that a written unit stands for.
+// The factor from a written unit to SI units.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace sprekk {
 
-/// `written` in SI units, when it has the dimension of `unit`; else InputError about `whole`, the text that it is in.
+/// The factor from the unit `written` to SI units. Throws InputError, which quotes the text `whole`, when `written` has
+/// not the dimension of `unit`.
 double scale_to_si(const std::string& written, const std::string& unit, const std::string& whole, const Origin& where,
                    const std::string& name);
 

@@ -37,20 +37,20 @@ Range non_negative();
 Range between(double low, double high);           ///< both ends allowed
 Range strictly_between(double low, double high);  ///< neither end allowed
 
-/// What is said about a parameter besides its name and its target.
+/// The declaration of a parameter besides its name and its target.
 struct About {
   std::string unit = "";  ///< SI unit, "" for a plain number; the scene may use any unit of this dimension
   Range range = {};
   std::string doc = "";        ///< one sentence
   std::string source = "";     ///< equation or paper
   bool required = false;       ///< else the target's value at declaration is the default
-  bool material = false;       ///< may also stand in the scene's `materials:` section, shared by all components
+  bool material = false;       ///< may also be given in the scene's `materials:` section, shared by all components
   bool constant_only = false;  ///< data that cannot be a function, a table or a value per region
   bool in_time = false;        ///< data that are evaluated in every step; others must not depend on t
-  std::string fixed = "";      ///< why not, for the message
+  std::string fixed = "";      ///< why the data must not depend on t, for the message
 };
 
-/// What a scene's names mean, gathered before the components are read.
+/// The meaning of names in a scene, gathered before the components are read.
 struct ReadContext {
   const Node* materials = nullptr;        ///< the `materials:` map or nullptr
   std::vector<std::string> region_names;  ///< for values per region, by index
@@ -74,6 +74,7 @@ struct Parameter {
   std::shared_ptr<const class Spec> inner;                   ///< of sections
 };
 
+/// The parameters of one map of a scene, with the variables that they are read into.
 class Spec {
  public:
   Spec(std::string name, std::string doc);
@@ -108,8 +109,9 @@ class Spec {
   Spec& texts(const std::string& name, std::vector<std::string>& target, About about);  ///< one text or a list of them
   Spec& choice(const std::string& name, std::string& target,
                std::vector<std::pair<std::string, std::string>> values_and_docs, About about);
-  /// A nested map with a fixed set of keys. `given`, if not null, becomes whether the scene has it; then an absent
-  /// section is not read at all. Else its defaults are taken (unless it has required parameters).
+  /// A nested map with a fixed set of keys. If `given` is not null, it tells afterwards whether the scene has the
+  /// section, and an absent section is not read at all. Without `given`, the defaults of an absent section are taken
+  /// (unless it has required parameters).
   Spec& section(const std::string& name, Spec inner, About about, bool* given = nullptr);
   /// A nested map whose keys the user chooses (boundary sides, fractures, probes): for each entry `add` is called with
   /// the key and its origin; it returns the spec to read the entry with, whose targets `add` has created.
@@ -118,7 +120,7 @@ class Spec {
   /// A list of maps: for each item `add` is called with its index.
   using AddItem = std::function<Spec(int index, const Origin& origin)>;
   Spec& list_of_sections(const std::string& name, const Spec& example, AddItem add, About about);
-  /// A value that the declarer reads itself from the tree (schedules).
+  /// A value that `read` takes from the tree (schedules).
   Spec& custom(const std::string& name, std::function<void(const Node&)> read, About about);
   /// A check across parameters, made after all are read; throws InputError.
   Spec& check(std::function<void(const Node& whole)> check);
@@ -134,7 +136,7 @@ class Spec {
   const std::string& doc() const { return doc_; }
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::vector<std::string>& ignored() const { return ignored_; }
-  bool has_required() const;  ///< whether an empty map would be refused for want of a parameter
+  bool has_required() const;  ///< whether an empty map would be refused because a parameter is required
 
  private:
   using Reader = std::function<void(const Node& value, const ReadContext& context)>;

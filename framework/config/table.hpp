@@ -16,8 +16,8 @@ struct Table {
   double at(double abscissa_value) const;  ///< linear between the rows, constant outside
 };
 
-/// What to take from which file. Columns are given by name or by number from 1; "" leaves the choice: for the abscissa
-/// the column called `of`, else the first; for the ordinate the other one of two.
+/// The file and columns of a table. Columns are given by name or by number from 1. With "", the abscissa is the column
+/// called `of`, or else the first one, and the ordinate is the other one of two columns.
 struct TableRequest {
   std::string file;  ///< as the user gave it
   std::string folder;

@@ -1,4 +1,4 @@
-// Text files as input: bounded in size, and refused when they are not text.
+// Reads text files as input: of bounded size, and UTF-8 only.
 #pragma once
 
 #include <string>

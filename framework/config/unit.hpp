@@ -7,7 +7,8 @@
 
 namespace sprekk {
 
-/// Exponents of m, kg, s, K and rad. An angle is a dimension here, so that 30 deg is no friction coefficient.
+/// Exponents of m, kg, s, K and rad. An angle has a dimension here, so that 30 deg is refused as a friction
+/// coefficient.
 struct Dimension {
   std::array<double, 5> exponents{};
 
@@ -15,6 +16,7 @@ struct Dimension {
   std::string name() const;                       ///< "pressure", else the product of SI units, "kg*m^-1"
 };
 
+/// A unit: its factor to SI units and its dimension.
 struct Unit {
   double scale = 1;  ///< the unit in SI units
   Dimension dimension;
@@ -23,7 +25,7 @@ struct Unit {
   Unit to_the(double power) const;
 };
 
-/// A unit that the text does not hold: `what()` of an InputError without its place.
+/// Thrown for a text that is no unit: the message of an InputError without the place in the scene.
 struct UnitProblem {
   std::string problem, why, suggestion;
 };

@@ -20,11 +20,11 @@ double parse_quantity(const std::string& text, const std::string& unit, const Or
 ///
 /// An expression has + - * / ^, comparisons, && and ||, if(condition, then, else), sin cos tan asin acos atan atan2
 /// sinh cosh tanh exp log (natural) log10 sqrt abs sign floor ceil pow erf erfc min max, the constants pi and e, and
-/// units as their SI values (h, day, MPa, …). Without a unit behind it, its value is in SI units; a unit belongs to all
-/// of it, which must then stand in parentheses or be a single name, number or function. An expression without x, y
-/// and t is a constant. One that stands for a quantity with a dimension needs a unit as a number does: a constant must
-/// have the dimension, and else a unit must stand in the expression or behind it. `at` throws DataError where an
-/// expression has no finite value.
+/// units as their SI values (h, day, MPa, …). Without a unit behind it, the value of an expression is in SI units. A
+/// unit behind an expression applies to the whole expression, which must then be in parentheses or be a single name,
+/// number or function. An expression without x, y and t is a constant. For a quantity with a dimension, an expression
+/// needs a unit as a number does: a constant must have the dimension, and any other expression must contain a unit or
+/// have one behind it. `at` throws DataError where an expression has no finite value.
 Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name = "");
 
 /// `value` (SI) as a scene would write it: "1000 kg/m^3".

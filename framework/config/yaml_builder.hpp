@@ -35,11 +35,11 @@ class YamlBuilder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  /// A list or map whose end has not come yet.
+  /// A list or map whose end has not been read yet.
   struct Open {
     Node node;
     YAML::anchor_t anchor = 0;
-    bool has_key = false;  ///< of a map: the key is known, its value comes next
+    bool has_key = false;  ///< for a map: the key has been read, and its value comes next
     std::string key;
     Origin key_origin;
     std::unordered_map<std::string, Origin> keys;
