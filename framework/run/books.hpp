@@ -1,4 +1,4 @@
-// Whether a run has lost or made what it should conserve.
+// Checks whether a run conserves what it should.
 #pragma once
 
 #include <map>

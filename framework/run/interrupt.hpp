@@ -1,15 +1,16 @@
-// What asks a run to end lets it write a checkpoint first.
+// Signals that end a run after it has written a checkpoint.
 #pragma once
 
 namespace sprekk {
 
-/// While it exists, Ctrl-C (SIGINT), SIGTERM, the end of the terminal (SIGHUP) and a reader of the output that went
-/// away (SIGPIPE) request an interruption; a second SIGINT or SIGTERM ends the program at once, whatever it is doing.
-/// SIGHUP stays ignored where it was (nohup).
+/// A guard: while it exists, Ctrl-C (SIGINT), SIGTERM, the end of the terminal (SIGHUP) and a closed output pipe
+/// (SIGPIPE) request an interruption. A second SIGINT or SIGTERM ends the program at once. SIGHUP stays ignored where
+/// it was ignored before (nohup).
 class InterruptGuard {
  public:
   InterruptGuard();
-  /// Gives SIGINT and SIGTERM back. The others stay harmless: what is said about the end may have no reader.
+  /// Restores the handlers of SIGINT and SIGTERM. SIGHUP and SIGPIPE stay harmless: nobody may read the messages at the
+  /// end of the run any more.
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;

@@ -1,4 +1,4 @@
-// What a run does between two attempts at a step when fractures have grown.
+// Changes the mesh between two attempts at a step when fractures have grown.
 #pragma once
 
 #include <functional>
@@ -10,23 +10,28 @@
 
 namespace sprekk {
 
+/// Lets the mesh of a model follow the growth of fractures, and holds time steps small until the state has settled.
 class MeshGrowth {
  public:
+  /// Whether the mesh has changed, or could not be changed (see reason).
   enum class Outcome { nothing, changed, failed };
 
   using Observer = std::function<void(const Model& before, const Model& after)>;
 
-  /// Replaces `model` whenever its mesh grows, and tells `changed` first. All must outlive this object.
+  /// `model` is replaced whenever its mesh grows; `changed` is called before, with both models. `model` and
+  /// `controller` must outlive this object.
   MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log = {}, Observer changed = {});
 
-  /// After a step that has converged, before it is accepted. changed: it is to be repeated (GrowStep, repeat_step).
+  /// To be called after a step that has converged, before it is accepted. `changed`: the step is to be repeated on the
+  /// new mesh (GrowStep::repeats_step).
   Outcome before_acceptance();
-  /// After a step that has been accepted: the mesh takes growth over, and steps are held small until it has settled.
+  /// To be called after a step that has been accepted. The mesh takes growth over, and steps are held small until the
+  /// state has settled.
   Outcome after_acceptance();
 
   const std::string& reason() const { return reason_; }  ///< of a failure
   long changes() const { return changes_; }
-  double smallest_angle() const { return smallest_angle_; }  ///< rad, of all cells that came with growth
+  double smallest_angle() const { return smallest_angle_; }  ///< rad, of all cells that were made for growth
 
  private:
   Outcome take_over(std::size_t grow_step);

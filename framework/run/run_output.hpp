@@ -16,31 +16,33 @@
 
 namespace sprekk {
 
+/// Writes the tables, fields and checkpoints of a run.
 class RunOutput {
  public:
   explicit RunOutput(OutputFolder folder) : folder_(std::move(folder)) {}
 
-  /// A run that goes on: lets no other run into its folder from now on. Throws InputError when one is there.
-  /// Collective.
+  /// For a run that is continued: locks the folder against other runs. Throws InputError when another run has locked
+  /// it. Collective.
   void lock();
-  /// What the tables of a run that goes on were when its checkpoint was written.
+  /// Numbers of rows of the tables.
   struct Rows {
     long history, coupling;
   };
+  /// The point from which a run is continued: time and rows of the tables when the checkpoint was written.
   struct Continued {
     double time;               ///< s
-    std::optional<Rows> rows;  ///< checkpoints of old have none
+    std::optional<Rows> rows;  ///< older checkpoints have none
   };
   static Continued continued(const Checkpoint& checkpoint, double time);
 
-  /// Creates the folder and locks it, or continues what is in it. Throws InputError when another run is at work there
-  /// or when a table is missing. Collective.
+  /// Creates the folder and locks it, or continues the tables that are in it. Throws InputError when another run has
+  /// locked the folder, or when a table is missing. Collective.
   void open(const std::optional<Continued>& from, bool with_fields);
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
   void write_iteration(const IterationRecord& record);
   void write_fields(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields);
-  Rows rows() const;  ///< of the tables as they are; 0 on processes other than the first
-  /// `rows`: what the tables had when the state was the one of the checkpoint.
+  Rows rows() const;  ///< of the tables now; 0 on processes other than the first
+  /// `rows`: those of the tables at the state of the checkpoint.
   void write_checkpoint(const Model& model, const Notes& notes, const Rows& rows, std::map<std::string, Vector> extra,
                         const std::string& fingerprint);
 

@@ -11,6 +11,7 @@
 
 namespace sprekk {
 
+/// Options of `sprekk run`.
 struct RunOptions {
   std::vector<std::string> scene_files;
   std::optional<std::filesystem::path> folder;      ///< -o

@@ -9,10 +9,11 @@
 
 namespace sprekk {
 
-/// `stop:` of `time:`. Never reached in a scene that has none.
+/// The condition `stop:` of `time:`. It is never reached in a scene without `stop:`.
 class StopCondition {
  public:
-  /// `quantities`: of the scene. Throws InputError when the named one is not among them, or the value has another unit.
+  /// `quantities`: those of the scene. Throws InputError when the named quantity is not among them, or when the value
+  /// has another unit.
   StopCondition(const Scene& scene, const std::vector<Quantity>& quantities);
 
   bool is_reached(const std::vector<Quantity>& quantities) const;

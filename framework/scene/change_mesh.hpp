@@ -1,4 +1,4 @@
-// From a model to the same model on a mesh that has grown.
+// Builds the model again on a mesh whose fractures have grown.
 #pragma once
 
 #include <memory>
@@ -8,16 +8,17 @@
 
 namespace sprekk {
 
-/// Carries the accepted values of all fields over: what lies on cells that were kept, and on fractures, to the bit; on
-/// cells that are new the area-weighted mean of what was there (Eq. 17 of the paper), of amounts the sum of their
-/// shares, so that totals stay. New fracture cells have the values that their components start with. Throws
+/// Transfers the accepted values of all fields to the new mesh. Values on kept cells and on fractures stay to the bit.
+/// A new cell gets the area-weighted mean of the old cells that it overlaps (Eq. 17 of the paper), or, for amounts, the
+/// sum of its shares, so that totals stay. New fracture cells keep the initial values of their components. Throws
 /// std::logic_error for fields on faces and nodes, which have no mapping.
 void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, FieldStore& after);
 
+/// The model on the new mesh, and how its equilibrium was found.
 struct MeshChangeResult {
   std::unique_ptr<Model> model;  ///< its state is accepted
   double smallest_angle = 0;     ///< rad, of the new cells
-  StepStatus settling;           ///< of the solve that put it into equilibrium
+  StepStatus settling;           ///< of the solve for equilibrium on the new mesh
 };
 
 /// Builds the model on the mesh with the extensions of a step (an index into Model::growing), carries the

@@ -12,7 +12,7 @@
 
 namespace sprekk {
 
-/// What a component is built from. Its parameters have been read before.
+/// What a component is built from, besides its parameters, which have been read before.
 struct ComponentContext {
   std::string name;  ///< in the scene
   const Mesh& mesh;
@@ -21,8 +21,8 @@ struct ComponentContext {
   Origin origin;      ///< of the component in the scene
 };
 
-/// Owns unknown fields and the balance laws that determine them. What it can do for others are its capabilities:
-/// abstract classes that it also derives from (components/capabilities).
+/// A part that owns unknown fields and the balance laws that determine them. Its capabilities are abstract classes that
+/// it also derives from (components/capabilities): they say what couplers can ask of it.
 class Component : public Part {
  public:
   explicit Component(std::string name) : name_(std::move(name)) {}
@@ -50,7 +50,8 @@ class CouplerContext {
   const double start_time;  ///< s
   const Origin origin;
 
-  /// The one component between which it stands that has the capability. Throws InputError when there is none, or two.
+  /// The component with this capability, among those that the coupler stands between. Throws InputError when there is
+  /// none, or when there are two.
   template <class Capability>
   Capability& the() const {
     auto* found = find<Capability>();
@@ -84,7 +85,7 @@ class CouplerContext {
   mutable std::set<Component*> used_;
 };
 
-/// The terms by which components feel one another; each works through capabilities only.
+/// A part with the terms that couple components. It uses their capabilities only.
 class Coupler : public Part {
  public:
   explicit Coupler(std::string name) : name_(std::move(name)) {}

@@ -11,12 +11,14 @@
 
 namespace sprekk {
 
+/// Owns all that a scene is built into, and attempts single time steps. The accepted state is the point to which a
+/// failed step rewinds.
 class Model {
  public:
   /// Builds everything and solves nothing. Throws InputError for combinations that cannot work: a missing capability,
   /// an input that a coupler should determine, an unknown that no step solves for, data without a value.
   Model(const Scene& scene, IterationLog log = {});
-  /// The same on a mesh that has grown, or that comes from a checkpoint.
+  /// Builds the scene on a given mesh: one that has grown, or that of a checkpoint.
   Model(const Scene& scene, Mesh mesh, IterationLog log = {});
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
@@ -32,15 +34,15 @@ class Model {
   const std::vector<std::unique_ptr<Coupler>>& couplers() const { return couplers_; }
   const std::vector<Probe>& probes() const { return probes_; }
 
-  /// One attempt at a step from the accepted state: evaluates data, runs the schedule. Leaves the current values at the
-  /// end of the step when it converged; the caller accepts or rewinds.
+  /// Attempts one step from the accepted state: evaluates data and runs the schedule. If the step converges, the
+  /// current values are those at its end. The caller accepts or rewinds.
   StepStatus attempt(const StepTime& step);
   void accept();
   void rewind();
 
   /// The steps of the schedule that let the mesh grow.
   const std::vector<GrowStep*>& growing() const { return growing_; }
-  /// What parts keep besides fields, and its return (Part::save, restore).
+  /// The state that parts keep outside of fields, for checkpoints (Part::save, Part::restore).
   std::map<std::string, Vector> extra_state() const;
   void restore_extra_state(const std::map<std::string, Vector>& state);
 

@@ -11,6 +11,7 @@
 
 namespace sprekk {
 
+/// Parameters of a probe.
 struct ProbeOptions {
   Origin origin;
   std::string of;           ///< a field, "pore.pressure"
@@ -21,14 +22,16 @@ struct ProbeOptions {
   Spec spec();
 };
 
-/// Linear in the field, or an extreme. At a point of the matrix: the value there of the linear function that fits the
-/// cells around it (least squares; exact for linear fields); on a fracture: that of the nearest cell. Over a fracture
-/// or region: the mean, integral, smallest or largest value.
+/// Measures one figure of a field: a weighted sum of values, or the smallest or largest one. At a point of the matrix
+/// this is a linear fit to the cells around the point (least squares; exact for linear fields); at a point of a
+/// fracture the value of the nearest fracture cell. Over a fracture or region it is the mean, integral, smallest or
+/// largest value.
 class Probe {
  public:
   /// Throws InputError for unknown fields, fractures, regions, and points outside of the mesh.
   Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields);
-  /// Appends one quantity a component: "name.x", "name.y" for vectors of the matrix, "name.n", "name.t" on fractures.
+  /// Appends one quantity for each component of the field: "name.x", "name.y" for vectors of the matrix, "name.n",
+  /// "name.t" on fractures.
   void measure(std::vector<Quantity>& quantities) const;
 
  private:

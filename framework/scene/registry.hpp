@@ -16,18 +16,20 @@ namespace sprekk {
 using ComponentBuilder = std::function<std::unique_ptr<Component>(const ComponentContext&)>;
 using CouplerBuilder = std::function<std::unique_ptr<Coupler>(const CouplerContext&)>;
 
-/// A type reads its parameters before there is a mesh, and builds the object later.
+/// A registered type of component or coupler. It reads its parameters before there is a mesh, and builds the object
+/// later.
 template <class Builder>
 struct PartType {
   std::string type;
   std::function<Spec()> spec;  ///< with its defaults, for `explain` and the schema
   std::function<Builder(const Node&, const ReadContext&)> read;
-  /// Of a coupler that a scene has none of: adds what its user may miss between these components.
+  /// For a type of coupler that a scene has not: adds notes on what the user may miss between these components.
   std::function<void(const std::vector<Component*>&, Notes&)> note_absence;
 };
 using ComponentType = PartType<ComponentBuilder>;
 using CouplerType = PartType<CouplerBuilder>;
 
+/// The list of all types of components and couplers, one for the program.
 class Registry {
  public:
   static Registry& instance();
@@ -44,8 +46,8 @@ class Registry {
   std::vector<CouplerType> couplers_;
 };
 
-/// Options is a struct with `Spec spec()`, whose targets are its own members; T is built from (context, options). A
-/// coupler may have a static `note_absence(components, notes)`.
+/// Registers the type T when it is constructed. Options is a struct with `Spec spec()`, whose targets are its own
+/// members; T is built from (context, options). A coupler may have a static `note_absence(components, notes)`.
 template <class T, class Options, class Context, class Builder>
 struct RegisterPart {
   explicit RegisterPart(const std::string& type) {

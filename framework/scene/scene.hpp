@@ -16,6 +16,7 @@
 
 namespace sprekk {
 
+/// Parameters of a scene's `output:`.
 struct OutputOptions {
   std::optional<double> every;  ///< s
   std::vector<double> times;    ///< s
@@ -25,19 +26,22 @@ struct OutputOptions {
   Spec spec();
 };
 
+/// A scene with checked parameters, and builders for its parts and its schedule.
 struct Scene {
+  /// A component of the scene, not built yet.
   struct ComponentEntry {
     std::string name, type;
     Origin origin;
     ComponentBuilder build;
   };
+  /// A coupler of the scene, not built yet, and the names of the components that it stands between.
   struct CouplerEntry {
     std::string name, type;
     Origin origin;
     std::vector<std::string> between;
     CouplerBuilder build;
   };
-  /// A parameter with its value and where that came from, for `show` and run.json.
+  /// A parameter with its value and the origin of the value, for `show` and run.json.
   struct Resolved {
     std::string path, value, origin;
   };
@@ -54,13 +58,13 @@ struct Scene {
   NewtonOptions newton;
   LinearOptions linear;
   std::vector<Resolved> resolved;
-  Notes notes;  ///< what is not wrong but may not be meant
+  Notes notes;  ///< on input that is not wrong but may not be meant
 
   const Origin& schedule_origin() const { return whole.find("schedule")->origin; }
 };
 
-/// Reads the tree of a scene; tables are looked for in `folder`, and `default_name` names a scene that does not name
-/// itself. Throws InputError for anything that can be known to be wrong before there is a mesh.
+/// Reads the tree of a scene. Tables are looked for in `folder`; `default_name` is the name of a scene without one.
+/// Throws InputError for all that can be found to be wrong before there is a mesh.
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name = "scene");
 
 /// The specs of a scene's sections, by key, with their defaults; for `explain` and the schema.
