@@ -1,4 +1,4 @@
-// The command line: `sprekk run scene.yaml` and its sisters.
+// The command line: `sprekk run scene.yaml` and all other commands.
 #pragma once
 
 namespace sprekk {

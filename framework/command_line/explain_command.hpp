@@ -1,4 +1,5 @@
-// list, explain and schema: what exists, its parameters, and both for editors. All from the declared specs.
+// list, explain and schema: all types, their parameters, and both as a JSON schema for editors. All three follow from
+// the declared specs.
 #pragma once
 
 #include <iosfwd>

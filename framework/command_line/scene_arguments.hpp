@@ -9,6 +9,7 @@
 
 namespace sprekk {
 
+/// The files of a scene and the settings that override their values.
 struct SceneArguments {
   std::vector<std::string> files;
   std::vector<std::string> settings;  ///< "a.b=value"

@@ -8,6 +8,7 @@
 
 namespace sprekk {
 
+/// The command `sweep` with its arguments.
 class SweepCommand {
  public:
   explicit SweepCommand(CLI::App& app);

@@ -1,4 +1,4 @@
-// What the program is doing just now, for whoever waits in front of it.
+// What the program is doing just now, for a user who waits.
 #pragma once
 
 #include <functional>
@@ -7,18 +7,19 @@
 
 namespace sprekk {
 
-/// Who wants to know; nobody as a rule.
+/// The function that receives the activity; usually empty.
 inline std::function<void(const std::string&)>& activity_listener() {
   static std::function<void(const std::string&)> listener;
   return listener;
 }
 
-/// To be called by what may take long: "discretizing rock". Costs nothing worth mentioning when nobody listens.
+/// Tells the listener what begins now ("discretizing rock"). To be called by code that may take long; without a
+/// listener it costs next to nothing.
 inline void now_doing(const std::string& what) {
   if (activity_listener()) activity_listener()(what);
 }
 
-/// Listens as long as it lives.
+/// A guard: `listen` receives activities as long as this object exists; afterwards the former listener does again.
 class ActivityListener {
  public:
   explicit ActivityListener(std::function<void(const std::string&)> listen)

@@ -1,4 +1,4 @@
-// Files that are whole at any moment: written beside their place and then renamed into it.
+// Files that are complete at any moment: each is written under another name and then renamed.
 #pragma once
 
 #include <filesystem>

@@ -6,6 +6,7 @@
 
 namespace sprekk {
 
+/// The version of the program, and how it was built.
 struct BuildInfo {
   std::string version;     ///< of Sprekk
   std::string git_commit;  ///< when the build was configured; "" if it was not a git checkout
@@ -15,6 +16,7 @@ struct BuildInfo {
 };
 const BuildInfo& build_info();
 
+/// The machine that the program runs on.
 struct Host {
   int cores;              ///< that this process may use
   std::string processor;  ///< its model; "" where the system does not tell

@@ -11,7 +11,9 @@
 
 namespace sprekk {
 
+/// The state of a run at an accepted step: mesh, fields, notes, and the state of the controller and of parts.
 struct Checkpoint {
+  /// The two time levels of a field.
   struct Values {
     Vector now, accepted;
   };

@@ -1,4 +1,4 @@
-// The fields of a run through time: one file a written step for the matrix, one for the fractures, and their indices.
+// The fields of a run: for each written step one file for the matrix and one for the fractures, and index files.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace sprekk {
 class FieldOutput {
  public:
   explicit FieldOutput(const std::filesystem::path& folder);
-  /// After a restart from `time` (s): what was written later is replaced.
+  /// After a restart from `time` (s): files that were written for later times are replaced.
   static FieldOutput continued(const std::filesystem::path& folder, double time);
 
   void write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields);

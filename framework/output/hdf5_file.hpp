@@ -12,12 +12,13 @@
 
 namespace sprekk {
 
-/// Something about the file itself is wrong: it is no HDF5 file, an array is missing, damaged or of another kind.
+/// Thrown when the file itself is wrong: it is no HDF5 file, or an array is missing, damaged or of another kind.
 struct Hdf5Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Paths are "group/array"; groups are made as needed. Nothing reaches the disk before `close`. Throws Hdf5Error.
+/// Writes named arrays. Names are paths "group/array"; groups are made as needed. Nothing is written to the disk before
+/// `close`. Throws Hdf5Error.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::filesystem::path file);
@@ -28,8 +29,8 @@ class Hdf5Writer {
   void doubles(const std::string& path, std::span<const double> values);
   void integers(const std::string& path, std::span<const int> values);
   void text(const std::string& path, const std::string& value);
-  /// Replaces the file at once. Throws std::runtime_error, with the file's name, when it cannot be written; what was
-  /// there before is then whole.
+  /// Replaces the file in one go. Throws std::runtime_error, with the name of the file, when it cannot be written; the
+  /// old file is then still complete.
   void close();
 
  private:
@@ -41,6 +42,7 @@ class Hdf5Writer {
   std::int64_t file_;
 };
 
+/// Reads the arrays of a file that Hdf5Writer has written, and compares their checksums. Throws Hdf5Error.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& file);

@@ -6,12 +6,12 @@
 
 namespace sprekk {
 
-/// Writes every array of the mesh below "mesh/": a mesh that has grown cannot be generated from the scene again, and
-/// what is derived from it is stored too, so that a restarted run goes on with the same bits.
+/// Writes every array of the mesh below "mesh/". A mesh that has grown cannot be generated from the scene again.
+/// Derived arrays are stored too, so that a restarted run goes on with the same bits.
 void write_mesh(Hdf5Writer& file, const Mesh& mesh);
 
-/// Reads what `write_mesh` wrote; the mesh gets a new version. Throws Hdf5Error if arrays are missing or their sizes
-/// contradict one another.
+/// Reads a mesh that `write_mesh` wrote; the mesh gets a new version. Throws Hdf5Error if arrays are missing or their
+/// sizes contradict one another.
 Mesh read_mesh(const Hdf5Reader& file);
 
 /// Whether both meshes have the same nodes (to the bit), cells and fracture cells, so that values on one are values on

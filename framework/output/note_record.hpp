@@ -1,11 +1,11 @@
-// A note as it is kept in files and shown.
+// A note as it is stored in files and shown.
 #pragma once
 
 #include <string>
 
 namespace sprekk {
 
-/// What a run did that its user would not expect (Notes).
+/// A note of a run (see Notes).
 struct NoteRecord {
   std::string topic, text;
   double first_time = 0, last_time = 0;  ///< s, ends of the first and the last step
@@ -13,7 +13,7 @@ struct NoteRecord {
   double measure = 0;                    ///< how bad it was
 };
 
-/// The text, and of a note about steps how many these were and when.
+/// The text of a note; for a note on steps also how many steps, and when.
 std::string described(const NoteRecord& note);
 
 }  // namespace sprekk

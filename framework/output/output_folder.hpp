@@ -6,16 +6,18 @@
 
 namespace sprekk {
 
-/// Usage: construct it while the scene is checked, call `create` when the run starts:
+/// The name of a folder for results, which is made later. Usage: construct the object while the scene is checked, call
+/// `create` when the run starts:
 ///   OutputFolder folder = OutputFolder::for_scene("mandel");
 ///   std::filesystem::path history = folder.create() / "history.csv";
 class OutputFolder {
  public:
+  /// Whether the folder must be empty (new_run), or holds the results of a run that is continued.
   enum class Purpose { new_run, restart };
 
-  /// `parent/<scene name>`, or the first of `<scene name>-2`, `-3`, … that is missing or empty. Characters of the name
-  /// that do not belong into a folder's name become '_'. Throws InputError when the file system does not say what is
-  /// there.
+  /// `parent/<scene name>`, or the first of `<scene name>-2`, `-3`, … that is missing or empty. Characters of the scene
+  /// name that are not allowed in the name of a folder become '_'. Throws InputError when the parent folder cannot be
+  /// read.
   static OutputFolder for_scene(const std::string& scene_name, const std::filesystem::path& parent = "results");
 
   /// `parent/<scene name>`, whether or not it is there.
@@ -29,7 +31,7 @@ class OutputFolder {
   /// Makes the folder with its parents; further calls do nothing. Throws InputError when it cannot be made.
   const std::filesystem::path& create();
 
-  /// Where the results will go as things stand: another run may still take a default folder before `create`.
+  /// The folder for the results. Before `create`, another run may still take a default folder; the name then changes.
   const std::filesystem::path& path() const { return path_; }
 
  private:

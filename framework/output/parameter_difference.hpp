@@ -1,4 +1,4 @@
-// What has changed in a scene since a run wrote its record.
+// Finds the first parameter of a scene that has changed since a run wrote its record.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace sprekk {
 
-/// The first of `now` (in their order) whose value differs from the one in `run_json`, or that is not there, or else
-/// the first one there that is not in `now`: "materials.friction was 0.5 and is 0.6". Parameters under `output`,
+/// Describes the first difference between the parameters `now` and those in `run_json`: "materials.friction was 0.5 and
+/// is 0.6". Parameters that only `now` has count, and then those that only `run_json` has. Parameters under `output`,
 /// `name` and `time.end` do not count. Empty when there is no difference or no readable record.
 std::string parameter_difference(const std::filesystem::path& run_json, const std::vector<RunRecord::Parameter>& now);
 

@@ -1,4 +1,4 @@
-// Where the time of a run went, and what was not done because it was not needed.
+// Where the time of a run went, and how often work was skipped because it was not needed.
 //
 // Counting and timing are in this header alone, so that any part of the program may use them.
 #pragma once
@@ -11,14 +11,16 @@
 
 namespace sprekk {
 
+/// Counts and times of named pieces of work.
 class Profile {
  public:
+  /// One piece of work.
   struct Entry {
     std::string name;        ///< of the object: "pore: discretization", "rock+pore: factorization"
     long calls = 0;          ///< how often it did its work
     long reuses = 0;         ///< how often a kept result was used instead
     long skips = 0;          ///< how often nothing was needed at all
-    double seconds = 0;      ///< own time, without that of objects timed inside: the shares add up
+    double seconds = 0;      ///< own time, without that of work timed inside, so that all entries add up
     bool is_solver = false;  ///< a factorization (with its ordering) or back-solves of a linear system
   };
 
@@ -38,14 +40,14 @@ class Profile {
     return seconds;
   }
 
-  /// The end-of-run table: entries by falling seconds, a line for what has no entry, the total; then factorizations and
-  /// back-solves against everything else. Shares of `total_seconds` in %.
+  /// The end-of-run table: entries by falling seconds, a line for the time without entry, the total; then
+  /// factorizations and back-solves against everything else. Shares of `total_seconds` in %.
   std::string table(double total_seconds) const;
 
  private:
   friend class ScopedTimer;
   std::deque<Entry> entries_;
-  std::vector<double> inner_seconds_;  ///< a running timer each: the time spent in timers inside
+  std::vector<double> inner_seconds_;  ///< for each running timer: the time spent in timers inside of it
 };
 
 /// Counts one call and times it until the end of the scope. Timers nest.

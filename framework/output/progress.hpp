@@ -1,4 +1,4 @@
-// How a run tells the person in front of it where it is.
+// Shows the progress of a run on the terminal.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,10 @@ namespace sprekk {
 /// "42 s", "3 min 20 s", "2 h 5 min", "4 d 3 h", "4.2e+03 years"; a scene's times and waiting times alike.
 std::string duration_text(double seconds);
 
+/// Shows where a run is, as a bar or as lines, and tells of long phases.
 class Progress {
  public:
+  /// How the progress is shown.
   enum class Style {
     silent,
     lines,  ///< one line an event: for log files
@@ -33,31 +35,31 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Looks after the time from now on, with a thread of its own that calls tick(): so that a single call that takes
-  /// minutes does not take them without a word. Does nothing when silent.
+  /// Starts a thread that calls tick(), so that the display changes also during a call that takes minutes. Does nothing
+  /// when silent.
   void watch();
-  /// Nothing follows: the cursor is left on a new line.
+  /// Ends the display, with the cursor on a new line.
   void close();
 
   /// Step number `step` has reached the simulated `time`. The bar is redrawn at most ten times a second.
   void reached(double time, int step);
-  /// Something worth a line: a step that was cut, a fracture that grew, a warning.
+  /// Shows an event in a line of its own: a step that was cut, a fracture that grew, a warning.
   void event(const std::string& text);
   /// The run ends before its end, and why.
   void stopped(double time, int step, const std::string& why);
 
-  /// What begins now: "building the model", "step 12 from 3 h over 1 h". Shown only if it takes long.
+  /// Tells the phase that begins: "building the model", "step 12 from 3 h over 1 h". Shown only if it takes long.
   void phase(const std::string& what);
-  /// What of it, "discretizing rock"; or with `passing`, how far it is: "iteration 7, residual 1e-3". In lines, parts
-  /// that have taken 10 s are told with their time, unless they are passing.
+  /// Tells the part of the phase that begins, "discretizing rock"; or with `passing`, how far the phase is: "iteration
+  /// 7, residual 1e-3". With lines, a part that has taken 10 s is shown with its time, unless it is passing.
   void part(const std::string& what, bool passing = false);
-  /// To be called about twice a second: draws the bar again with what goes on since when; among lines, adds one when a
-  /// phase has taken 10 s, and then each time that a minute has passed without one.
+  /// To be called about twice a second. A bar is redrawn with the current phase and its time. With lines, a line is
+  /// added when a phase has taken 10 s, and then after each minute without a line.
   void tick();
 
  private:
   std::string status(double time, int step) const;
-  std::string activity() const;  ///< what goes on since when, or nothing
+  std::string activity() const;  ///< the current phase with its time, or ""
   void clear_bar();
   void draw_bar();
   void line(const std::string& text);

@@ -5,8 +5,9 @@
 
 namespace sprekk {
 
-/// A lock on a folder of results, in its file `.lock`, which names the holder. It ends with the process that holds it,
-/// however that ends, so that the folder of a dead run is free. Where the file system knows no locks there is none.
+/// A lock on a folder of results, by its file `.lock`, which names the holder. The lock ends with the process that
+/// holds it, however that process ends, so that the folder of a dead run is free. File systems without locks are not
+/// locked.
 class RunLock {
  public:
   static inline const char* const file_name = ".lock";

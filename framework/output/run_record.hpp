@@ -1,4 +1,4 @@
-// run.json: what was run, with what, how it went, and what came out.
+// run.json: the scene of a run, the program, how the run ended, and its results.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,8 @@
 
 namespace sprekk {
 
-/// Filled in while a run goes on, written when it starts and when it ends, however it ends.
+/// The record of a run. It is filled in while the run goes on, and written when the run starts and when it ends, also
+/// after a failure.
 struct RunRecord {
   /// A parameter of the scene with every default filled in.
   struct Parameter {
@@ -33,7 +34,7 @@ struct RunRecord {
   std::map<std::string, double> timings;  ///< further times (s): "processor: set-up"
   std::map<std::string, long> counters;   ///< "steps accepted", "steps cut", "newton iterations"
   std::map<std::string, double> results;  ///< "quantity[unit]": the result figures
-  std::vector<NoteRecord> notes;          ///< what the user would not expect
+  std::vector<NoteRecord> notes;          ///< see Notes
 
   /// The record as JSON text, with the versions of the program and its libraries, the kind of host, and the profile.
   /// Numbers that are not finite become null, as JSON has none.

@@ -7,8 +7,10 @@
 
 namespace sprekk {
 
+/// Writes an index file, entry by entry.
 class TimeSeries {
  public:
+  /// A written file and its time.
   struct Entry {
     double time;       ///< s
     std::string file;  ///< relative to the index file

@@ -20,7 +20,7 @@ std::string labelled(const std::string& quantity, const std::string& unit);
 void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
 
 /// Writes the fracture cells as lines with the fields on them, and the number of each cell's fracture. Pairs on
-/// fracture cells stand in the cell's own frame, so they become two arrays, "name.normal[unit]" and
+/// fracture cells are components in the frame of the cell, so they become two arrays, "name.normal[unit]" and
 /// "name.tangential[unit]"; a field on walls becomes "name.plus[unit]" and "name.minus[unit]". Other fields are left
 /// out.
 void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
