@@ -6,13 +6,16 @@
 
 namespace sprekk {
 
+/// A tick of an axis and its label.
 struct Tick {
   double value;
   std::string text;
 };
 
+/// A range of numbers with ticks, linear or logarithmic.
 class Axis {
  public:
+  /// How numbers map to positions.
   enum class Scale { linear, logarithmic };
 
   /// An axis that holds all finite `values` (on a logarithmic one: all positive ones), with about `tick_count` ticks at
@@ -24,7 +27,7 @@ class Axis {
   double low() const { return low_; }
   double high() const { return high_; }
   const std::vector<Tick>& ticks() const { return ticks_; }
-  /// 0 at the low end, 1 at the high one; NaN for what a logarithmic axis cannot show.
+  /// The position of a value: 0 at the low end, 1 at the high end; NaN for values that a logarithmic axis cannot show.
   double fraction(double value) const;
 
  private:

@@ -5,7 +5,7 @@
 
 namespace sprekk {
 
-/// Display value = SI value / scale.
+/// A unit in which values are shown: shown value = SI value / scale.
 struct DisplayUnit {
   double scale = 1;
   std::string text;  ///< "MPa", "h", "10⁻⁹ m²/s"; "" for a plain number
@@ -21,7 +21,7 @@ std::string pretty_unit(const std::string& unit);
 /// 10⁻⁹
 std::string power_of_ten(int exponent);
 
-/// A column's name "p_C[Pa]" in its parts; "1" as unit, or none, is a plain number.
+/// The parts of a column's name "p_C[Pa]"; a unit "1", or none, stands for a plain number.
 struct ColumnName {
   std::string quantity;
   std::string unit;  ///< SI, "" for a plain number

@@ -8,6 +8,7 @@
 
 namespace sprekk {
 
+/// A quantity against time.
 struct HistoryCurve {
   std::string name;
   std::vector<double> times, values;  ///< SI

@@ -13,6 +13,7 @@
 
 namespace sprekk {
 
+/// A curve of a plot.
 struct Curve {
   std::string name;          ///< in the legend; "" for none
   std::vector<double> x, y;  ///< of the same length; a number that is not finite interrupts the line
@@ -20,6 +21,7 @@ struct Curve {
   bool marked = false;  ///< with a dot at each point
 };
 
+/// A plot of several curves.
 struct Panel {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;

@@ -1,12 +1,12 @@
-// Curves of very many points, as far as they can be seen.
+// Thins curves of very many points to what can be seen.
 #pragma once
 
 #include "framework/picture/line_plot.hpp"
 
 namespace sprekk {
 
-/// Of each of `bins` equal groups of points the first, the lowest, the highest and the last, in their order: what a
-/// picture of that many pixels can show. Short curves, and gaps, stay as they are.
+/// Divides the points into `bins` equal groups, and keeps the first, lowest, highest and last point of each, in their
+/// order: a picture of that many pixels shows no more. Short curves, and gaps, stay as they are.
 Curve thinned(const Curve& curve, std::size_t bins = 600);
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// The cells of a line of a grid in the order in which one walks along it.
+// The cells of a line of a grid in their order along the line.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace sprekk {
 
-/// One way from end to end; a line that branches or is in pieces has several.
+/// A path from end to end of a line; a line that branches or is in pieces has several paths.
 struct FracturePath {
   std::vector<std::array<double, 2>> points;
   std::vector<int> cells;      ///< one less than points
@@ -17,8 +17,8 @@ struct FracturePath {
   double start = 0, end = 0;   ///< at the first and last point (m)
 };
 
-/// Where the arc length of a line begins and which way it runs. A line that grows keeps both, so that its values at
-/// different times stand above one another: what grows at the first end has negative lengths.
+/// The origin and direction of the arc length of a line. A line that grows keeps both, so that curves of different
+/// times fit to one another: cells that grow at the first end have negative lengths.
 struct PathOrigin {
   std::array<double, 2> first, last;
 };

@@ -1,4 +1,4 @@
-// Numbers on the triangles of a run, one a cell or point, as a page's script draws them.
+// Values on the triangles of a run, for each cell or point, as the script of a page draws them.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// A number that has a colour on the map: a scalar field, a component, or the length of a vector.
+/// A value that is shown as colour on the map: a scalar field, a component, or the length of a vector.
 struct MapField {
   std::string label;  ///< "rock.displacement, x"
   std::string unit;   ///< SI
@@ -20,8 +20,8 @@ struct MapField {
 /// Scalar fields first. A vector gives its components and its length, a tensor its components.
 std::vector<MapField> map_fields(const RunResults& results);
 
-/// JSON: meshes, which are written once as long as they do not change, fields with their ranges, and the values at each
-/// time as 16-bit fractions of the range. At most `most_bytes` large: of longer runs fewer times are taken.
+/// The map as JSON: meshes, each once as long as it does not change, fields with their ranges, and the values at each
+/// time as 16-bit fractions of the range. The text has at most `most_bytes`: longer runs are shown at fewer times.
 std::string map_json(const RunResults& results, std::size_t most_bytes = 24'000'000);
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// A run as a page that needs nothing but itself: curves, fields, convergence, timing.
+// A run as one self-contained HTML page: curves, fields, convergence, timing.
 #pragma once
 
 #include <filesystem>

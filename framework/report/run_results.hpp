@@ -10,7 +10,9 @@
 
 namespace sprekk {
 
+/// The record, tables and fields of a run.
 struct RunResults {
+  /// The fields at a written time.
   struct Written {
     double time;  ///< s
     Grid matrix, fractures;
@@ -20,7 +22,7 @@ struct RunResults {
   std::string record;  ///< run.json
   CsvTable history, coupling;
   std::vector<Written> written;       ///< at most `most_times` of the written times
-  std::size_t written_count = 0;      ///< all of them
+  std::size_t written_count = 0;      ///< the number of all written times
   std::vector<std::string> problems;  ///< files that could not be read
   static constexpr std::size_t most_times = 12;
 };

@@ -16,7 +16,7 @@ std::string convergence_section(const RunResults& results);  ///< iterations and
 std::string effort_section(const RunResults& results);       ///< seconds, calls, reuses, skips, counters
 std::string parameter_section(const RunResults& results);    ///< every parameter with its origin
 
-/// "component.tip.quantity[unit]": a column of a tip, or of another named thing of a component.
+/// A column "component.thing.quantity[unit]" of a tip, or of another named thing of a component.
 struct ThingColumn {
   std::string thing, quantity, unit;
   int column;

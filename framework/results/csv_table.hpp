@@ -7,6 +7,7 @@
 
 namespace sprekk {
 
+/// A table of texts and numbers with named columns.
 class CsvTable {
  public:
   CsvTable() = default;

@@ -10,7 +10,9 @@ namespace sprekk {
 
 /// Triangles or lines with arrays on them, to be drawn: a quadrilateral becomes two triangles with its values.
 struct Grid {
+  /// The entities that carry an array.
   enum class Place { cell, point };
+  /// An array of the file.
   struct Values {
     std::string name;  ///< "quantity[unit]"
     Place place;
@@ -31,6 +33,7 @@ struct Grid {
 /// Reads a file that write_matrix_vtu or write_fracture_vtu has written. Throws std::runtime_error.
 Grid read_grid(const std::filesystem::path& vtu);
 
+/// A written time and its file.
 struct Snapshot {
   double time;  ///< s
   std::filesystem::path file;

@@ -15,12 +15,12 @@ namespace sprekk {
 /// once.
 class ChildProcess {
  public:
-  /// Starts `program` with what it prints appended to `log`; the environment is the one that this process was started
-  /// with (MPI adds variables that must not be inherited), with `settings` added. Throws std::runtime_error.
+  /// Starts `program`, whose output is appended to `log`. Its environment is the environment that this process was
+  /// started with (MPI adds variables that must not be inherited) and `settings`. Throws std::runtime_error.
   ChildProcess(const std::string& program, const std::vector<std::string>& arguments, const std::filesystem::path& log,
                const std::map<std::string, std::string>& settings);
 
-  /// The exit code once it has ended, minus the signal's number when one ended it. Does not wait.
+  /// The exit code of a program that has ended, or minus the number of the signal that ended it. Does not wait.
   std::optional<int> exit_code();
   void signal(int number) const;
 
@@ -29,8 +29,8 @@ class ChildProcess {
   std::optional<int> code_;
 };
 
-/// Counts SIGINT and SIGTERM while it exists, instead of being ended by them. A terminal (SIGHUP) or a reader (SIGPIPE)
-/// that goes away counts as the first of them.
+/// A guard that counts SIGINT and SIGTERM while it exists, so that they do not end the process. The end of the terminal
+/// (SIGHUP) or of the reader (SIGPIPE) counts as a first signal.
 class SignalCounter {
  public:
   SignalCounter();

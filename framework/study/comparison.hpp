@@ -1,4 +1,4 @@
-// What a study says about its runs together: sweep.csv, sweep.json and sweep.svg.
+// The comparison of the runs of a study: sweep.csv, sweep.json and sweep.svg.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,16 @@
 
 namespace sprekk {
 
+/// Writes the table, the record and the picture of a study.
 class Comparison {
  public:
-  /// Looks columns up in the models of the runs, before any has been run. Throws InputError for one that no run has.
+  /// Looks the columns up in the models of the runs, before any run has begun. Throws InputError for a column that no
+  /// run has.
   explicit Comparison(const Study& study);
 
-  /// sweep.json without figures, so that a sweep that is cut short can go on.
+  /// Writes sweep.json without figures, so that a sweep that is interrupted can go on.
   void write_record(const std::filesystem::path& folder, const std::vector<RunState>& states) const;
-  /// All three files. Figures are of runs that are done; curves are of all that there is.
+  /// Writes all three files. Figures are those of runs that are done; curves are those of all runs with results.
   void write(const std::filesystem::path& folder, const std::vector<RunState>& states) const;
   /// The figures as a table for the terminal.
   std::string text(const std::filesystem::path& folder, const std::vector<RunState>& states) const;

@@ -10,7 +10,7 @@
 
 namespace sprekk {
 
-/// As the study's file says it.
+/// The parameters of a figure in the file of a study.
 struct FigureOptions {
   std::string name;
   Origin origin;
@@ -28,7 +28,7 @@ using ColumnNames = std::vector<std::string>;
 /// The column of `names` that is meant by "quantity" or "quantity[unit]". Throws InputError with the nearest name.
 std::string find_column(const ColumnNames& names, const std::string& wanted, const Origin& where);
 
-/// A figure whose column is known, so that units are.
+/// A figure with its column in the history, and so with its unit.
 class Figure {
  public:
   /// Throws InputError for an unknown column, and for a time or value of the wrong dimension.
@@ -37,8 +37,8 @@ class Figure {
   const std::string& name() const { return name_; }
   const std::string& unit() const { return unit_; }  ///< SI, of the figure; "" for a plain number
   std::string heading() const;                       ///< "time to 0.1 m[s]"
-  /// NaN when the history has no such value. Between rows the history is linear in time; means and integrals take each
-  /// row's value for its whole step, as the time stepping does.
+  /// The figure of a run; NaN when its history has no such value. Between rows the history is linear in time; means and
+  /// integrals use the value of each row for its whole step, as the time stepping does.
   double of(const CsvTable& history) const;
 
  private:

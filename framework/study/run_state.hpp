@@ -1,4 +1,4 @@
-// Where a run of a study stands, and what is known of it: one entry of sweep.json.
+// The state of a run of a study: one entry of sweep.json.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,9 @@
 
 namespace sprekk {
 
+/// Whether a run of a study has been done, and how it ended.
 struct RunState {
+  /// How far the run is.
   enum class Standing { waiting, done, failed, interrupted };
 
   std::string name, identity;
@@ -21,18 +23,18 @@ struct RunState {
   std::string program;  ///< version and commit of the program that ran it
 };
 
-/// What is to be done with a run whose folder may exist.
+/// What to do with a run: keep its results, start it, or continue it from its checkpoint.
 enum class Action { keep, start, go_on };
 
 /// The states in `folder`/sweep.json by name; none when there is no such file. Throws InputError if it is damaged.
 std::map<std::string, RunState> read_states(const std::filesystem::path& folder);
 
-/// Decides for one run, given what is remembered of it. Throws InputError when its folder holds a run of other values:
-/// results are never overwritten.
+/// Decides what to do with one run, from the remembered states. Throws InputError when its folder holds a run with
+/// other values: results are never overwritten.
 Action next_action(const StudyRun& run, const std::map<std::string, RunState>& remembered,
                    const std::filesystem::path& folder);
 
-/// Fills in what run.json in `run_folder` and the log say about a run that has ended with `code`.
+/// Sets the state of a run that has ended with `code`, from run.json in `run_folder` and from the log.
 void record_end(RunState& state, int code, const std::filesystem::path& run_folder, const std::filesystem::path& log);
 
 std::string standing_text(RunState::Standing standing);

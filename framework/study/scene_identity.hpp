@@ -1,4 +1,4 @@
-// What tells whether a run has been done already.
+// Identities of scenes: they tell whether a run has been done already.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace sprekk {
 /// (relative to `folder`), but neither with comments, nor with the order of keys, nor with the scene's name.
 std::string scene_identity(const Node& scene, const std::filesystem::path& folder);
 
-/// The same of a text.
+/// The identity of a text.
 std::string text_identity(const std::string& text);
 
 }  // namespace sprekk

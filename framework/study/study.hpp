@@ -24,12 +24,14 @@ struct Setting {
   Origin key_origin, value_origin;
 };
 
-/// The file as it stands; `spec` declares it.
+/// The parameters in the file of a study, declared by `spec`.
 struct StudyOptions {
+  /// A path of the scene, and the values that the study gives it.
   struct Axis {
     std::string path;
     std::vector<Setting> values;
   };
+  /// A run with its own settings.
   struct NamedRun {
     std::string name;
     std::vector<Setting> settings;
@@ -47,13 +49,15 @@ struct StudyOptions {
   Spec spec();
 };
 
+/// A run of a study.
 struct StudyRun {
   std::string name;                 ///< also of its folder
   std::vector<Setting> settings;    ///< all, in the order in which they are applied
-  std::vector<std::string> values;  ///< of the study's keys, as the run's scene has them
+  std::vector<std::string> values;  ///< of the study's keys in the scene of the run
   std::string identity;             ///< changes with anything that the run reads
 };
 
+/// All runs of a study, and what is to be compared.
 struct Study {
   std::string name;
   std::vector<std::string> scene_files;
@@ -67,7 +71,7 @@ struct Study {
   Scene scene_of(const StudyRun& run) const;
 };
 
-/// Reads the file and the scene of every run. Throws InputError for whatever is wrong in any of them.
+/// Reads the file of a study and the scene of every run. Throws InputError for any mistake in them.
 Study read_study(const std::string& file);
 
 /// The spec with its defaults, for `explain`, the reference and the schema.
