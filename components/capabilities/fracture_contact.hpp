@@ -5,17 +5,19 @@
 
 namespace sprekk {
 
-/// "I determine the contact traction from the displacement jump."
+/// Capability: determines the contact traction from the displacement jump.
 class FractureContact {
  public:
   static constexpr const char* promise = "determines contact tractions from displacement jumps";
   virtual ~FractureContact() = default;
-  /// f of Eqs. 2–4 of the paper, Pa, (normal, tangential) of each fracture cell; normal negative in contact.
+  /// The contact traction f of Eqs. 2–4 of the paper, Pa, (normal, tangential) of each fracture cell; the normal
+  /// component is negative in contact.
   virtual Field& traction() = 0;
-  /// Input, m, (normal, tangential) of each fracture cell (Eq. 1 of the paper); opening positive.
+  /// Input: the displacement jump, m, (normal, tangential) of each fracture cell (Eq. 1 of the paper); opening
+  /// positive.
   virtual Field& jump() = 0;
-  /// How stiffly the rock answers a jump of one cell, Pa/m, (normal, tangential) of each fracture cell: a scale for the
-  /// method of solution, which the answer does not depend on.
+  /// The stiffness of the rock against a jump of one cell, Pa/m, (normal, tangential) of each fracture cell. It scales
+  /// the method of solution; the solution does not depend on it.
   virtual void set_wall_stiffness(const Vector& stiffness) = 0;
 };
 

@@ -5,19 +5,21 @@
 
 namespace sprekk {
 
-/// "I determine the pressure in the fractures from a balance of fluid volume, and accept their aperture."
+/// Capability: determines the pressure in the fractures from a balance of fluid volume, and accepts their aperture.
 class FractureFluid {
  public:
   static constexpr const char* promise = "determines the pressure in the fractures";
   virtual ~FractureFluid() = default;
-  /// Pa, one a fracture cell. Its equation is the volume that it stores, less what entered during the step (m^2).
+  /// The pressure of each fracture cell, Pa. Its equation is the volume that the cell stores during the step, less the
+  /// volume that entered (m^2).
   virtual Field& pressure() = 0;
-  /// Input, m, one a fracture cell; the initial aperture a0 (below Eq. 8 of the paper) until a coupler determines it.
+  /// Input: the aperture of each fracture cell, m; the initial aperture a0 (below Eq. 8 of the paper) unless a coupler
+  /// determines it.
   virtual Field& aperture() = 0;
   virtual const Vector& initial_aperture() const = 0;
 
-  /// The permeability normal to the fracture, kappa = 2 K/(mu a^2) (below Eq. 9 of the paper), m/(Pa s), one a fracture
-  /// cell, at the current aperture, and its derivative by the aperture.
+  /// The permeability normal to the fracture, kappa = 2 K/(mu a^2) (below Eq. 9 of the paper), m/(Pa s), for each
+  /// fracture cell at the current aperture, and its derivative by the aperture.
   struct NormalPermeability {
     Vector value, by_aperture;
   };

@@ -1,4 +1,4 @@
-// What the rock tells of its state, for those who look closer at a part of it.
+// The state of the rock, for a finer model of a part of it.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,22 +14,22 @@ struct LameParameters {
   double lambda, shear;
 };
 
-/// "I give displacement, stress and stiffness of the rock."
+/// Capability: gives displacement, stress and stiffness of the rock.
 class RockState {
  public:
   static constexpr const char* promise = "gives displacement, stress and stiffness of the rock";
   virtual ~RockState() = default;
-  /// m, (x, y) of each cell.
+  /// The displacement of each cell, m, (x, y).
   virtual const Field& displacement() const = 0;
-  /// m, (x, y) of each face with one cell, at its centre; 0 of others.
+  /// The displacement at the centre of each face with one cell, m, (x, y); 0 for other faces.
   virtual Vector outer_displacement() const = 0;
-  /// Pa, one a cell: what the pore pressure adds to xx and yy of the stress, −alpha (p − p_0).
+  /// The stress −alpha (p − p_0) that the pore pressure adds to xx and yy, for each cell, Pa.
   virtual Vector pore_stress() const = 0;
-  /// Pa, (xx, yy, xy).
+  /// The initial stress of a cell at a point x, Pa, (xx, yy, xy).
   virtual Eigen::Vector3d initial_stress(int cell, const Point& x) const = 0;
-  /// Nothing for an anisotropic rock.
+  /// The stiffness of a cell; std::nullopt where the rock is anisotropic.
   virtual std::optional<LameParameters> stiffness(int cell) const = 0;
-  /// Grows when the stiffness has changed, or alpha of the pore pressure.
+  /// A number that grows when the stiffness, or alpha of the pore pressure, has changed.
   virtual std::uint64_t properties_version() const = 0;
 };
 

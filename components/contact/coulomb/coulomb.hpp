@@ -13,12 +13,14 @@
 
 namespace sprekk::contact {
 
+/// Parameters of the contact law.
 struct Options {
   Data friction;        ///< mu_s
   Data dilation_angle;  ///< psi, rad
   Spec spec();
 };
 
+/// The state of a fracture cell: closed and sticking, closed and slipping, or open.
 enum class State { stick, slip, open };
 
 /// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. With the
@@ -33,19 +35,19 @@ enum class State { stick, slip, open };
 /// mu_s and psi are those of the end of the step. The gap knows the slip and not its history: where psi falls, a
 /// fracture that has slipped closes.
 ///
-/// A wall that slides back comes down from what it has climbed by dilation. The fracture closes, the fluid in it is
-/// pressed together where it cannot leave, the walls are pushed apart and hold less shear: there may be no state
-/// between its slip and none in which friction balances the load, and Newton's method, which finds the one where slip
-/// goes the wrong way, and sticking return to each other forever. The state that balances it lies beyond the kink of
-/// |[u]_t|. So a cell for which sliding back has led to slip in the wrong direction takes the derivatives, and the
-/// residual of the update, from the piece of |[u]_t| beyond the kink. What a solution is does not change.
+/// A wall that slides back loses the opening that it has gained by dilation. The fracture closes, fluid in it that
+/// cannot leave is compressed, its pressure pushes the walls apart, and they hold less shear. So there may be no
+/// state between the present slip and zero slip in which friction balances the load. Newton's method then cycles
+/// between sticking and a state where the slip has the wrong direction. The state in balance lies beyond the kink of
+/// |[u]_t| at zero. Therefore a cell for which sliding back has led to slip in the wrong direction takes the
+/// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
 class Coulomb : public Component, public FractureContact {
  public:
   Coulomb(const ComponentContext& context, const Options& options);
 
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime&) override { back_slip_.clear(); }
-  /// Cells that have grown hold together, [u] = 0, until the state without them has been found on the new mesh.
+  /// Cells that have grown are bonded, [u] = 0, until the equilibrium on the new mesh with bonded cells has been found.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
@@ -62,13 +64,14 @@ class Coulomb : public Component, public FractureContact {
 
   Field& traction() override { return traction_; }
   Field& jump() override { return jump_; }
-  /// Along the tangent it is taken for that of the whole fracture, which answers slip of all cells as many times more
-  /// softly as it is longer. When a load goes back, the derivatives of slip make all cells slide back at once, over the
-  /// whole fracture; with the stiffness of a cell alone they would be taken to slip back by friction, then to and fro,
-  /// where they only stick.
-  /// The stiffness along the normal is limited to half of that along the tangent over mu_s tan psi. Walls that slide
-  /// freely while open, by d, overlap by |d| tan psi; with more than that limit they would be taken to stick, come back
-  /// to where they were, open, and so on. With less they are taken to slip.
+  /// The tangential stiffness of a cell is replaced by that of its whole fracture: slip of all cells together meets a
+  /// stiffness that is smaller by the ratio of the length of the cell to that of the fracture. When a load decreases,
+  /// the derivatives of slip make all cells of a fracture slide back at once. With the stiffness of single cells the
+  /// iteration would take these cells to slip back by friction, then forth again, where they only stick.
+  ///
+  /// The normal stiffness is limited to half of the tangential one over mu_s tan psi. Walls that slide freely by d
+  /// while open overlap by |d| tan psi. With a larger normal stiffness the iteration would take them to stick, return
+  /// to where they were, open, and so on; with the limit it takes them to slip.
   void set_wall_stiffness(const Vector& stiffness) override;
 
   State state(int cell) const;
@@ -81,20 +84,20 @@ class Coulomb : public Component, public FractureContact {
     double slip_sign;  ///< of d gap / d [u]_t
     bool is_open() const { return normal > 0; }
     bool sticks() const { return std::abs(tangential) <= bound; }
-    /// Slides towards the place where it has not slipped.
+    /// Whether the cell slides towards zero slip.
     bool slides_back() const { return !is_open() && !sticks() && tangential * slip_sign < 0; }
   };
   Trial trial(int cell) const;
-  /// A number for the state of a cell, and when pieces are followed for the piece of |[u]_t| too.
+  /// A number for the state of a cell; when pieces are followed, it also tells the piece of |[u]_t|.
   int piece(int cell) const;
 
-  /// Slip of a cell against the slip that it has, as Newton's method has tried it in this step.
+  /// What Newton's method has tried in this step for a cell that slides back.
   struct BackSlip {
     enum class Piece { none, before_kink, beyond_kink } taken = Piece::none;  ///< of |[u]_t|, by the last update
     double direction = 0;                                                     ///< of the slip at that update
     bool is_beyond = false;                                                   ///< the solution is not before the kink
   };
-  /// Of the update, for which the piece may be another than that of the present values.
+  /// The trial state for the update, whose piece may differ from that of the present values.
   Trial trial_of_update(int cell) const;
   void follow_back_slip() const;
 
@@ -106,13 +109,14 @@ class Coulomb : public Component, public FractureContact {
   Vector dilation_;                                  ///< tan psi
   std::vector<char> bonded_;                         ///< empty for none
   mutable std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
-  mutable std::array<std::uint64_t, 2> followed_{};  ///< versions of traction and jump that it has followed last
+  mutable std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in follow_back_slip
   bool is_careful_ = false;                          ///< after Newton's method has failed
   bool follows_pieces_ = false;                      ///< as they are: no guess of what lies beyond the kink
   std::vector<double> fracture_length_;              ///< m
-  /// c, Pa/m, (normal, tangential) of each cell: that of its walls, and with the tangential one of all of its fracture.
-  /// Newton's method takes the second at first, with which cells that unload together stick at once. Where it fails it
-  /// takes the first: with the second it may go to and fro between pieces that differ in single cells.
+  /// c, Pa/m, (normal, tangential) of each cell: with the tangential stiffness of the cell's walls, and with that of
+  /// its whole fracture. Newton's method first uses the stiffness of the fracture, with which cells that unload
+  /// together stick at once. After a failure it uses that of the walls: with the other one it may cycle between states
+  /// that differ in single cells.
   Vector stiffness_of_walls_, stiffness_of_fractures_;
 };
 

@@ -20,14 +20,14 @@ namespace sprekk::fracture_flow {
 /// its second cell (m^2/s). Each row of p balances the volume of fluid of one cell over the step (m^2):
 ///   L (a − a_old) + L a c_p (p − p_old) + dt (sum of Q out of it) − dt q = 0,
 /// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series
-/// (half_cell_apertures.hpp). Keeping Q lets a fracture conduct 1e12 times better than rock does without loss of
-/// digits: Q is not a difference of nearly equal pressures, and what leaves one cell enters the next to the bit.
-/// Properties are those of the end of the step.
+/// (half_cell_apertures.hpp). With Q as an unknown a fracture may conduct 1e12 times better than rock without loss of
+/// digits: Q is not computed from a difference of nearly equal pressures, and the flux out of one cell enters the next
+/// one to the bit. Properties are those at the end of the step.
 class FractureFlow : public Component, public FractureFluid {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
-  /// Cells that have grown start at the pressure of their neighbours; whether they start with fluid is a parameter.
+  /// Cells that have grown start with the pressure of their neighbours; a parameter says whether they start with fluid.
   void carry_over(const Part& before, const MeshChange& change) override;
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime&) override {}
@@ -55,15 +55,15 @@ class FractureFlow : public Component, public FractureFluid {
     double value, by_aperture;
   };
   Transmissivity transmissivity(int cell) const;
-  /// Of the half at one of its points.
+  /// The same for the half of the cell at one of its points.
   Transmissivity transmissivity(int cell, int point) const;
   Transmissivity cubic_law(int cell) const;
   bool is_held() const { return held_aperture_.size() > 0; }
-  /// An aperture of the cubic law, and its derivative by the one that it is now.
+  /// An aperture for the cubic law, and its derivative by the present aperture.
   struct CubicLawAperture {
     double value, by_present;
   };
-  /// Of an aperture and the one that is held, if any: both at least the floor.
+  /// The aperture for the cubic law from the present aperture and the held one, if any; both are at least the floor.
   CubicLawAperture cubic_law_aperture(double present, double held) const;
   CubicLawAperture cubic_law_aperture(int cell) const;  ///< not below the floor
   /// A point through which fluid can flow.
@@ -76,7 +76,7 @@ class FractureFlow : public Component, public FractureFluid {
     double gravity = 0;            ///< rho g·(x_first − x_second), Pa
   };
   Conductance conductance(const Link& link) const;
-  /// By the cubic law, from the apertures of the half cells.
+  /// The conductance by the cubic law, from the apertures of the half cells.
   Conductance conductance_by_opening(const Link& link, double half, double other_half) const;
   std::vector<JunctionFluxes> junction_fluxes() const;
   double pressure_drop(const Link& link) const;

@@ -14,33 +14,35 @@ struct Conductance {
   std::vector<std::pair<int, double>> by_aperture;
 };
 
-/// With t_i the conductance from the centre of cell i to the junction, the fluxes t_i (p_i − p) into it add up to zero.
-/// Without the pressure p of the junction that is a flux Q_ij = C_ij (p_i − p_j) between each two of its cells,
-/// C_ij = t_i t_j / sum t (star to mesh; Karimi-Fard, Durlofsky and Aziz, SPE Journal 9, 2004).
+/// The equations of the fluxes at a junction. With t_i the conductance from the centre of cell i to the junction, the
+/// fluxes t_i (p_i − p) into the junction add up to zero. Elimination of the junction's pressure p gives a flux
+/// Q_ij = C_ij (p_i − p_j) between each two of its cells, C_ij = t_i t_j / sum t (star to mesh; Karimi-Fard, Durlofsky
+/// and Aziz, SPE Journal 9, 2004).
 ///
-/// Where fractures conduct well, differences of pressures have no correct digit, and a flux that goes around among
-/// three cells would be left to rounding. So only the fluxes of the cell that conducts best, the hub h, are given by
-/// pressures, and the others by these: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
+/// Where fractures conduct well, differences of pressures have no correct digit, and round-off would determine the flux
+/// that circulates among three cells. So only the fluxes of the cell with the largest conductance, the hub h, follow
+/// from pressures; the others follow from these fluxes: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
 class JunctionFluxes {
  public:
-  /// m^2/(Pa s), and its derivative by the aperture.
+  /// The conductance t_i, m^2/(Pa s), and its derivative by the aperture.
   struct Half {
     double value, by_aperture;
   };
   /// `halves`: one for each of the junction's cells.
   JunctionFluxes(const Junction& junction, std::vector<Half> halves);
 
-  /// A flux between two cells is the conductance times the drop of pressure, or, where the hub has no part in it, the
-  /// sum of shares of fluxes through other points.
+  /// A flux between two cells: the conductance times the pressure drop for a flux of the hub, or else the sum of shares
+  /// of the fluxes through other points.
   struct Flux {
     Conductance conductance;
+    /// The share of the flux through another point.
     struct Part {
       int point;
-      Conductance share;  ///< without unit; with the sign that the directions of both fluxes ask for
+      Conductance share;  ///< without unit; the sign accounts for the directions of both fluxes
     };
     std::vector<Part> parts;
   };
-  /// Through one of the junction's points, by its place among them.
+  /// The flux through one of the junction's points, by the place of the point in Junction::points.
   Flux flux(int place) const;
 
  private:

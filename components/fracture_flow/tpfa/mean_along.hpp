@@ -19,21 +19,22 @@ struct Piece {
 std::vector<Piece> whole_cells(const Mesh& mesh);
 std::vector<Piece> half_cells(const Mesh& mesh, int end);
 
+/// How values along a piece are averaged.
 enum class Mean {
-  of_values,      ///< of what lies side by side
-  of_reciprocals  ///< of what lies in series: 1 over the mean of 1 over the values
+  of_values,      ///< arithmetic: for conductors in parallel
+  of_reciprocals  ///< harmonic, 1 over the mean of 1 over the values: for conductors in series
 };
 
 /// The mean of a datum on each piece, as a step takes it (value_in_step). A datum that does not depend on the position
-/// is evaluated once for a piece, and one that does not depend on time once in all.
+/// is evaluated once for each piece; a datum that does not depend on time is evaluated only once.
 class MeansAlong {
  public:
   /// Without values.
   MeansAlong() = default;
-  /// With the values at `start` (s). Throws DataError.
+  /// Evaluates the datum at `start` (s). Throws DataError.
   MeansAlong(const Data& data, std::vector<Piece> pieces, Mean mean, double start);
 
-  /// Takes the values of this step. Throws DataError.
+  /// Evaluates the datum for this step. Throws DataError.
   void evaluate(const StepTime& step);
   double operator[](int i) const { return values_[i]; }
 

@@ -16,16 +16,19 @@ struct Where {
   std::optional<Point> at;  ///< m
 };
 
+/// A rate of fluid that is injected at a place.
 struct Injection {
   Where where;
   Data rate;  ///< m^2/s in all, spread evenly over the length
 };
 
+/// A pressure that is prescribed at a place.
 struct PrescribedPressure {
   Where where;
   Data pressure;  ///< Pa
 };
 
+/// Parameters of the flow in fractures.
 struct Options {
   Data viscosity;                ///< Pa s
   Data fluid_compressibility;    ///< 1/Pa
