@@ -1,4 +1,4 @@
-// What every discretization of the flux asks of its arguments.
+// Checks the arguments of discretizations of the flux.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace sprekk::matrix_flow {
 
-/// Throws std::invalid_argument unless there is one mobility a cell, one condition a face, `none` on the inner faces
-/// only, and one flag a node or no flags.
+/// Throws std::invalid_argument unless there is one mobility for each cell, one condition for each face, with `none` on
+/// the inner faces only, and one flag for each node, or no flags.
 void check_conditions(const Mesh& mesh, const std::vector<Tensor>& mobility,
                       const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes);
 

@@ -1,4 +1,4 @@
-// Linear operators of Darcy flow on the matrix, whichever discretization made them.
+// Linear operators of Darcy flow on the matrix, for any discretization.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,13 @@
 
 namespace sprekk::matrix_flow {
 
-enum class FlowCondition { none, pressure, flux };  ///< of a face: none inside; walls of fractures are `flux`
+/// What is prescribed on a face: nothing on inner faces, the pressure, or the flux, as on walls of fractures.
+enum class FlowCondition { none, pressure, flux };
 
-/// With pressures p (one a cell, Pa), boundary values b (one a face: the pressure at the face centre on `pressure`
-/// faces, the outward flux integrated over the face, m^2/s, on `flux` faces, ignored inside) and changes s of the
-/// prescribed pressure along `pressure` faces, from the first to the second node (one a face, Pa, ignored elsewhere):
+/// Fluxes and traces as linear functions of pressures p (one for each cell, Pa), boundary values b (one for each face:
+/// the pressure at the face centre on `pressure` faces, the outward flux integrated over the face, m^2/s, on `flux`
+/// faces, ignored inside) and changes s of the prescribed pressure along `pressure` faces, from the first to the second
+/// node (one for each face, Pa, ignored elsewhere):
 ///   flux through every face, out of face_cells[f][0], integrated over it (m^2/s):
 ///     flux_cell p + flux_boundary b + flux_change s
 ///   pressure at the centre of every boundary and wall face (Pa):

@@ -16,7 +16,7 @@
 
 namespace sprekk::matrix_flow {
 
-/// What is prescribed on one side of the outer boundary; nothing means that no fluid flows through it.
+/// The condition on one side of the outer boundary; without pressure and flux, no fluid flows through the side.
 struct SideCondition {
   Origin origin;
   std::optional<Data> pressure;  ///< Pa
@@ -26,12 +26,14 @@ struct SideCondition {
   }
 };
 
+/// A point source or sink of fluid.
 struct Well {
   Origin origin;
   Point at = Point::Zero();
   Data rate;  ///< m^2/s, into the rock
 };
 
+/// Parameters of the flow in the matrix.
 struct Options {
   TensorData permeability;      ///< m^2
   Data viscosity;               ///< Pa s
@@ -51,14 +53,14 @@ struct Options {
 /// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):
 ///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
 /// Gravity enters through the potential p − rho g·x, which is exact for a constant density. Properties may change with
-/// time; those of the end of the step hold: a storage that changes moves no fluid by itself.
+/// time, and are taken at the end of the step; a change of the storage S alone moves no fluid.
 class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
  public:
   MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize);
 
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
-  /// Discretizes, with what stays of the discretization before.
+  /// Discretizes on the new mesh; the unchanged part of the discretization of `before` is kept.
   void carry_over(const Part& before, const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
@@ -86,21 +88,21 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   const Vector& face_fluxes() const;
 
  private:
-  /// Where pressures leave the bounds that fluid at rest or in motion sets them, and where fluxes are not exact.
+  /// Notes pressures that violate a maximum principle (find_overshoots), and nodes where fluxes are not exact.
   void note_fluxes(Notes& notes, const StepTime& step) const;
   double gravity_potential(const Point& x) const;  ///< rho g·x, Pa
   void check_sides() const;
   std::vector<const Data*> properties() const;
-  /// What follows from properties that have changed.
+  /// Renews what follows from properties that have changed.
   void use_properties();
   void check_mobility();
-  /// Spreads each well over the cells around it such that its total and its position are kept.
+  /// Spreads each well over the cells around it so that its total rate and its position are kept.
   void place_wells();
   void discretize();
-  /// With what stays of the operators that were made for `before`.
+  /// Discretizes, and keeps the unchanged part of the operators that were made for `before`.
   void discretize_from(const FlowInputs& before, const FluxOperators& operators, const MeshChange& change);
   void find_conditions();
-  /// What follows from the operators.
+  /// Renews what follows from the operators.
   void use_operators();
   void use_storage();
   bool is_discretized() const;  ///< on this mesh, with this mobility
@@ -140,22 +142,22 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Operator outflow_of_wall_flux_;   ///< cells × walls, an exchange
   Vector boundary_values_;          ///< one a face, see FluxOperators
   Vector boundary_changes_;         ///< of the prescribed pressures, one a face, see FluxOperators
-  Vector boundary_fluxes_;          ///< what the boundary values alone make flow through each face, m^2/s
+  Vector boundary_fluxes_;          ///< the flux through each face by boundary values alone, m^2/s
   LinearExpression wall_pressure_;
   Vector source_;  ///< m^2/s, one a cell
 
-  /// What flows at one state of the pressure, without what the walls exchange.
+  /// The flow at one state of the pressure, without the fluxes through walls.
   struct Flow {
     std::uint64_t pressure = 0;  ///< the version of the field
     std::uint64_t used = 0;      ///< when; 0 for never
     Vector fluxes;               ///< m^2/s, one a face
-    Vector outflow;              ///< m^2/s, one a cell: their sums
-    Vector leaving;              ///< of it, what leaves the rock
+    Vector outflow;              ///< m^2/s, one a cell: the sums of the fluxes out of it
+    Vector leaving;              ///< m^2/s, one a cell: the part of the outflow that leaves the rock
     double largest_outflow = 0;
   };
   const Flow& flow(const Vector& pressure, std::uint64_t version) const;
   void forget_flow();
-  /// A step looks at the accepted state and at that of now several times.
+  /// A step uses the flow at the accepted and at the current state several times.
   mutable std::array<Flow, 2> flows_;
   mutable std::uint64_t flow_uses_ = 0;
   struct WithWalls {

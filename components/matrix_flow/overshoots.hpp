@@ -1,4 +1,4 @@
-// Pressures that no flow explains: what is left of a maximum principle.
+// Finds pressures that violate a discrete maximum principle.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace sprekk::matrix_flow {
 
-/// One step of the flow. Potentials are pressures without those of a column at rest.
+/// The state of the flow at the end of a step. A potential is a pressure without that of a fluid column at rest.
 struct FlowStep {
   const Mesh& mesh;
   const std::vector<FlowCondition>& conditions;
@@ -19,17 +19,19 @@ struct FlowStep {
   double dt;                                         ///< s
 };
 
+/// How many cells overshoot, and by how much.
 struct Overshoots {
   long cells = 0;
   double largest = 0;  ///< Pa
-  double range = 0;    ///< of all potentials there are, Pa
+  double range = 0;    ///< of all potentials, Pa
 };
 
-/// A cell overshoots if its potential is higher than before, than those of all cells around and than those on its
-/// sides, and yet nothing flows into it but through faces that it shares with these: there must be a way downhill for
-/// what comes and does not stay. In the same way for lower. What other parts add to the balance is seen in what the
-/// cell stores and passes on. Below 1 % of the range of potentials nothing is said: that much the errors of a coarse
-/// mesh may be. Of all processes.
+/// Finds cells that overshoot. A cell overshoots if its potential is higher than before, higher than in all cells
+/// around it and higher than on its sides, although fluid enters it only through faces to these cells and sides: fluid
+/// that enters and is not stored must find a way down the potential. Undershoots are defined in the same way. Amounts
+/// that other parts add to the balance are found from what the cell stores and passes on. Overshoots below 1 % of the
+/// range of potentials do not count: the errors of a coarse mesh may be that large. Counts the cells of all processes.
+/// Collective.
 Overshoots find_overshoots(const FlowStep& step);
 
 }  // namespace sprekk::matrix_flow

@@ -10,21 +10,22 @@ namespace sprekk::matrix_flow {
 using Discretize = FluxOperators (*)(const Mesh&, const std::vector<Tensor>&, const std::vector<FlowCondition>&,
                                      const std::vector<char>&);
 
-/// Its arguments, for all nodes.
+/// The arguments of a discretization of the flux, for all nodes.
 struct FlowInputs {
   const Mesh& mesh;
   const std::vector<Tensor>& mobility;
   const std::vector<FlowCondition>& conditions;
 };
 
+/// Operators on the new mesh, and how much was computed.
 struct Rediscretized {
   FluxOperators operators;
   int regions, cells;  ///< local problems that were solved, and cells that they touch
 };
 
-/// What `discretize` gives for `after`, to the bit, from the operators that it gave for `before`: local problems are
-/// solved only around nodes where an input differs (KeptRegions). In one process. The discretization reads, for a row,
-/// nothing but what lies around the nodes of its face, and near a tip around that (cells_around_tips).
+/// The operators that `discretize` gives for `after`, to the bit, from those that it gave for `before`: local problems
+/// are solved only around nodes where an input differs (KeptRegions). In one process. A row of the operators must
+/// depend only on the surroundings of the nodes of its face, and near a tip on those of the tip (cells_around_tips).
 Rediscretized rediscretize(Discretize discretize, const FlowInputs& before, const FluxOperators& operators,
                            const FlowInputs& after, const MeshChange& change);
 

@@ -10,20 +10,20 @@
 
 namespace sprekk::matrix_flow {
 
-/// In every subcell the pressure is linear; pressures agree at the continuity points and fluxes agree on the subfaces
-/// (Aavatsmark 2002, sec. 3). Coefficients are with respect to the pressures of the region's subcells and the values of
-/// its subfaces with one cell (their boundary values for whole faces), in this order. The value of a face with a given
-/// pressure is meant at its continuity point.
+/// Solves the local problem of an interaction region. The pressure is linear in every subcell; pressures agree at the
+/// continuity points, and fluxes agree on the subfaces (Aavatsmark 2002, sec. 3). Coefficients are with respect to the
+/// pressures of the region's subcells, and then the values of its subfaces with one cell (boundary values for whole
+/// faces). The value of a face with a given pressure is the pressure at its continuity point.
 ///
-/// No flow of a region gains energy: the sum over subcells of flux times drop of pressure is not negative. With
-/// triangles and parallelograms alone that is so by the choice of the continuity points, for any tensor. Where other
-/// quadrilaterals spoil it, the region is cured (see Cure).
+/// No flow of a region gains energy: the sum over subcells of flux times pressure drop is not negative. For triangles
+/// and parallelograms, the choice of the continuity points ensures this for any tensor. Where other quadrilaterals
+/// violate it, the local problem is changed (see Cure).
 class LocalFluxes {
  public:
-  /// How a region lost the energy that it would have gained. `points`: by other continuity points; `damping`: what is
-  /// not linear in the pressures flows by the symmetric fluxes of `blend`; both stay exact for linear pressures.
-  /// `blend`: all that flows is mixed with fluxes that are symmetric and positive definite in each subcell, and exact
-  /// for linear pressures in parallelograms only.
+  /// The change of a local problem that would gain energy. `points`: other continuity points. `damping`: the part of
+  /// the pressures that is not linear flows by the symmetric fluxes of `blend`. Both stay exact for linear pressures.
+  /// `blend`: all fluxes are mixed with fluxes that are symmetric and positive definite in each subcell; these are
+  /// exact for linear pressures in parallelograms only.
   enum class Cure { none, points, damping, blend };
 
   /// Throws std::runtime_error if the local system is singular.

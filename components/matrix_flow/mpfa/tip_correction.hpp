@@ -1,4 +1,4 @@
-// What a local problem misses of the flow around the tip of a fracture.
+// Corrects a local problem for the singular flow around the tip of a fracture.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,17 @@
 
 namespace sprekk::matrix_flow {
 
-/// With linear pressures around a tip a fracture drains its surroundings, or feeds them, like one that is longer or
-/// shorter by a part of an edge, whatever flows elsewhere. So to what a local problem returns is added what it misses
-/// of TipFlow. Linear pressures contain none of it and stay exact.
+/// The difference between the singular flow (TipFlow) and what a local problem with linear pressures makes of it. With
+/// linear pressures around a tip, a fracture exchanges fluid with the rock like a fracture that is longer or shorter by
+/// a part of an edge. So this difference is added to the fluxes and pressures of a local problem. It vanishes for
+/// linear pressures, for which the method stays exact.
 class TipCorrection {
  public:
   TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, const LocalFluxes& local,
                 int node, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
 
-  /// What a flux through an inner subface (m^2/s), and the pressure at a wall (Pa), lack for amounts of 1.
+  /// The corrections of the flux through an inner subface (m^2/s), and of the pressure at a wall (Pa), for modes with
+  /// amounts of 1.
   TipFlow::Modes of_flux(int subface) const;
   TipFlow::Modes of_pressure(int subface) const;
 
@@ -34,7 +36,7 @@ class TipCorrection {
   const std::vector<Tensor>& mobility_;
   Point node_;
   int side_ = 0;  ///< of the region; 0 at the tip itself
-  /// Of the local problem: pressures of the subcells, and boundary values of the walls.
+  /// The inputs of the local problem for each mode: pressures of the subcells, and boundary values of the walls.
   std::vector<TipFlow::Modes> inputs_;
 };
 

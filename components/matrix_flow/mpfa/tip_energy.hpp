@@ -1,4 +1,4 @@
-// Whether the flow around a tip gains energy by its correction.
+// Limits the correction of the flow around a tip so that no flow gains energy.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace sprekk::matrix_flow {
 
-/// The largest part of a tip's flow, in quarters, with which the local problems of its nodes together gain no energy
-/// (LocalFluxes), whatever the pressures; mostly 1. On flat or few cells the amounts of the flow may depend on
-/// pressures so much that what they add to the fluxes drives itself. Each node has one tip at most, so none of the
-/// whole gains any then. `nodes`: those that are corrected.
+/// The largest part (1, 3/4, 1/2, 1/4 or 0) of a tip's correction with which the local problems of its nodes together
+/// gain no energy (LocalFluxes), for any pressures; mostly 1. On flat or few cells the fitted amounts of the singular
+/// flow may depend so strongly on pressures that the corrected fluxes drive themselves. Each node has at most one tip,
+/// so the whole discretization then gains no energy either. `nodes`: the nodes that are corrected.
 double lossy_part(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes,
                   const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
 

@@ -16,27 +16,30 @@ namespace sprekk::matrix_flow {
 /// Homogeneous Fluids through Porous Media, 1937, ch. IV), two modes:
 ///   to a fracture along which the pressure is constant: p = Re sqrt(z), with a flux through its walls like 1/sqrt(r);
 ///   around a fracture that nothing flows through: p = Im sqrt(z), with a jump like sqrt(r).
-/// How much of them there is, the pressures of the cells around the tip tell: by least squares, beside linear ones.
+/// The amounts of the modes follow from the pressures of the cells around the tip, by a least-squares fit of the modes
+/// and of linear pressures.
 class TipFlow {
  public:
-  /// Of both modes.
+  /// One value for each of the two modes.
   using Modes = Eigen::RowVector2d;
 
-  /// None unless the rock at the tip (a node) is isotropic and nearly the same all around (resembles), with cells
-  /// enough to tell the flows from linear pressures. `cells`: of the fit (cells_around_tips).
+  /// The flow around a tip (a node). std::nullopt unless the rock at the tip is isotropic and nearly the same all
+  /// around (resembles), and the fit has enough cells to tell the modes from linear pressures. `cells`: the cells of
+  /// the fit (cells_around_tips).
   static std::optional<TipFlow> find(const Mesh& mesh, int tip, const std::vector<int>& cells,
                                      const std::vector<Tensor>& mobility);
 
   const TipFrame& frame() const { return frame_; }
   Modes pressure(const Point& x, int side) const;  ///< Pa, for amounts of 1 Pa/m^0.5
-  /// What flows through any line from the tip to x to its left, for a mobility of 1 m^2/(Pa s), m^2/s.
+  /// The stream function: the flux through any line from the tip to x, to the left of the line, for a mobility of
+  /// 1 m^2/(Pa s), m^2/s.
   Modes stream(const Point& x, int side) const;
 
   const Tensor& mobility() const { return mobility_; }      ///< the mean of the tip's cells
   const std::vector<int>& cells() const { return cells_; }  ///< of the fit, ascending
-  /// Takes a part of the modes only for what the pressures tell.
+  /// Reduces the amounts of the modes to this part of the fitted ones.
   void weaken(double part) { share_ *= part; }
-  const Eigen::Matrix2Xd& share() const { return share_; }  ///< of the modes in their pressures, 1/m^0.5
+  const Eigen::Matrix2Xd& share() const { return share_; }  ///< amounts of the modes by the cells' pressures, 1/m^0.5
 
  private:
   TipFlow(const Mesh& mesh, int tip, const std::vector<int>& cells, const Tensor& mobility);
@@ -48,11 +51,11 @@ class TipFlow {
   Eigen::Matrix2Xd share_;
 };
 
-/// Whether the entries of a mobility are those of the other to 20 % of its largest.
+/// Whether the entries of two mobilities differ by at most 20 % of the largest entry of `other`.
 bool resembles(const Tensor& mobility, const Tensor& other);
 
-/// For every tip the cells whose pressures tell the flow around it, ascending: those at its node and at the corners of
-/// these that are near the tip, too. `tips`: see tips_nearby.
+/// For every tip the cells of the fit of its flow, ascending: the cells at its node, and the cells at those corners of
+/// them that are near the tip. `tips`: see tips_nearby.
 std::map<int, std::vector<int>> cells_around_tips(const Mesh& mesh, const std::vector<int>& tips);
 
 }  // namespace sprekk::matrix_flow
