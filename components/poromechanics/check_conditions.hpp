@@ -1,4 +1,4 @@
-// Whether what is prescribed on the sides of the rock makes sense.
+// Checks the conditions on the sides of the rock.
 #pragma once
 
 #include "components/poromechanics/options.hpp"
@@ -7,7 +7,7 @@
 
 namespace sprekk::poromechanics {
 
-/// What is prescribed on a face, or nullptr.
+/// The condition on the side of a face, or nullptr.
 const SideCondition* condition_of(const Options& options, const Mesh& mesh, int face);
 
 /// Throws InputError for sides that do not exist, and when the displacements that are prescribed let the rock move as a

@@ -11,7 +11,7 @@
 
 namespace sprekk::poromechanics {
 
-/// What is prescribed on one side: per direction a displacement or a traction; a direction without either is free of
+/// The condition on one side: a displacement or a traction in each direction; a direction without either is free of
 /// traction. A normal stress acts in addition to tractions.
 struct SideCondition {
   Origin origin;
@@ -33,6 +33,7 @@ struct AnisotropicStiffness {
   Data xxxx, yyyy, xyxy, xxyy, xxxy, yyxy;
 };
 
+/// Parameters of the deformation of the rock.
 struct Options {
   std::optional<Data> young_modulus;  ///< Pa
   std::optional<Data> poisson_ratio;

@@ -16,8 +16,8 @@ namespace sprekk::poromechanics {
 
 /// Unknown: the displacement u of every cell, from the reference state with the initial stress and pressure:
 ///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
-/// with C and alpha as they are at the end of the step: the rock remembers none that it had. An initial stress that is
-/// not at rest loads the rock: u is counted from the state before equilibrium.
+/// with C and alpha at the end of the step: earlier values have no effect. An initial stress that is not in equilibrium
+/// loads the rock: u is counted from the state before equilibrium.
 /// Each pair of rows balances the forces on one cell (N/m): −(sum of the forces on its faces) − body force = 0.
 class Rock : public Component, public PoroelasticRock, public RockWalls, public RockState {
  public:
@@ -27,7 +27,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
 
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
-  /// Discretizes, with what stays of the discretization before.
+  /// Discretizes on the new mesh; the unchanged part of the discretization of `before` is kept.
   void carry_over(const Part& before, const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
@@ -68,18 +68,19 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
 
   bool is_discretized() const;  ///< on this mesh, with this stiffness
   void discretize();
-  /// With what stays of the operators that were made for `before`.
+  /// Discretizes, and keeps the unchanged part of the operators that were made for `before`.
   void discretize_from(const StressInputs& before, const StressOperators& operators, const MeshChange& change);
   void find_conditions();
-  /// What follows from the operators.
+  /// Renews what follows from the operators.
   void use_operators();
   void use_loads();
   void map_walls();
   bool depends_on_time() const;
   void apply_boundary();
-  /// Of the initial stress of the cell on that side of a face, on its normal, Pa.
+  /// The traction of the initial stress of the cell on the given side (0 or 1) of a face, on the normal of the face,
+  /// Pa.
   Point initial_traction(int face, int side) const;
-  /// What the initial stress of two regions leaves to the deformation of both, N/m: zero if it is at rest.
+  /// The load on a face from different initial stresses of the two regions at it, N/m; zero if they are in equilibrium.
   Point initial_load(int face) const;
 
   const Mesh& mesh_;

@@ -11,8 +11,8 @@
 
 namespace sprekk::poromechanics {
 
-/// As the properties in `options` are at the start of the scene, and then at the end of the steps that it is evaluated
-/// for.
+/// The stiffness from the properties in `options`: at the start of the scene, and then at the end of each step that it
+/// is evaluated for.
 class RockStiffness {
  public:
   /// `options` outlive it. `component`, `origin`: for messages. Throws DataError where a stiffness is not positive
@@ -25,7 +25,7 @@ class RockStiffness {
   const std::vector<Stiffness>& of_cells() const { return stiffness_; }
   const Property& bulk_modulus() const { return bulk_modulus_; }  ///< Pa
   bool changes() const { return changes_; }                       ///< whether a property depends on time
-  std::uint64_t version() const { return version_; }              ///< larger whenever a stiffness has changed
+  std::uint64_t version() const { return version_; }              ///< grows whenever a stiffness has changed
   std::vector<const Data*> data() const;                          ///< the properties
 
  private:

@@ -16,37 +16,39 @@ class TipCorrection;
 
 using FaceConditions = std::array<MechanicalCondition, 2>;
 
-/// The cells whose displacements and stresses a node's local problem reads, in ascending order: those at the node. A
-/// cell that is alone there is joined by those across its faces that do not touch the node, if any; near the tip of a
-/// crack there are those that tell the strength of its field, too.
+/// For each node, the cells whose displacements and stresses its local problem reads, in ascending order: the cells at
+/// the node. For a node with one cell, these are also the cells across the faces that do not touch the node, if any;
+/// near the tip of a crack also the cells from which the strength of its singular field is fitted.
 Adjacency local_cells(const Mesh& mesh, const TipZones& zones);
 
-/// In every subcell the displacement is linear; displacements agree at the continuity points and forces, C : grad u - s
-/// I times the normal, agree on the subfaces, or differ by the load on the face. Coefficients are with respect to, in
-/// this order: the displacements of the local cells (x, y each), their isotropic stresses s, and the boundary values of
-/// the subfaces with one cell or a load (x, y each; for whole faces). Nordbotten 2016, sec. 3.
+/// Solves the local problem of an interaction region (Nordbotten 2016, sec. 3). The displacement is linear in every
+/// subcell. Displacements agree at the continuity points; forces, (C : grad u − s I) times the normal, agree on the
+/// subfaces, or differ by the load on the face. Coefficients are with respect to, in this order: the displacements of
+/// the local cells (x, y each), their isotropic stresses s, and the boundary values of the subfaces with one cell or a
+/// load (x, y each; for whole faces).
 ///
-/// A symmetric stress alone leaves subcells too free to turn. What holds their rotations together is an energy of a
-/// half strength rho^2 for each inner subface, where rho (see RotationJump) is the jump of the rotation without what
-/// two rocks in contact differ by. It is zero for displacements that are linear in each of two layers, whatever their
-/// stiffness, pressure and direction; nothing depends on the direction of the axes; and as each face turns its two
-/// subcells by opposite couples, the moments of the forces around a node are those of symmetric stresses. Keilegavlen
-/// and Nordbotten 2017 take the transposed gradient from its mean around the node, which such layers do not have in
-/// common.
+/// With a symmetric stress alone, the rotations of subcells are not determined well. They are coupled by an energy
+/// ½ strength rho^2 for each inner subface. rho (see RotationJump) is the jump of the rotation, without the jump that
+/// two rocks in contact have in equilibrium. rho is zero for displacements that are linear in each of two layers, for
+/// any stiffness, pressure and direction of these, and does not depend on the direction of the axes. Each face acts on
+/// its two subcells by opposite couples, so the moments of the forces around a node are those of symmetric stresses.
+/// (Keilegavlen and Nordbotten 2017 use the mean of the transposed gradient around the node, which is not exact for
+/// such layers.)
 ///
 /// Near the tip of a crack the displacement is not linear but like sqrt(r): see TipCorrection.
 ///
-/// A region of a single subcell knows what is prescribed on its two faces only. That may leave it free to turn or to
-/// shear, or tell a stress by the difference of nearly equal forces: at a corner between a roller and the chord of a
-/// loaded curved side the normal of the chord, wrong by as much, would tell the stress along the side. What is not told
-/// well continues the displacement of the cells across (one of a triangle, two of a quadrilateral), which keeps the
-/// method exact for linear displacements; a cell that has no neighbour at all is neither strained nor turned so.
+/// A region of a single subcell has only the conditions on its two faces. These may leave a rotation or shear open, or
+/// determine a stress by the difference of nearly equal forces: at a corner between a roller and the chord of a loaded
+/// curved side, the error of the chord's normal would determine the stress along the side. Components of the gradient
+/// that the conditions do not determine well continue the displacement of the cells across (one for a triangle, two for
+/// a quadrilateral), which keeps the method exact for linear displacements. In a cell without any neighbour they are
+/// zero.
 class LocalStresses {
  public:
   /// Throws std::runtime_error if the local system is singular for another reason.
   void solve(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
              const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions);
-  /// After solve, near the tip of a crack with traction on its walls.
+  /// Adds the correction for a tip nearby. To be called after `solve`, for a crack with traction on its walls.
   void correct(const InteractionRegion& region, const TipCorrection& tip);
 
   int stress_column() const { return 2 * cells_; }
@@ -71,7 +73,7 @@ class LocalStresses {
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
 
-  /// The force on a half face of what a unit jump of rotations across a subface makes of the stress of a subcell.
+  /// The force on a half face by the stress of a subcell that a unit jump of rotations across a subface makes.
   Point couple_on(const InteractionRegion& region, int subface, int subcell, const Point& half_face) const;
 
   int column(int subcell) const { return column_[subcell]; }

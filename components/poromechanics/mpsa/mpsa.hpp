@@ -10,7 +10,8 @@
 
 namespace sprekk::poromechanics {
 
-/// Of one direction of a face. Walls are `traction`; `load`: of a face with two cells, in both directions.
+/// What is prescribed in one direction of a face. Walls are `traction`; `load` applies to both directions of a face
+/// with two cells.
 enum class MechanicalCondition { none, displacement, traction, load };
 
 /// Plane-strain stiffness in Voigt form: (xx, yy, xy) stress = C · (xx, yy, 2 xy) strain, Pa. Symmetric positive
@@ -18,18 +19,25 @@ enum class MechanicalCondition { none, displacement, traction, load };
 using Stiffness = Eigen::Matrix3d;
 Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus);
 
-/// With displacements u (x, y of every cell, m), isotropic stress s (one a cell, Pa; sigma = C : grad u - s I, so s is
-/// the Biot coefficient times the pressure) and boundary values b (x, y of every face: displacement of the face centre
-/// (m) on `displacement` directions, the force on the face, i.e. the traction sigma·n integrated over it (N/m), n out
-/// of the rock, on `traction` directions; on `load` directions what both cells of the face bear together, the sum of
-/// their sigma·n, n out of each; ignored elsewhere), with 2 f + c the index of direction c of face f:
-///   force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m): force_displacement u + force_stress s +
-///   force_boundary b displacement at the centre of boundary and wall faces (m):               trace_displacement u +
-///   trace_stress s + trace_boundary b volume change, div u integrated over every cell (m^2): volume_displacement u +
-///   volume_stress s + volume_boundary b
-/// Near the tip of a crack the traction on a face is no constant one, and acts beside its centre x_f; with 3 f + k the
-/// index of component k (xx, yy, xy) of face f:
-///   moment on inner faces, the symmetric part of sigma·n (x − x_f) integrated (N): moment_displacement u
+/// Forces, traces and volume changes as linear functions of
+/// - displacements u (x, y of every cell, m),
+/// - isotropic stresses s (one for each cell, Pa; sigma = C : grad u − s I, so s is the Biot coefficient times p), and
+/// - boundary values b (x, y of every face). On `displacement` directions b is the displacement of the face centre (m);
+///   on `traction` directions the force on the face, i.e. the traction sigma·n integrated over it (N/m), n out of the
+///   rock; on `load` directions the total load on both cells of the face, the sum of their sigma·n, n out of each
+///   (N/m). Other values of b are ignored.
+///
+/// Direction c of face f has the index 2 f + c.
+/// - Force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m):
+///   force_displacement u + force_stress s + force_boundary b.
+/// - Displacement at the centre of boundary and wall faces (m):
+///   trace_displacement u + trace_stress s + trace_boundary b.
+/// - Volume change, div u integrated over every cell (m^2):
+///   volume_displacement u + volume_stress s + volume_boundary b.
+///
+/// Near the tip of a crack the traction on a face is not constant, and acts beside the centre x_f of the face.
+/// Component k (xx, yy, xy) of face f has the index 3 f + k.
+/// - Moment on inner faces, the symmetric part of sigma·n (x − x_f) integrated (N): moment_displacement u.
 struct StressOperators {
   SparseMatrix force_displacement, force_stress, force_boundary;     ///< 2 faces × (2 cells, cells, 2 faces)
   SparseMatrix trace_displacement, trace_stress, trace_boundary;     ///< 2 faces × …; rows of inner faces are empty
@@ -40,10 +48,11 @@ struct StressOperators {
   void swap(StressOperators& other);
 };
 
-/// `conditions`: [f][direction]. `nodes` as for MPFA. Exact for linear displacements with constant s, and for two
-/// layers that each have a linear displacement, stress s and stiffness of their own, in any direction, on any mesh: see
-/// LocalStresses. Nordbotten 2016 (Biot terms and stabilization). Throws std::invalid_argument for arguments that do
-/// not fit the mesh and std::runtime_error for a stiffness that is not positive definite.
+/// Discretizes the stress by MPSA-W, with the Biot terms and the stabilization of Nordbotten 2016. `conditions`:
+/// [f][direction]. `nodes` as for MPFA. Exact on any mesh for linear displacements with constant s, and for two layers
+/// in any direction that each have a linear displacement, stress s and stiffness of their own (see LocalStresses).
+/// Throws std::invalid_argument for arguments that do not fit the mesh and std::runtime_error for a stiffness that is
+/// not positive definite.
 StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
                                 const std::vector<std::array<MechanicalCondition, 2>>& conditions,
                                 const std::vector<char>& nodes = {});

@@ -14,13 +14,14 @@ struct StressInputs {
   const std::vector<FaceConditions>& conditions;
 };
 
+/// Operators on the new mesh, and how much was computed.
 struct Rediscretized {
   StressOperators operators;
   int regions, cells;  ///< local problems that were solved, and cells that they touch
 };
 
-/// What discretize_mpsa gives for `after`, to the bit, from the operators that it gave for `before`: local problems are
-/// solved only around nodes where an input differs (KeptRegions). In one process.
+/// The operators that discretize_mpsa gives for `after`, to the bit, from those that it gave for `before`: local
+/// problems are solved only around nodes where an input differs (KeptRegions). In one process.
 Rediscretized rediscretize_mpsa(const StressInputs& before, const StressOperators& operators, const StressInputs& after,
                                 const MeshChange& change);
 

@@ -1,4 +1,4 @@
-// What a local problem misses of the field at the tip of a crack.
+// Corrects a local problem for the singular field at the tip of a crack.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,19 +10,20 @@
 
 namespace sprekk::poromechanics {
 
-/// A local problem with linear displacements takes the traction ahead of a tip from a place half a cell away, where it
-/// is half of its mean: the crack behaves like a longer one, slipping by 0.4 edge lengths at each end, and the
-/// tractions of walls nearby zigzag. So to what a local problem returns is added what it misses of the field at the
-/// tip, whose amount the displacements of the cells near the tip tell, or the part of it that the weight says
-/// (TipZones). Linear displacements contain none of it and stay exact.
+/// The difference between the singular field (TipField) and what a local problem with linear displacements makes of it.
+/// A local problem takes the traction ahead of a tip from a place half a cell away, where the traction is half of its
+/// mean. So the crack behaves like one that is longer by 0.4 edge lengths at each end, and the tractions of walls
+/// nearby oscillate. Therefore this difference, times a weight (TipZones), is added to the results of a local problem.
+/// The amount of the field is fitted to the displacements of the cells near the tip. The difference vanishes for linear
+/// displacements, for which the method stays exact.
 class TipCorrection {
  public:
-  /// `cells`: the local ones, which the coefficients belong to, ascending; the field's are among them.
+  /// `cells`: the local cells that the coefficients belong to, ascending; the cells of the field are among them.
   TipCorrection(const TipField& field, double weight, const Mesh& mesh, const InteractionRegion& region, int node,
                 std::span<const int> cells, const std::vector<Stiffness>& stiffness);
 
-  // To the coefficients of a quantity with respect to the displacements (x, y) of the cells these add what makes it
-  // exact for the field.
+  // These functions add to the coefficients of a quantity, with respect to the displacements (x, y) of the cells, the
+  // terms that make the quantity exact for the singular field.
   void of_force(double* coefficients, int subface, int component) const;
   void of_displacement(double* coefficients, int subface, int component) const;  ///< on walls
   void of_volume_change(double* coefficients, int subcell) const;

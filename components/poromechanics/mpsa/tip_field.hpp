@@ -11,15 +11,15 @@
 
 namespace sprekk::poromechanics {
 
-/// Whether the entries of a stiffness are those of the other to 20 % of its largest.
+/// Whether the entries of two stiffnesses differ by at most 20 % of the largest entry of `other`.
 bool resembles(const Stiffness& rock, const Stiffness& other);
 
 /// Displacement and stress of modes I and II around the tip of a straight crack with free walls, in even isotropic rock
 /// under plane strain: Williams' terms of the orders r^(1/2) and r^(3/2), by Muskhelishvili's potentials phi = a z^o
 /// and psi = (conj(a) - o a) z^o with 2 a = 1 (mode I) and -i (mode II), in 2 G u = kappa phi - z conj(phi') -
-/// conj(psi) for 2 G = 1. So those of order r^(1/2) have stress-intensity factors of 2 G sqrt(2 pi). How much of each
-/// there is, the displacements of the cells near the tip tell: by least squares, beside linear displacements. `side`:
-/// see TipFrame.
+/// conj(psi) for 2 G = 1. So those of order r^(1/2) have stress-intensity factors of 2 G sqrt(2 pi). The amounts of the
+/// modes follow from the displacements of the cells near the tip, by a least-squares fit of the modes and of linear
+/// displacements. `side`: see TipFrame.
 class TipField {
  public:
   /// (x, y) of modes I and II of order r^(1/2), and of those of order r^(3/2).
@@ -27,16 +27,16 @@ class TipField {
   using Modes = Eigen::Matrix<double, 2, terms>;
   using Amounts = Eigen::Matrix<double, 1, terms>;  ///< one value each
 
-  /// `cells`: those near the tip (TipZones::cells). None unless the rock at the tip (a node) is isotropic and nearly
-  /// the same all around (resembles), with cells enough to tell the fields from linear displacements. With cells that
-  /// tell those of order r^(1/2) only, the others are taken to be zero.
+  /// The field around a tip (a node). `cells`: those near the tip (TipZones::cells). std::nullopt unless the rock at
+  /// the tip is isotropic and nearly the same all around (resembles), and there are enough cells to tell the modes from
+  /// linear displacements. If the cells determine only the modes of order r^(1/2), the others are taken to be zero.
   static std::optional<TipField> find(const Mesh& mesh, int tip, std::span<const int> cells,
                                       const std::vector<Stiffness>& stiffness);
 
   const TipFrame& frame() const { return frame_; }
   /// The displacement, m.
   Modes displacement(const Point& x, int side) const;
-  /// What the left of any line from the tip to x exerts on its right, N/m.
+  /// The force across any line from the tip to x, exerted by the left side on the right side, N/m.
   Modes force(const Point& x, int side) const;
   /// That force integrated over the line from a to b, N.
   Modes integrated_force(const Point& a, const Point& b, int side) const;
@@ -44,7 +44,7 @@ class TipField {
   Amounts volume_change(const std::array<Point, 4>& corners, int side) const;
 
   int tip() const { return tip_; }                          ///< the node
-  const std::vector<int>& cells() const { return cells_; }  ///< that tell the amounts, ascending
+  const std::vector<int>& cells() const { return cells_; }  ///< the cells of the fit, ascending
   /// The amounts of the modes in displacements (x, y each) of these cells.
   const Eigen::Matrix<double, terms, Eigen::Dynamic>& share() const { return share_; }
   const Stiffness& rock() const { return rock_; }  ///< the mean of those at the tip

@@ -1,4 +1,4 @@
-// The stress of a subcell, and what holds its rotation: weakly enforced symmetry.
+// The stress of a subcell, and the coupling of rotations: weakly enforced symmetry.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,7 +36,7 @@ inline ForceMap force_map(const GradientMap& stress, const Point& face) {
 /// The mean of the shear modulus over all directions, Pa.
 inline double shear_modulus(const Stiffness& c) { return (c(0, 0) + c(1, 1) - 2 * c(0, 1) + 4 * c(2, 2)) / 8; }
 
-/// Twice the rotation of one subcell less that of its neighbour, less what rocks in contact differ by:
+/// The jump of the rotation between two subcells (twice), less the jump that two rocks in contact have in equilibrium:
 ///   rho = (r_1 − r_2) − n × a,  r = G_yx − G_xy.
 /// Where displacements and tractions agree along a straight face the gradients differ by a ⊗ n, n the normal out of
 /// the first. From either gradient, with the acoustic tensors A = n·C·n, the load b on the face and its length L,
