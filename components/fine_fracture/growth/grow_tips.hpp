@@ -13,25 +13,29 @@
 
 namespace sprekk::fine_fracture {
 
-/// What a tip has added: points behind the original tip, in order, the last one being the present tip. May be empty.
+/// The path that a tip has added: points from the original tip (exclusive) on, in order; the last one is the present
+/// tip. May be empty.
 struct TipPath {
   std::vector<Point> added;
 };
 
+/// A tip before growth.
 struct GrowingTip {
-  Point tip = Point::Zero();        ///< the original one
+  Point tip = Point::Zero();        ///< the original tip, m
   Point direction = Point::Zero();  ///< unit vector ahead of it
   double toughness = 0;             ///< K_IC, Pa sqrt(m)
   double youngs_prime = 0;          ///< E' = E/(1 − nu^2), Pa
-  TipPath path;                     ///< added before, to start from
+  TipPath path;                     ///< added before this growth, which starts from its end
   Experience experience = {};       ///< with the increment before
 };
 
+/// A tip after growth.
 struct TipOutcome {
-  TipPath path;  ///< all points behind the original tip, also those to start from
-  Sifs start;    ///< of the path to start from
-  Sifs end;      ///< of the final path
-  /// K_eq has come down to K_IC (or never was above it), or more growth would be shorter than the shortest increment.
+  TipPath path;  ///< all points from the original tip (exclusive) on, also those added before
+  Sifs start;    ///< before growth
+  Sifs end;      ///< after growth
+  /// Whether K_eq has come down to K_IC (or never was above it), or further growth would be shorter than the shortest
+  /// increment.
   bool arrested = false;
   bool blocked = false;            ///< there is no free length ahead
   Point ahead = Point::Zero();     ///< unit vector, where a blocked tip would go on
@@ -45,18 +49,18 @@ struct TipOutcome {
 
 /// The stress intensity factors of a tip when the paths of all tips are these, in the frame of the last segment.
 using EvaluateSifs = std::function<Sifs(int tip, const std::vector<TipPath>& paths)>;
-/// How far (m) a tip may go from the end of its path towards `to`, before the boundary or another crack and with the
-/// margin that its mesh needs; at least |to − end| when nothing is in the way.
+/// The distance (m) that a tip may grow from the end of its path towards `to`, up to the boundary or another crack,
+/// less the margin that the mesh needs; at least |to − end| when nothing is in the way.
 using FreeLength = std::function<double(int tip, const TipPath& path, const Point& to)>;
 /// Whether a tip's stress intensity factors depend on the path of the other.
 using FeelsOther = std::function<bool(int tip, int other)>;
 
-/// Rounds of increments. In each, all tips with K_eq > K_IC advance together, their lengths scaled by Eq. 13 of the
-/// paper, in the direction and to the length that IncrementSearch finds; then all stress intensity factors are up to
-/// date again. A tip at rest grows when others have raised its K_eq. Unstable growth (K_eq rises with the length) goes
-/// on until the tip has no free length, has added `longest` or `at_most` increments: then it is not arrested. An
-/// evaluation that gives no finite numbers stops its tip where it was before the increment. `feels` saves evaluations
-/// where tips do not see each other; without it all do.
+/// Lets tips grow in rounds. In each round all tips with K_eq > K_IC advance together, their lengths scaled by Eq. 13
+/// of the paper, in the direction and to the length that IncrementSearch finds; then the stress intensity factors of
+/// all tips are renewed. A tip at rest grows when others have raised its K_eq. Unstable growth (K_eq rises with the
+/// length) goes on until the tip has no free length, or has added the length `longest` or `at_most` increments; the tip
+/// is then not arrested. If an evaluation gives numbers that are not finite, its tip stops at its position before the
+/// increment. `feels` saves evaluations for tips that do not affect each other; without it all tips do.
 std::vector<TipOutcome> grow_tips(const std::vector<GrowingTip>& tips, const GrowthOptions& options,
                                   const EvaluateSifs& evaluate, const FreeLength& free_length,
                                   const FeelsOther& feels = {});

@@ -1,4 +1,4 @@
-// What a scene says about the growth of tips.
+// The parameters of the growth of tips.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace sprekk::fine_fracture {
 
-/// The section `growth:`. Which directions and lengths are possible is said in growth_options.cpp.
+/// The section `growth:` of a scene. growth_options.cpp explains the choices for direction and length.
 struct GrowthOptions {
   std::string direction = "implicit";  ///< implicit, explicit
   std::string length = "arrest";       ///< arrest, fixed
@@ -21,7 +21,7 @@ struct GrowthOptions {
   double smallest = 0.01;              ///< shortest increment over `increment`
   std::optional<double> longest;       ///< m, added by a tip in one call
   int at_most = 50;                    ///< increments of a tip in one call
-  int tries = 8;                       ///< evaluations of an increment before it is settled for less
+  int tries = 8;                       ///< evaluations of an increment before a looser result is accepted
 
   bool is_implicit() const { return direction == "implicit"; }
   bool seeks_arrest() const { return length == "arrest"; }

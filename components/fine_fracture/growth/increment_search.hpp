@@ -19,14 +19,15 @@ struct Experience {
 /// Two conditions at the end of the increment, each met within its tolerance:
 ///   phi(angle) = atan2(K_II, K_I) = 0       (direction: implicit), and
 ///   K_eq(length) = K_IC, or length = the full length and K_eq >= K_IC       (length: arrest).
-/// Each is solved by its own secants while the other changes too: K_eq is stationary in the angle where phi = 0
-/// (Amestoy and Leblond 1992), so one hardly disturbs the other as long as phi is small. phi is used, and not K_II,
-/// because it stays nearly linear for large turns and tells a closed tip, phi = pi, from mode I.
+/// Each condition is solved by its own secants while the other unknown changes, too: K_eq is stationary in the angle
+/// where phi = 0 (Amestoy and Leblond 1992), so the two conditions hardly disturb each other as long as phi is small.
+/// phi is used, and not K_II, because phi stays nearly linear for large turns and tells a closed tip, phi = pi, from
+/// mode I.
 ///
-/// Whether an increment is too short or too long is known only for the direction that it was tried in. So a length
-/// becomes an end of the bracket only where its direction was right, up to an error that K_eq does not feel. Elsewhere
-/// the direction is corrected first; if that fails the increment is made shorter, since the estimate of the direction
-/// is exact in the limit, and the next increment goes on from its end.
+/// An evaluation tells whether an increment is too short or too long only for the direction in which it was tried. So a
+/// length becomes an end of the bracket only where its direction was right, up to an error that hardly changes K_eq.
+/// Elsewhere the direction is corrected first. If that fails, the increment is made shorter, since the estimate of the
+/// direction is exact in the limit; the next increment goes on from its end.
 ///
 ///   IncrementSearch search(…);
 ///   while (!search.is_settled()) search.learn(sifs at the end of the increment search.angle(), search.length());
@@ -37,18 +38,19 @@ class IncrementSearch {
                   const Experience& before = {});
 
   double angle() const { return angle_; }    ///< rad, counted from the direction ahead
-  double length() const { return length_; }  ///< m, 0 when the tip is to stay where it is
-  /// The increment may be no longer than this in its present direction.
+  double length() const { return length_; }  ///< m, 0 when the tip is not to move
+  /// Limits the length of the increment in its present direction.
   void limit_length(double free_length);
   bool is_limited() const { return is_limited_ && length_ == full_length_; }
 
-  /// What the present angle and length give. Either settles them or changes them. A settled search may be told again,
-  /// after other tips have moved: it then settles again or goes on.
+  /// Takes the stress intensity factors at the end of the present increment, and either accepts the increment (settled)
+  /// or changes its angle or length. May be called again for a settled search after other tips have moved: the search
+  /// then settles again or goes on.
   void learn(const Sifs& end);
 
   bool is_settled() const { return is_settled_; }
   const Experience& experience() const { return experience_; }
-  const std::string& note() const { return note_; }  ///< what was not as it should be, or ""
+  const std::string& note() const { return note_; }  ///< in what the increment falls short of the options, or ""
 
  private:
   struct Direction {
@@ -80,7 +82,7 @@ class IncrementSearch {
   void settle(double k_eq);
   void settle_for_less(double k_eq);
   void accept_as_it_is();
-  /// The longest length known to end at the toughness or above, or none.
+  /// Returns to the longest length that is known to end at the toughness or above; without one the tip stays.
   void fall_back();
   void fix_direction(const std::string& why);
   void forget_lengths();
@@ -97,9 +99,9 @@ class IncrementSearch {
   Phase phase_ = Phase::searching;
   int tries_ = 0;
   std::vector<Direction> directions_;  ///< tried with the present length
-  Length shorter_;                     ///< too short an increment
-  std::optional<Length> longer_;       ///< too long a one
-  std::optional<Length> good_;  ///< the longest one that meets all conditions, but that it may have to be followed
+  Length shorter_;                     ///< an increment that is too short
+  std::optional<Length> longer_;       ///< an increment that is too long
+  std::optional<Length> good_;  ///< the longest that meets all conditions, but may need another increment after it
   double ceiling_;              ///< m: no direction was found for this length, and longer ones are not tried
   std::string note_;
 };

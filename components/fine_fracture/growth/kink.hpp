@@ -5,7 +5,7 @@
 
 namespace sprekk::fine_fracture {
 
-/// k_i = F_ij(angle) K_j: the change by an infinitesimal kink.
+/// The factors F_ij of an infinitesimal kink: its stress intensity factors are k_i = F_ij(angle) K_j.
 struct KinkFactors {
   double f11, f12, f21, f22;
 };
@@ -16,14 +16,14 @@ KinkFactors kink_factors(double angle);
 
 /// The first two terms of the expansion in the length s (m) of a straight kink:
 ///   k_i(s) = F_ij K_j + T sqrt(s) G_i(angle),
-/// G_i from table 2 of the same paper. The t_stress of the result is that of the tip before. For |T| sqrt(s) well below
-/// K_I it is the answer; beyond it is a guess with the right trend.
+/// G_i from table 2 of Amestoy and Leblond. The t_stress of the result is that of the tip before. The result is
+/// accurate for |T| sqrt(s) well below K_I; beyond, it is a guess with the right trend.
 Sifs after_kink(const Sifs& sifs, double angle, double length = 0);
 
 /// The angle (rad, at most `limit` in size) of the straight kink of this length at whose end K_II vanishes: the root of
-/// after_kink next to 0 on the side opposite to K_II. Where there is none, the largest angle on that side if K_II still
-/// falls towards it; under a tensile T that outweighs K_I (kinks that turn away from mode I), the angle of an
-/// infinitesimal kink. A length of 0 is the principle of local symmetry (Goldstein and Salganik 1974).
+/// after_kink next to 0 on the side opposite to K_II. Without a root, it is the largest angle on that side if K_II
+/// still decreases towards it, or else, under a tensile T that outweighs K_I (kinks that turn away from mode I), the
+/// angle of an infinitesimal kink. A length of 0 is the principle of local symmetry (Goldstein and Salganik 1974).
 double local_symmetry_angle(const Sifs& sifs, double length = 0, double limit = 1.5);
 
 }  // namespace sprekk::fine_fracture

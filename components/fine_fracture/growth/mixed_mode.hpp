@@ -27,8 +27,8 @@ double tangential_sif(const Sifs& sifs, double angle);
 /// angle is 0 where no direction is tensile (K_II = 0, K_I <= 0).
 double maximum_tangential_angle(const Sifs& sifs);
 
-/// The largest tangential_sif, K_eq: the tip grows when this reaches K_IC. Never negative; 0 where no direction is
-/// tensile, and then the tip does not grow.
+/// K_eq, the largest tangential_sif: the tip grows when K_eq reaches K_IC. K_eq is never negative, and 0 where no
+/// direction is tensile; then the tip does not grow.
 double equivalent_sif(const Sifs& sifs);
 
 /// G = (K_I^2 + K_II^2)/E' (J/m^2), E' = E/(1 − nu^2) in plane strain (Irwin 1957).

@@ -15,11 +15,12 @@
 
 namespace sprekk::fine_fracture {
 
+/// Parameters of the tips and their fine levels.
 struct TipsOptions {
   double size = 0;          ///< m, l of sec. 4.3 of the paper
   double mesh_ratio = 0.5;  ///< epsilon_m
   int sectors = 16;
-  std::optional<double> tolerance;  ///< of the error estimate; none: sizes are those that are given
+  std::optional<double> tolerance;  ///< of the error estimate; without it, meshes have the given sizes
   std::optional<double> toughness;  ///< Pa m^0.5
   std::string factors = "interaction_integral";
   std::string meeting = "join";
@@ -29,9 +30,9 @@ struct TipsOptions {
   Spec spec();
 };
 
-/// Has no unknowns of the coarse level: it looks at the coarse level's state around each tip (TipSurroundings), finds
-/// the stress-intensity factors there, and lets tips grow. A path that is shorter than the coarse level wants to know
-/// of is kept and shapes the fine level until it is handed over.
+/// The component of tips. It has no unknowns in the coarse level: it reads the state of the coarse level around each
+/// tip (TipSurroundings), computes the stress-intensity factors on the fine level, and lets tips grow. A path that is
+/// too short for the coarse level stays in the fine level, until it is long enough to be passed on.
 class Tips : public Component, public FractureTips, public Growing {
  public:
   Tips(const ComponentContext& context, const TipsOptions& options);
@@ -55,30 +56,30 @@ class Tips : public Component, public FractureTips, public Growing {
   CavityOptions cavity() const override;
 
  private:
-  /// What a step may change and a rewind takes back.
+  /// The state of a tip that a step may change and a rewind restores.
   struct State {
     TipPath path;               ///< not yet known to the coarse level
-    Sifs sifs;                  ///< if they are known
-    double sif_error = 0;       ///< Pa m^0.5, estimated: what the mesh of the fine level is worth
-    bool is_evaluated = false;  ///< whether the factors are those of this state; else they are not known
-    double load = 0;            ///< K_eq over the toughness; of a tip that is ruled out what rules it out
-    double grown = 0;           ///< m, handed over to the coarse level
-    bool has_started = false;   ///< was asked to grow: its onset is over
+    Sifs sifs;                  ///< if is_evaluated
+    double sif_error = 0;       ///< Pa m^0.5, the estimated error by the mesh of the fine level
+    bool is_evaluated = false;  ///< whether the factors have been computed for this state
+    double load = 0;            ///< K_eq over the toughness, or the estimate by which a fine level was skipped
+    double grown = 0;           ///< m, passed to the coarse level
+    bool has_started = false;   ///< whether the tip has begun to grow: its onset is over
     Experience experience;      ///< with its last increment
-    bool is_stopped = false;    ///< at or before another fracture, or before the boundary: it grows no more
+    bool is_stopped = false;    ///< for good, at or before another fracture, or before the boundary
   };
   struct Tip {
     TipEnd end;
     std::string name;
     double coarse_size;  ///< m, Delta H: the length of the original cell at this end
     State now, accepted;
-    /// For `model`, `domain` and one state of the coarse level.
+    /// The factors for `model`, `domain` and one state of the coarse level.
     struct Answer {
       std::uint64_t version;  ///< of the surroundings
       Sifs sifs;
       double error;  ///< Pa m^0.5, estimated
     };
-    // A factorization is reused while geometry and rock are what they were, and an answer while the coarse level is.
+    // A factorization is reused while geometry and rock stay the same, an answer while the coarse level does, too.
     std::optional<FineModel> model;
     TipSurroundings::StressOffsets offsets;  ///< at the places of the model, found when they are first asked for
     FineDomain domain;
@@ -86,7 +87,7 @@ class Tips : public Component, public FractureTips, public Growing {
     std::uint64_t answered_for = 0;
   };
 
-  /// An end of a fracture at another one: it may have been a tip.
+  /// An end of a fracture at another fracture; it may have been a tip.
   struct Joint {
     TipEnd end;
     std::string name;
@@ -100,20 +101,20 @@ class Tips : public Component, public FractureTips, public Growing {
   std::vector<TipPath> paths_now() const;
   Sifs evaluate(std::size_t tip, const std::vector<TipPath>& paths);
   FineLoads loads_of(const Tip& tip) const;
-  /// The factors in a solution for this tip. Notes their estimated error.
+  /// The factors of this tip in a solution. Sets their estimated error.
   Sifs factors_of(Tip& tip, const FineSolution& solution) const;
-  /// The same, and keeps them as the tip's answer.
+  /// The same, and keeps the factors as the answer of the tip.
   Sifs noted(Tip& tip, const FineSolution& solution) const;
-  /// The load by the coarse level's jump beside the tip, without a fine level.
+  /// The load as estimated from the displacement jump of the coarse level beside the tip, without a fine level.
   double estimated_load(const Tip& tip) const;
   double load(const Sifs& sifs) const;
   void set_factors(Tip& tip, const Sifs& sifs) const;
   void note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined);
-  /// Tips whose path the mesh cannot take stay where they were at the start of the step, for good.
+  /// Stops tips whose path the mesh cannot take: they stay for good where they were at the start of the step.
   void stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes);
-  /// How far a tip may be from what the coarse level knows of, m.
+  /// The longest path that a tip may have in the fine level alone, m.
   double longest_path(const Tip& tip) const;
-  /// Whether an increment of the other tip is seen at once; farther ones are seen from the next step on.
+  /// Whether an increment of the other tip affects this tip at once; farther increments do so from the next step on.
   bool is_near(const Tip& tip, const Tip& other) const;
   double free_way(const Tip& tip, const TipPath& path, const Point& to) const;
   std::vector<Point> coarse_path(const Tip& tip, const TipPath& path) const;
@@ -121,8 +122,8 @@ class Tips : public Component, public FractureTips, public Growing {
     PathExtension extension;
     int other;  ///< the fracture that is joined
   };
-  /// The rest of a blocked tip's way to another fracture, if the mesh can take it beside the other extensions and it
-  /// closes no ring. `joined`: fractures that join each other at the same time.
+  /// The last piece from a blocked tip to another fracture, if the mesh can take this piece beside the other
+  /// extensions, and it does not close a ring of fractures. `joined`: pairs of fractures that join at the same time.
   std::optional<Joining> find_joining(const Tip& tip, const TipOutcome& outcome,
                                       const std::vector<PathExtension>& others,
                                       const std::vector<std::pair<int, int>>& joined) const;

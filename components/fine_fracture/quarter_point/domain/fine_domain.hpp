@@ -1,4 +1,4 @@
-// The part of the coarse level around a tip, as the fine level needs it (sec. 3.1 of the paper, Fig. 2).
+// The part of the coarse level around a tip, as the fine level needs it (sec. 3.1 and Fig. 2 of the paper).
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ struct TipEnd {
   bool at_end;  ///< the last point of the polyline, else the first
 };
 
-/// A fracture with what its ends have added on the fine level. Arc lengths are those of the coarse level, from its
-/// first point: below 0 and above `length` lies what has been added.
+/// A fracture with the paths that its ends have added in the fine level. Arc lengths count from the first point in the
+/// coarse level: added paths are below 0 and above `length`.
 struct FracturePath {
   std::vector<Point> points;  ///< straight pieces are one segment, but for points where fractures meet
   std::vector<double> arc;    ///< m, of each point
@@ -25,22 +25,24 @@ struct FracturePath {
 };
 FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last);
 
+/// The geometry of a fine level, and how it relates to the fractures of the coarse level.
 struct FineDomain {
   FineGeometry geometry;
-  /// Of each crack of the geometry: its fracture, and the arc length of each of its points.
+  /// For a crack of the geometry: its fracture, and the arc length of each of its points.
   struct Source {
     int fracture;
     std::vector<double> arc;
   };
   std::vector<Source> sources;
-  int crack = none;     ///< that has the tip
-  bool is_last = true;  ///< the tip is its last point, else the first
+  int crack = none;     ///< the crack that has the tip
+  bool is_last = true;  ///< whether the tip is its last point, else the first
 };
 
-/// A square of side `size` (m) around `center`, clipped by the box that the rock fills, with all paths in it. A tip,
-/// a kink, a junction or a segment along a side that the outline would be nearer to than `gap` (m) is avoided by a
-/// slightly larger square, less than 1.5 times as large; where none is that far away, by the one that is farthest.
-/// `coarse_walls` is how the walls of the coarse level are held; what has been added feels tractions.
+/// The domain of a fine level: a square of side `size` (m) around `center`, clipped by the box of the rock, with all
+/// paths in it. The outline keeps the distance `gap` (m) from tips, kinks, junctions and segments along a side: if
+/// necessary the square is larger, by less than 1.5 times; where no such square keeps the distance, the one with the
+/// largest distance is taken. `coarse_walls`: how the walls of the coarse level are loaded; walls of added paths have
+/// tractions.
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
                        double size, double gap, CrackPath::Walls coarse_walls);
 

@@ -10,6 +10,7 @@
 
 namespace sprekk::fine_fracture {
 
+/// Sizes of the mesh of a fine level.
 struct FineMeshOptions {
   double tip_size;       ///< radius of the rosettes, m; smaller where there is no room, see TipRoom
   double far_size;       ///< largest edge length, m
@@ -24,6 +25,7 @@ struct FineMeshOptions {
 /// Numbers of three nodes: from, to, middle (or quarter).
 using EdgeNodes = std::array<int, 3>;
 
+/// The mesh of a fine level.
 struct FineMesh {
   /// Corner nodes 0, 1, 2 counter-clockwise, then the nodes on the edges 01, 12, 20. A quarter-point element has the
   /// tip as its node 0 and the nodes on the edges 01 and 20 a quarter of their length away from it (Barsoum 1976).
@@ -31,11 +33,13 @@ struct FineMesh {
     std::array<int, 6> nodes;
     int tip;  ///< index into tips, or none
   };
+  /// An edge of an element on the outline of the domain.
   struct OutlineEdge {
     EdgeNodes nodes;
     int element;
     int edge;  ///< of the outline
   };
+  /// A pair of edges of elements on the two walls of a crack.
   struct WallEdge {
     int crack;
     std::array<EdgeNodes, 2> nodes;  ///< by Wall, along the path
@@ -45,6 +49,7 @@ struct FineMesh {
     CrackPath::Walls walls;
     int tip;  ///< whose rosette the edge belongs to, or none
   };
+  /// A tip and its rosette.
   struct Tip {
     TipRoom room;
     int node;
@@ -64,8 +69,8 @@ struct FineMesh {
   int node_count() const { return static_cast<int>(nodes.size()); }
 };
 
-/// Throws std::invalid_argument for a geometry or options that are not valid, std::runtime_error
-/// where the mesh cannot follow its lines.
+/// Makes the mesh of a fine level. Throws std::invalid_argument for a geometry or options that are not valid, and
+/// std::runtime_error where the mesh cannot follow the lines of the geometry.
 FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options);
 
 }  // namespace sprekk::fine_fracture

@@ -1,4 +1,4 @@
-// The piece of rock that the fine level looks at: a convex polygon with cracks.
+// The geometry of a fine level: a convex polygon of rock with cracks.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@ namespace sprekk::fine_fracture {
 /// A crack, clipped to the domain: a polyline of straight segments. Its plus side is to the left when walking from the
 /// first to the last point; normals of the walls point from plus to minus.
 struct CrackPath {
-  /// How the walls of a segment are loaded. traction: both are free and feel a prescribed traction; jump: their
-  /// displacements differ by a prescribed vector.
+  /// How the walls of a segment are loaded. traction: a traction acts on both walls; jump: the displacements of the
+  /// walls differ by a prescribed vector.
   enum class Walls { traction, jump };
 
   std::vector<Point> points;  ///< m; each end is a tip inside the domain, lies on the outline or at another crack
@@ -19,6 +19,7 @@ struct CrackPath {
   std::vector<Walls> walls;  ///< one per segment
 };
 
+/// A convex domain with cracks, and the kinds of conditions on its outline.
 struct FineGeometry {
   /// What is prescribed on an edge of the outline.
   enum class Side { displacement, traction };
@@ -30,16 +31,17 @@ struct FineGeometry {
   Side side(int edge) const { return sides.empty() ? Side::displacement : sides[edge]; }
 };
 
-/// A place inside of the domain where cracks touch or cross. All of them have it as a point of their paths.
+/// A place inside of the domain where cracks touch or cross: a point of the paths of all of them.
 struct CrackJunction {
+  /// A point of a crack.
   struct Vertex {
     int crack, point;
   };
   Point position;                ///< m
-  std::vector<Vertex> vertices;  ///< two at least, in ascending order
+  std::vector<Vertex> vertices;  ///< at least two, in ascending order
 };
 
-/// In the order of their first vertices.
+/// All junctions of a geometry, in the order of their first vertices.
 std::vector<CrackJunction> junctions(const FineGeometry& geometry);
 
 /// Throws std::invalid_argument when the outline is not convex and counter-clockwise, when a list has the wrong length,

@@ -14,7 +14,7 @@ inline Segment outline_edge(const std::vector<Point>& outline, int edge) {
   return {outline[edge], outline[(edge + 1) % outline.size()]};
 }
 
-/// How far inside of a convex counter-clockwise polygon a point lies (m), negative outside.
+/// The distance of a point inside of a convex counter-clockwise polygon to the nearest edge (m); negative outside.
 inline double depth_inside(const Point& x, const std::vector<Point>& outline) {
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {

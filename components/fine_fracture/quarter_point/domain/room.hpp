@@ -1,4 +1,4 @@
-// How much room there is around a tip: for its rosette, and for the domain of an interaction integral.
+// The room around a tip for its rosette, and for the domain of an interaction integral.
 #pragma once
 
 #include <vector>
@@ -19,9 +19,9 @@ struct TipRoom {
   double radius;      ///< of the rosette, m
 };
 
-/// All tips with their rooms. The radius of a rosette is `largest_radius` unless this is more than half of the
-/// straight end (a third, if that ends in two tips), of its part with the same kind of walls, or of the distance to
-/// anything else (a third of that to other cracks and to the other tip of its own).
+/// All tips with their rooms. The radius of a rosette is the least of: `largest_radius` (m); half of the straight end
+/// of the crack (a third, if this has two tips); half of its part with the same kind of walls; a third of the distance
+/// to other cracks and to the other tip of its own crack; half of the distance to anything else.
 std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radius);
 
 }  // namespace sprekk::fine_fracture

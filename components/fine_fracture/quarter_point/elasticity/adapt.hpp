@@ -1,4 +1,4 @@
-// Meshes as fine as a solution needs them.
+// Refines the mesh of a fine level until the estimated error keeps a tolerance.
 #pragma once
 
 #include "components/fine_fracture/quarter_point/elasticity/error_estimate.hpp"
@@ -6,12 +6,14 @@
 
 namespace sprekk::fine_fracture {
 
+/// Tolerance and limits of the refinement.
 struct AdaptOptions {
   double tolerance = 1e-3;    ///< of ErrorEstimate::relative
   int at_most = 5;            ///< meshes
-  int most_elements = 50000;  ///< no mesh is made that the estimate expects to exceed this
+  int most_elements = 50000;  ///< meshes that are expected to have more elements are not made
 };
 
+/// The result on the last mesh.
 struct Adapted {
   FineModel model;
   FineSolution solution;
@@ -20,8 +22,8 @@ struct Adapted {
   bool is_converged;  ///< whether the estimate keeps the tolerance
 };
 
-/// Meshes and solves again, with sizes that share the allowed error evenly among the elements, until the estimate keeps
-/// the tolerance. Sizes only shrink, so that the meshes' sizes are those of the options or finer.
+/// Meshes and solves repeatedly, with sizes that distribute the allowed error evenly among the elements, until the
+/// estimate keeps the tolerance. Sizes only decrease: no mesh is coarser than the options say.
 Adapted adapt(const FineGeometry& geometry, const FineMeshOptions& options, const Elasticity& rock,
               const FineLoads& loads, const AdaptOptions& adapt_options,
               const std::shared_ptr<Profile>& profile = std::make_shared<Profile>());

@@ -7,15 +7,15 @@
 
 namespace sprekk::fine_fracture {
 
-/// What an interaction integral needs of an auxiliary field at a place.
+/// An auxiliary field at a place, as an interaction integral needs it; in the frame of the tip.
 struct AuxiliaryPoint {
   Tensor stress;             ///< Pa
   Point displacement_along;  ///< du/dx1
   Tensor strain_along;       ///< d eps/dx1, 1/m
 };
 
-/// opening, sliding: the singular fields of K_I = 1 and of K_II = 1 Pa m^1/2. force: a point force of 1 N/m at the tip
-/// along x1, for the T-stress (Kfouri 1986).
+/// The auxiliary fields. opening, sliding: the singular fields of K_I = 1 and of K_II = 1 Pa m^1/2. force: that of a
+/// point force of 1 N/m at the tip along x1, for the T-stress (Kfouri 1986).
 enum class Auxiliary { opening, sliding, force };
 
 /// At distance r from the tip and angle theta from its direction, -pi to pi: the ends are the lower and the upper wall.

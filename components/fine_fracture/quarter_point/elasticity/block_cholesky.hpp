@@ -8,8 +8,8 @@
 
 namespace sprekk::fine_fracture {
 
-/// The upper triangle, by columns: block (rows[k], c) for k from starts[c] to starts[c + 1], rows ascending, the last
-/// one that on the diagonal.
+/// The upper triangle of a symmetric matrix of blocks, by columns: blocks (rows[k], c) for k from starts[c] to
+/// starts[c + 1], rows ascending, the block on the diagonal last.
 struct BlockMatrix {
   using Block = Eigen::Matrix2d;
   std::vector<int> starts{0}, rows;
@@ -20,9 +20,9 @@ struct BlockMatrix {
   Block& at(int row, int column);
 };
 
-/// A = L D L^T with D of 2 x 2 blocks, row by row along the elimination tree (Davis, ACM Trans. Math. Softw. 31 (2005)
-/// 587), in the order that is given. At the size of a fine level, some thousand unknowns, where blocks of one size
-/// suit it, it is faster than scalars and than the dense blocks of a supernodal method.
+/// The factorization A = L D L^T with D of 2 x 2 blocks, row by row along the elimination tree (Davis, ACM Trans. Math.
+/// Softw. 31 (2005) 587), in the given order of unknowns. For a fine level, with some thousand unknowns and blocks of
+/// one size, this is faster than a factorization by scalars, and than the dense blocks of a supernodal method.
 class BlockCholesky {
  public:
   /// Throws std::runtime_error when the matrix is not positive definite by more than rounding.

@@ -14,12 +14,12 @@ struct ElementPlace {
   double xi, eta;
 };
 
-/// The elements are sorted into square buckets, so that finding takes a constant time.
+/// Finds the element of a point in constant time, by square buckets.
 class ElementLocator {
  public:
   /// The mesh must outlive the locator.
   explicit ElementLocator(const FineMesh& mesh);
-  /// Nothing outside of the domain. On a crack either side may answer.
+  /// The place of x in its element; std::nullopt outside of the domain. On a crack it may be on either side.
   std::optional<ElementPlace> find(const Point& x) const;
 
  private:

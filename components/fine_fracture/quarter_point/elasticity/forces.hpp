@@ -9,13 +9,13 @@ namespace sprekk::fine_fracture {
 /// The integrals of t . v over the outline and the walls; (x, y) per node, N/m.
 Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const FineLoads& loads);
 
-/// The integral of s : eps(v) over the domain, where s is the stress offset. What follows from the mesh is computed
-/// once.
+/// The nodal forces of the stress offset s: the integral of s : eps(v) over the domain. All that follows from the mesh
+/// is computed once.
 class OffsetForces {
  public:
   explicit OffsetForces(const FineMesh& mesh);
   const std::vector<Point>& places() const { return places_; }
-  /// From the offset there, (xx, yy, xy) in Pa, a column a place.
+  /// Subtracts the nodal forces; `offsets`: (xx, yy, xy) in Pa, a column for each of places().
   void subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const;
 
  private:

@@ -10,19 +10,20 @@
 
 namespace sprekk::fine_fracture {
 
-/// Of one tip, in its frame: x1 out of the crack along its direction, x2 = x1 turned by +90 degrees. Pairs are
-/// (K_I, K_II) in Pa m^1/2. K_I > 0 opens; K_II > 0 moves the upper wall (x2 > 0) towards +x1 against the lower.
+/// The stress-intensity factors of one tip, in its frame: x1 out of the crack along its direction, x2 = x1 turned by
+/// +90 degrees. Pairs are (K_I, K_II) in Pa m^1/2. K_I > 0 opens; K_II > 0 moves the upper wall (x2 > 0) towards +x1
+/// against the lower one.
 struct TipIntensities {
   int crack;
   bool is_last;     ///< the last point of the path, else the first
   Point position;   ///< m
   Point direction;  ///< x1
 
-  /// The best of what follows: the interaction integral where walls carry tractions up to the tip. Where a jump is
-  /// prescribed up to the tip, that alone determines K: then it is K_extrapolated.
+  /// The best of the following values: K_interaction where walls carry tractions up to the tip. Where a jump is
+  /// prescribed up to the tip, the jump alone determines K: there it is K_extrapolated.
   Point K;
   Point K_interaction;   ///< by the interaction integral over the larger domain
-  Point K_inner;         ///< over a smaller one
+  Point K_inner;         ///< by the interaction integral over a smaller domain
   Point K_correlation;   ///< by displacement correlation with quarter points: G sqrt(2 pi / L) / (kappa + 1) [4 dv(L/4)
                          ///< - dv(L)]
   Point K_extrapolated;  ///< the same from dv(L/4) and dv(L) extrapolated linearly to the tip
@@ -38,15 +39,15 @@ struct TipPlace {
   bool is_last;
 };
 
-/// How to find them at one tip, in any solution on its mesh.
+/// Finds the factors at one tip, in any solution on its mesh.
 class TipEvaluation {
  public:
   /// Keeps references to the mesh and to its tip.
   TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip);
-  /// Where the stress offset is asked for.
+  /// The places at which the stress offset is needed.
   const std::vector<Point>& offset_places() const { return integrals_.offset_places(); }
-  /// `loads` are those of the solution, `offsets` a column (xx, yy, xy) a place, or none; `displacement` holds (x, y)
-  /// per node.
+  /// The factors in a solution. `loads`: those of the solution; `offsets`: a column (xx, yy, xy) for each of
+  /// offset_places(), Pa, or no columns; `displacement`: (x, y) per node, m.
   TipIntensities of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
                     const Vector& displacement) const;
 

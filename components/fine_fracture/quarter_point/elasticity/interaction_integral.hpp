@@ -16,7 +16,8 @@ struct InteractionResult {
   double T;
 };
 
-/// With total stress sigma = C eps(u) + s, auxiliary field a and a weight q that is 1 at the tip and 0 at `radius`,
+/// Interaction integrals around one tip. With total stress sigma = C eps(u) + s, auxiliary field a and a weight q that
+/// is 1 at the tip and 0 at `radius`,
 ///
 ///   I = int_A [sigma_ij ua_i,1 q_,j + sa_ij u_i,1 q_,j - (sa : eps) q_,1 + q s : epsa_,1] - int_walls q t . ua_,1,
 ///
@@ -26,8 +27,8 @@ struct InteractionResult {
 /// Exact for walls that are straight within the radius. On walls of kind jump, t is the mean of both elements'
 /// stress, in the rosette a line fitted to it from behind.
 ///
-/// For two radii, the first one the larger, together: they share all but q. The integrals are linear in u, s and t, and
-/// what they are multiplied by follows from the mesh: it is computed once.
+/// The integrals for two radii, the first one the larger, are computed together: they differ in q only. They are linear
+/// in u, s and t; the coefficients follow from the mesh and are computed once.
 class InteractionIntegrals {
  public:
   /// Keeps references to the mesh and to its tip.
@@ -57,7 +58,7 @@ class InteractionIntegrals {
     WallPoint point;
     Rows<2> of_traction;
   };
-  struct State;  ///< what one solution has in it
+  struct State;  ///< of one solution
 
   bool is_own(int tip) const { return &mesh_.tips[tip] == &tip_; }
   double weight(int node, int domain) const;

@@ -1,4 +1,4 @@
-// What acts on the piece of rock. Functions that are empty give zero.
+// The loads on the domain of a fine level. Functions that are empty stand for zero.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,17 +10,18 @@
 
 namespace sprekk::fine_fracture {
 
-/// Stresses are tension positive, Pa; displacements in m. All functions are called during FineModel::solve only.
+/// The loads on a fine level. Stresses are in Pa, tension positive; displacements in m. All functions are called during
+/// FineModel::solve only.
 struct FineLoads {
-  /// On outline edges of kind displacement. `inside` is a point slightly inside the element that asks: it tells the
+  /// On outline edges of kind displacement. `inside` is a point slightly inside the element at the edge: it tells the
   /// side of a crack that ends on the outline.
   std::function<Point(const Point& x, const Point& inside)> boundary_displacement = {};
   /// On outline edges of kind traction: total stress times outward normal.
   std::function<Point(const Point& x, const Point& normal)> boundary_traction = {};
-  /// Total stress times normal n on the plus wall, in global components, n from plus to minus; the minus wall feels the
-  /// opposite. So a fluid pressure p is -p n. s runs from 0 to 1 along the segment.
+  /// Total stress times normal n on the plus wall, in global components, n from plus to minus; the minus wall has the
+  /// opposite traction. So a fluid pressure p is -p n. s runs from 0 to 1 along the segment.
   std::function<Point(int crack, int segment, double s)> wall_traction = {};
-  /// u(minus) - u(plus), in global components. At a tip it is not asked for: the walls meet.
+  /// u(minus) - u(plus), in global components. Not called at tips, where the walls meet.
   std::function<Point(int crack, int segment, double s)> wall_jump = {};
   /// (xx, yy, xy), a column a place, of the part of the total stress that is not elastic: total = C eps(u) + offset.
   /// For example -alpha (p - p0) I + initial stress. Only values are used, so it may jump. A model asks for its

@@ -15,13 +15,13 @@
 namespace sprekk::fine_fracture {
 
 /// Plane-strain elasticity on quadratic triangles with quarter-point rosettes:
-/// div (C eps(u) + s) = 0 with the loads of FineLoads. The matrix is factorized once, and what loads and factors take
-/// from the mesh is computed once; every further solve is a back-substitution.
+/// div (C eps(u) + s) = 0 with the loads of FineLoads. The matrix is factorized once, and all that loads and factors
+/// need of the mesh is computed once; every further solve is a back-solve.
 class FineModel {
  public:
-  /// Finds the factors of all tips, or of the one that is wanted. Times its work in `profile`: mesh, assembly,
-  /// ordering, factorization, loads, back-solves, factors. Throws what make_fine_mesh throws, and std::runtime_error
-  /// when the matrix is singular.
+  /// Solutions will have the factors of all tips, or of the `wanted` one. Times in `profile`: mesh, assembly, ordering,
+  /// factorization, loads, back-solves, factors. Throws as make_fine_mesh does, and std::runtime_error when the matrix
+  /// is singular.
   FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
             const std::optional<TipPlace>& wanted = {}, std::shared_ptr<Profile> profile = std::make_shared<Profile>());
 
@@ -29,16 +29,16 @@ class FineModel {
   const FineMesh& mesh() const { return *mesh_; }
   const Elasticity& rock() const { return rock_; }
 
-  /// Where each solve asks for the stress offset.
+  /// The places at which each solve needs the stress offset.
   const std::vector<Point>& offset_places() const { return offset_places_; }
 
   /// Throws std::runtime_error when the result is not finite.
   FineSolution solve(const FineLoads& loads) const;
-  /// Of C eps(u), J/m.
+  /// The strain energy of C eps(u), J/m.
   double strain_energy(const FineSolution& solution) const;
 
  private:
-  /// For the unknowns, with u of all that is prescribed and 0 elsewhere.
+  /// The right-hand side of the unknowns; `u` has all prescribed displacements, and 0 elsewhere.
   Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const;
   Vector back_solve(const Vector& b) const;
 

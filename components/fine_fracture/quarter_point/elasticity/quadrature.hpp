@@ -5,9 +5,11 @@
 
 namespace sprekk::fine_fracture {
 
+/// A point of a rule on the unit triangle.
 struct TrianglePoint {
   double xi, eta, weight;  ///< weights sum up to 1/2
 };
+/// A point of a rule on the interval from 0 to 1.
 struct LinePoint {
   double t, weight;  ///< weights sum up to 1
 };

@@ -16,8 +16,8 @@ struct ShapePoint {
   Eigen::Matrix<double, 6, 2> gradient;  ///< d/dx, d/dy, 1/m
 };
 
-/// At the place (xi, eta) of the unit triangle, whose corners (0, 0), (1, 0), (0, 1) are the nodes 0, 1, 2. Not at
-/// the tip of a quarter-point element, where gradients are infinite.
+/// The shape functions at the place (xi, eta) of the unit triangle, whose corners (0, 0), (1, 0), (0, 1) are the nodes
+/// 0, 1, 2. Not defined at the tip of a quarter-point element, where gradients are infinite.
 inline ShapePoint shape_point(const FineMesh& mesh, const FineMesh::Element& element, double xi, double eta) {
   const double zeta = 1 - xi - eta;
   ShapePoint p;
@@ -41,7 +41,7 @@ inline ShapePoint shape_point(const FineMesh& mesh, const FineMesh::Element& ele
   return p;
 }
 
-/// The same on an edge, at t from 0 to 1.
+/// The shape functions at a place on an edge.
 struct EdgePoint {
   Point x;
   double jacobian;              ///< ds / dt, m

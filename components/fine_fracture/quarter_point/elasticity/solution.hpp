@@ -9,11 +9,12 @@
 
 namespace sprekk::fine_fracture {
 
+/// A solution of the fine level.
 struct FineSolution {
   std::shared_ptr<const FineMesh> mesh;
   Elasticity rock;
   Vector displacement;               ///< (x, y) per node, m
-  std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips, or the one that is wanted
+  std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips, or the wanted tip alone
 
   /// Places come from an ElementLocator.
   Point displacement_at(const ElementPlace& place) const;

@@ -11,11 +11,11 @@
 
 namespace sprekk::fine_fracture {
 
-/// Of an element's six nodes, two components each.
+/// The stiffness of an element: six nodes with two components each.
 using ElementMatrix = Eigen::Matrix<double, 12, 12>;
 
-/// A block for the two unknowns of a node, in an order of minimum degree of the corners of elements. A node that has
-/// one unknown gets a second one that nothing is coupled to.
+/// The factorized stiffness matrix, with a block for the two unknowns of each node, in an order of minimum degree of
+/// the corners of elements. A node with one unknown gets a second one that is not coupled to others.
 class StiffnessFactors {
  public:
   /// `stiffness`: by element. Times ordering, assembly and factorization in `profile`. Throws std::runtime_error when

@@ -1,4 +1,4 @@
-// Which displacements are unknown, which are prescribed, and which are tied across a crack.
+// The unknowns of a fine level: which displacements are prescribed, and which are tied across a crack.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace sprekk::fine_fracture {
 
-/// u = T x + g: every displacement component is an unknown of x (or none) plus a value that the loads prescribe.
+/// The map u = T x + g: every displacement component is an unknown of x (or none) plus a prescribed value.
 class Unknowns {
  public:
   Unknowns(const FineGeometry& geometry, const FineMesh& mesh);
@@ -16,13 +16,13 @@ class Unknowns {
   int count() const { return count_; }
   /// The unknown of component 2 node + direction, or none.
   int of(int component) const { return unknown_[component]; }
-  /// g.
+  /// The prescribed part g of the displacements, m.
   Vector prescribed_values(const FineMesh& mesh, const FineLoads& loads) const;
 
  private:
   struct Prescribed {
     int node;
-    Point inside;  ///< slightly inside the element that asks
+    Point inside;  ///< see FineLoads::boundary_displacement
   };
   /// u(slave) = u(master) + sign jump.
   struct Tie {

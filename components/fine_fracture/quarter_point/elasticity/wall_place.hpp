@@ -1,4 +1,4 @@
-// Where on its segment a point of a wall lies, and integration along walls.
+// The place of a point of a wall on its segment, and integration along walls.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,14 @@
 
 namespace sprekk::fine_fracture {
 
+/// A place on a segment of a crack.
 struct WallPlace {
   int segment;
   double s;  ///< 0 to 1 along the segment
 };
 
-/// An edge may lie on several segments of a straight part. Where two segments meet, the one that the edge's middle is
-/// nearer to answers.
+/// The place of a point x of an edge. An edge may lie on several segments of a straight part. At a point where two
+/// segments meet, the result is on the segment that is nearer to the middle of the edge.
 inline WallPlace wall_place(const FineMesh& mesh, const FineMesh::WallEdge& edge, const Point& x) {
   const std::vector<double>& lengths = mesh.arc_lengths[edge.crack];
   const Point& from = mesh.nodes[edge.nodes[0][0]];
