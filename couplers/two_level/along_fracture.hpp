@@ -9,16 +9,17 @@
 
 namespace sprekk::couplers {
 
-/// Between the centres of cells on one straight piece of a fracture values are linear; beyond the outermost ones of a
-/// piece they are constant, so that nothing is mixed across a kink or a junction with other fractures.
+/// Interpolates values of cells along a fracture. Between the centres of cells on one straight piece of the fracture
+/// values are linear; beyond the outermost centres of a piece they are constant, so that values are not mixed across a
+/// kink or a junction with other fractures.
 class AlongFracture {
  public:
   AlongFracture(const Mesh& mesh, int fracture);
 
   /// The (normal, tangential) values of all fracture cells of the mesh, at s (m), in global components.
   Point at(double s, const Vector& values) const;
-  /// The same, for displacement jumps: they vanish at the ends that are tips, linearly, and are 0 beyond. Towards a
-  /// junction they are linear to what they have there, see JumpAtJunction.
+  /// The same for displacement jumps, which decrease linearly to 0 at ends that are tips, and are 0 beyond them.
+  /// Towards a junction they change linearly to their value there, see JumpAtJunction.
   Point jump(double s, const Vector& values) const;
 
  private:

@@ -7,23 +7,23 @@
 
 namespace sprekk::couplers {
 
-/// On the way around a junction all jumps add up to zero, since the displacement comes back to what it was: the
-/// piecewise linear jumps of cells do so only to the order of their length. Those that lines through the centres of two
-/// cells (of one, where it is alone on its straight piece) have at the junction are changed by equal parts of what is
-/// left over, so that the rock does not part where fractures meet.
+/// Extrapolates jumps to a junction so that the displacement there is continuous. On a way around a junction all jumps
+/// must add up to zero. Jumps that are extrapolated from the centres of cells do so only to the order of the cell
+/// length: linearly from two cells, or as a constant where a cell is alone on its straight piece. So the remainder of
+/// the sum is subtracted from them in equal parts.
 class JumpAtJunction {
  public:
   JumpAtJunction(const Mesh& mesh, const Junction& junction);
 
-  /// m, at the junction on a cell that meets there, in global components. `jumps` are the (normal, tangential) ones of
-  /// all fracture cells.
+  /// The jump at the junction on one of its cells, m, in global components. `jumps`: (normal, tangential) of all
+  /// fracture cells.
   Point of(int cell, const Vector& jumps) const;
 
  private:
-  /// One of the cells and the one behind it, or none where that is on another straight piece.
+  /// A cell at the junction and the cell behind it, or none where that cell is on another straight piece.
   struct Arm {
     int cell, behind;
-    double share;  ///< of the difference to the one behind that is between the centre and the junction
+    double share;  ///< distance from the centre to the junction over that to the centre of the cell behind
     double sign;   ///< of the jump on the way around, counter-clockwise
     Point normal, tangent;
   };

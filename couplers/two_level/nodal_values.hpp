@@ -1,4 +1,4 @@
-// From values of cells and outer faces to values of nodes, and between nodes (Eqs. 18, 19 of the paper).
+// Interpolates values of cells and outer faces to nodes, and between nodes (Eqs. 18, 19 of the paper).
 #pragma once
 
 #include <array>
@@ -8,22 +8,23 @@
 
 namespace sprekk::couplers {
 
-/// Linear in each triangle between its nodes, and in either half of a quadrilateral. Nodes on a fracture exist on both
-/// of its sides, and so do their values.
+/// A piecewise linear field: linear in each triangle, and in either half of a quadrilateral. Nodes on a fracture, and
+/// their values, exist on both sides of the fracture.
 class NodalValues {
  public:
+  /// How the value of a node follows from values around it.
   enum class From {
-    cells_and_faces,  ///< the linear function that fits the cells and the faces with one cell around the node (least
-                      ///< squares, weights 1/distance^2): exact for linear fields
-    cells,            ///< the same of the cells alone; with less than three around a node, the least gradient that fits
-    mean_of_cells  ///< the area-weighted mean of the cells (Eq. 17 of the paper): off by the strain times the distance
-                   ///< at a wall
+    cells_and_faces,  ///< a linear fit to the cells, and faces with one cell, around the node (least squares, weights
+                      ///< 1/distance^2): exact for linear fields
+    cells,            ///< the same with cells alone; with less than three around a node, the least gradient that fits
+    mean_of_cells  ///< the area-weighted mean of the cells (Eq. 17 of the paper): at a wall, its error is the gradient
+                   ///< times the distance to the cell centres
   };
   /// Keeps a pointer to the mesh.
   NodalValues(const Mesh& mesh, From from);
-  /// `cells`: `components` values a cell; `faces`: as many a face, or empty.
+  /// Sets the nodal values. `cells`: `components` values for each cell; `faces`: as many for each face, or empty.
   void set(int components, const Vector& cells, const Vector& faces);
-  /// A place in a cell.
+  /// A place in a cell: three nodes and their weights.
   struct Place {
     std::array<int, 3> nodes;
     std::array<double, 3> share;

@@ -1,12 +1,11 @@
-// Where a fracture is straight and meets no other.
+// Straight pieces of fractures, which end at kinks and junctions.
 #pragma once
 
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {
 
-/// Whether a cell and the next one, cell + 1, are on one straight piece of a fracture. Such pieces end at kinks and
-/// junctions.
+/// Whether a cell and the next one, cell + 1, are on one straight piece of a fracture.
 inline bool is_straight_on(const Mesh& mesh, int cell) {
   if (cell < 0 || cell + 1 >= mesh.fracture_cell_count()) return false;
   const FractureCell &here = mesh.fracture_cells[cell], &next = mesh.fracture_cells[cell + 1];
