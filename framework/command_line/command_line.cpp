@@ -7,8 +7,10 @@
 #include <csignal>
 #include <iostream>
 
+#include "framework/command_line/completion.hpp"
 #include "framework/command_line/explain_command.hpp"
 #include "framework/command_line/graph_command.hpp"
+#include "framework/command_line/manual_page.hpp"
 #include "framework/command_line/scene_arguments.hpp"
 #include "framework/command_line/sweep_command.hpp"
 #include "framework/config/resolved_yaml.hpp"
@@ -101,36 +103,44 @@ int run_command_line(int argc, char** argv) {
 
   SceneArguments scene;
   RunOptions run;
-  std::string folder, checkpoint, explained, reference_folder, picture, reported, schema_of = "scene";
+  std::string folder, checkpoint, explained, reference_folder, picture, reported, schema_of = "scene", shell;
 
   CLI::App* run_command = app.add_subcommand("run", "Runs a scene");
   scene.add_to(*run_command);
-  run_command->add_option("-o,--output", folder, "Folder for the results; results/<scene> by default");
+  run_command->add_option("-o,--output", folder, "Folder for the results; results/<scene> by default")
+      ->type_name("FOLDER");
   CLI::Option* restart = run_command
                              ->add_option("--restart", checkpoint,
                                           "Continues from a checkpoint; by default that in the results of the scene")
-                             ->expected(0, 1);
+                             ->expected(0, 1)
+                             ->type_name("CHECKPOINT");
   run_command->add_flag("-q,--quiet", run.quiet, "Prints nothing unless something is wrong");
   CLI::App* check_command = app.add_subcommand("check", "Builds everything and solves nothing");
   scene.add_to(*check_command);
   SweepCommand sweep(app);
   CLI::App* report_command = app.add_subcommand("report", "Writes report.html into a folder of results");
-  report_command->add_option("folder", reported, "Where a run has written its results")->required();
+  report_command->add_option("folder", reported, "Where a run has written its results")
+      ->required()
+      ->type_name("FOLDER");
   CLI::App* show_command =
       app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   scene.add_to(*show_command);
   CLI::App* graph_command = app.add_subcommand("graph", "Draws components, couplers and schedule");
   scene.add_to(*graph_command);
-  graph_command->add_option("-o,--output", picture,
-                            "A .dot or .svg file; without it the graph is printed in the dot language");
+  graph_command
+      ->add_option("-o,--output", picture, "A .dot or .svg file; without it the graph is printed in the dot language")
+      ->type_name("PICTURE");
   CLI::App* list_command = app.add_subcommand("list", "Lists what exists");
   CLI::App* explain_command =
       app.add_subcommand("explain", "Explains a type, a step of the schedule or a section of a scene");
-  explain_command->add_option("name", explained, "For example matrix_flow/mpfa")->required();
+  explain_command->add_option("name", explained, "For example matrix_flow/mpfa")->required()->type_name("NAME");
   CLI::App* schema_command = app.add_subcommand("schema", "Prints the JSON schema of scenes, or of studies");
   schema_command->add_option("file", schema_of, "scene or study")->check(CLI::IsMember({"scene", "study"}));
   CLI::App* reference_command = app.add_subcommand("reference", "Writes the reference pages");
-  reference_command->add_option("folder", reference_folder, "Where to")->required();
+  reference_command->add_option("folder", reference_folder, "Where to")->required()->type_name("FOLDER");
+  CLI::App* manual_command = app.add_subcommand("man", "Prints the manual page, for man");
+  CLI::App* completion_command = app.add_subcommand("completion", "Prints a script that completes commands in a shell");
+  completion_command->add_option("shell", shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
 
   try {
     require_command(app, argc, argv);
@@ -147,6 +157,9 @@ int run_command_line(int argc, char** argv) {
     if (*list_command) print_list(std::cout);
     if (*explain_command) print_explanation(explained, std::cout);
     if (*schema_command) schema_of == "study" ? print_study_schema(std::cout) : print_schema(std::cout);
+    if (*manual_command) std::cout << manual_page(declared_command(app), build_info().version);
+    if (*completion_command)
+      std::cout << (shell == "zsh" ? zsh_completion(declared_command(app)) : bash_completion(declared_command(app)));
     if (*reference_command) write_reference(reference_folder);
     if (*show_command) print_scene(scene.read());
     if (*graph_command) draw_graph(Model(scene.read()), picture);

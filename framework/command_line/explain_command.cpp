@@ -33,6 +33,30 @@ std::vector<Explained> everything() {
   return all;
 }
 
+using Json = nlohmann::json;
+
+/// One step, or a list of them.
+Json schedule_of(const Json& step) {
+  return {{"anyOf", {{{"type", "array"}, {"minItems", 1}, {"items", step}}, step}}};
+}
+
+/// What a step of a schedule looks like: the steps inside of others are schedules, too. The options of a step stand
+/// beside its key where they have it among them, as in `{solve: [a, b], stabilize: none}`, and below it otherwise, as
+/// in
+/// `{iterate: {steps: …}}`.
+Json schema_of_step(const std::string& key, Json options) {
+  if (options["properties"].contains("steps")) {
+    const Json description = options["properties"]["steps"]["description"];
+    options["properties"]["steps"] = {{"$ref", "#/$defs/schedule"}, {"description", description}};
+  }
+  if (options["properties"].contains(key)) return options;
+  return {{"type", "object"},
+          {"description", options["description"]},
+          {"properties", {{key, options}}},
+          {"required", {key}},
+          {"additionalProperties", false}};
+}
+
 }  // namespace
 
 void print_list(std::ostream& out) {
@@ -82,13 +106,15 @@ void print_schema(std::ostream& out) {
         if (parameter.about.material) materials[parameter.name] = inner["properties"][parameter.name];
       (item.kind == "component" ? components : couplers).push_back(inner);
     }
-    if (item.kind == "step of the schedule") steps.push_back({{"type", "object"}, {"required", {item.name}}});
+    if (item.kind == "step of the schedule") steps.push_back(schema_of_step(item.name, inner));
   }
   properties["materials"]["properties"] = materials;
   properties["materials"]["additionalProperties"] = false;
   properties["components"] = {{"type", "object"}, {"additionalProperties", {{"oneOf", components}}}};
   properties["couplers"] = {{"type", "array"}, {"items", {{"oneOf", couplers}}}};
-  properties["schedule"] = {{"oneOf", {{{"type", "array"}, {"items", {{"oneOf", steps}}}}, {{"oneOf", steps}}}}};
+  schema["$defs"]["step"] = {{"oneOf", steps}};
+  schema["$defs"]["schedule"] = schedule_of({{"$ref", "#/$defs/step"}});
+  properties["schedule"] = {{"$ref", "#/$defs/schedule"}, {"description", "How a time step is solved."}};
   out << schema.dump(2) << "\n";
 }
 

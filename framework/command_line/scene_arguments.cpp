@@ -5,7 +5,7 @@
 namespace sprekk {
 
 void SceneArguments::add_to(CLI::App& command) {
-  command.add_option("scene", files, "Scene files; later ones win over earlier ones")->required();
+  command.add_option("scene", files, "Scene files; later ones win over earlier ones")->required()->type_name("SCENE");
   command.add_option("--set", settings, "Sets one value of the scene: --set time.end='2 h'; once for each value")
       ->allow_extra_args(false)
       ->type_name("PATH=VALUE");

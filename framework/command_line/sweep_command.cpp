@@ -6,9 +6,11 @@ namespace sprekk {
 
 SweepCommand::SweepCommand(CLI::App& app)
     : command_(app.add_subcommand("sweep", "Runs a study over any values of a scene, in parallel processes")) {
-  command_->add_option("study", study_, "The file of the study")->required();
-  command_->add_option("-o,--output", folder_, "Folder for the results; results/<study> by default");
+  command_->add_option("study", study_, "The file of the study")->required()->type_name("STUDY");
+  command_->add_option("-o,--output", folder_, "Folder for the results; results/<study> by default")
+      ->type_name("FOLDER");
   command_->add_option("-j,--jobs", options_.processes, "Runs at a time; as many as there are cores by default")
+      ->type_name("COUNT")
       ->check(CLI::Range(1, 1024));
   command_->add_flag("--list", options_.only_list, "Says what would be done with each run, and does nothing");
   command_->add_flag("-q,--quiet", options_.quiet, "Prints nothing unless something is wrong");

@@ -1,0 +1,13 @@
+// The manual page, from the same declaration of commands and options as --help.
+#pragma once
+
+#include <string>
+
+#include "framework/command_line/declared_command.hpp"
+
+namespace sprekk {
+
+/// sprekk.1, in the man macros.
+std::string manual_page(const DeclaredCommand& program, const std::string& version);
+
+}  // namespace sprekk
