@@ -65,8 +65,8 @@ TEST(Terzaghi, RectanglesHaveNoOvershoot) {
 
 TEST(Terzaghi, OvershootOnTrianglesStaysBelowTheKnownLimit) {
   // The aim is max p/p0 - 1 < 1e-10, which rectangles reach and triangles miss: cells of one layer drain at different
-  // rates, and the rock's answer to that raises the next layer by at most 0.6 % of what the drained cells lose
-  // (docs/numerics). The bound is that mechanism's: 0.7 % of the largest loss of pressure.
+  // rates, and the rock's answer to that raises the next layer by at most 0.43 % of what the drained cells lose
+  // (docs/numerics). The bound is that mechanism's: half a percent of the largest loss of pressure.
   for (const double ratio : {1e-6, 1e-4, 1e-2, 0.1, 1.0}) {
     for (const char* kind : {"structured", "unstructured"}) {
       SceneRun run("verification/terzaghi.yaml", {{"mesh.cells", ""},
@@ -76,7 +76,7 @@ TEST(Terzaghi, OvershootOnTrianglesStaysBelowTheKnownLimit) {
                                                   one_step(ratio)});
       run.run();
       const double loss = 1 - run.field("pore.pressure").minCoeff();
-      EXPECT_LT(run.field("pore.pressure").maxCoeff() - 1, 7e-3 * loss + 1e-11)
+      EXPECT_LT(run.field("pore.pressure").maxCoeff() - 1, 5e-3 * loss + 1e-11)
           << "c dt/h^2 = " << ratio << ", " << kind;
       EXPECT_GT(run.field("pore.pressure").minCoeff(), -1e-10) << "c dt/h^2 = " << ratio << ", " << kind;
     }

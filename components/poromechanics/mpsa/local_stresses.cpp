@@ -99,6 +99,7 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
                              std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
   find_gradients(region);
   find_forces(region, stiffness);
+  exchange_volumes(mesh, region, stiffness);
 }
 
 void LocalStresses::correct(const InteractionRegion& region, const TipCorrection& tip) {
@@ -114,11 +115,14 @@ void LocalStresses::correct(const InteractionRegion& region, const TipCorrection
 void LocalStresses::find_jumps(const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
                                double least_strength) {
   jump_.resize(subfaces_);
+  dilation_.resize(subfaces_);
   for (int f = 0; f < subfaces_; ++f) {
     if (!region.is_inner(f)) continue;
     const auto [first, second] = region.neighbours[f];
     const Subcell &one = region.subcells[first], &other = region.subcells[second];
-    jump_[f] = RotationJump::across(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
+    const Kink kink(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
+    jump_[f] = {kink.rotation(), {0, 0}};
+    dilation_[f] = kink.dilation();
     // The softer rock's: with more, what it misses of a field that is not linear would load the stiffer one.
     const double strengths[2] = {one.area * shear_modulus(stiffness[one.cell]),
                                  other.area * shear_modulus(stiffness[other.cell])};
@@ -305,16 +309,38 @@ void LocalStresses::find_gradients(const InteractionRegion& region) {
   turns_.assign(subfaces_ * columns_, 0);
   for (int f = 0; f < subfaces_; ++f) {
     if (!region.is_inner(f)) continue;
-    const RotationJump& jump = jump_[f];
-    double* turn = turns_.data() + f * columns_;
-    for (int side = 0; side < 2; ++side) {
-      const int k = region.neighbours[f][side];
-      for (int e = 0; e < 4; ++e)
-        add_scaled(turn, jump.of_gradient[side][e], gradients_.data() + (4 * k + e) * columns_, columns_);
-      turn[stress_column() + column(k)] += side == 0 ? jump.of_stress : -jump.of_stress;
+    add_jump(region, f, jump_[f], 1, turns_.data() + f * columns_);
+  }
+}
+
+void LocalStresses::add_jump(const InteractionRegion& region, int subface, const GradientJump& jump, double factor,
+                             double* row) const {
+  for (int side = 0; side < 2; ++side) {
+    const int k = region.neighbours[subface][side];
+    for (int e = 0; e < 4; ++e)
+      add_scaled(row, factor * jump.of_gradient[side][e], gradients_.data() + (4 * k + e) * columns_, columns_);
+    row[stress_column() + column(k)] += factor * (side == 0 ? jump.of_stress : -jump.of_stress);
+  }
+  if (load_column_[subface] != none)
+    for (int e = 0; e < 2; ++e) row[load_column_[subface] + e] += factor * jump.of_load[e];
+}
+
+void LocalStresses::exchange_volumes(const Mesh& mesh, const InteractionRegion& region,
+                                     const std::vector<Stiffness>& stiffness) {
+  exchange_.assign(mesh, region, stiffness, dilation_);
+  const int count = static_cast<int>(exchange_.volume.rows());
+  jumps_.assign(count * columns_, 0);
+  for (int i = 0; i < count; ++i) {
+    const GradientJump& jump = dilation_[exchange_.subfaces[i]];
+    add_jump(region, exchange_.subfaces[i], jump, VolumeExchange::modulus(jump), jumps_.data() + i * columns_);
+  }
+  for (int i = 0; i < count; ++i) {
+    const auto [first, second] = region.neighbours[exchange_.subfaces[i]];
+    for (int j = 0; j < count; ++j) {
+      const double* jump = jumps_.data() + j * columns_;
+      add_scaled(volumes_.data() + first * columns_, -exchange_.volume(i, j), jump, columns_);
+      add_scaled(volumes_.data() + second * columns_, exchange_.volume(i, j), jump, columns_);
     }
-    if (load_column_[f] != none)
-      for (int e = 0; e < 2; ++e) turn[load_column_[f] + e] += jump.of_load[e];
   }
 }
 

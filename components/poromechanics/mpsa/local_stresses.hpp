@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
+#include "components/poromechanics/mpsa/volume_exchange.hpp"
 #include "components/poromechanics/mpsa/weak_symmetry.hpp"
 #include "framework/discretization/interaction_region.hpp"
 #include "framework/discretization/tip_zones.hpp"
@@ -35,6 +36,9 @@ Adjacency local_cells(const Mesh& mesh, const TipZones& zones);
 /// (Keilegavlen and Nordbotten 2017 use the mean of the transposed gradient around the node, which is not exact for
 /// such layers.)
 ///
+/// The volume change of subcells is div u of these displacements, and what neighbours exchange (see VolumeExchange),
+/// which forces and displacements do not feel.
+///
 /// Near the tip of a crack the displacement is not linear but like sqrt(r): see TipCorrection.
 ///
 /// A region of a single subcell has only the conditions on its two faces. These may leave a rotation or shear open, or
@@ -62,7 +66,7 @@ class LocalStresses {
   const double* force(int subface, int component) const {
     return forces_.data() + (2 * subface + component) * columns_;
   }
-  /// div u integrated over a subcell (m^2).
+  /// div u integrated over a subcell (m^2), after exchange with its neighbours.
   const double* volume_change(int subcell) const { return volumes_.data() + subcell * columns_; }
 
  private:
@@ -72,6 +76,11 @@ class LocalStresses {
                     const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions);
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
+  void exchange_volumes(const Mesh& mesh, const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
+
+  /// Adds factor times the jump across an inner subface to a row of coefficients. After find_gradients.
+  void add_jump(const InteractionRegion& region, int subface, const GradientJump& jump, double factor,
+                double* row) const;
 
   /// The force on a half face by the stress of a subcell that a unit jump of rotations across a subface makes.
   Point couple_on(const InteractionRegion& region, int subface, int subcell, const Point& half_face) const;
@@ -79,13 +88,16 @@ class LocalStresses {
   int column(int subcell) const { return column_[subcell]; }
 
   int subcells_ = 0, cells_ = 0, subfaces_ = 0, columns_ = 0, width_ = 0;
-  std::vector<int> column_;          ///< of the subcells: places of their cells among the local ones
-  std::vector<GradientMap> stress_;  ///< of the subcells
-  std::vector<RotationJump> jump_;   ///< of the subfaces; of inner ones only
-  std::vector<int> load_column_;     ///< of the subfaces: place of their boundary values, or none
-  std::vector<double> system_;       ///< the rows of [A B], then of [I A^-1 B]
-  std::vector<double> gradients_;    ///< four rows a subcell
-  std::vector<double> turns_;        ///< rho of the subfaces
+  std::vector<int> column_;             ///< of the subcells: places of their cells among the local ones
+  std::vector<GradientMap> stress_;     ///< of the subcells
+  std::vector<RotationJump> jump_;      ///< of the subfaces; of inner ones only
+  std::vector<GradientJump> dilation_;  ///< likewise
+  VolumeExchange exchange_;
+  std::vector<int> load_column_;   ///< of the subfaces: place of their boundary values, or none
+  std::vector<double> system_;     ///< the rows of [A B], then of [I A^-1 B]
+  std::vector<double> gradients_;  ///< four rows a subcell
+  std::vector<double> turns_;      ///< rho of the subfaces
+  std::vector<double> jumps_;      ///< y of the exchange
   std::vector<double> forces_, volumes_;
 };
 

@@ -1,0 +1,37 @@
+// Volume that the subcells around a node exchange, so that their dilation does not alternate.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/poromechanics/mpsa/weak_symmetry.hpp"
+#include "framework/discretization/interaction_region.hpp"
+
+namespace sprekk::poromechanics {
+
+/// Where tractions agree across a face, so does q = M e − s (e dilation, M P-wave modulus, s isotropic stress) but for
+/// what changes along the face. In even rock without body force
+///   div(C : grad u) = grad s  means  grad q = G curl r  (r = twice the rotation),
+/// so q is harmonic and as smooth as r, however rough s is. A local problem returns it with errors of the size of a
+/// subcell times its slope, which alternate around the node. So across its inner subfaces neighbours exchange the
+/// volume
+///   E y,  E = c − c x (x' c x)^-1 x' c,
+/// from the first subcell to the second, where y is the jump of q (Kink: M times the jump of dilation that is left,
+/// with the mean M of the two), x the vector between their centres, and c = 1/4 of the smaller A/M, times M of the
+/// softer over the mean. What y has of a slope of q is left out, so that a linear q stays.
+/// - Nothing is exchanged where two layers meet that each have a linear displacement, at any contrast.
+/// - No volume is gained in all, and none overshoots: with T the differences of neighbours, T' E T <= A/M. More than a
+///   quarter could exceed that, where subcells are equal.
+/// - What s exchanges, T' E T s, is symmetric and positive semidefinite.
+/// - Of y what is wrong in stiff rock, however large as a stress, moves no more volume than belongs to that rock.
+struct VolumeExchange {
+  std::vector<int> subfaces;  ///< the inner ones
+  Eigen::MatrixXd volume;     ///< E, m^2/Pa; empty where there are less than three, which tell no more than a slope
+
+  void assign(const Mesh& mesh, const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
+              const std::vector<GradientJump>& dilation);
+  /// The mean M, Pa: times the jump of dilation it gives y, which has −s_1 + s_2 in it.
+  static double modulus(const GradientJump& dilation) { return -1 / dilation.of_stress; }
+};
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,210 @@
+// Goal: pressures that no flow smooths do not alternate from cell to cell, in rock that hardly feels them (where they
+// show the dilation that the discretization finds) and in rock that does. Reference: a crack in an infinite plate,
+// opened and sheared at its walls, by Muskhelishvili's potentials. The rock is undrained: lambda_u = lambda +
+// alpha^2/S, p = -(alpha/S) div u, and div u = 2 Re phi' / (lambda_u + G). Away from the crack, on meshes that grow
+// fast from it.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <complex>
+#include <random>
+
+#include "components/poromechanics/mpsa/volume_exchange.hpp"
+#include "tests/components/poromechanics/biot_step.hpp"
+
+namespace sprekk {
+namespace {
+
+using poromechanics::MechanicalCondition;
+using Complex = std::complex<double>;
+
+constexpr double shear = 1, half_length = 1;
+
+/// A crack at the angle to the x axis, under unit pressure and shear at its walls.
+struct Crack {
+  double angle, lambda;  ///< undrained
+
+  Complex local(const Point& x) const { return Complex(x[0], x[1]) * std::polar(1.0, -angle); }
+  static Complex root(const Complex& z) { return std::sqrt(z - half_length) * std::sqrt(z + half_length); }
+
+  double dilation(const Point& x) const {
+    const Complex z = local(x);
+    return 2 * (Complex(0.5, -0.5) * (z / root(z) - 1.0)).real() / (lambda + shear);
+  }
+  /// 2 G (u + iv) = kappa phi - z conj(phi') - conj(psi); psi = phi - z phi' for pressure, -phi - z phi' for shear.
+  Point displacement(const Point& x) const {
+    const Complex z = local(x), value = root(z) - z, slope = z / root(z) - 1.0;
+    const Complex open = 0.5 * value, slip = Complex(0, -0.5) * value, phi = open + slip;
+    const Complex of_phi = Complex(0.5, -0.5) * slope, psi = open - slip - z * of_phi;
+    const double kappa = 3 - 2 * lambda / (lambda + shear);
+    const Complex u = (kappa * phi - z * std::conj(of_phi) - std::conj(psi)) / (2 * shear) * std::polar(1.0, angle);
+    return {u.real(), u.imag()};
+  }
+  /// sigma_nn = -1 and sigma_nt = -1 on the line of the crack.
+  Point wall_force(const Point& face) const {
+    const Complex n = Complex(face[0], face[1]) * std::polar(1.0, -angle);
+    const Complex force = Complex(-n.imag(), -n.real() - n.imag()) * std::polar(1.0, angle);
+    return {force.real(), force.imag()};
+  }
+};
+
+Mesh around_crack(double angle, const MeshOptions& options) {
+  Geometry geometry = test::box(16, 16);
+  geometry.box.low = Point(-8, -8);
+  geometry.box.high = Point(8, 8);
+  FractureGeometry crack;
+  crack.name = "crack";
+  const Point end = half_length * Point(std::cos(angle), std::sin(angle));
+  crack.points = {-end, end};
+  geometry.fractures = {crack};
+  return generate_mesh(geometry, options);
+}
+
+/// Share of the cells with three neighbours that are peaks beside a trough, or troughs beside a peak: above or below
+/// all neighbours by more than a fiftieth of all differences.
+double alternating(const Mesh& mesh, const Vector& p) {
+  const double margin = 0.02 * (p.maxCoeff() - p.minCoeff());
+  std::vector<int> above(mesh.cell_count(), 0), below(above), degree(above);
+  for (const auto& [one, other] : mesh.face_cells) {
+    if (other == none) continue;
+    for (const auto& [cell, beside] : {std::pair{one, other}, std::pair{other, one}}) {
+      above[cell] += p[cell] > p[beside] + margin;
+      below[cell] += p[cell] < p[beside] - margin;
+      ++degree[cell];
+    }
+  }
+  std::vector<char> found(mesh.cell_count(), 0);
+  for (const auto& [one, other] : mesh.face_cells) {
+    if (other == none) continue;
+    const auto is_peak = [&](int c) { return above[c] == degree[c]; };
+    const auto is_trough = [&](int c) { return below[c] == degree[c]; };
+    if ((is_peak(one) && is_trough(other)) || (is_trough(one) && is_peak(other))) found[one] = found[other] = 1;
+  }
+  int inner = 0, alternate = 0;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    if (degree[c] < 3) continue;
+    ++inner;
+    alternate += found[c];
+  }
+  return static_cast<double>(alternate) / inner;
+}
+
+/// By Gauss's rule with two points: rock that is nearly incompressible feels what the centre alone is wrong by.
+Point mean_displacement(const Mesh& mesh, int face, const Crack& crack) {
+  const auto& ends = mesh.face_nodes[face];
+  const Point arm = (mesh.nodes[ends[1]] - mesh.nodes[ends[0]]) / std::sqrt(12);
+  return 0.5 * (crack.displacement(mesh.face_center[face] - arm) + crack.displacement(mesh.face_center[face] + arm));
+}
+
+struct Result {
+  double alternating;
+  double error;  ///< without its mean, of cells beyond half a crack from it, over their slope times their size
+};
+
+Result solve(const Mesh& mesh, double angle, double coupling) {
+  const double lambda = 0.5, p_wave = lambda + 2 * shear;
+  test::BiotStep step(mesh);
+  step.time_step = 0;
+  step.alpha = 0.7;
+  step.storage = step.alpha * step.alpha / (coupling * p_wave);
+  step.stiffness.assign(mesh.cell_count(), poromechanics::isotropic_stiffness(lambda, shear));
+  const Crack crack{angle, lambda + coupling * p_wave};
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!test::is_outer(mesh, f)) continue;
+    step.flow_conditions[f] = matrix_flow::FlowCondition::flux;
+    const bool is_wall = test::is_wall(mesh, f);
+    const auto condition = is_wall ? MechanicalCondition::traction : MechanicalCondition::displacement;
+    step.mechanical_conditions[f] = {condition, condition};
+    step.mechanical_boundary.segment<2>(2 * f) =
+        is_wall ? crack.wall_force(test::face_vector(mesh, f)) : mean_displacement(mesh, f, crack);
+  }
+  const Vector p = test::BiotSystem(step).solve(step).pressure;
+  double area = 0, mean = 0, error = 0, slope = 0;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const Point& x = mesh.cell_center[c];
+    if (x.norm() < 1.5 * half_length) continue;
+    const double factor = -step.alpha / step.storage, h = 1e-4;
+    const double px = factor * (crack.dilation(x + Point(h, 0)) - crack.dilation(x - Point(h, 0))) / (2 * h);
+    const double py = factor * (crack.dilation(x + Point(0, h)) - crack.dilation(x - Point(0, h))) / (2 * h);
+    const double off = p[c] - factor * crack.dilation(x);
+    area += mesh.cell_area[c];
+    mean += mesh.cell_area[c] * off;
+    error += mesh.cell_area[c] * off * off;
+    slope += mesh.cell_area[c] * mesh.cell_area[c] * (px * px + py * py);
+  }
+  return {alternating(mesh, p), std::sqrt((error - mean * mean / area) / slope)};
+}
+
+TEST(Alternation, UndrainedPressuresAroundACrackFollowTheClosedForm) {
+  for (const double angle : {0.3, 1.2, 2.4})
+    for (const double growth : {1.4, 1.9}) {
+      MeshOptions options = test::unstructured(2.2);
+      options.fracture_size = 0.3;
+      options.growth = growth;
+      const Mesh mesh = around_crack(angle, options);
+      // alpha^2/S over lambda + 2 G. Without exchange of volume around nodes 0.25 to 0.36, 0.27 to 0.36, 0.34 to 0.41.
+      for (const auto& [coupling, bound] : {std::pair{0.01, 0.17}, {0.3, 0.2}, {3.0, 0.28}, {100.0, 0.3}}) {
+        const Result result = solve(mesh, angle, coupling);
+        EXPECT_LT(result.error, bound) << angle << ", growth " << growth << ", coupling " << coupling;
+        EXPECT_EQ(result.alternating, 0) << angle << ", growth " << growth << ", coupling " << coupling;
+      }
+    }
+}
+
+/// E of every node: leaves out slopes, takes back no more than there is, and gains nothing, at any contrast.
+TEST(Alternation, ExchangedVolumesAreSymmetricAndBounded) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(-5, 5);
+  for (const Mesh& mesh : {test::fractured_square(), test::fractured_square(test::mixed(0.1, 0.3)),
+                           generate_mesh(test::box(1, 1), test::rectangles(7, 5, 0.4))})
+    for (const bool even : {true, false}) {
+      std::vector<poromechanics::Stiffness> rock(mesh.cell_count(), poromechanics::isotropic_stiffness(0.5, 1));
+      if (!even)
+        for (auto& stiffness : rock) stiffness *= std::pow(10, exponent(random));
+      int exchanging = 0;
+      InteractionRegion region;
+      for (int node = 0; node < mesh.node_count(); ++node) {
+        region.assign(mesh, node);
+        const int cells = region.subcell_count();
+        std::vector<poromechanics::GradientJump> dilation(region.subface_count());
+        for (int f = 0; f < region.subface_count(); ++f) {
+          if (!region.is_inner(f)) continue;
+          const auto [first, second] = region.neighbours[f];
+          const Subcell& one = region.subcells[first];
+          dilation[f] = poromechanics::Kink(one.half_face[region.place(f, first)], rock[one.cell],
+                                            rock[region.subcells[second].cell])
+                            .dilation();
+        }
+        poromechanics::VolumeExchange exchange;
+        exchange.assign(mesh, region, rock, dilation);
+        const int faces = static_cast<int>(exchange.volume.rows());
+        if (faces == 0) continue;
+        ++exchanging;
+        Eigen::MatrixXd jumps = Eigen::MatrixXd::Zero(faces, cells);
+        Vector root(cells);
+        Eigen::MatrixX2d centers(cells, 2);
+        for (int i = 0; i < faces; ++i) {
+          const auto [first, second] = region.neighbours[exchange.subfaces[i]];
+          jumps(i, first) = 1, jumps(i, second) = -1;
+        }
+        for (int k = 0; k < cells; ++k) {
+          const Subcell& subcell = region.subcells[k];
+          root[k] = std::sqrt(poromechanics::p_wave_modulus(rock[subcell.cell]) / subcell.area);
+          centers.row(k) = mesh.cell_center[subcell.cell].transpose();
+        }
+        const double size = root.cwiseInverse().cwiseAbs2().maxCoeff();
+        EXPECT_LT((exchange.volume - exchange.volume.transpose()).norm(), 1e-14 * size);
+        EXPECT_LT((exchange.volume * jumps * centers).norm(), 1e-13 * size);
+        const Eigen::MatrixXd gain =
+            root.asDiagonal() * jumps.transpose() * exchange.volume * jumps * root.asDiagonal();
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(gain);
+        EXPECT_GT(modes.eigenvalues().minCoeff(), -1e-12);
+        EXPECT_LT(modes.eigenvalues().maxCoeff(), 1 + 1e-12);
+      }
+      EXPECT_GT(exchanging, mesh.node_count() / 3);
+    }
+}
+
+}  // namespace
+}  // namespace sprekk
