@@ -97,6 +97,13 @@ class Part {
   /// Moves the fields to where one-sided conditions (contact) are inactive, so that the unknowns that these conditions
   /// hold are free.
   virtual void loosen() {}
+  /// What left its discrete state in this step by a jump, where it could have stayed, is kept in it from now on,
+  /// whatever its conditions say. Returns how much there is.
+  virtual int keep_states() { return 0; }
+  /// Lets go of what is kept against its conditions in the values now, and returns how much that was.
+  virtual int release_violated() { return 0; }
+  /// Lets go of all that is kept.
+  virtual void release_kept() {}
   /// The names of the stabilizations that the part offers to split schemes.
   virtual std::vector<std::string> stabilizations() const { return {}; }
   /// Adds the diagonals of a named stabilization for the fields that the part can stabilize.

@@ -182,6 +182,12 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   start_.clear();
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
   const std::vector<Vector> start = values();
+  StepStatus status = search(step, start);
+  if (status.converged) status.iterations += keep_states(step, start);
+  return status;
+}
+
+StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start) {
   state_has_changed_ = false;
   // Where the system is singular, since discrete states leave nothing for an unknown to be held by, once more from
   // loosened ones.

@@ -40,6 +40,10 @@ struct NewtonOptions {
 /// are held, and ordinary iterations from the end of the path correct them. If these do not converge, the path is
 /// followed with all derivatives, as far as it goes.
 ///
+/// A solution need not be the only one, and Newton's method may jump over one that the step's start leads to. So where
+/// parts say that states have been left by a jump (Part::keep_states), the step is solved once more with these kept,
+/// and those of them let go that do not fulfil their conditions, until the rest does: that solution is taken then.
+///
 /// Repeating a call from the same fields gives the same bits.
 class Newton {
  public:
@@ -74,6 +78,10 @@ class Newton {
   /// When an attempt ends. `end`: after all iterations. `search`: where a line search would begin, if the discrete
   /// state has changed by then.
   enum class Until { end, search };
+  /// All attempts, until one converges.
+  StepStatus search(const StepTime& step, const std::vector<Vector>& start);
+  /// From a solution to one that keeps states which it has left (keep_states.cpp), if there is any. Returns iterations.
+  int keep_states(const StepTime& step, const std::vector<Vector>& start);
   /// Iterates, without a line search in the first `undamped` iterations.
   StepStatus attempt(const StepTime& step, int undamped, Until until = Until::end);
   /// The third attempt (path_search.cpp).

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
@@ -100,7 +102,8 @@ Coulomb::Trial Coulomb::trial(int i) const {
   t.gap = u_n - std::abs(u_t) * dilation_[i];
   t.normal = f_n + stiffness()[2 * i] * t.gap;
   t.tangential = f_t + stiffness()[2 * i + 1] * (u_t - jump_.accepted()[2 * i + 1]);
-  t.bound = -friction_[i] * std::min(0.0, t.normal);
+  t.bound =
+      !kept_.empty() && kept_[i] ? std::numeric_limits<double>::infinity() : -friction_[i] * std::min(0.0, t.normal);
   // At the very start of slip, |slip| has the slope of the side that it is about to take.
   t.slip_sign = u_t > 0 ? 1 : u_t < 0 ? -1 : t.tangential > 0 ? 1 : -1;
   return t;
@@ -169,6 +172,35 @@ void Coulomb::loosen() {
   }
   traction_.set(std::move(traction));
   jump_.set(std::move(jump));
+}
+
+int Coulomb::keep_states() {
+  constexpr double least = 1e-6;  // of the largest slip: less is no jump
+  kept_.assign(mesh_.fracture_cell_count(), 0);
+  int count = 0;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const double before = jump_.accepted()[2 * i + 1], slip = jump_.now()[2 * i + 1] - before;
+    const bool slides_back = dilation_[i] > 0 && slip * before < 0;
+    if (is_bonded(i) || !slides_back || std::abs(slip) < least * jump_.now().lpNorm<Eigen::Infinity>()) continue;
+    if (state(i) == State::open || traction_.accepted()[2 * i] >= 0) continue;
+    kept_[i] = 1;
+    ++count;
+  }
+  if (count == 0) kept_.clear();
+  return count;
+}
+
+int Coulomb::release_violated() {
+  int count = 0;
+  const std::vector<char> kept = std::exchange(kept_, {});
+  std::vector<char> rest = kept;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i] || state(static_cast<int>(i)) == State::stick) continue;
+    rest[i] = 0;
+    ++count;
+  }
+  kept_ = std::move(rest);
+  return count;
 }
 
 std::uint64_t Coulomb::discrete_state() const {

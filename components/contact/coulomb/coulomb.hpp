@@ -57,6 +57,14 @@ class Coulomb : public Component, public FractureContact {
     follows_pieces_ = is_careful_ && look != Look::carefully;
   }
   void loosen() override;
+  /// Cells that have slid back over their asperities. That closes the fracture, which presses its walls apart and
+  /// lessens their friction, so walls that slide back may find rest far away though they also rest where they were. The
+  /// state in which they stick is the one that slip in small increments leads to: stick is left where the bound is
+  /// reached, and within given states of all cells tractions are linear in the load, and so within the (convex) cone of
+  /// friction all along the step if they are at both of its ends.
+  int keep_states() override;
+  int release_violated() override;
+  void release_kept() override { kept_.clear(); }
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
@@ -108,6 +116,7 @@ class Coulomb : public Component, public FractureContact {
   Property friction_, dilation_angle_;               ///< mu_s, psi
   Vector dilation_;                                  ///< tan psi
   std::vector<char> bonded_;                         ///< empty for none
+  std::vector<char> kept_;                           ///< stick as long as they touch; empty for none
   mutable std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
   mutable std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in follow_back_slip
   bool is_careful_ = false;                          ///< after Newton's method has failed

@@ -1,0 +1,28 @@
+// From a solution that left discrete states by a jump to one that the step's start leads to.
+#include "framework/schedule/newton.hpp"
+
+namespace sprekk {
+
+int Newton::keep_states(const StepTime& step, const std::vector<Vector>& start) {
+  int kept = 0, iterations = 0;
+  for (Part* part : parts_) kept += part->keep_states();
+  if (kept == 0) return 0;
+  const std::vector<Vector> found = values();
+  set(start);
+  while (true) {
+    const StepStatus tried = attempt(step, options_.undamped, Until::search);
+    iterations += tried.iterations;
+    int released = 0;
+    if (tried.converged)
+      for (Part* part : parts_) released += part->release_violated();
+    if (tried.converged && released == 0) break;
+    kept -= released;
+    if (tried.converged && kept > 0) continue;
+    set(found);
+    break;
+  }
+  for (Part* part : parts_) part->release_kept();
+  return iterations;
+}
+
+}  // namespace sprekk
