@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 Assembly::Assembly(std::vector<const Field*> unknowns, Want want, Products* products)
@@ -12,7 +14,11 @@ Assembly::Assembly(std::vector<const Field*> unknowns, Want want, Products* prod
       products_(products != nullptr ? products : &own_products_),
       balances_(unknowns_.size()) {
   for (const Field* field : unknowns_) {
+    SPREKK_EXPECT(field != nullptr);
+    SPREKK_EXPECT(index_.count(field) == 0, field->name());
+    SPREKK_EXPECT(field->now().size() == field->size(), field->name(), field->now().size(), field->size());
     index_[field] = static_cast<int>(residuals_.size());
+
     residuals_.push_back(Vector::Zero(field->size()));
   }
   magnitudes_.assign(unknowns_.size(), 0);
@@ -25,6 +31,7 @@ int Assembly::index_of(const Field& row) const {
 }
 
 BalanceRows Assembly::balance(const Field& row, const std::string& quantity) {
+  SPREKK_EXPECT(!quantity.empty(), row.name());
   const int i = index_of(row);
   if (i >= 0) balances_.declare(i, row.name(), quantity, residuals_[i]);
   return {*this, row, i};
@@ -37,6 +44,7 @@ void Assembly::add(const Field& row, const Vector& values) {
 }
 
 void Assembly::add(int i, const Vector& values, const Vector& in_sum) {
+  SPREKK_EXPECT(is_index(i, static_cast<long>(unknowns_.size())), i, unknowns_.size());
   if (values.size() != residuals_[i].size() || in_sum.size() != values.size())
     throw std::logic_error("assembly of " + unknowns_[i]->name() + ": wrong size");
   if (values.size() == 0) return;
@@ -48,6 +56,7 @@ void Assembly::add(int i, const Vector& values, const Vector& in_sum) {
 }
 
 void Assembly::compare_with(const Field& row, double magnitude) {
+  SPREKK_EXPECT(!(magnitude < 0), row.name(), magnitude);
   const auto found = index_.find(&row);
   if (found == index_.end()) return;
   magnitudes_[found->second] = std::max(magnitudes_[found->second], magnitude);
@@ -55,6 +64,7 @@ void Assembly::compare_with(const Field& row, double magnitude) {
 }
 
 void Assembly::compare_round_off(const Field& row, double largest) {
+  SPREKK_EXPECT(!(largest < 0), row.name(), largest);
   const int i = index_of(row);
   if (i < 0) return;
   compare_round_off_of_rows(i, largest);
@@ -66,6 +76,9 @@ void Assembly::compare_round_off_of_rows(int unknown, double largest) {
 }
 
 void Assembly::fix(const Field& row, int i, double target, double scale) {
+  SPREKK_EXPECT(is_index(i, row.size()), row.name(), i, row.size());
+  SPREKK_EXPECT(std::isfinite(target), row.name(), i, target);
+  SPREKK_EXPECT(std::isfinite(scale) && scale != 0, row.name(), i, scale);
   const auto found = index_.find(&row);
   if (found == index_.end()) return;
   const double value = row.now()[i], size = std::max(std::abs(value), std::abs(target));
@@ -77,6 +90,10 @@ void Assembly::keep_block(const Field& row, const Field& column, const SparseMat
                           const Vector* weights, const Operator* kept) {
   if (!wants_derivatives()) return;
   const auto i = index_.find(&row), j = index_.find(&column);
+  SPREKK_EXPECT(block.isCompressed(), row.name(), column.name());
+  SPREKK_EXPECT(weights == nullptr || weights->size() == row.size(), row.name(), row.size());
+  SPREKK_EXPECT(std::isfinite(factor), row.name(), column.name(), factor);
+  SPREKK_ASSERT(is_well_formed(block), row.name(), column.name());
   if (i == index_.end() || j == index_.end()) return;
   if (block.rows() != row.size() || block.cols() != column.size())
     throw std::logic_error("derivative of " + row.name() + " by " + column.name() + ": wrong shape");
@@ -115,6 +132,8 @@ void Assembly::linear(const Field& row, const Operator& matrix, const Field& col
     throw std::logic_error("term of " + row.name() + " in " + column.name() + ": wrong shape");
   const int i = found->second;
   const FieldProduct& product = products_->now(matrix, column);
+  SPREKK_EXPECT(weights == nullptr || weights->size() == row.size(), row.name(), row.size());
+  SPREKK_ASSERT(product.value.size() == row.size() && product.size.size() == row.size(), row.name(), row.size());
   const bool is_balance = balances_.are_rows_of(i);
   Vector scaled(is_balance ? row.size() : 0);
   double largest = 0, largest_absolute = 0, sum_of_absolute = 0;
@@ -141,6 +160,8 @@ void Assembly::linear(const Field& row, const Operator& matrix, const Field& col
 }
 
 void Assembly::linear(const Field& row, const LinearExpression& expression, double factor, const Vector* weights) {
+  SPREKK_EXPECT(expression.constant.size() == row.size(), row.name(), expression.constant.size(), row.size());
+  SPREKK_EXPECT(weights == nullptr || weights->size() == row.size(), row.name(), row.size());
   if (!has_row(row)) return;
   Vector constant = factor * expression.constant;
   if (weights) constant = constant.cwiseProduct(*weights);

@@ -1,21 +1,26 @@
 #include "framework/assembly/balance_rows.hpp"
 
 #include "framework/assembly/assembly.hpp"
+#include "framework/invariants.hpp"
 
 namespace sprekk {
 
 void BalanceRows::store(const Vector& amounts, double largest) {
+  SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
   assembly_.add(row_, amounts);
   if (largest > 0) assembly_.compare_round_off(row_, largest);
   turn_over(amounts);
 }
 
 void BalanceRows::supply(const Vector& amounts) {
+  SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
   assembly_.add(row_, -amounts);
   turn_over(amounts);
 }
 
 void BalanceRows::exchange(const Vector& outflow, const Vector& leaving, double largest) {
+  SPREKK_EXPECT(outflow.size() == row_.size(), row_.name(), outflow.size(), row_.size());
+  SPREKK_EXPECT(leaving.size() == row_.size(), row_.name(), leaving.size(), row_.size());
   if (unknown_ < 0) return;
   assembly_.add(unknown_, outflow, leaving);
   assembly_.compare_round_off_of_rows(unknown_, largest);
@@ -23,6 +28,7 @@ void BalanceRows::exchange(const Vector& outflow, const Vector& leaving, double 
 }
 
 void BalanceRows::turn_over(const Vector& amounts) {
+  SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
   if (unknown_ >= 0) assembly_.balances_.turn_over(unknown_, amounts);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -17,7 +18,9 @@ double largest_weight(const Assembly::Block& block) {
 /// Calls use(row, column, value) for the entries of a block in rows that are owned.
 template <class Use>
 void for_entries(const Assembly::Block& block, const SparseMatrix& entries, const std::vector<char>& owned,
+
                  const Use& use) {
+  SPREKK_EXPECT(static_cast<Eigen::Index>(owned.size()) == entries.rows(), owned.size(), entries.rows());
   for (int row = 0; row < entries.outerSize(); ++row) {
     if (!owned[row]) continue;
     const double scale = block.weights ? block.factor * (*block.weights)[row] : block.factor;
@@ -56,7 +59,10 @@ bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool 
 }
 
 SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
+
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
+  SPREKK_EXPECT(owned.size() == assembly.unknowns().size(), owned.size());
+  SPREKK_EXPECT(first.size() == assembly.unknowns().size(), first.size());
   std::vector<int> columns;
   std::vector<double> values;
   for (const Assembly::Block& block : assembly.blocks())
@@ -66,7 +72,9 @@ SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
         values.push_back(value);
       });
   columns = parallel::gather(columns);
+
   values = parallel::gather(values);
+  SPREKK_ASSERT(columns.size() == values.size(), columns.size(), values.size());
   struct Total {
     double value = 0, size = 0;
   };
@@ -83,6 +91,7 @@ SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
     sum.columns.push_back(column);
     sum.values.push_back(total.value);
   }
+  SPREKK_ASSERT(is_ascending(sum.columns));
   return sum;
 }
 
@@ -121,6 +130,7 @@ void BalanceSums::put_into(const LinearSystem& plain, const Assembly& assembly,
     SumRow sum = sum_of_rows(assembly, quantity, owned, first);
     if (sum.columns.empty()) continue;  // a mode that nothing holds, as the solver will find
     const int row = row_to_replace(assembly, quantity, owned, first);
+    SPREKK_ASSERT(is_index(row, plain.local.cols()), quantity.name, row, plain.local.cols());
     sums.push_back(row);
     const auto place = std::lower_bound(plain.rows.begin(), plain.rows.end(), row);
     const bool is_mine = place != plain.rows.end() && *place == row;
@@ -130,6 +140,7 @@ void BalanceSums::put_into(const LinearSystem& plain, const Assembly& assembly,
   if (replaced_.empty()) return;
   with_sums_.rows = plain.rows;
   with_sums_.blocks = plain.blocks;
+  SPREKK_ASSERT(are_indices(sums, plain.local.cols()), plain.local.cols());
   with_sums_.sums = std::move(sums);
   with_sums_.pattern_number = 0;
   with_sums_.number = new_system_number();
@@ -152,6 +163,7 @@ void BalanceSums::put_into(const LinearSystem& plain, const Assembly& assembly,
   local.resizeNonZeros(inner.size());
   std::copy(outer.begin(), outer.end(), local.outerIndexPtr());
   std::copy(inner.begin(), inner.end(), local.innerIndexPtr());
+  SPREKK_ASSERT(inner.size() == values.size() && outer.size() == plain.rows.size() + 1, inner.size(), values.size());
   std::copy(values.begin(), values.end(), local.valuePtr());
 }
 

@@ -2,9 +2,12 @@
 
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 void Balances::declare(int unknown, const std::string& field, const std::string& quantity, const Vector& so_far) {
+  SPREKK_EXPECT(is_index(unknown, static_cast<long>(of_.size())), unknown, of_.size());
   if (are_rows_of(unknown)) throw std::logic_error(field + " is a balance: this was said twice");
   of_[unknown].residual = of_[unknown].turnover = Vector::Zero(so_far.size());
   add(unknown, so_far);
@@ -16,6 +19,7 @@ void Balances::declare(int unknown, const std::string& field, const std::string&
 void Balances::add(int unknown, const Vector& values) {
   if (!are_rows_of(unknown)) return;
   Rows& rows = of_[unknown];
+  SPREKK_EXPECT(values.size() == rows.residual.size(), values.size(), rows.residual.size());
   rows.residual += values;
   const double size = values.lpNorm<1>();
   rows.magnitude = std::max(rows.magnitude, size);
@@ -23,10 +27,12 @@ void Balances::add(int unknown, const Vector& values) {
 }
 
 void Balances::turn_over(int unknown, const Vector& amounts) {
+  SPREKK_EXPECT(!are_rows_of(unknown) || amounts.size() == of_[unknown].turnover.size(), amounts.size());
   if (are_rows_of(unknown)) of_[unknown].turnover += amounts.cwiseAbs();
 }
 
 void Balances::compare_round_off(int unknown, double largest) {
+  SPREKK_EXPECT(!(largest < 0), unknown, largest);
   of_[unknown].round_off_base = std::max(of_[unknown].round_off_base, largest);
 }
 

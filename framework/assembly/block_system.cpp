@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -31,6 +32,7 @@ UnknownBlock describe(const Mesh& mesh, const Field& field, int first) {
   block.components = field.spec().components;
   block.kind = field.spec().role.kind();
   block.coordinates = coordinates(mesh, field.spec().location);
+  SPREKK_ASSERT(block.coordinates.empty() || static_cast<int>(block.coordinates.size()) == block.entities, block.name);
   return block;
 }
 
@@ -42,10 +44,12 @@ bool same_bits(const T* a, const T* b, std::size_t count) {
 }  // namespace
 
 BlockSystem::BlockSystem(const Mesh& mesh, std::vector<const Field*> unknowns) : unknowns_(std::move(unknowns)) {
+  SPREKK_EXPECT(static_cast<int>(mesh.cell_rank.size()) == mesh.cell_count(), mesh.cell_rank.size(), mesh.cell_count());
   const bool alone = parallel::size() == 1;
   for (const Field* field : unknowns_) {
     first_.push_back(size_);
     first_row_.push_back(static_cast<int>(system_.rows.size()));
+
     system_.blocks.push_back(describe(mesh, *field, size_));
     const int components = field->spec().components;
     std::vector<char> owned(field->size(), 1);
@@ -122,6 +126,7 @@ void BlockSystem::build_pattern(const Assembly& assembly) {
   destinations_.resize(entries);
 
   const int local_rows = static_cast<int>(system_.rows.size());
+  SPREKK_EXPECT(assembly.unknowns().size() == unknowns_.size(), assembly.unknowns().size(), unknowns_.size());
   std::vector<int> outer{0}, inner, place(size_);
   std::vector<int> seen_in(size_, -1);
   outer.reserve(local_rows + 1);
@@ -155,6 +160,9 @@ void BlockSystem::build_pattern(const Assembly& assembly) {
     }
   }
   SparseMatrix& local = system_.local;
+  SPREKK_ASSERT(static_cast<int>(outer.size()) == local_rows + 1, outer.size(), local_rows);
+  SPREKK_ASSERT(are_indices(inner, size_), size_);
+  SPREKK_ASSERT(are_indices(destinations_, static_cast<long>(inner.size())), inner.size());
   local.resize(local_rows, size_);
   local.resizeNonZeros(inner.size());
   std::copy(outer.begin(), outer.end(), local.outerIndexPtr());
@@ -169,6 +177,7 @@ std::vector<char> BlockSystem::known_rows(const Assembly& assembly) const {
 }
 
 const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
+  SPREKK_EXPECT(assembly.wants_derivatives());
   const std::vector<Assembly::Block>& blocks = assembly.blocks();
   const bool same_pattern =
       patterns_built_ > 0 &&
@@ -201,6 +210,7 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
     }
   }
   apply_fixed(assembly);
+  SPREKK_ASSERT(is_well_formed(system_.local), system_.local.rows(), system_.local.cols());
   sums_.put_into(system_, assembly, owned_, first_);
   return sums_.with_sums(system_);
 }
@@ -213,6 +223,8 @@ void BlockSystem::use_answered_sums(bool wanted) {
 
 void BlockSystem::apply_fixed(const Assembly& assembly) {
   for (const Assembly::Fixed& fixed : assembly.fixed()) {
+    SPREKK_ASSERT(is_index(fixed.unknown, static_cast<long>(owned_.size())), fixed.unknown);
+    SPREKK_ASSERT(is_index(fixed.row, static_cast<long>(owned_[fixed.unknown].size())), fixed.unknown, fixed.row);
     if (!owned_[fixed.unknown][fixed.row]) continue;
     const int unknown = first_[fixed.unknown] + fixed.row;
     const auto row = std::lower_bound(system_.rows.begin(), system_.rows.end(), unknown) - system_.rows.begin();
@@ -226,6 +238,7 @@ Vector BlockSystem::residual(const Assembly& assembly) const {
   int next = 0;
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const Vector& values = assembly.residual(static_cast<int>(u));
+    SPREKK_ASSERT(values.size() == unknowns_[u]->size(), unknowns_[u]->name(), values.size());
     if (residual.size() == size_) {
       residual.segment(first_[u], values.size()) = values;
       continue;
@@ -237,6 +250,8 @@ Vector BlockSystem::residual(const Assembly& assembly) const {
 }
 
 void BlockSystem::set_stabilization(const Field& field, const Vector& diagonal) {
+  SPREKK_EXPECT(diagonal.size() == field.size(), field.name(), diagonal.size(), field.size());
+  SPREKK_EXPECT(is_finite(diagonal), field.name());
   for (UnknownBlock& block : system_.blocks) {
     if (block.name != field.name() ||
         (block.stabilization.size() == diagonal.size() && block.stabilization == diagonal))

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 void ConstantModes::floats(const Field& field, const Origin& where, const std::string& why,
                            const std::string& suggestion) {
+  SPREKK_EXPECT(!why.empty(), field.name());
   if (!floats(&field)) floating_.push_back({&field, where, why, suggestion});
 }
 

@@ -4,12 +4,34 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "framework/invariants.hpp"
+#include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
+namespace {
+
+/// Up to round-off of the entries. Several processes have the rows of their own only, and cannot tell.
+[[maybe_unused]] bool columns_add_up_alike(const SparseMatrix& a, const SparseMatrix& b) {
+  if (parallel::size() > 1) return true;
+  constexpr double round_off = 1e-9;
+  Vector difference = Vector::Zero(a.cols()), size = Vector::Zero(a.cols());
+  for (const auto& [matrix, sign] : {std::pair(&a, 1.0), std::pair(&b, -1.0)})
+    for (int k = 0; k < matrix->nonZeros(); ++k) {
+      difference[matrix->innerIndexPtr()[k]] += sign * matrix->valuePtr()[k];
+      size[matrix->innerIndexPtr()[k]] += std::abs(matrix->valuePtr()[k]);
+    }
+  return (difference.array().abs() <= round_off * size.array()).all();
+}
+
+}  // namespace
 
 Operator::Operator(SparseMatrix entries) {
   static std::atomic<std::uint64_t> made{0};
   entries.makeCompressed();
+  SPREKK_EXPECT(is_well_formed(entries), entries.rows(), entries.cols());
+  SPREKK_EXPECT(is_finite(entries), entries.rows(), entries.cols());
   const auto kept = std::make_shared<SparseMatrix>();
   kept->swap(entries);  // to move it would copy it
   entries_ = kept;
@@ -18,6 +40,10 @@ Operator::Operator(SparseMatrix entries) {
 
 Operator::Operator(SparseMatrix entries, SparseMatrix leaving) : Operator(std::move(entries)) {
   leaving.makeCompressed();
+  SPREKK_EXPECT(leaving.rows() == entries_->rows() && leaving.cols() == entries_->cols(), leaving.rows(),
+                leaving.cols());
+  SPREKK_EXPECT(is_finite(leaving), leaving.rows());
+  SPREKK_EXPECT(columns_add_up_alike(*entries_, leaving), leaving.rows(), leaving.cols());
   leaving_ = std::make_shared<const SparseMatrix>(std::move(leaving));
   for (int k = 0; k < entries_->nonZeros(); ++k)
     largest_exchange_ = std::max(largest_exchange_, std::abs(entries_->valuePtr()[k]));

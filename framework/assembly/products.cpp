@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -35,12 +37,16 @@ FieldProduct multiplied(const SparseMatrix& a, const Vector& x) {
 }  // namespace
 
 FieldProduct multiply(const SparseMatrix& a, const Vector& x, bool with_size) {
+  SPREKK_EXPECT(a.cols() == x.size(), a.cols(), x.size());
+  SPREKK_EXPECT(a.isCompressed());
   return with_size ? multiplied<true>(a, x) : multiplied<false>(a, x);
 }
 
 const FieldProduct& Products::of(const Operator& a, const Field& x, const Vector& values, std::uint64_t version,
+
                                  bool with_size) {
   Recent& recent = recent_[{a.number(), &x}];
+  SPREKK_EXPECT(values.size() == x.size(), x.name(), values.size(), x.size());
   recent.is_used = true;
   for (Kept& kept : recent.kept)
     if (kept.used > 0 && kept.version == version) {

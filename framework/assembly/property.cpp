@@ -1,5 +1,7 @@
 #include "framework/assembly/property.hpp"
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -23,12 +25,15 @@ void Property::evaluate(const StepTime& step) {
 }
 
 void Property::set(Vector values) {
+  SPREKK_EXPECT(values_.size() == 0 || values.size() == values_.size(), values.size(), values_.size());
+  SPREKK_EXPECT(is_finite(values), values.size());
   if (values.size() == values_.size() && values == values_) return;
   values_ = std::move(values);
   ++version_;
 }
 
 std::vector<Place> cell_places(const Mesh& mesh) {
+  SPREKK_EXPECT(static_cast<int>(mesh.cell_region.size()) == mesh.cell_count(), mesh.cell_region.size());
   std::vector<Place> places;
   for (int c = 0; c < mesh.cell_count(); ++c) places.push_back({mesh.cell_center[c], mesh.cell_region[c], 0});
   return places;

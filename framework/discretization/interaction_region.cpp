@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -17,6 +19,7 @@ double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0];
 void InteractionRegion::assign(const Mesh& mesh, int node) {
   const auto node_cells = mesh.node_cells[node];
   const auto node_faces = mesh.node_faces[node];
+  SPREKK_EXPECT(is_index(node, mesh.node_count()), node, mesh.node_count());
   faces.assign(node_faces.begin(), node_faces.end());
   neighbours.assign(faces.size(), {none, none});
   subcells.resize(node_cells.size());
@@ -31,6 +34,8 @@ void InteractionRegion::assign(const Mesh& mesh, int node) {
       const bool is_inner = mesh.face_cells[face][1] != none;
       const int side = mesh.face_cells[face][0] == subcell.cell ? 0 : 1;
       const int subface = index_in(node_faces, face);
+      SPREKK_ASSERT(found < 2, node, subcell.cell, found);
+      SPREKK_ASSERT(is_index(subface, subface_count()), node, face, subface);
       subcell.subfaces[found] = subface;
       neighbours[subface][side] = k;
       face_center[found] = mesh.face_center[face];
@@ -40,9 +45,12 @@ void InteractionRegion::assign(const Mesh& mesh, int node) {
       ++found;
     }
     const double determinant = cross(arm[0], arm[1]);
+    SPREKK_ASSERT(found == 2, node, subcell.cell, found);
+    SPREKK_ASSERT(determinant != 0, node, subcell.cell);
     subcell.gradient[0] = Point(arm[1][1], -arm[1][0]) / determinant;
     subcell.gradient[1] = Point(-arm[0][1], arm[0][0]) / determinant;
     subcell.area = 0.5 * std::abs(cross(mesh.nodes[node] - center, face_center[1] - face_center[0]));
+    SPREKK_ASSERT(subcell.area > 0, node, subcell.cell, subcell.area);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -15,6 +17,7 @@ bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; 
 bool same_bits(const Point& a, const Point& b) { return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()); }
 
 std::vector<int> inverse(const std::vector<int>& origin, int count) {
+  SPREKK_EXPECT(std::ranges::all_of(origin, [&](int i) { return i == none || is_index(i, count); }), count);
   std::vector<int> inverse(count, none);
   for (int i = 0; i < static_cast<int>(origin.size()); ++i)
     if (origin[i] != none) inverse[origin[i]] = i;
@@ -139,6 +142,9 @@ KeptRegions::KeptRegions(const RegionInputs& before, const RegionInputs& after, 
       new_cell_(inverse(change.cell, before.mesh.cell_count())),
       new_face_(inverse(change.face, before.mesh.face_count())),
       nodes_to_compute_(after.mesh.node_count(), 0) {
+  SPREKK_EXPECT(static_cast<int>(change.cell.size()) == after.mesh.cell_count(), change.cell.size());
+  SPREKK_EXPECT(static_cast<int>(change.face.size()) == after.mesh.face_count(), change.face.size());
+  SPREKK_EXPECT(static_cast<int>(change.fracture_cell.size()) == after.mesh.fracture_cell_count());
   const Comparison comparison(before, after, change, same_cell, same_face);
   std::vector<int> kept_node(mesh_.node_count());
   for (int node = 0; node < mesh_.node_count(); ++node) kept_node[node] = comparison.kept_node(node);
@@ -161,6 +167,8 @@ SparseMatrix KeptRegions::merge(const SparseMatrix& before, const SparseMatrix& 
   const std::vector<int>& origin = kept(rows);
   const std::vector<int>& new_column = columns == Entity::cell ? new_cell_ : new_face_;
   const int entities = static_cast<int>(origin.size());
+  SPREKK_EXPECT(entities == 0 || after.rows() % entities == 0, after.rows(), entities);
+  SPREKK_EXPECT(before.isCompressed() && after.isCompressed());
   const int column_entities = columns == Entity::cell ? mesh_.cell_count() : mesh_.face_count();
   const int row_components = entities > 0 ? static_cast<int>(after.rows()) / entities : 0;
   const int components = column_entities > 0 ? static_cast<int>(after.cols()) / column_entities : 1;
@@ -203,6 +211,7 @@ SparseMatrix KeptRegions::merge(const SparseMatrix& before, const SparseMatrix& 
       std::sort(unsorted.begin(), unsorted.end());
       for (int k = 0; k < length; ++k) std::tie(column[k], value[k]) = unsorted[k];
     }
+  SPREKK_ASSERT(is_well_formed(merged), merged.rows(), merged.cols());
   return merged;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/point_location.hpp"
 
 namespace sprekk {
@@ -11,6 +12,7 @@ namespace sprekk {
 std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
                                                const std::function<bool(int, int)>& is_like) {
   const int home = PointLocation(mesh).cell_at(x);
+  SPREKK_EXPECT(is_finite(x));
   if (home == none) return {};
   std::set<int> around;
   for (const int node : mesh.cell_nodes[home])
@@ -21,6 +23,7 @@ std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
   // Minimizes sum (a + b·(x_cell − x) − value)^2; the weights are the first row of the pseudo-inverse.
   Eigen::MatrixXd basis(cells.size(), 3);
   const double scale = std::sqrt(mesh.cell_area[home]);
+  SPREKK_ASSERT(scale > 0, home, scale);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Point offset = (mesh.cell_center[cells[i]] - x) / scale;
     basis.row(i) << 1, offset[0], offset[1];

@@ -1,5 +1,7 @@
 #include "framework/discretization/node_stencil.hpp"
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 NodeStencil::NodeStencil(const Adjacency& row_nodes, const Adjacency& listed) : listed_(listed) {
@@ -18,11 +20,14 @@ NodeStencil::NodeStencil(const Adjacency& row_nodes, const Adjacency& listed) : 
 }
 
 void NodeStencil::find_slots(int row, int node, std::vector<int>& slots) const {
+  SPREKK_EXPECT(is_index(row, columns_.size()), row, columns_.size());
+  SPREKK_EXPECT(is_index(node, listed_.size()), node, listed_.size());
   const auto of_row = columns_[row];
   const auto of_node = listed_[node];
   slots.resize(of_node.size());
   std::size_t slot = 0;
   for (std::size_t i = 0; i < of_node.size(); ++i) {
+    SPREKK_ASSERT(slot < of_row.size(), row, node, of_node[i]);
     while (of_row[slot] != of_node[i]) ++slot;
     slots[i] = static_cast<int>(slot);
   }
@@ -30,6 +35,8 @@ void NodeStencil::find_slots(int row, int node, std::vector<int>& slots) const {
 
 StencilMatrix::StencilMatrix(const NodeStencil& stencil, int row_components, int column_entities, int column_components)
     : stencil_(stencil), row_components_(row_components), column_components_(column_components) {
+  SPREKK_EXPECT(row_components > 0 && column_components > 0, row_components, column_components);
+  SPREKK_EXPECT(are_indices(stencil.columns().items, column_entities), column_entities);
   const Adjacency& columns = stencil.columns();
   matrix_.resize(row_components * columns.size(), column_components * column_entities);
   const auto entries = static_cast<Eigen::Index>(row_components) * column_components * columns.items.size();

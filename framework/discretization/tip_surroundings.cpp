@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 namespace {
 
@@ -12,6 +14,7 @@ const double straight = std::cos(10 * std::numbers::pi / 180);
 }  // namespace
 
 NodeWalls::NodeWalls(const Mesh& mesh, int node) {
+  SPREKK_EXPECT(is_index(node, mesh.node_count()), node, mesh.node_count());
   int count = 0;
   for (const int face : mesh.node_faces[node]) {
     if (mesh.face_cells[face][1] != none) continue;
@@ -35,6 +38,8 @@ bool tip_field_goes_on(const Mesh& mesh, int node, const FractureCell& last) {
 }
 
 std::vector<int> nodes_around_tip(const Mesh& mesh, int tip, int edges) {
+  SPREKK_EXPECT(is_tip(mesh, tip), tip);
+  SPREKK_EXPECT(edges >= 0, edges);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];
   std::vector<int> reached{tip};
   for (int layer = 0, begin = 0; layer < edges; ++layer) {

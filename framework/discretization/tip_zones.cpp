@@ -8,6 +8,7 @@
 #include "framework/discretization/tip_frame.hpp"
 #include "framework/discretization/tip_surroundings.hpp"
 #include "framework/discretization/tips_nearby.hpp"
+#include "framework/invariants.hpp"
 
 namespace sprekk {
 namespace {
@@ -36,6 +37,7 @@ std::vector<int> outer_nodes(const Mesh& mesh) {
 double free_way(const Mesh& mesh, int tip, const std::vector<int>& outer) {
   const TipFrame frame(mesh, tip);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];
+  SPREKK_ASSERT(is_tip(mesh, tip), tip);
   double way = std::numeric_limits<double>::infinity();
   for (const int node : outer) {
     if (node == tip) continue;
@@ -54,6 +56,7 @@ struct Reached {
 
 /// The nodes of a zone that ends at the radius (m), reached along nodes where the field goes on.
 std::vector<Reached> nodes_within(const Mesh& mesh, int tip, double radius) {
+  SPREKK_EXPECT(radius > 0, tip, radius);
   const TipFrame frame(mesh, tip);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];
   const auto weight = [&](int node) {
@@ -91,6 +94,7 @@ TipZones tip_zones(const Mesh& mesh) {
     for (const auto& [node, weight] : nodes_within(mesh, tip, 0.5 * free_way(mesh, tip, outer))) {
       if (zones.tip[node] != none) continue;
       zones.tip[node] = tip;
+      SPREKK_ASSERT(weight > 0 && weight <= 1, node, weight);
       zones.weight[node] = weight;
     }
   }

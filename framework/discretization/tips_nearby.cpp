@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "framework/discretization/tip_surroundings.hpp"
+#include "framework/invariants.hpp"
 
 namespace sprekk {
 namespace {
@@ -33,6 +34,7 @@ std::vector<int> tips_nearby(const Mesh& mesh) {
   }
   std::vector<int> nearby;
   for (const Nearest& at : nearest) nearby.push_back(at.distance < clearly * at.next ? at.tip : none);
+  SPREKK_ASSERT(static_cast<int>(nearby.size()) == mesh.node_count(), nearby.size(), mesh.node_count());
   return nearby;
 }
 

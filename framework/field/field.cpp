@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 int entity_count(const Mesh& mesh, Location location) {
@@ -24,6 +26,8 @@ int entity_count(const Mesh& mesh, Location location) {
 
 Field::Field(FieldSpec spec, int entities)
     : spec_(std::move(spec)), entities_(entities), now_(Vector::Zero(entities * spec_.components)), accepted_(now_) {
+  SPREKK_EXPECT(entities >= 0 && spec_.components > 0, name(), entities, spec_.components);
+  SPREKK_EXPECT(!spec_.owner.empty() && !spec_.name.empty(), name());
   if (spec_.role.is_derived() || !is_bulk(spec_.role.kind())) return;
   if (spec_.location != Location::cell && spec_.location != Location::face && spec_.location != Location::node)
     throw std::logic_error("field " + name() + ": a block of the bulk is not on fractures");
@@ -46,12 +50,14 @@ void Field::set_accepted(Vector values) {
 }
 
 void Field::accept() {
+  SPREKK_ASSERT(now_.size() == size(), name(), now_.size(), size());
   if (accepted_version_ == version_) return;
   accepted_ = now_;
   accepted_version_ = version_;
 }
 
 void Field::rewind() {
+  SPREKK_ASSERT(accepted_.size() == size(), name(), accepted_.size(), size());
   set(accepted_);
   accepted_version_ = version_;
 }
@@ -62,6 +68,8 @@ void Field::set_both(Vector values) {
 }
 
 void Field::determine(const std::string& coupler) {
+  SPREKK_EXPECT(spec_.role.is_input(), name(), coupler);
+  SPREKK_EXPECT(!coupler.empty(), name());
   if (!determined_by_.empty())
     throw std::logic_error(name() + " is determined by " + determined_by_ + " already, and again by " + coupler);
   determined_by_ = coupler;

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 Field& FieldStore::add(const Mesh& mesh, FieldSpec spec) {
@@ -10,6 +12,7 @@ Field& FieldStore::add(const Mesh& mesh, FieldSpec spec) {
   const int entities = entity_count(mesh, spec.location);
   fields_.push_back(std::make_unique<Field>(std::move(spec), entities));
   by_name_[name] = fields_.back().get();
+  SPREKK_ASSERT(by_name_.size() == fields_.size(), by_name_.size(), fields_.size());
   return *fields_.back();
 }
 
@@ -24,6 +27,9 @@ const Field& FieldStore::at(const std::string& full_name) const { return const_c
 bool FieldStore::has(const std::string& full_name) const { return by_name_.count(full_name) > 0; }
 
 void FieldStore::accept() {
+#ifdef SPREKK_ASSERTIONS
+  for (const auto& field : fields_) SPREKK_EXPECT(is_finite(field->now()), field->name());
+#endif
   for (auto& field : fields_) field->accept();
 }
 

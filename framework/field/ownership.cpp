@@ -1,10 +1,13 @@
 #include "framework/field/ownership.hpp"
 
+#include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
 
 int entity_rank(const Mesh& mesh, Location location, int entity) {
+  SPREKK_EXPECT(is_index(entity, entity_count(mesh, location)), entity, entity_count(mesh, location));
+  SPREKK_EXPECT(static_cast<int>(mesh.cell_rank.size()) == mesh.cell_count(), mesh.cell_rank.size());
   switch (location) {
     case Location::cell:
       return mesh.cell_rank[entity];
@@ -26,6 +29,8 @@ bool is_owned(const Mesh& mesh, Location location, int entity) {
 }
 
 void replicate(const Mesh& mesh, Location location, int components, Vector& values) {
+  SPREKK_EXPECT(values.size() == static_cast<Eigen::Index>(entity_count(mesh, location)) * components, values.size(),
+                components);
   if (parallel::size() == 1) return;
   for (int i = 0; i < values.size() / components; ++i)
     if (!is_owned(mesh, location, i)) values.segment(i * components, components).setZero();
@@ -34,6 +39,7 @@ void replicate(const Mesh& mesh, Location location, int components, Vector& valu
 
 std::vector<char> nodes_to_discretize(const Mesh& mesh) {
   if (parallel::size() == 1) return {};
+  SPREKK_EXPECT(are_indices(mesh.cell_rank, parallel::size()), parallel::size());
   std::vector<char> nodes(mesh.node_count(), 0);
   for (int c = 0; c < mesh.cell_count(); ++c)
     if (mesh.cell_rank[c] == parallel::rank())

@@ -126,7 +126,9 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   if (b_norm == 0) return report;
 
   Vector r = b, y = x;
-  double r_norm = b_norm, wanted_norm = 0.5 * tolerance_ * b_norm;
+  constexpr double safely = 0.5;  // of the tolerance: GMRES sees another norm than the test below
+  constexpr int most_restarts = 6;
+  double r_norm = b_norm, wanted_norm = safely * tolerance_ * b_norm;
   BlockResidual measured;
   const auto is_converged = [&] {
     constexpr double rounding = 1e-14, useless = 1e-3;
@@ -134,7 +136,7 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     return measured.largest_ratio <= tolerance_ && (r_norm <= tolerance_ * b_norm || is_at_rounding);
   };
   // GMRES trusts a recurrence and one norm; this loop trusts the residual of every block, and starts again from it.
-  for (int restart = 0; restart < 6 && report.iterations < max_iterations_; ++restart) {
+  for (int restart = 0; restart < most_restarts && report.iterations < max_iterations_; ++restart) {
     constexpr double deepest = 1e-12, shallowest = 0.1;  // of one restart
     Gmres::Result step;
     try {
@@ -149,9 +151,10 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     r_norm = std::sqrt(parallel::sum(r.squaredNorm()));
     const BlockResidual before = measured;
     measured = measure(y, b, r);
-    const bool stalls = restart > 0 && !(measured.largest_ratio < 0.5 * before.largest_ratio);
+    constexpr double hardly_better = 0.5;
+    const bool stalls = restart > 0 && !(measured.largest_ratio < hardly_better * before.largest_ratio);
     if (is_converged() || stalls) break;
-    wanted_norm = 0.5 * tolerance_ * std::min(b_norm, measured.smallest_size);
+    wanted_norm = safely * tolerance_ * std::min(b_norm, measured.smallest_size);
   }
   counts_.iterations += report.iterations;
   report.relative_residual = r_norm / b_norm;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -49,6 +50,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
 
 // A_FF^-1 exists on every process, so the right-hand side is made whole first.
 Vector BlockPreconditioner::solve_local(Vector owned) const {
+  SPREKK_EXPECT(owned.size() == static_cast<Eigen::Index>(local_owned_.size()), owned.size(), local_owned_.size());
   Vector whole = whole_vector(local_owned_, owned, local_unknowns_);
   elimination_.solve(whole);
   for (std::size_t k = 0; k < local_owned_.size(); ++k) owned[k] = whole[local_owned_[k]];
@@ -58,6 +60,7 @@ Vector BlockPreconditioner::solve_local(Vector owned) const {
 // The rows of `part` of r - A z, over the parts that have a solution so far.
 Vector BlockPreconditioner::without_couplings(int part, const Vector& r, const std::vector<Vector>& solutions) const {
   Vector rest(owned_rows_[part].size());
+  SPREKK_EXPECT(are_indices(owned_rows_[part], r.size()), part, r.size());
   for (Eigen::Index k = 0; k < rest.size(); ++k) rest[k] = r[owned_rows_[part][k]];
   for (const Coupling& coupling : couplings_[part])
     if (coupling.column_part < static_cast<int>(solutions.size()))
@@ -66,6 +69,7 @@ Vector BlockPreconditioner::without_couplings(int part, const Vector& r, const s
 }
 
 void BlockPreconditioner::apply(const Vector& r, Vector& z) const {
+  SPREKK_EXPECT(is_finite(r), r.size());
   const int local = static_cast<int>(cycles_.size());
   std::vector<Vector> solutions;
   for (int part = 0; part < local; ++part) {

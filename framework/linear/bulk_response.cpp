@@ -5,14 +5,19 @@
 #include <cstring>
 #include <optional>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 namespace {
 
 /// The columns of A_BF for those unknowns, and the rows of A_FB.
 SparseMatrix chosen_columns(const SparseMatrix& a, const std::vector<int>& columns) {
+  SPREKK_EXPECT(are_indices(columns, a.cols()), a.cols());
+  SPREKK_EXPECT(is_ascending(columns));
   std::vector<int> place(a.cols(), -1);
   for (std::size_t c = 0; c < columns.size(); ++c) place[columns[c]] = static_cast<int>(c);
+  SPREKK_EXPECT(std::all_of(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), [&](int c) { return place[c] >= 0; }));
   SparseMatrix chosen(a.rows(), columns.size());
   chosen.reserve(a.nonZeros());
   for (int row = 0; row < a.rows(); ++row) {
@@ -25,6 +30,7 @@ SparseMatrix chosen_columns(const SparseMatrix& a, const std::vector<int>& colum
 }
 
 SparseMatrix chosen_rows(const SparseMatrix& a, const std::vector<int>& rows) {
+  SPREKK_EXPECT(are_indices(rows, a.rows()), a.rows());
   SparseMatrix chosen(rows.size(), a.cols());
   chosen.reserve(a.nonZeros());
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -55,6 +61,7 @@ LinearReport BulkResponse::compute(const BulkSplitting& split, LinearSolver& sol
   of_bordered_.clear();
   if (is_short_lived)
     if (const std::optional<LinearReport> report = compute_bordered(split, solver)) return *report;
+
   const LinearReport report = solver.factor(split.bulk_system());
   if (report.solved && !solve_columns(split, solver))
     return LinearReport::failure(solver.name() + " does not solve for columns");
@@ -68,6 +75,9 @@ std::optional<LinearReport> BulkResponse::compute_bordered(const BulkSplitting& 
                              chosen_rows(split.fb.matrix, split.feeling), response);
   of_bordered_.clear();
   if (report && report->solved) {
+    SPREKK_ASSERT(response.rows() == static_cast<Eigen::Index>(split.feeling.size()), response.rows());
+    SPREKK_ASSERT(response.cols() == static_cast<Eigen::Index>(split.felt.size()), response.cols());
+    SPREKK_ASSERT(is_finite(response));
     bordered_ = response;
     of_bordered_.assign(split.fb.matrix.valuePtr(), split.fb.matrix.valuePtr() + split.fb.matrix.nonZeros());
   }
@@ -76,6 +86,7 @@ std::optional<LinearReport> BulkResponse::compute_bordered(const BulkSplitting& 
 
 bool BulkResponse::solve_columns(const BulkSplitting& split, LinearSolver& solver) {
   const int rows = split.bulk_size(), count = static_cast<int>(split.felt.size());
+  SPREKK_EXPECT(are_indices(split.near, rows), rows);
   const SparseMatrix felt = chosen_columns(split.bf.matrix, split.felt);
   near_.resize(split.near.size(), count);
   is_whole_ = static_cast<double>(rows) * count <= largest_;
@@ -97,6 +108,8 @@ bool BulkResponse::solve_columns(const BulkSplitting& split, LinearSolver& solve
 
 /// Row k of A_FB with X.
 void BulkResponse::multiply(const BulkSplitting& split, std::size_t k) {
+  SPREKK_EXPECT(k < split.feeling.size(), k, split.feeling.size());
+  SPREKK_ASSERT(felt_rows_.cols() == near_.cols(), felt_rows_.cols(), near_.cols());
   const SparseMatrix& fb = split.fb.matrix;
   felt_rows_.row(k).setZero();
   for (SparseMatrix::InnerIterator entry(fb, split.feeling[k]); entry; ++entry)
@@ -137,6 +150,8 @@ const BulkResponse::RowMatrix* BulkResponse::felt_rows(const BulkSplitting& spli
 }
 
 void BulkResponse::subtract(const BulkSplitting& split, LinearSolver& solver, const Vector& local, Vector& bulk) const {
+  SPREKK_EXPECT(local.size() == split.local_size(), local.size(), split.local_size());
+  SPREKK_EXPECT(bulk.size() == split.bulk_size(), bulk.size(), split.bulk_size());
   if (is_whole_) {
     Vector felt(split.felt.size());
     for (std::size_t c = 0; c < split.felt.size(); ++c) felt[c] = local[split.felt[c]];

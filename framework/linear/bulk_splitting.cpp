@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numeric>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 namespace {
 
@@ -19,6 +21,8 @@ LinearSystem system_of(SparseMatrix matrix, std::vector<UnknownBlock> blocks) {
 
 /// Adds A x, and |A| |x| to the sizes of the terms.
 void multiply(const SparseMatrix& a, const Vector& x, Vector& product, Vector& size) {
+  SPREKK_EXPECT(x.size() == a.cols(), x.size(), a.cols());
+  SPREKK_EXPECT(product.size() == a.rows() && size.size() == a.rows(), product.size(), size.size(), a.rows());
   for (int row = 0; row < a.rows(); ++row)
     for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
       const double term = entry.value() * x[entry.col()];
@@ -73,6 +77,7 @@ double largest_by_block(const std::vector<UnknownBlock>& blocks, const Vector& r
 }  // namespace
 
 bool take_values(SparseMatrix& matrix, const double* values, const std::vector<int>& source) {
+  SPREKK_EXPECT(static_cast<Eigen::Index>(source.size()) == matrix.nonZeros(), source.size(), matrix.nonZeros());
   bool has_changed = false;
   double* mine = matrix.valuePtr();
   for (std::size_t k = 0; k < source.size(); ++k) {
@@ -89,6 +94,9 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
       held_(std::move(held)),
       is_local_(system.local.cols(), 1),
       place_(system.local.cols(), 0) {
+  SPREKK_EXPECT(system.local.rows() == system.local.cols(), system.local.rows(), system.local.cols());
+  SPREKK_EXPECT(system.local.isCompressed());
+  SPREKK_EXPECT(held_.empty() || held_.size() == is_local_.size(), held_.size(), is_local_.size());
   for (UnknownBlock block : system.blocks) {
     block.stabilization.resize(0);
     blocks_.push_back(block);
@@ -107,6 +115,9 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
   bf = extract(system.local, false, true);
   fb = extract(system.local, true, false);
   ff = extract(system.local, true, true);
+  SPREKK_ASSERT(bb.matrix.nonZeros() + bf.matrix.nonZeros() + fb.matrix.nonZeros() + ff.matrix.nonZeros() ==
+                system.local.nonZeros());
+  SPREKK_ASSERT(is_well_formed(bb.matrix) && is_well_formed(ff.matrix), bulk, local);
 
   std::vector<char> is_felt(local, 0);
   for (int k = 0; k < bf.matrix.nonZeros(); ++k) is_felt[bf.matrix.innerIndexPtr()[k]] = 1;
@@ -152,6 +163,7 @@ bool BulkSplitting::fits(const SparseMatrix& matrix) const {
 }
 
 bool BulkSplitting::update(const SparseMatrix& matrix) {
+  SPREKK_EXPECT(fits(matrix));
   const double* values = matrix.valuePtr();
   const bool has_changed = bb.update(values) | bf.update(values);
   fb.update(values);
@@ -160,6 +172,7 @@ bool BulkSplitting::update(const SparseMatrix& matrix) {
 }
 
 Vector BulkSplitting::part(const Vector& whole, bool local, int size) const {
+  SPREKK_EXPECT(whole.size() == static_cast<Eigen::Index>(is_local_.size()), whole.size(), is_local_.size());
   Vector mine(size);
   for (std::size_t i = 0; i < is_local_.size(); ++i)
     if (static_cast<bool>(is_local_[i]) == local) mine[place_[i]] = whole[i];
@@ -167,12 +180,14 @@ Vector BulkSplitting::part(const Vector& whole, bool local, int size) const {
 }
 
 Vector BulkSplitting::joined(const Vector& bulk, const Vector& local) const {
+  SPREKK_EXPECT(bulk.size() == bulk_size() && local.size() == local_size(), bulk.size(), local.size());
   Vector whole(is_local_.size());
   for (std::size_t i = 0; i < is_local_.size(); ++i) whole[i] = is_local_[i] ? local[place_[i]] : bulk[place_[i]];
   return whole;
 }
 
 LinearSystem BulkSplitting::bulk_system() const {
+  SPREKK_ASSERT(are_indices(sums_, static_cast<long>(place_.size())), place_.size());
   LinearSystem system = system_of(bb.matrix, bulk_blocks_);
   for (const int sum : sums_)
     if (!is_local_[sum]) system.sums.push_back(place_[sum]);
@@ -180,6 +195,7 @@ LinearSystem BulkSplitting::bulk_system() const {
 }
 
 LinearSystem BulkSplitting::local_system(SparseMatrix matrix) const {
+  SPREKK_EXPECT(matrix.rows() == local_size() && matrix.cols() == local_size(), matrix.rows(), matrix.cols());
   LinearSystem system = system_of(std::move(matrix), local_blocks_);
   for (const int sum : sums_)
     if (is_local_[sum]) system.sums.push_back(place_[sum]);
@@ -202,6 +218,7 @@ LinearSystem BulkSplitting::whole_system() const {
 double BulkSplitting::backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk,
                                      const Vector& b_local) const {
   if (!std::isfinite(bulk.sum() + local.sum())) return HUGE_VAL;
+  SPREKK_EXPECT(b_bulk.size() == bulk_size() && b_local.size() == local_size(), b_bulk.size(), b_local.size());
   Vector product = Vector::Zero(bulk_size()), size = b_bulk.cwiseAbs();
   multiply(bb.matrix, bulk, product, size);
   multiply(bf.matrix, local, product, size);

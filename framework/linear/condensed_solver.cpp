@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "framework/invariants.hpp"
 #include "framework/linear/bulk_response.hpp"
 #include "framework/linear/bulk_splitting.hpp"
+#include "framework/linear/expect_sound.hpp"
 #include "framework/linear/floating_parts.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -47,6 +49,9 @@ SparseMatrix pattern_of_reduced(const BulkSplitting& split) {
 /// A_FF - A_FB X.
 SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& pattern,
                             const BulkResponse::RowMatrix& felt_rows) {
+  SPREKK_EXPECT(felt_rows.cols() == static_cast<Eigen::Index>(split.felt.size()), felt_rows.cols(), split.felt.size());
+  SPREKK_EXPECT(felt_rows.rows() == static_cast<Eigen::Index>(split.feeling.size()), felt_rows.rows());
+  SPREKK_EXPECT(pattern.rows() == split.local_size(), pattern.rows(), split.local_size());
   SparseMatrix reduced = pattern;
   int feeling = 0;
   for (int row = 0; row < split.local_size(); ++row) {
@@ -67,6 +72,7 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
       entry.valueRef() = value;
     }
   }
+  SPREKK_ASSERT(feeling == static_cast<int>(split.feeling.size()), feeling, split.feeling.size());
   return reduced;
 }
 
@@ -101,6 +107,7 @@ CondensedSolver::CondensedSolver(const LinearOptions& options) : options_(option
 CondensedSolver::~CondensedSolver() = default;
 
 LinearReport CondensedSolver::factor(const LinearSystem& system) {
+  expect_sound(system);
   is_condensed_ = false;
   if (parallel::size() == 1 && has_both_kinds(system) && system.local.isCompressed()) {
     const LinearReport report = condense(system);
@@ -132,6 +139,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
     }
   }
   BulkSplitting& split = *splitting_;
+  SPREKK_ASSERT(split.bulk_size() + split.local_size() == system.local.cols(), split.bulk_size(), split.local_size());
   split.take_sums(system.sums);
   // Of each bulk the rows of X that are read and their products, and the pattern of reduced systems, in triplets first.
   const double felt = split.felt.size();
@@ -170,6 +178,7 @@ void CondensedSolver::split_anew(const LinearSystem& system, std::vector<char> h
 }
 
 void CondensedSolver::choose_bulk() {
+  SPREKK_ASSERT(bulks_.size() <= kept_bulks, bulks_.size());
   const auto known = std::find_if(bulks_.begin(), bulks_.end(), [this](const Bulk& bulk) {
     return same_values(splitting_->bb.matrix, bulk.values) && same_values(splitting_->bf.matrix, bulk.columns);
   });
@@ -191,6 +200,9 @@ void CondensedSolver::choose_bulk() {
 LinearReport CondensedSolver::solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk,
                                               Vector& local) {
   const BulkSplitting& split = *splitting_;
+  SPREKK_EXPECT(b_bulk.size() == split.bulk_size(), b_bulk.size(), split.bulk_size());
+  SPREKK_EXPECT(b_local.size() == split.local_size(), b_local.size(), split.local_size());
+  SPREKK_ASSERT(!bulks_.empty());
   bulk = Vector::Zero(split.bulk_size());
   if (!b_bulk.isZero(0)) {
     const LinearReport report = bulks_.front().solver->solve(b_bulk, bulk);

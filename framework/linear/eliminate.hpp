@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 /// Solves A X = B in place by Gaussian elimination with scaled rows. `system` holds the n rows of [A B], `width` values
@@ -14,6 +16,8 @@ namespace sprekk {
 /// whose coefficients differ by many orders stay accurate row by row when each row is eliminated by its own unknown:
 /// then no large multiple of another medium's balance is added and subtracted again.
 inline double eliminate(double* system, int n, int width) {
+  SPREKK_EXPECT(n > 0 && width >= n, n, width);
+  constexpr double large_enough = 0.05;  // of its column: a diagonal that stays the pivot
   double smallest = 1;
   for (int i = 0; i < n; ++i) {
     double* row = system + i * width;
@@ -27,7 +31,7 @@ inline double eliminate(double* system, int n, int width) {
     int best = k;
     for (int i = k + 1; i < n; ++i)
       if (std::abs(system[i * width + k]) > std::abs(system[best * width + k])) best = i;
-    if (std::abs(system[k * width + k]) > 0.05 * std::abs(system[best * width + k])) best = k;
+    if (std::abs(system[k * width + k]) > large_enough * std::abs(system[best * width + k])) best = k;
     double* pivot_row = system + k * width;
     if (best != k) std::swap_ranges(pivot_row + k, pivot_row + width, system + best * width + k);
     const double pivot = pivot_row[k];

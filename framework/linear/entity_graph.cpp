@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 EntityGraph::EntityGraph(const SparseMatrix& matrix, const std::vector<UnknownBlock>& blocks) {
@@ -18,6 +20,7 @@ EntityGraph::EntityGraph(const SparseMatrix& matrix, const std::vector<UnknownBl
     if (is_new) entities += block.entities;
     for (int i = 0; i < block.entities * block.components; ++i)
       entity_of[block.first + i] = first_entity[b] + i / block.components;
+    SPREKK_EXPECT(block.first + block.entities * block.components <= matrix.cols(), block.name, matrix.cols());
   }
   for (int& entity : entity_of)
     if (entity < 0) entity = entities++;
@@ -39,6 +42,8 @@ EntityGraph::EntityGraph(const SparseMatrix& matrix, const std::vector<UnknownBl
 }
 
 std::vector<int> EntityGraph::unknowns_in_order(const std::vector<int>& entities) const {
+  SPREKK_EXPECT(entities.size() == unknowns_.size(), entities.size(), unknowns_.size());
+  SPREKK_EXPECT(are_indices(entities, static_cast<long>(unknowns_.size())), unknowns_.size());
   std::vector<int> order;
   for (const int entity : entities) order.insert(order.end(), unknowns_[entity].begin(), unknowns_[entity].end());
   return order;

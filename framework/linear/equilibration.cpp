@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "framework/invariants.hpp"
 #include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -10,13 +11,15 @@ namespace {
 
 // The power of two nearest (in the exponent) to 1 / sqrt(value).
 double half_inverse(double value) {
+  SPREKK_EXPECT(value > 0 && std::isfinite(value), value);
   int exponent = 0;
   std::frexp(value, &exponent);  // value = m 2^exponent, 1/2 <= m < 1
   return std::ldexp(1.0, -(exponent >= 0 ? exponent / 2 : -((-exponent) / 2)));
 }
 
 bool is_near_one(const Vector& largest) {
-  return largest.size() == 0 || (largest.minCoeff() >= 0.25 && largest.maxCoeff() <= 4);
+  constexpr double low = 0.25, high = 4;  // what powers of two and their roots reach in any case
+  return largest.size() == 0 || (largest.minCoeff() >= low && largest.maxCoeff() <= high);
 }
 
 // The first offending number of all processes, or -1.
@@ -31,6 +34,7 @@ struct Largest {
 
 /// Of |A| scaled by rows and columns.
 Largest largest_entries(const SparseMatrix& a, const Vector& row_scale, const Vector& column_scale) {
+  SPREKK_EXPECT(row_scale.size() == a.rows() && column_scale.size() == a.cols(), row_scale.size(), column_scale.size());
   Largest largest{Vector::Zero(a.rows()), Vector::Zero(a.cols())};
   const int* const outer = a.outerIndexPtr();
   const int* const inner = a.innerIndexPtr();
@@ -77,6 +81,7 @@ std::string find_mistake(const LinearSystem& system, const SparseMatrix& a, cons
 }  // namespace
 
 Equilibrated equilibrate(const LinearSystem& system) {
+  SPREKK_EXPECT(static_cast<int>(system.rows.size()) == system.local.rows(), system.rows.size(), system.local.rows());
   Equilibrated result;
   result.matrix = system.local;
   SparseMatrix& a = result.matrix;
@@ -84,12 +89,14 @@ Equilibrated equilibrate(const LinearSystem& system) {
   result.row_scale = Vector::Ones(a.rows());
   result.column_scale = Vector::Ones(a.cols());
 
+  SPREKK_ASSERT(is_well_formed(a), a.rows(), a.cols());
   Largest largest = largest_entries(a, result.row_scale, result.column_scale);
   result.mistake = find_mistake(system, a, largest);
   if (!result.mistake.empty()) return result;
 
   // A sweep halves the spread of the exponents: 20 sweeps are enough for any double.
-  for (int sweep = 0; sweep < 20; ++sweep) {
+  constexpr int most_sweeps = 20;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     if (!parallel::any(!is_near_one(largest.of_row) || !is_near_one(largest.of_column))) break;
     result.row_scale.array() *= largest.of_row.unaryExpr(&half_inverse).array();
     result.column_scale.array() *= largest.of_column.unaryExpr(&half_inverse).array();

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "framework/invariants.hpp"
+#include "framework/linear/expect_sound.hpp"
+
 namespace sprekk {
 namespace {
 
@@ -34,17 +37,21 @@ class Parts {
 
   /// Entities that fix the motions which nothing resists; `preferred` first.
   std::vector<int> to_fix(const std::vector<char>& preferred) const {
+    SPREKK_EXPECT(static_cast<int>(preferred.size()) == block_.entities, preferred.size(), block_.entities);
     std::vector<int> chosen;
     for (const Part& part : parts_) {
-      constexpr double resists = 1e-8;
+      constexpr double resists = 1e-8;        // half of the digits
+      constexpr double hardly_moves = 1e-6;   // of the largest motion of a mode
+      constexpr double much_preferred = 1e3;  // more than shapes of parts can make of motions
+      constexpr double is_fixed = 0.1;        // of the motion that an entity fixes best
       const Eigen::JacobiSVD<Modes> svd(part.triangle, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const int held = static_cast<int>((svd.singularValues().array() > resists).count());
       Modes left = svd.matrixV().rightCols(part.modes - held);
       while (left.cols() > 0) {
         int best = -1;
-        double most = 1e-6;  // of the largest motion of a mode
+        double most = hardly_moves;
         for (const int entity : part.entities) {
-          const double moves = (motion(part, entity) * left).norm() * (preferred[entity] ? 1e3 : 1);
+          const double moves = (motion(part, entity) * left).norm() * (preferred[entity] ? much_preferred : 1);
           if (moves > most) {
             most = moves;
             best = entity;
@@ -55,7 +62,7 @@ class Parts {
         const Modes fixed = motion(part, best) * left;
         const Eigen::JacobiSVD<Modes> of_fixed(fixed, Eigen::ComputeFullU | Eigen::ComputeFullV);
         const auto& sizes = of_fixed.singularValues();
-        const int rank = static_cast<int>((sizes.array() > 0.1 * sizes[0]).count());
+        const int rank = static_cast<int>((sizes.array() > is_fixed * sizes[0]).count());
         left = Modes(left * of_fixed.matrixV().rightCols(left.cols() - rank));
       }
     }
@@ -126,6 +133,7 @@ class Parts {
     OfMode w;
     double size = 0;
     Part* part = nullptr;
+    SPREKK_EXPECT(is_index(row, a_.rows()), row, a_.rows());
     for (SparseMatrix::InnerIterator entry(a_, row); entry; ++entry) {
       const int entity = entry.value() == 0 ? -1 : entity_of(static_cast<int>(entry.col()));
       if (entity < 0) continue;
@@ -171,6 +179,8 @@ bool are_at_the_same_places(const UnknownBlock& a, const UnknownBlock& b) {
 
 std::vector<char> unknowns_that_fractures_hold(const LinearSystem& system) {
   const auto unknowns = static_cast<std::size_t>(system.local.cols());
+  SPREKK_EXPECT(system.local.rows() == system.local.cols(), system.local.rows(), system.local.cols());
+  expect_sound(system);
   std::vector<char> is_balance(unknowns, 0), held(unknowns, 0);
   for (const UnknownBlock& block : system.blocks)
     if (is_bulk(block.kind)) std::fill_n(is_balance.begin() + block.first, block.entities * block.components, 1);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstring>
 
+#include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -30,6 +31,7 @@ std::uint64_t new_system_number() {
 
 Change LastSystem::compare_and_remember(const LinearSystem& system) {
   const SparseMatrix& a = system.local;
+  SPREKK_EXPECT(a.isCompressed());
   const int* outer = a.outerIndexPtr();
   const int* inner = a.innerIndexPtr();
   const std::size_t nonzeros = a.nonZeros();

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "framework/invariants.hpp"
+#include "framework/linear/expect_sound.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -22,7 +24,8 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
       low = low.cwiseMin(point);
       high = high.cwiseMax(point);
     }
-  const double spacing = std::max((high - low).maxCoeff(), 0.0) * 1e-8;
+  constexpr double same_place = 1e-8;  // of the extent
+  const double spacing = std::max((high - low).maxCoeff(), 0.0) * same_place;
 
   std::map<CellKey, std::vector<int>> cells;
   const std::vector<int>& unknowns = partition.local().unknowns;
@@ -52,6 +55,7 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
 
 // The inverse of a small matrix whose rows and columns have different units; zero if it is singular.
 Eigen::MatrixXd inverse_or_zero(Eigen::MatrixXd a) {
+  SPREKK_EXPECT(a.rows() == a.cols() && a.rows() > 0, a.rows(), a.cols());
   const Vector row_size = a.cwiseAbs().rowwise().maxCoeff();
   if (row_size.minCoeff() == 0) return Eigen::MatrixXd::Zero(a.rows(), a.cols());
   a = row_size.cwiseInverse().asDiagonal() * a;
@@ -100,6 +104,7 @@ SparseMatrix columns_of_part(const SparseMatrix& rows, const Partition& partitio
 }  // namespace
 
 Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), -1), place_of(system.local.cols(), 0) {
+  expect_sound(system);
   for (const auto kind : {BlockKind::bulk_elliptic, BlockKind::bulk_elastic})
     for (const UnknownBlock& block : system.blocks) {
       if (block.kind != kind || block.entities == 0) continue;
@@ -123,6 +128,9 @@ Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), 
 }
 
 SparseMatrix sub_matrix(const SparseMatrix& owned_rows, const Partition& partition, int rows, int columns) {
+  SPREKK_EXPECT(is_index(rows, static_cast<long>(partition.parts.size())), rows);
+  SPREKK_EXPECT(is_index(columns, static_cast<long>(partition.parts.size())), columns);
+  SPREKK_EXPECT(are_indices(partition.parts[rows].owned_rows, owned_rows.rows()), owned_rows.rows());
   const Part& part = partition.parts[rows];
   std::vector<Triplet> entries;
   for (std::size_t k = 0; k < part.owned.size(); ++k)

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "framework/invariants.hpp"
+#include "framework/linear/expect_sound.hpp"
 #include "framework/linear/near_singular.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
@@ -84,6 +86,7 @@ MumpsSolver::MumpsSolver() : mumps_(std::make_unique<Instance>()) { use_one_blas
 MumpsSolver::~MumpsSolver() = default;
 
 LinearReport MumpsSolver::factor(const LinearSystem& system) {
+  expect_sound(system);
   if (!system.local.isCompressed()) {
     LinearSystem compressed = system;
     compressed.local.makeCompressed();
@@ -102,6 +105,9 @@ LinearReport MumpsSolver::factor(const LinearSystem& system) {
 std::optional<LinearReport> MumpsSolver::factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
                                                          const SparseMatrix& rows, Eigen::MatrixXd& response) {
   if (parallel::size() > 1 || !system.local.isCompressed()) return std::nullopt;
+  expect_sound(system);
+  SPREKK_EXPECT(columns.rows() == system.local.rows(), columns.rows(), system.local.rows());
+  SPREKK_EXPECT(rows.cols() == system.local.cols(), rows.cols(), system.local.cols());
   const Change change = take(system);
   Border border = scaled(columns, rows);
   const bool has_new_pattern = change == Change::pattern || !have_same_pattern(border.columns, border_.columns) ||
@@ -109,6 +115,8 @@ std::optional<LinearReport> MumpsSolver::factor_bordered(const LinearSystem& sys
   border_ = std::move(border);
   const LinearReport report = factor_scaled(has_new_pattern);
   if (!report.solved) return report;
+  SPREKK_ASSERT(std::max(rows.rows(), columns.cols()) <= border_.size(), rows.rows(), columns.cols(), border_.size());
+  SPREKK_ASSERT(mumps_->schur.size() == static_cast<std::size_t>(border_.size()) * border_.size());
   response.resize(rows.rows(), columns.cols());
   const int size = border_.size();
   for (int row = 0; row < response.rows(); ++row)
@@ -200,6 +208,7 @@ LinearReport MumpsSolver::order() {
   const Stopwatch watch(counts_.seconds_ordering);
   list_entries();
   auto& data = mumps_->data;
+  SPREKK_ASSERT(mumps_->rows.size() == mumps_->columns.size(), mumps_->rows.size(), mumps_->columns.size());
   data.n = static_cast<int>(scaled_.matrix.cols()) + border_.size();
   if (parallel::size() > 1) {
     data.nnz_loc = static_cast<int>(mumps_->rows.size());
@@ -233,7 +242,8 @@ LinearReport MumpsSolver::factor_values() {
   mumps_->schur.resize(static_cast<std::size_t>(border_.size()) * border_.size());
   mumps_->data.schur = mumps_->schur.data();
   // What is a zero pivot: the default, round-off of the largest entry; where sums of balances hold by less, zero.
-  mumps_->data.cntl[2] = system_.sums.empty() ? 0 : -1e-200;
+  constexpr double by_default = 0, zero_alone = -1e-200;  // negative: absolute, and not of the largest entry
+  mumps_->data.cntl[2] = system_.sums.empty() ? by_default : zero_alone;
   const int spare = mumps_->icntl(14);
   // Pivoting may need more room than the analysis foresaw (-9: the main array, -8, -17, -20: buffers).
   for (int attempt = 0; attempt < 6; ++attempt) {
@@ -272,6 +282,7 @@ LinearReport MumpsSolver::solve(const Vector& b_rows, Vector& x) {
 }
 
 bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
+  SPREKK_EXPECT(columns.rows() == scaled_.matrix.rows(), columns.rows(), scaled_.matrix.rows());
   if (parallel::size() > 1) return false;
   const Stopwatch watch(counts_.seconds_solve);
   counts_.columns += static_cast<int>(columns.cols());
@@ -290,6 +301,7 @@ bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
 
 /// In place; rows of the border are zero.
 void MumpsSolver::back_substitute(Eigen::Ref<Eigen::MatrixXd> columns) {
+  SPREKK_EXPECT(columns.rows() == mumps_->data.n, columns.rows(), mumps_->data.n);
   mumps_->data.rhs = columns.data();
   mumps_->data.nrhs = static_cast<int>(columns.cols());
   mumps_->data.lrhs = mumps_->data.n;

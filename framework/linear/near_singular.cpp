@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "framework/invariants.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 // A fixed vector that no structure of a mesh is orthogonal to (splitmix64 of the index), one for each number.
 Vector scattered_unit_vector(int n, int number) {
+  SPREKK_EXPECT(n > 0 && number >= 0, n, number);
   Vector v(n);
   for (int i = 0; i < n; ++i) {
     std::uint64_t z = 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(number) * n + i + 1);
@@ -41,6 +43,7 @@ void remove_from(Vector& v, const std::vector<Vector>& known) {
 Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
   constexpr double doubtful = 1e-8;
   const int sums = static_cast<int>(system.sums.size()), count = static_cast<int>(vectors.size());
+  SPREKK_EXPECT(rows.rows() == static_cast<Eigen::Index>(system.rows.size()), rows.rows(), system.rows.size());
   Vector values = Vector::Zero(sums * count), sizes = values;
   for (int s = 0; s < sums; ++s) {
     const auto place = std::lower_bound(system.rows.begin(), system.rows.end(), system.sums[s]);

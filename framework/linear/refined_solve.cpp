@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "framework/invariants.hpp"
 #include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -15,6 +16,8 @@ double norm(const Vector& rows) { return std::sqrt(parallel::sum(rows.squaredNor
 }  // namespace
 
 Vector whole_vector(const std::vector<int>& rows, const Vector& mine, int unknowns) {
+  SPREKK_EXPECT(static_cast<Eigen::Index>(rows.size()) == mine.size(), rows.size(), mine.size());
+  SPREKK_EXPECT(are_indices(rows, unknowns), unknowns);
   if (parallel::size() == 1) return mine;
   Vector whole = Vector::Zero(unknowns);
   for (std::size_t i = 0; i < rows.size(); ++i) whole[rows[i]] = mine[i];
@@ -23,6 +26,8 @@ Vector whole_vector(const std::vector<int>& rows, const Vector& mine, int unknow
 }
 
 double componentwise_backward_error(const SparseMatrix& a, const Vector& y, const Vector& b, const Vector& r) {
+  SPREKK_EXPECT(y.size() == a.cols(), y.size(), a.cols());
+  SPREKK_EXPECT(b.size() == a.rows() && r.size() == a.rows(), b.size(), r.size(), a.rows());
   const int* outer = a.outerIndexPtr();
   double largest = 0;
   for (int row = 0; row < a.rows(); ++row) {
@@ -38,6 +43,11 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
                            const std::function<void(Vector&)>& apply_inverse, Vector& x) {
   constexpr int refinements = 3;
   constexpr double accurate = 1e-13, acceptable = 1e-10, useless = 0.3;
+  constexpr double hardly_better = 0.5;  // of the error before: another refinement would gain nothing
+  SPREKK_EXPECT(b_rows.size() == scaled.matrix.rows(), b_rows.size(), scaled.matrix.rows());
+  SPREKK_EXPECT(scaled.row_scale.size() == b_rows.size(), scaled.row_scale.size(), b_rows.size());
+  SPREKK_EXPECT(scaled.column_scale.size() == scaled.matrix.cols(), scaled.column_scale.size(), scaled.matrix.cols());
+  SPREKK_EXPECT(scaled.mistake.empty(), scaled.mistake);
   const SparseMatrix& a = scaled.matrix;
   const int unknowns = static_cast<int>(a.cols());
   const Vector b = scaled.row_scale.cwiseProduct(b_rows);
@@ -52,6 +62,7 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
 
   Vector y = whole_vector(system.rows, b, unknowns);
   apply_inverse(y);
+  SPREKK_ASSERT(y.size() == unknowns, y.size(), unknowns);
   Vector r = b - a * y;
   double error = componentwise_backward_error(a, y, b, r);
   for (int step = 0; step < refinements && error > accurate; ++step) {
@@ -61,7 +72,7 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
     Vector r_candidate = b - a * candidate;
     const double candidate_error = componentwise_backward_error(a, candidate, b, r_candidate);
     if (!(candidate_error < error)) break;
-    const bool stalls = candidate_error > 0.5 * error;
+    const bool stalls = candidate_error > hardly_better * error;
     y = std::move(candidate);
     r = std::move(r_candidate);
     error = candidate_error;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "framework/invariants.hpp"
+#include "framework/linear/expect_sound.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -109,6 +111,7 @@ void SeparatedSolver::separate(const LinearSystem& system) {
 }
 
 LinearReport SeparatedSolver::factor(const LinearSystem& system) {
+  expect_sound(system);
   if (!fits(system)) separate(system);
   const bool is_same = system.number != 0 && system.number == number_;
   pattern_number_ = system.pattern_number;
@@ -133,12 +136,18 @@ LinearReport SeparatedSolver::solve(const Vector& b_rows, Vector& x) {
   if (groups_.empty()) return LinearReport::failure("solve was called before factor");
   if (groups_.size() == 1) return groups_[0].solver->solve(b_rows, x);
   x = Vector::Zero(b_rows.size());
+#ifdef SPREKK_ASSERTIONS
+  Eigen::Index unknowns_of_groups = 0;
+  for (const Group& group : groups_) unknowns_of_groups += static_cast<Eigen::Index>(group.unknowns.size());
+  SPREKK_ASSERT(unknowns_of_groups == b_rows.size(), unknowns_of_groups, b_rows.size());
+#endif
   LinearReport all = LinearReport::success();
   for (Group& group : groups_) {
     const Vector b = b_rows(group.unknowns);
     if (b.isZero(0)) continue;
     Vector mine;
     const LinearReport report = group.solver->solve(b, mine);
+    SPREKK_ASSERT(!report.solved || mine.size() == b.size(), mine.size(), b.size());
     if (!report.solved) return report;
     all.iterations += report.iterations;
     all.relative_residual = std::max(all.relative_residual, report.relative_residual);

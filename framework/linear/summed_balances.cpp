@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "framework/invariants.hpp"
+#include "framework/linear/expect_sound.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -107,6 +109,7 @@ std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows
 
 std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const std::vector<UnknownBlock>& blocks) {
   constexpr double weak = 1e-6, closed = 1e-3;
+  SPREKK_EXPECT(rows.rows() == rows.cols(), rows.rows(), rows.cols());
   std::vector<std::vector<int>> groups;
   std::vector<Column> columns(rows.cols());
   for (const UnknownBlock& block : blocks) {
@@ -154,6 +157,7 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
 SummedBalances::SummedBalances(std::unique_ptr<LinearSolver> solver) : solver_(std::move(solver)) {}
 
 LinearReport SummedBalances::factor(const LinearSystem& system) {
+  expect_sound(system);
   sums_.clear();
   const bool is_alone = parallel::size() == 1 && system.local.rows() == system.local.cols();
   const SparseMatrix gathered = is_alone ? SparseMatrix() : local_rows(system);
@@ -196,6 +200,9 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
 LinearReport SummedBalances::solve(const Vector& b_rows, Vector& x) {
   if (sums_.empty()) return solver_->solve(b_rows, x);
   Vector totals = Vector::Zero(sums_.size());
+#ifdef SPREKK_ASSERTIONS
+  for (const Sum& sum : sums_) SPREKK_ASSERT(are_indices(sum.owned, b_rows.size()), b_rows.size());
+#endif
   for (std::size_t s = 0; s < sums_.size(); ++s)
     for (const int place : sums_[s].owned) totals[s] += b_rows[place];
   parallel::sum(totals);
@@ -214,6 +221,7 @@ std::optional<LinearReport> SummedBalances::factor_bordered(const LinearSystem& 
 
 bool SummedBalances::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
   for (const Sum& sum : sums_) {
+    SPREKK_ASSERT(are_indices(sum.rows, columns.rows()), columns.rows());
     Eigen::RowVectorXd total = Eigen::RowVectorXd::Zero(columns.cols());
     for (const int row : sum.rows) total += columns.row(row);
     columns.row(sum.rows.front()) = total;

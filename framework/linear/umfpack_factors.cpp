@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 namespace {
 
@@ -16,6 +18,7 @@ using Row = Eigen::Map<Eigen::Array<double, width, 1>>;
 // P A^T Q = L U with L by rows and U by columns, so A = Q U^T L^T P: U^T is solved forwards and L^T backwards, and both
 // lie in memory the way that this needs.
 UmfpackFactors::UmfpackFactors(void* numeric, int n) : n_(n) {
+  SPREKK_EXPECT(numeric != nullptr && n > 0, n);
   int lower = 0, upper = 0, rows = 0, columns = 0, diagonal = 0;
   umfpack_di_get_lunz(&lower, &upper, &rows, &columns, &diagonal, numeric);
   lower_start_.resize(n + 1);
@@ -31,10 +34,13 @@ UmfpackFactors::UmfpackFactors(void* numeric, int n) : n_(n) {
   umfpack_di_get_numeric(lower_start_.data(), lower_column_.data(), lower_values_.data(), upper_start_.data(),
                          upper_row_.data(), upper_values_.data(), row_order_.data(), column_order_.data(),
                          inverse_diagonal_.data(), &is_reciprocal, nullptr, numeric);
+  SPREKK_ASSERT(is_reciprocal == 0, is_reciprocal);
+  SPREKK_ASSERT(are_indices(row_order_, n) && are_indices(column_order_, n), n);
   for (double& d : inverse_diagonal_) d = 1 / d;
 }
 
 void UmfpackFactors::solve(Eigen::Ref<Eigen::MatrixXd> columns) const {
+  SPREKK_EXPECT(columns.rows() == n_, columns.rows(), n_);
   std::vector<double> work(static_cast<std::size_t>(n_) * width);
   std::vector<char> is_zero(n_);
   const auto row = [&](int i) { return Row(work.data() + static_cast<std::size_t>(i) * width); };

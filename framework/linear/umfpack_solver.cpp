@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/invariants.hpp"
 #include "framework/linear/entity_graph.hpp"
+#include "framework/linear/expect_sound.hpp"
 #include "framework/linear/near_singular.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
@@ -48,6 +50,7 @@ UmfpackSolver::~UmfpackSolver() {
 }
 
 LinearReport UmfpackSolver::factor(const LinearSystem& system) {
+  expect_sound(system);
   if (!system.local.isCompressed()) {
     LinearSystem compressed = system;
     compressed.local.makeCompressed();
@@ -83,6 +86,8 @@ LinearReport UmfpackSolver::order() {
   const SparseMatrix& a = scaled_.matrix;
   const int n = static_cast<int>(a.rows());
   const std::vector<int> given = order_of_entities();
+  SPREKK_ASSERT(given.empty() || static_cast<int>(given.size()) == n, given.size(), n);
+  SPREKK_ASSERT(are_indices(given, n), n);
   int status = UMFPACK_OK;
   std::array<double, UMFPACK_CONTROL> control = control_;
   if (given.empty()) {
@@ -166,12 +171,16 @@ LinearReport UmfpackSolver::solve(const Vector& b_rows, Vector& x) {
 }
 
 void UmfpackSolver::solve_unchecked(Eigen::Ref<Vector> b) const {
+  SPREKK_EXPECT(numeric_ != nullptr);
+  SPREKK_EXPECT(b.size() == scaled_.row_scale.size(), b.size(), scaled_.row_scale.size());
   Vector y = scaled_.row_scale.cwiseProduct(b);
   apply_inverse(y, false);
   b = scaled_.column_scale.cwiseProduct(y);
 }
 
 bool UmfpackSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
+  SPREKK_EXPECT(numeric_ != nullptr);
+  SPREKK_EXPECT(columns.rows() == scaled_.matrix.rows(), columns.rows(), scaled_.matrix.rows());
   const Stopwatch watch(counts_.seconds_solve);
   counts_.columns += static_cast<int>(columns.cols());
   columns = scaled_.row_scale.asDiagonal() * columns;
@@ -181,6 +190,7 @@ bool UmfpackSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
 }
 
 void UmfpackSolver::apply_inverse(Vector& v, bool transposed) const {
+  SPREKK_ASSERT(numeric_ != nullptr && v.size() == scaled_.matrix.rows(), v.size(), scaled_.matrix.rows());
   const SparseMatrix& a = scaled_.matrix;
   right_hand_side_ = v;
   umfpack_di_wsolve(transposed ? UMFPACK_A : UMFPACK_At, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), v.data(),

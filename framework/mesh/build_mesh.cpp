@@ -11,6 +11,7 @@
 #include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/counter_clockwise.hpp"
+#include "framework/mesh/expect_sound_mesh.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
@@ -365,7 +366,11 @@ class MeshBuilder {
 
 }  // namespace
 
-Mesh build_mesh(const RawMesh& raw) { return MeshBuilder(raw).build(); }
+Mesh build_mesh(const RawMesh& raw) {
+  Mesh mesh = MeshBuilder(raw).build();
+  expect_sound(mesh);
+  return mesh;
+}
 
 std::uint64_t next_mesh_version() {
   static std::atomic<std::uint64_t> last{0};

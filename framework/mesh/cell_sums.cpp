@@ -2,10 +2,14 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int components, int rank) {
   const int rows = mesh.cell_count() * components;
+  SPREKK_EXPECT(faces.rows() == mesh.face_count() * components, faces.rows(), mesh.face_count(), components);
+  SPREKK_EXPECT(is_well_formed(faces), faces.rows(), faces.cols());
   const int* outer = faces.outerIndexPtr();
   const int* inner = faces.innerIndexPtr();
   const double* values = faces.valuePtr();
@@ -51,6 +55,7 @@ SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int componen
 }
 
 Vector cell_sums(const Mesh& mesh, const Vector& faces, int components) {
+  SPREKK_EXPECT(faces.size() == mesh.face_count() * components, faces.size(), mesh.face_count(), components);
   Vector result = Vector::Zero(mesh.cell_count() * components);
   for (int k = 0; k < components; ++k) {
     const double* value = faces.data() + k;
@@ -65,6 +70,7 @@ Vector cell_sums(const Mesh& mesh, const Vector& faces, int components) {
 }
 
 SparseMatrix keep_rows(const SparseMatrix& matrix, const std::vector<char>& keep) {
+  SPREKK_EXPECT(static_cast<Eigen::Index>(keep.size()) == matrix.rows(), keep.size(), matrix.rows());
   std::vector<Triplet> entries;
   for (int r = 0; r < matrix.outerSize(); ++r)
     if (keep[r])

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/cell_shape.hpp"
 
 namespace sprekk {
@@ -13,6 +14,7 @@ MeshQuality mesh_quality(const Mesh& mesh) {
   quality.nodes = mesh.node_count();
   quality.fractures = static_cast<int>(mesh.fractures.size());
   quality.fracture_cells = mesh.fracture_cell_count();
+  SPREKK_ASSERT(mesh.cell_count() == 0 || quality.smallest_angle > 0, quality.smallest_angle);
   if (mesh.cell_count() == 0) return quality;
   for (const FractureCell& cell : mesh.fracture_cells) quality.fracture_length += cell.length;
 

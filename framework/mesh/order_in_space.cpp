@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -35,6 +37,7 @@ std::vector<int> order_in_space(const std::vector<Point>& points) {
     high = high.cwiseMax(point);
   }
   const double size = (high - low).maxCoeff();
+  SPREKK_EXPECT(std::isfinite(size), size);
   const double scale = size > 0 ? ((1 << bits) - 1) / size : 0;
   std::vector<std::pair<std::uint64_t, int>> places;
   places.reserve(points.size());
@@ -47,6 +50,7 @@ std::vector<int> order_in_space(const std::vector<Point>& points) {
   std::vector<int> order;
   order.reserve(points.size());
   for (const auto& [place, point] : places) order.push_back(point);
+  SPREKK_ASSERT(order.size() == points.size(), order.size(), points.size());
   return order;
 }
 

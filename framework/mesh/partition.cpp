@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/build_mesh.hpp"
 
 namespace sprekk {
@@ -26,6 +27,7 @@ void bisect(Mesh& mesh, std::span<int> cells, int first, int last, const Share& 
   const int axis = (high - low).x() >= (high - low).y() ? 0 : 1;
   const int middle = (first + last) / 2;
   const auto cut = cells.begin() + (share(middle) - share(first));
+  SPREKK_ASSERT(cut >= cells.begin() && cut <= cells.end(), first, middle, last);
   // Equal coordinates are ordered by index, so that the cut is always the same one.
   std::nth_element(cells.begin(), cut, cells.end(), [&](int a, int b) {
     const double x = mesh.cell_center[a][axis], y = mesh.cell_center[b][axis];

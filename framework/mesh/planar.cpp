@@ -4,9 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 double signed_area(const std::vector<Point>& polygon) {
+  SPREKK_EXPECT(polygon.size() >= 3, polygon.size());
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     // Relative to the first corner, so that a polygon far from the origin loses no digits.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
@@ -31,6 +32,7 @@ PointLocation::PointLocation(const Mesh& mesh) : mesh_(&mesh) {
   Extent whole;
   for (const Point& node : mesh.nodes) whole.add(node);
   const Point size = whole.high - whole.low;
+  SPREKK_EXPECT(size.allFinite() && size.minCoeff() > 0, size.x(), size.y());
   low_ = whole.low;
   slack_ = 1e-10 * size.norm();
   // Four buckets for a cell of mean area: where a mesh is graded most points are asked for among its small cells.
@@ -52,6 +54,7 @@ PointLocation::PointLocation(const Mesh& mesh) : mesh_(&mesh) {
   std::partial_sum(cells_.offsets.begin(), cells_.offsets.end(), cells_.offsets.begin());
   cells_.items.resize(cells_.offsets.back());
   auto next = cells_.offsets;
+  SPREKK_ASSERT(counts_[0] > 0 && counts_[1] > 0, counts_[0], counts_[1]);
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     for_each_bucket(cell, [&](int b) { cells_.items[next[b]++] = cell; });
   }

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk::parallel {
 namespace {
 
@@ -37,6 +39,7 @@ std::vector<Value> gather_values(const std::vector<Value>& mine, MPI_Datatype ty
   std::vector<int> counts(size()), starts(size());
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
   std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+  SPREKK_ASSERT(counts[rank()] == count, rank(), count);
   std::vector<Value> all(starts.back() + counts.back());
   MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), starts.data(), type, MPI_COMM_WORLD);
   return all;
@@ -64,6 +67,7 @@ int rank() {
   if (!is_running()) return 0;
   int value = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &value);
+  SPREKK_ASSERT(value >= 0, value);
   return value;
 }
 
@@ -72,6 +76,7 @@ int size() {
   if (!is_running()) return 1;
   int value = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &value);
+  SPREKK_ASSERT(value >= 1, value);
   return value;
 }
 

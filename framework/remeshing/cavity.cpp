@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 namespace {
 
@@ -15,6 +17,7 @@ class Choice {
 
   std::vector<bool> run(const std::vector<std::vector<Segment>>& paths, const std::vector<double>& radii) {
     std::vector<bool> is_near(node_count_);
+    SPREKK_EXPECT(paths.size() == radii.size(), paths.size(), radii.size());
     for (std::size_t p = 0; p < paths.size(); ++p) take_near(paths[p], radii[p], is_near);
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
       for (const int node : mesh_.cell_nodes[cell]) {
@@ -28,6 +31,7 @@ class Choice {
 
  private:
   void take_near(const std::vector<Segment>& path, double radius, std::vector<bool>& is_near) {
+    SPREKK_EXPECT(!path.empty() && radius > 0, path.size(), radius);
     Point low = path.front().from, high = low;
     for (const auto& [from, to] : path) low = low.cwiseMin(to), high = high.cwiseMax(to);
     const Point wide = Point::Constant(radius);
@@ -110,6 +114,8 @@ class Choice {
 }  // namespace
 
 int cell_across(const Mesh& mesh, int cell, int k) {
+  SPREKK_EXPECT(is_index(cell, mesh.cell_count()), cell, mesh.cell_count());
+  SPREKK_EXPECT(is_index(k, mesh.cell_faces[cell].size()), cell, k);
   const int face = mesh.cell_faces[cell][k];
   const int fracture_cell = mesh.face_fracture_cell[face];
   if (fracture_cell != none) {
@@ -127,6 +133,7 @@ std::vector<bool> choose_cavity(const Mesh& mesh, const std::vector<int>& merged
 
 std::vector<int> connected_parts(const Mesh& mesh, const std::vector<bool>& is_marked) {
   std::vector<int> part(mesh.cell_count(), none);
+  SPREKK_EXPECT(static_cast<int>(is_marked.size()) == mesh.cell_count(), is_marked.size(), mesh.cell_count());
   int parts = 0;
   for (int first = 0; first < mesh.cell_count(); ++first) {
     if (!is_marked[first] || part[first] != none) continue;

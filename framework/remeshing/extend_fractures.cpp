@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/remeshing/overlap.hpp"
@@ -35,6 +36,8 @@ class Growth {
 
   GrownMesh run() {
     const Refill refill = refill_cavities(mesh_, raw_, merged_, path_nodes_, paths_, options_);
+    SPREKK_ASSERT(static_cast<int>(refill.is_removed.size()) == mesh_.cell_count(), refill.is_removed.size());
+    SPREKK_ASSERT(refill.smallest_angle > 0, refill.smallest_angle);
     GrownMesh grown;
     grown.smallest_angle = refill.smallest_angle;
     const RawMesh raw = assemble(refill, grown.change);
@@ -57,6 +60,7 @@ class Growth {
     }
     const int count = old_count - static_cast<int>(change.removed_cells.size()) + made;
     change.cell.assign(count, none);
+    SPREKK_ASSERT(count > 0 && made > 0, count, made);
     raw.cells.resize(count);
     std::vector<int> moved;
     for (int cell = 0; cell < old_count; ++cell) {
@@ -74,6 +78,7 @@ class Growth {
       return free;
     };
     for (const int cell : moved) change.cell[next_free()] = cell;
+    SPREKK_ASSERT(std::ranges::none_of(change.cell, [&](int cell) { return cell != none && refill.is_removed[cell]; }));
     for (int cell = 0; cell < count; ++cell) {
       if (change.cell[cell] == none) {
         raw.cells[cell] = Ring(refill.triangles[change.new_cells.size()]);
@@ -83,6 +88,8 @@ class Growth {
       }
     }
     measure_overlap(refill, change);
+    SPREKK_ASSERT(static_cast<int>(change.new_cells.size()) == made, change.new_cells.size(), made);
+    SPREKK_ASSERT(std::ranges::none_of(holder_, [](int holder) { return holder == none; }), holder_.size());
     int next_new = 0;
     for (int cell = 0; cell < count; ++cell) {
       raw.regions.push_back(mesh_.cell_region[ancestor(change, cell, next_new)]);
@@ -96,6 +103,7 @@ class Growth {
     raw.fractures = raw_.fractures;
     for (std::size_t e = 0; e < extensions_.size(); ++e) {
       auto& chain = raw.fractures[extensions_[e].fracture].nodes;
+      SPREKK_ASSERT(path_nodes_.paths[e].size() >= 2, e, path_nodes_.paths[e].size());
       const auto& path = path_nodes_.paths[e];
       if (extensions_[e].at_end) {
         chain.insert(chain.end(), path.begin() + 1, path.end());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/meshing/graded_division.hpp"
 #include "framework/meshing/narrow_gaps.hpp"
@@ -32,6 +33,8 @@ class Placement {
   PathNodes run(const RawMesh& raw, const std::vector<PathExtension>& extensions) {
     for (const auto& [fracture, at_end, points] : extensions) {
       const auto& chain = raw.fractures[fracture].nodes;
+      SPREKK_EXPECT(is_index(fracture, static_cast<long>(raw.fractures.size())), fracture);
+      SPREKK_EXPECT(!points.empty(), fracture);
       std::vector<int> path{at_end ? chain.back() : chain.front()};
       for (const Point& x : points) path.push_back(add(x));
       const bool is_end_fixed = put_end_on_boundary(path.back()) || put_end_on_fracture(path.back());
@@ -53,6 +56,7 @@ class Placement {
   }
   const Point& at(int node) const { return result_.nodes[node]; }
   std::array<int, 2> ends(int face) const {
+    SPREKK_EXPECT(is_index(face, mesh_.face_count()), face);
     return {merged_[mesh_.face_nodes[face][0]], merged_[mesh_.face_nodes[face][1]]};
   }
   Segment segment(int face) const { return {at(ends(face)[0]), at(ends(face)[1])}; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
 #include "framework/scene/change_mesh.hpp"
 
 namespace sprekk {
@@ -11,6 +12,7 @@ MeshGrowth::MeshGrowth(std::unique_ptr<Model>& model, StepController& controller
 
 /// Puts the model onto the mesh with the paths that the step has found, from its accepted state.
 MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
+  SPREKK_EXPECT(grow_step < model_->growing().size(), grow_step);
   const double time = controller_.time(), standard = model_->scene().time.step;
   MeshChangeResult changed;
   try {
@@ -25,6 +27,7 @@ MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
     reason_ = "the state could not be settled on the mesh that has grown: " + changed.settling.reason;
     return Outcome::failed;
   }
+  SPREKK_ASSERT(changed.model != nullptr);
   if (changed_) changed_(*model_, *changed.model);
   model_ = std::move(changed.model);
   ++changes_;

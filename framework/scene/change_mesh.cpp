@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/partition.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 
 Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh& old_mesh) {
   const int components = old.spec().components;
+  SPREKK_EXPECT(old.accepted().size() == static_cast<Eigen::Index>(old_mesh.cell_count()) * components, old.name());
   Vector values = Vector::Zero(static_cast<int>(change.cell.size()) * components);
   // Row by row: the overlap of a new cell with the old ones, over the old area (shares) or its own (a mean).
   const Eigen::SparseMatrix<double, Eigen::RowMajor> overlap = change.overlap;
@@ -22,6 +24,7 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
     }
     double area = 0;
     for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) area += entry.value();
+    SPREKK_ASSERT(area > 0, cell, area);
     for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) {
       const int from = static_cast<int>(entry.col());
       const double weight = entry.value() / (old.spec().is_amount ? old_mesh.cell_area[from] : area);
@@ -34,6 +37,8 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
 /// Entities that have been kept, `parts` of the field's entities each (two walls a fracture cell).
 void copy_kept(const Field& old, const std::vector<int>& origin, int parts, Vector& values) {
   const int width = parts * old.spec().components;
+  SPREKK_EXPECT(values.size() == static_cast<Eigen::Index>(origin.size()) * width, old.name(), values.size(), width);
+  SPREKK_EXPECT(std::ranges::all_of(origin, [&](int i) { return i == none || is_index(i, old.size() / width); }));
   for (int i = 0; i < static_cast<int>(origin.size()); ++i)
     if (origin[i] != none) values.segment(i * width, width) = old.accepted().segment(origin[i] * width, width);
 }
@@ -67,6 +72,8 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
 MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const std::vector<PathExtension>& extensions,
                              const StepTime& data, IterationLog log) {
   const GrowStep& step = *before.growing()[grow_step];
+  SPREKK_EXPECT(grow_step < before.growing().size(), grow_step, before.growing().size());
+  SPREKK_EXPECT(!extensions.empty());
   CavityOptions cavity = step.cavity();
   cavity.gap_edges = before.scene().mesh.gap_edges;
   GrownMesh grown = extend_fractures(before.mesh(), extensions, cavity);
@@ -78,6 +85,7 @@ MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const s
   MeshChangeResult result{
       std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), grown.smallest_angle, {}};
   Model& model = *result.model;
+  SPREKK_ASSERT(model.parts().size() == before.parts().size(), model.parts().size(), before.parts().size());
   transfer_fields(before.fields(), grown.change, before.mesh(), model.fields());
   for (Part* part : model.parts()) part->evaluate_data(data);
   for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);

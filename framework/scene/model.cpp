@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
+#include "framework/mesh/expect_sound_mesh.hpp"
 #include "framework/mesh/partition.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/output/activity.hpp"
@@ -17,7 +19,9 @@ namespace {
 Mesh make_mesh(const Scene& scene) {
   now_doing("the mesh");
   Mesh mesh = generate_mesh(scene.geometry, scene.mesh);
+
   partition(mesh, parallel::size());
+
   return mesh;
 }
 
@@ -36,6 +40,8 @@ auto refusing_bad_data(const Build& build) {
 Model::Model(const Scene& scene, IterationLog log) : Model(scene, make_mesh(scene), std::move(log)) {}
 
 Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), mesh_(std::move(mesh)) {
+  expect_sound(mesh_);
+  SPREKK_EXPECT(are_indices(mesh_.cell_rank, parallel::size()), parallel::size());
   for (const Scene::ComponentEntry& entry : scene_.components) {
     now_doing("component " + entry.name);
     components_.push_back(refusing_bad_data([&] {
@@ -114,6 +120,7 @@ void require_agreement(const std::string& what, const std::vector<double>& value
 }  // namespace
 
 StepStatus Model::attempt(const StepTime& step) {
+  SPREKK_EXPECT(step.dt > 0 && step.end > step.start, step.start, step.dt, step.end);
   for (Part* part : parts_) part->evaluate_data(step);
   for (const auto& component : components_) {
     now_doing("discretizing " + component->name());

@@ -2,9 +2,14 @@
 
 #include <Eigen/Dense>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 Vector Anderson::next(const Vector& x, const Vector& image) {
+  SPREKK_EXPECT(x.size() == image.size(), x.size(), image.size());
+  SPREKK_EXPECT(is_finite(x) && is_finite(image));
+  SPREKK_ASSERT(image_differences_.size() == residual_differences_.size());
   const Vector residual = image - x;
   if (last_image_.size() == image.size()) {
     image_differences_.push_back(image - last_image_);
@@ -17,6 +22,7 @@ Vector Anderson::next(const Vector& x, const Vector& image) {
   last_image_ = image;
   last_residual_ = residual;
   const int m = static_cast<int>(residual_differences_.size());
+  SPREKK_ASSERT(m <= depth_, m, depth_);
   if (m == 0) return image;
   Eigen::MatrixXd differences(residual.size(), m);
   for (int j = 0; j < m; ++j) differences.col(j) = residual_differences_[j];

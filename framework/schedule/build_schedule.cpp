@@ -76,7 +76,8 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading, [&](ScheduleReading& inner) {
     inner.is_iterated = true;
     // What is iterated must be solved more tightly than the iteration asks for, or it would stall.
-    inner.newton.residual = std::min(inner.newton.residual, 0.1 * options.relative);
+    constexpr double tighter = 0.1;
+    inner.newton.residual = std::min(inner.newton.residual, tighter * options.relative);
   });
   return [options, inside](const ScheduleContext& context) {
     return std::make_unique<IterateStep>(options, inside(context), context);

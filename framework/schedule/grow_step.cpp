@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/invariants.hpp"
 #include "framework/output/activity.hpp"
 
 namespace sprekk {
@@ -69,16 +70,22 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
       smallest_step_(options.cut * context.standard_step) {}
 
 StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) {
-  const double wanted = (1 + 0.5 * options_.overshoot - before) / (now - before);  // of the rise of this step
-  double part = now > before ? wanted : 0.5;
+  SPREKK_EXPECT(std::isfinite(before) && std::isfinite(now), before, now);
+  SPREKK_ASSERT(smallest_step_ > 0, smallest_step_);
+  constexpr double aim = 0.5;                                 // of the overshoot: the middle of what is accepted
+  constexpr double half = 0.5;                                // where loads do not tell how much
+  constexpr double of_diffusion = 0.5, at_constant_rate = 1;  // powers of time with which loads rise
+  constexpr double least = 0.01, most = 0.9;                  // of the step that was refused
+  const double wanted = (1 + aim * options_.overshoot - before) / (now - before);  // of the rise of this step
+  double part = now > before ? wanted : half;
   if (refusal_ && refusal_->start == step.start && refusal_->dt > step.dt && refusal_->load > now && now > before) {
     // Fluid diffuses: loads rise with a power of time between 1/2 and 1, which two refusals tell.
     const double power = std::log((refusal_->load - before) / (now - before)) / std::log(refusal_->dt / step.dt);
-    part = std::pow(wanted, 1 / std::clamp(power, 0.5, 1.0));
+    part = std::pow(wanted, 1 / std::clamp(power, of_diffusion, at_constant_rate));
   }
   refusal_ = Refusal{step.start, step.dt, now};
   StepStatus status{false, reason, 0};
-  status.retry_dt = std::max(smallest_step_, step.dt * std::clamp(part, 0.01, 0.9));
+  status.retry_dt = std::max(smallest_step_, step.dt * std::clamp(part, least, most));
   return status;
 }
 
@@ -86,6 +93,7 @@ StepStatus GrowStep::run(const StepTime& step) {
   extensions_.clear();
   now_doing("looking at what may grow");
   load_ = growing_->examine(step);
+  SPREKK_ASSERT(!std::isnan(load_.now) && !std::isnan(load_.onset), load_.now, load_.onset);
   const double most = 1 + options_.overshoot;
   if (load_.onset > most && may_shrink(step))
     return refused(fmt::format("a tip is at {:.3g} times the load of growth", load_.onset), step, load_.onset_accepted,

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "framework/assembly/assemble_all.hpp"
+#include "framework/invariants.hpp"
 #include "framework/schedule/residual_check.hpp"
 
 namespace sprekk {
@@ -30,6 +31,7 @@ Spec IterateOptions::spec() {
 IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside,
                          const ScheduleContext& context)
     : options_(options),
+
       inside_(std::move(inside)),
       parts_(context.parts),
       system_(context.mesh, inside_->unknowns()),
@@ -40,12 +42,14 @@ IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<Schedule
 
 Vector IterateStep::scaled_values() const {
   Vector values(system_.size());
+  SPREKK_ASSERT(scales_.size() == fields_.size(), scales_.size(), fields_.size());
   for (std::size_t u = 0; u < fields_.size(); ++u)
     values.segment(system_.first(static_cast<int>(u)), fields_[u]->size()) = fields_[u]->now() / scales_[u];
   return values;
 }
 
 void IterateStep::set_scaled_values(const Vector& values) {
+  SPREKK_EXPECT(values.size() == system_.size(), values.size(), system_.size());
   for (std::size_t u = 0; u < fields_.size(); ++u)
     fields_[u]->set(scales_[u] * values.segment(system_.first(static_cast<int>(u)), fields_[u]->size()));
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "framework/invariants.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/looking_so.hpp"
@@ -25,6 +26,8 @@ Newton::Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*
       system_(mesh, {unknowns_.begin(), unknowns_.end()}),
       linear_(make_condensing_solver(linear)) {
   system_.use_sums(is_direct(linear, system_.size()));
+  SPREKK_EXPECT(options_.residual > 0 && options_.update > 0, options_.residual, options_.update);
+  SPREKK_EXPECT(options_.at_most > 0, options_.at_most);
 }
 
 Newton::~Newton() = default;
@@ -41,6 +44,8 @@ std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
   if (stabilization_)
     for (const auto& [field, diagonal] : *stabilization_) {
       if (!assembly->has_row(*field)) continue;
+      SPREKK_EXPECT(diagonal.size() == field->size(), field->name(), diagonal.size(), field->size());
+      SPREKK_ASSERT(start_.count(field) == 1, field->name());
       assembly->add(*field, diagonal.cwiseProduct(field->now() - start_.at(field)));
       assembly->diagonal(*field, *field, diagonal);
     }
@@ -68,10 +73,14 @@ std::vector<Vector> Newton::values() const {
 }
 
 void Newton::set(const std::vector<Vector>& values) {
+  SPREKK_EXPECT(values.size() == unknowns_.size(), values.size(), unknowns_.size());
   for (std::size_t u = 0; u < unknowns_.size(); ++u) unknowns_[u]->set(values[u]);
 }
 
 void Newton::move(const std::vector<Vector>& from, const Vector& update, double length) {
+  SPREKK_EXPECT(from.size() == unknowns_.size(), from.size(), unknowns_.size());
+  SPREKK_EXPECT(update.size() == system_.size(), update.size(), system_.size());
+  SPREKK_EXPECT(std::isfinite(length), length);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const auto part = update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size());
     if (!part.isZero(0)) unknowns_[u]->set(from[u] + length * part);  // else it is where it was
@@ -80,6 +89,7 @@ void Newton::move(const std::vector<Vector>& from, const Vector& update, double 
 
 Vector Newton::right_hand_side(const ResidualCheck& check) const {
   Vector right = -system_.residual(*assembly_);
+  SPREKK_EXPECT(check.is_round_off.size() == unknowns_.size(), check.is_round_off.size(), unknowns_.size());
   const std::vector<int>& rows = system_.rows();
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     if (!check.is_round_off[u] || check.is_unbalanced[u]) continue;
@@ -93,6 +103,7 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
       if (!check.is_round_off[u] || !check.is_round_off_in_sum[u] || check.is_unbalanced[u])
         total += system_.residual_of_sum(*assembly_, u);
     if (sum.place >= 0) right[sum.place] = -total;
+    SPREKK_ASSERT(sum.place < right.size(), sum.place, right.size());
   }
   return right;
 }
@@ -109,6 +120,7 @@ std::vector<char> Newton::is_settled(const ResidualCheck& check) const {
 }
 
 double Newton::relative_size(const Vector& update, const ResidualCheck& check) const {
+  SPREKK_EXPECT(update.size() == system_.size(), update.size(), system_.size());
   // Fields of one unit share a scale: a jump that is zero while everything sticks is compared with the displacements.
   std::map<std::string, double> scale, change;
   const std::vector<char> settled = is_settled(check);
@@ -140,12 +152,16 @@ double merit_bound(const std::vector<ResidualCheck>& recent) {
 }  // namespace
 
 ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool ask_for_descent, double& length) {
+  SPREKK_EXPECT(is_finite(update), update.size());
+  SPREKK_EXPECT(!recent_.empty());
   const std::vector<Vector> from = values();
   ResidualCheck best;
   double best_length = 0, best_merit = 0;
   const double bound = merit_bound(recent_);
+  constexpr double sufficient = 1e-4;              // of the descent that the derivatives foretell (Armijo 1966)
+  constexpr int for_descent = 6, for_finite = 12;  // halvings
   length = 1;
-  for (int halvings = 0; halvings < (ask_for_descent ? 6 : 12); ++halvings, length /= 2) {
+  for (int halvings = 0; halvings < (ask_for_descent ? for_descent : for_finite); ++halvings, length /= 2) {
     move(from, update, length);
     const ResidualCheck check = look(step);
     const double merit = check.merit(recent_.back());
@@ -155,7 +171,7 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool
       best_length = length;
     }
     if (!check.finite) continue;
-    if (!ask_for_descent || check.converged || merit < (1 - 1e-4 * length) * bound) break;
+    if (!ask_for_descent || check.converged || merit < (1 - sufficient * length) * bound) break;
   }
   if (best_length == 0) {
     best.finite = false;
@@ -176,6 +192,8 @@ ResidualCheck Newton::look(const StepTime& step) {
 }
 
 StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilization) {
+  SPREKK_EXPECT(step.dt > 0 && std::isfinite(step.end), step.start, step.dt, step.end);
+  SPREKK_EXPECT(std::ranges::all_of(unknowns_, [](const Field* field) { return is_finite(field->now()); }));
   stabilization_ = &stabilization;
   products_.forget_unused();
   system_.use_answered_sums(false);
@@ -265,7 +283,8 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     if (check.rows_hold && !check.balances_hold && factored) {
       // What another iteration does not improve is lost in the matrix. Sums of balances may have it; what they do not
       // give is as much as round-off allows.
-      const bool stalls = check.imbalance > 0.5 * last_imbalance;
+      constexpr double hardly_better = 0.5;
+      const bool stalls = check.imbalance > hardly_better * last_imbalance;
       last_imbalance = check.imbalance;
       if (stalls && system_.sums().are_used && !system_.sums().are_used_where_answered)
         system_.use_answered_sums(true);
@@ -298,6 +317,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     Vector update;
     const LinearReport report = linear_->solve(right_hand_side(check), update);
     if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
+    SPREKK_ASSERT(update.size() == system_.size(), update.size(), system_.size());
 
     // A state that stays is no cycle; one that has been left and comes back is, if it does so again and again.
     const std::uint64_t state = discrete_state();
@@ -314,7 +334,8 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     }
     check = take_step(step, update, searches, length);
     recent_.push_back(check);
-    if (recent_.size() > 3) recent_.erase(recent_.begin());
+    constexpr std::size_t remembered = 3;  // states that a line search may be compared with (Grippo and others 1986)
+    if (recent_.size() > remembered) recent_.erase(recent_.begin());
     if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length});
   }
 }

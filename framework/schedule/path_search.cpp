@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "framework/invariants.hpp"
 #include "framework/schedule/looking_so.hpp"
 #include "framework/schedule/newton.hpp"
 
@@ -24,6 +25,7 @@ struct Crossing {
 template <class IsSame>
 std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
   constexpr double sharpness = 1e-13, shortest = 1e-16;
+  SPREKK_EXPECT(limit > 0, limit);
   Crossing crossing{0, std::min(1.0, limit)};
   while (is_same(crossing.behind)) {
     if (crossing.behind >= limit) return std::nullopt;
@@ -43,6 +45,8 @@ std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
 /// unit share a scale: jumps that are zero while everything sticks are compared with displacements.
 void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
   constexpr double aside = 1e-5, golden_ratio = 0.6180339887498949;
+  SPREKK_EXPECT(update.size() == system_.size(), update.size(), system_.size());
+  SPREKK_EXPECT(system.blocks.size() == unknowns_.size(), system.blocks.size(), unknowns_.size());
   const auto change = [&](std::size_t u) {
     return update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size());
   };

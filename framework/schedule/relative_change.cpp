@@ -4,12 +4,15 @@
 #include <map>
 #include <string>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 double relative_change(const std::vector<const Field*>& fields) {
   std::map<std::string, double> scale, change;
   for (const Field* field : fields) {
     if (field->size() == 0) continue;
+    SPREKK_EXPECT(is_finite(field->now()), field->name());
     const std::string& unit = field->spec().unit;
     scale[unit] =
         std::max({scale[unit], field->now().lpNorm<Eigen::Infinity>(), field->accepted().lpNorm<Eigen::Infinity>()});

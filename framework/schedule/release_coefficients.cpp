@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
 #include "framework/schedule/newton.hpp"
 
 namespace sprekk {
 
 StepStatus Newton::attempt_with_share(const StepTime& step, double share) {
+  SPREKK_EXPECT(share > 0 && share <= 1, share);
   for (Part* part : parts_) part->release_coefficients(share);
   return attempt(step, options_.undamped);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -80,9 +81,12 @@ void check_balances(const Assembly& assembly, const BlockSystem& system, double 
 }  // namespace
 
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance) {
+  SPREKK_EXPECT(tolerance > 0, tolerance);
+  SPREKK_EXPECT(assembly.unknowns().empty() || system.size() > 0 || assembly.unknowns().front()->size() == 0);
   ResidualCheck check;
   check.rows_hold = true;
   const Vector owned = system.residual(assembly);
+  SPREKK_ASSERT(owned.size() == static_cast<Eigen::Index>(system.rows().size()), owned.size());
   const std::vector<int>& rows = system.rows();
   std::size_t next = 0;
   for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
@@ -140,11 +144,15 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
   }
   check_sums(assembly, system, tolerance, check);
   check_balances(assembly, system, tolerance, check);
+  SPREKK_ASSERT(check.is_round_off.size() == assembly.unknowns().size(), check.is_round_off.size());
+  SPREKK_ASSERT(check.magnitudes.size() == check.mean_squares.size(), check.magnitudes.size());
   check.converged = check.rows_hold && check.balances_hold;
   return check;
 }
 
 double ResidualCheck::merit(const ResidualCheck& scales) const {
+  SPREKK_EXPECT(!finite || scales.magnitudes.size() >= mean_squares.size(), scales.magnitudes.size(),
+                mean_squares.size());
   if (!finite) return std::numeric_limits<double>::infinity();
   double sum = 0;
   for (std::size_t u = 0; u < mean_squares.size(); ++u) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -96,6 +98,7 @@ std::string SolveStep::describe() const {
 }
 
 StepStatus SolveStep::run(const StepTime& step) {
+  SPREKK_EXPECT(step.dt > 0 && step.end > step.start, step.start, step.dt, step.end);
   Stabilization stabilization, preconditioning;
   for (const Part* part : parts_) {
     part->stabilize("fixed_stress", preconditioning);

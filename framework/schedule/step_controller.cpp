@@ -3,12 +3,16 @@
 #include <algorithm>
 
 #include "framework/config/units.hpp"
+#include "framework/invariants.hpp"
 
 namespace sprekk {
 namespace {
 
-constexpr double rounding = 1e-9;    ///< of the standard step: times nearer than this are the same
-constexpr double least_rise = 1e-2;  ///< of a level; what is less tells no rate
+constexpr double rounding = 1e-9;         ///< of the standard step: times nearer than this are the same
+constexpr double least_rise = 1e-2;       ///< of a level; what is less tells no rate
+constexpr double of_failed_size = 0.999;  ///< a step that is shorter by rounding only is as long as the failed one
+constexpr double smallest_part = 1e-6;    ///< of the standard step, where the scene says no smallest one
+constexpr double shortest_part = 0.1;     ///< of the standard step: what is worth waiting for
 
 std::string key_of(const char* name) { return std::string("time_steps.") + name; }
 
@@ -95,6 +99,8 @@ Spec TimeOptions::spec() {
 
 StepController::StepController(const TimeOptions& options, std::vector<double> targets)
     : options_(options), time_(options.start), wanted_(options.step) {
+  SPREKK_EXPECT(options_.step > 0, options_.step);
+  SPREKK_EXPECT(options_.end > options_.start, options_.start, options_.end);
   targets.push_back(options_.end);
   std::sort(targets.begin(), targets.end());
   // Targets that differ by round-off (an output time at a switch) are one; of these the end stays what it is.
@@ -107,6 +113,8 @@ StepController::StepController(const TimeOptions& options, std::vector<double> t
 }
 
 StepTime StepController::next() const {
+  SPREKK_ASSERT(wanted_ > 0, wanted_);
+  SPREKK_ASSERT(is_ascending(targets_), targets_.size());
   const bool is_due = recurrence_.expected && *recurrence_.expected > time_ + rounding * options_.step;
   const double size = is_due ? std::min(wanted_, std::max(*recurrence_.expected - time_, shortest_wait())) : wanted_;
   const auto target = std::upper_bound(targets_.begin(), targets_.end(), time_);
@@ -132,13 +140,17 @@ double StepController::grown() const {
 
 void StepController::remember_success(const StepTime& step) {
   if (failed_.size == 0) return;
-  if (step.dt >= 0.999 * failed_.size)
+  if (step.dt >= of_failed_size * failed_.size)
     failed_ = {};
   else
     failed_.wait = std::max(0, failed_.wait - 1);
 }
 
 void StepController::accepted(const StepTime& step, int iterations) {
+  SPREKK_EXPECT(step.start == time_, step.start, time_);
+  SPREKK_EXPECT(step.end > time_, step.end, time_);
+  SPREKK_EXPECT(step.end <= options_.end, step.end, options_.end);
+  SPREKK_EXPECT(iterations >= 0, iterations);
   time_ = step.end;
   ++steps_;
   remember_success(step);
@@ -151,17 +163,18 @@ void StepController::accepted(const StepTime& step, int iterations) {
     return;
   }
   if (iterations > options_.iterations)
-    wanted_ = std::max(options_.smallest.value_or(options_.step * 1e-6), wanted_ * options_.shrink);
+    wanted_ = std::max(options_.smallest.value_or(options_.step * smallest_part), wanted_ * options_.shrink);
   else if (2 * iterations <= options_.iterations)
     wanted_ = std::min(options_.largest, grown());
 }
 
 bool StepController::rejected(const StepTime& step, double retry) {
-  const double smallest = options_.smallest.value_or(options_.step * 1e-6);
+  SPREKK_EXPECT(step.start == time_, step.start, time_);
+  const double smallest = options_.smallest.value_or(options_.step * smallest_part);
   if (step.dt <= smallest) return false;
   if (retry <= 0) {  // a step that asks for another size has not failed
     constexpr int longest_patience = 48;
-    if (failed_.size > 0 && step.dt >= 0.999 * failed_.size)
+    if (failed_.size > 0 && step.dt >= of_failed_size * failed_.size)
       failed_.patience = std::min(longest_patience, 2 * failed_.patience);
     failed_.size = step.dt;
     failed_.wait = failed_.patience;
@@ -171,6 +184,8 @@ bool StepController::rejected(const StepTime& step, double retry) {
 }
 
 void StepController::hold(double step, double level) {
+  SPREKK_EXPECT(step > 0, step);
+  SPREKK_EXPECT(std::isfinite(level), level);
   Recurrence& last = recurrence_;
   if (held_ == 0 && last.released) {
     last.pause = time_ - *last.released;
@@ -189,7 +204,8 @@ void StepController::release(double level) {
   last.level = level;
   last.patience = 0;
   if (last.pause == 0) return;
-  const double share = last.rise > least_rise ? std::clamp((1 - level) / last.rise, 0.5, 2.0) : 1;
+  constexpr double sooner = 0.5, later = 2;  // than the last time
+  const double share = last.rise > least_rise ? std::clamp((1 - level) / last.rise, sooner, later) : 1;
   last.expected = time_ + last.pause * share;
 }
 
@@ -201,7 +217,9 @@ void StepController::observe(double level) {
   last.expected = time_ + last.patience;
 }
 
-double StepController::shortest_wait() const { return std::max(0.1 * options_.step, options_.smallest.value_or(0)); }
+double StepController::shortest_wait() const {
+  return std::max(shortest_part * options_.step, options_.smallest.value_or(0));
+}
 
 /// Each value that a controller keeps, once, with its name in checkpoints.
 template <class Controller, class Visit>
@@ -223,6 +241,9 @@ void StepController::visit_values(Controller& controller, const Visit& visit) {
 
 void StepController::save(std::map<std::string, Vector>& state) const { visit_values(*this, Saving{state}); }
 
-void StepController::restore(const std::map<std::string, Vector>& state) { visit_values(*this, Restoring{state}); }
+void StepController::restore(const std::map<std::string, Vector>& state) {
+  visit_values(*this, Restoring{state});
+  SPREKK_ASSERT(wanted_ > 0 && steps_ >= 0 && held_ >= 0, wanted_, steps_, held_);
+}
 
 }  // namespace sprekk

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 Spec SubcycleOptions::spec() {
@@ -28,6 +30,7 @@ StepStatus SubcycleStep::run(const StepTime& step) {
   std::vector<Vector> start;
   for (const Field* field : fields_) start.push_back(field->accepted());
   const auto put_back = [&] {
+    SPREKK_ASSERT(start.size() == fields_.size(), start.size(), fields_.size());
     for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->set_accepted(start[i]);
   };
   StepStatus status;
@@ -49,6 +52,7 @@ StepStatus SubcycleStep::take_substeps(const StepTime& step) {
     substep.start = step.start + step.dt * i / options_.count;
     substep.end = i + 1 == options_.count ? step.end : step.start + step.dt * (i + 1) / options_.count;
     substep.dt = step.dt / options_.count;
+    SPREKK_ASSERT(substep.end > substep.start && substep.end <= step.end, substep.start, substep.end, step.end);
     begin_step(parts_, substep);
     const StepStatus inner = inside_->run(substep);
     status.iterations = std::max(status.iterations, inner.iterations);

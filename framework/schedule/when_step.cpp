@@ -1,5 +1,7 @@
 #include "framework/schedule/when_step.hpp"
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 Spec WhenOptions::spec() {
@@ -12,6 +14,7 @@ Spec WhenOptions::spec() {
 }
 
 StepStatus WhenStep::run(const StepTime& step) {
+  SPREKK_EXPECT(step.end > step.start, step.start, step.end);
   const double holds = options_.condition.at({Point::Zero(), 0, 0.5 * (step.start + step.end)});
   return holds != 0 ? inside_->run(step) : StepStatus{true, "", 0};
 }

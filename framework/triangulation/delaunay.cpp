@@ -5,6 +5,7 @@
 #include <deque>
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"
 
@@ -74,6 +75,8 @@ void Delaunay::set_across(int triangle, int old_neighbour, int neighbour) {
 }
 
 int Delaunay::add_inside(int triangle, const Point& x) {
+  SPREKK_EXPECT(is_index(triangle, static_cast<long>(triangles_.size())), triangle);
+  SPREKK_EXPECT(x.allFinite());
   const int point = static_cast<int>(points_.size());
   points_.push_back(x);
   const Triangle old = triangles_[triangle];
@@ -110,12 +113,15 @@ int Delaunay::add_inside(int triangle, const Point& x) {
 }
 
 int Delaunay::corner_of(int triangle, int point) const {
+  SPREKK_EXPECT(is_index(triangle, static_cast<long>(triangles_.size())), triangle);
   const auto& corners = triangles_[triangle].corners;
+  SPREKK_EXPECT(corners[0] == point || corners[1] == point || corners[2] == point, triangle, point);
   return corners[0] == point ? 0 : corners[1] == point ? 1 : 2;
 }
 
 int Delaunay::point_behind(int triangle, int edge) const {
   const int behind = triangles_[triangle].across[edge];
+  SPREKK_ASSERT(behind != none, triangle, edge);
   return triangles_[behind].corners[next(corner_of(behind, triangles_[triangle].corners[edge]))];
 }
 
@@ -137,6 +143,7 @@ bool Delaunay::can_flip(int triangle, int edge) const {
 void Delaunay::flip(int triangle, int edge) {
   const Triangle t = triangles_[triangle];
   const int neighbour = t.across[edge];
+  SPREKK_ASSERT(neighbour != none && t.edges[edge] == Edge::free, triangle, edge, neighbour);
   const Triangle u = triangles_[neighbour];
   const int j = corner_of(neighbour, t.corners[next(edge)]);
   const int a = t.corners[edge], b = t.corners[next(edge)], p = t.corners[previous(edge)], d = u.corners[previous(j)];
@@ -187,6 +194,8 @@ std::optional<Delaunay::Place> Delaunay::first_crossed(int from, int to) const {
 }
 
 void Delaunay::fix(int from, int to, Edge kind) {
+  SPREKK_EXPECT(from != to, from, to);
+  SPREKK_EXPECT(is_index(from, static_cast<long>(points_.size())) && is_index(to, static_cast<long>(points_.size())));
   constexpr const char* in_the_way = "a line of the drawing leads through a point or a line of it";
   std::deque<std::array<int, 2>> crossed;
   if (!edge_between(from, to)) {
