@@ -6,6 +6,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
@@ -85,6 +86,7 @@ class Biot : public Coupler {
       assembly.derivative(pressure, pressure, grains_);
     }
     assembly.linear(pressure, rock_.volume_change(), 1, &alpha_.values());
+    SPREKK_EXPECT(rock_.volume_change().constant.size() == mesh_.cell_count(), rock_.volume_change().constant.size());
     assembly.add(pressure, -alpha_.values().cwiseProduct(counted_volume_.accepted()));
     Vector change = rock_.volume_change().constant - counted_volume_.accepted();
     for (const LinearExpression::Term& term : rock_.volume_change().terms)
@@ -149,6 +151,7 @@ class Biot : public Coupler {
   std::vector<std::string> stabilizations() const override { return {"fixed_stress"}; }
   void stabilize(const std::string& scheme, Stabilization& stabilization) const override {
     if (decoupled_ || scheme != "fixed_stress") return;
+    SPREKK_ASSERT(rock_.bulk_modulus().values().minCoeff() > 0, rock_.bulk_modulus().values().minCoeff());
     Vector diagonal(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c)
       diagonal[c] = options_.fixed_stress_factor * alpha_[c] * alpha_[c] / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
@@ -174,6 +177,7 @@ class Biot : public Coupler {
         alpha_.version() + rock_.bulk_modulus().version() + (porosity ? porosity->version() : 0);
     if (version == grains_version_) return;
     grain_capacity_ = Vector::Zero(mesh_.cell_count());
+    SPREKK_EXPECT(rock_.bulk_modulus().values().size() == mesh_.cell_count(), rock_.bulk_modulus().values().size());
     if (porosity && !decoupled_)
       for (int c = 0; c < mesh_.cell_count(); ++c) {
         if (alpha_[c] < (*porosity)[c])

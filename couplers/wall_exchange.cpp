@@ -6,6 +6,7 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -59,11 +60,13 @@ class WallExchange : public Coupler {
 
   void begin_step(const StepTime&) override {
     const Field& flux = walls_.wall_flux();
+    SPREKK_EXPECT(flux.size() == mesh_.wall_count(), flux.name(), flux.size(), mesh_.wall_count());
     matrix_conductance_ = Vector::Ones(mesh_.wall_count());
     for (const LinearExpression::Term& term : walls_.wall_pressure().terms)
       if (term.field == &flux)
         for (int w = 0; w < mesh_.wall_count(); ++w) {
           const double resistance = term.matrix.entries().coeff(w, w);
+          SPREKK_ASSERT(std::isfinite(resistance), w, resistance);
           if (resistance > 0) matrix_conductance_[w] = 1 / resistance;
         }
     replicate(mesh_, Location::wall, 1, matrix_conductance_);
@@ -82,9 +85,11 @@ class WallExchange : public Coupler {
 
     const FractureFluid::NormalPermeability kappa = fracture_.normal_permeability();
     const int walls = mesh_.wall_count();
+    SPREKK_ASSERT(kappa.value.size() == mesh_.fracture_cell_count(), kappa.value.size(), mesh_.fracture_cell_count());
     Vector of_flux(walls), of_trace(walls), of_pressure(walls);
     for (int w = 0; w < walls; ++w) {
       const double k = kappa.value[w / 2], scale = 1 / (k + matrix_conductance_[w]);
+      SPREKK_ASSERT(k >= 0 && std::isfinite(scale) && scale > 0, w, k, matrix_conductance_[w]);
       of_trace[w] = power_of_two_near(scale * k);
       of_flux[w] = of_trace[w] > 0 ? of_trace[w] / k : scale;
       of_pressure[w] = -of_trace[w];
@@ -93,6 +98,7 @@ class WallExchange : public Coupler {
     assembly.diagonal(flux, flux, of_flux);
     const LinearExpression& trace = walls_.wall_pressure();
     const Vector trace_now = trace.now();
+    SPREKK_ASSERT(trace_now.size() == walls, trace_now.size(), walls);
     assembly.add(flux, of_trace.cwiseProduct(trace_now));
     assembly.add(flux, of_pressure.cwiseProduct(to_walls_ * pressure.now()));
     // The trace is itself a difference of larger numbers, where the matrix drains into a fracture of little pressure.

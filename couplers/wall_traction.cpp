@@ -9,6 +9,7 @@
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -64,6 +65,7 @@ class WallTraction : public Coupler {
   void begin_step(const StepTime&) override {
     // How a cell's own traction changes its own jump.
     const Field& traction = rock_.wall_traction();
+
     Vector compliance = Vector::Zero(traction.size());
     for (const LinearExpression::Term& term : rock_.displacement_jump().terms)
       if (term.field == &traction)
@@ -71,6 +73,7 @@ class WallTraction : public Coupler {
     replicate(mesh_, Location::fracture_cell, 2, compliance);
     compliance_ = positive(std::move(compliance));
     if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
+    SPREKK_ASSERT(compliance_.minCoeff() > 0, compliance_.minCoeff());
     if (loaded_with_ != alpha_.version()) load_with_fluid();
   }
 
@@ -115,6 +118,7 @@ class WallTraction : public Coupler {
   /// keep their place. As a scale, and as what contact takes for the stiffness of walls, it must be positive: at least
   /// a tenth of the mean, in proportion to the length of the cell.
   Vector positive(Vector compliance) const {
+    SPREKK_EXPECT(compliance.size() == 2 * mesh_.fracture_cell_count(), compliance.size());
     double mean[2] = {0, 0};
     const int cells = mesh_.fracture_cell_count();
     for (int i = 0; i < 2 * cells; ++i)
@@ -126,6 +130,7 @@ class WallTraction : public Coupler {
 
   void load_with_fluid() {
     loaded_with_ = alpha_.version();
+    SPREKK_ASSERT(alpha_.values().size() == mesh_.fracture_cell_count(), alpha_.values().size());
     std::vector<Triplet> entries;
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i) entries.emplace_back(2 * i, i, alpha_[i]);
     SparseMatrix load(2 * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());

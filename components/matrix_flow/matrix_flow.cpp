@@ -5,6 +5,7 @@
 #include "framework/assembly/products.hpp"
 #include "framework/discretization/linear_fit.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -105,6 +106,7 @@ void MatrixFlow::use_properties() {
     Tensor permeability;
     permeability << permeability_[0][c], permeability_[2][c], permeability_[2][c], permeability_[1][c];
     mobility_[c] = permeability / viscosity_[c];
+    SPREKK_ASSERT(viscosity_[c] > 0 && mobility_[c].allFinite(), c, viscosity_[c]);
   }
   check_mobility();
   place_wells();
@@ -184,6 +186,7 @@ void MatrixFlow::discretize() {
 
 void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
+  SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
   // With several processes the change may have given cells to others.
   if (parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
   find_conditions();
@@ -214,6 +217,10 @@ void MatrixFlow::use_operators() {
     return Operator(cell_sums(mesh_, fluxes, 1, rank), cell_sums(mesh_, keep_rows(fluxes, is_outer), 1, rank));
   };
   outflow_of_pressure_ = outflow_of(operators_.flux_cell);
+  SPREKK_ASSERT(operators_.flux_cell.rows() == mesh_.face_count(), operators_.flux_cell.rows(), mesh_.face_count());
+  SPREKK_ASSERT(operators_.flux_cell.cols() == mesh_.cell_count(), operators_.flux_cell.cols(), mesh_.cell_count());
+  SPREKK_ASSERT(operators_.flux_boundary.cols() == mesh_.face_count(), operators_.flux_boundary.cols());
+  SPREKK_ASSERT(is_finite(operators_.flux_cell) && is_finite(operators_.flux_boundary));
   largest_conductance_ = 0;
   const SparseMatrix& outflow = outflow_of_pressure_.entries();
   for (int row = 0; row < outflow.rows(); ++row)
@@ -241,6 +248,8 @@ void MatrixFlow::use_operators() {
 void MatrixFlow::use_storage() {
   if (capacity_version_ == storage_.version()) return;
   capacity_version_ = storage_.version();
+  SPREKK_ASSERT(storage_.values().size() == mesh_.cell_count(), storage_.values().size(), mesh_.cell_count());
+  SPREKK_ASSERT(storage_.values().size() == 0 || storage_.values().minCoeff() >= 0, storage_.values().minCoeff());
   capacity_ = storage_.values().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
   capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
 }
@@ -299,6 +308,8 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
 void MatrixFlow::apply_boundary() {
   if (boundary_applied_) return;
   boundary_applied_ = true;
+  SPREKK_ASSERT(boundary_values_.size() == mesh_.face_count(), boundary_values_.size(), mesh_.face_count());
+  SPREKK_ASSERT(is_finite(boundary_values_) && is_finite(boundary_changes_));
   boundary_fluxes_ = operators_.flux_boundary * boundary_values_ + operators_.flux_change * boundary_changes_;
   if (!wall_flux_) return;
   const Vector trace = operators_.trace_boundary * boundary_values_ + operators_.trace_change * boundary_changes_ -
@@ -320,6 +331,7 @@ void MatrixFlow::evaluate_sources(const StepTime& step) {
   for (const auto& [name, well] : options_.wells) {
     const double rate = value_in_step(well.rate, {well.at, 0, 0}, step);
     for (const auto& [cell, weight] : well_cells_.at(name)) source_[cell] += weight * rate;
+    SPREKK_ASSERT(std::isfinite(rate), name, rate);
   }
 }
 
@@ -332,6 +344,9 @@ void MatrixFlow::begin_step(const StepTime& step) {
 
 void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(pressure_)) return;
+  SPREKK_EXPECT(step.dt > 0, step.dt);
+  SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
+  SPREKK_ASSERT(capacity_.size() == mesh_.cell_count() && source_.size() == mesh_.cell_count(), capacity_.size());
   BalanceRows fluid = assembly.balance(pressure_, "fluid");
   fluid.store(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()),
               capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
@@ -362,6 +377,7 @@ const MatrixFlow::Flow& MatrixFlow::flow(const Vector& pressure, std::uint64_t v
       return kept;
     }
   Flow& flow = flows_[flows_[0].used <= flows_[1].used ? 0 : 1];
+  SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.size(), mesh_.cell_count());
   flow.pressure = version;
   flow.used = ++flow_uses_;
   flow.fluxes = multiply(operators_.flux_cell, pressure - gravity_potential_cell_, false).value;

@@ -4,6 +4,7 @@
 
 #include "components/poromechanics/check_conditions.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -49,10 +50,14 @@ Rock::Rock(const ComponentContext& context, const Options& options)
 }
 
 void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
+  SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
+  SPREKK_EXPECT(reference.size() == mesh_.cell_count(), pressure.name(), reference.size(), mesh_.cell_count());
+  SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.name(), pressure.size(), mesh_.cell_count());
   loads_.push_back({&pressure, alpha, reference, {}});
 }
 
 void Rock::change_alpha(const Field& pressure, const Vector& alpha) {
+  SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
   for (Load& load : loads_) {
     if (load.pressure != &pressure) continue;
     load.alpha = alpha;
@@ -117,6 +122,7 @@ void Rock::discretize() {
 
 void Rock::carry_over(const Part& part, const MeshChange& change) {
   const Rock& before = dynamic_cast<const Rock&>(part);
+  SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
   // With several processes the change may have given cells to others.
   if (parallel::size() > 1 || !before.is_discretized()) return;
   find_conditions();
@@ -146,6 +152,11 @@ void Rock::use_operators() {
       *rows = keep_rows(*rows, own);
   }
   const SparseMatrix outflow = cell_sums(mesh_, operators_.force_displacement, 2, rank);
+  SPREKK_ASSERT(operators_.force_displacement.rows() == dimension * mesh_.face_count(),
+                operators_.force_displacement.rows());
+  SPREKK_ASSERT(operators_.force_displacement.cols() == displacement_.size(), operators_.force_displacement.cols());
+  SPREKK_ASSERT(operators_.volume_displacement.rows() == mesh_.cell_count(), operators_.volume_displacement.rows());
+  SPREKK_ASSERT(is_finite(operators_.force_displacement) && is_finite(operators_.force_boundary));
   force_of_displacement_ = Operator(-outflow);
   volume_change_.terms = {{&displacement_, Operator(operators_.volume_displacement)}};
   if (wall_traction_) {
@@ -181,6 +192,7 @@ Point Rock::initial_traction(int face, int side) const {
 
 Point Rock::initial_load(int face) const {
   const auto [one, other] = mesh_.face_cells[face];
+
   if (other == none || mesh_.cell_region[one] == mesh_.cell_region[other]) return Point::Zero();
   return mesh_.face_length[face] * (initial_traction(face, 1) - initial_traction(face, 0));
 }
@@ -240,6 +252,8 @@ void Rock::evaluate_data(const StepTime& step) {
 void Rock::apply_boundary() {
   if (boundary_applied_) return;
   boundary_applied_ = true;
+  SPREKK_ASSERT(is_finite(boundary_values_) && is_finite(initial_forces_) && is_finite(body_forces_));
+  SPREKK_ASSERT(boundary_values_.size() == dimension * mesh_.face_count(), boundary_values_.size());
   force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), 2);
   force_constant_ -= body_forces_;
   if (parallel::size() > 1)
@@ -264,6 +278,8 @@ void Rock::begin_step(const StepTime& step) {
 
 void Rock::assemble(Assembly& assembly, const StepTime&) const {
   if (!assembly.has_row(displacement_)) return;
+  SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
+  SPREKK_ASSERT(force_constant_.size() == displacement_.size(), force_constant_.size(), displacement_.size());
   assembly.linear(displacement_, force_of_displacement_, displacement_);
   if (wall_traction_) assembly.linear(displacement_, force_of_wall_traction_, *wall_traction_);
   for (const Load& load : loads_) assembly.linear(displacement_, load.force_on_cell, *load.pressure);
@@ -298,12 +314,14 @@ Vector Rock::pore_stress() const {
 }
 
 Eigen::Vector3d Rock::initial_stress(int cell, const Point& x) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
   if (options_.initial_stress.is_zero()) return Eigen::Vector3d::Zero();
   const Eigen::Matrix2d stress = options_.initial_stress.at({x, mesh_.cell_region[cell], 0});
   return {stress(0, 0), stress(1, 1), stress(0, 1)};
 }
 
 std::optional<LameParameters> Rock::stiffness(int cell) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
   if (options_.is_anisotropic) return std::nullopt;
   const Stiffness& stiffness = stiffness_.of_cells()[cell];
   return LameParameters{stiffness(0, 1), stiffness(2, 2)};

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -89,6 +90,8 @@ void Coulomb::set_wall_stiffness(const Vector& stiffness) {
 }
 
 void Coulomb::carry_over(const Part&, const MeshChange& change) {
+  SPREKK_EXPECT(static_cast<int>(change.fracture_cell.size()) == mesh_.fracture_cell_count(),
+                change.fracture_cell.size());
   bonded_.resize(change.fracture_cell.size());
   for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = change.fracture_cell[i] == none;
 }
@@ -96,6 +99,9 @@ void Coulomb::carry_over(const Part&, const MeshChange& change) {
 void Coulomb::settled(const MeshChange&) { bonded_.clear(); }
 
 Coulomb::Trial Coulomb::trial(int i) const {
+  SPREKK_EXPECT(is_index(i, mesh_.fracture_cell_count()), i, mesh_.fracture_cell_count());
+  SPREKK_ASSERT(stiffness()[2 * i] > 0 && stiffness()[2 * i + 1] > 0, i, stiffness()[2 * i], stiffness()[2 * i + 1]);
+  SPREKK_ASSERT(friction_[i] >= 0 && dilation_[i] >= 0, i, friction_[i], dilation_[i]);
   const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
   const double u_n = jump_.now()[2 * i], u_t = jump_.now()[2 * i + 1];
   Trial t;
@@ -117,6 +123,7 @@ void Coulomb::follow_back_slip() const {
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     BackSlip& cell = back_slip_[i];
     const Trial t = trial(i);
+    SPREKK_ASSERT(is_index(i, static_cast<long>(back_slip_.size())), i, back_slip_.size());
     const double direction = t.is_open() || t.sticks() ? 0 : t.tangential > 0 ? 1 : -1;
     const bool slides_back = dilation_[i] > 0 && t.slides_back();
     if (cell.taken == BackSlip::Piece::before_kink && direction != cell.direction) {
@@ -257,6 +264,7 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
         {{2 * i, 2 * i, n_un}, {2 * i, 2 * i + 1, n_ut}, {2 * i + 1, 2 * i, t_un}, {2 * i + 1, 2 * i + 1, t_ut}});
   }
   assembly.add(traction_, residual);
+  SPREKK_ASSERT(residual.size() == traction_.size(), residual.size(), traction_.size());
   // What the residual is small against: the jumps, and where all of them stick those that the tractions would make.
   assembly.compare_with(traction_, traction_.now().cwiseQuotient(stiffness()).lpNorm<Eigen::Infinity>());
   assembly.compare_with(traction_, jump_.now().lpNorm<Eigen::Infinity>());

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/fine_fracture/growth/increments.hpp"
+#include "framework/invariants.hpp"
 #include "framework/parallel/interruption.hpp"
 
 namespace sprekk::fine_fracture {
@@ -50,6 +51,9 @@ class Growth {
         outcomes_(tips.size()) {
     for (const GrowingTip& tip : tips_) paths_.push_back(tip.path);
     for (int i = 0; i < count(); ++i) {
+      SPREKK_EXPECT(tips_[i].toughness > 0, i, tips_[i].toughness);
+      SPREKK_EXPECT(tips_[i].youngs_prime > 0, i, tips_[i].youngs_prime);
+      SPREKK_EXPECT(std::abs(tips_[i].direction.norm() - 1) < 1e-9, i, tips_[i].direction.norm());
       State& state = states_[i];
       const std::vector<Point>& added = tips_[i].path.added;
       state.end = added.empty() ? tips_[i].tip : added.back();
@@ -85,6 +89,7 @@ class Growth {
     interruption::poll_alone();
     ++outcomes_[i].evaluations;
     states_[i].is_outdated = false;
+    SPREKK_ASSERT(static_cast<int>(paths_.size()) == count(), paths_.size(), count());
     return evaluate_(i, paths_);
   }
 
@@ -152,6 +157,7 @@ class Growth {
   }
 
   Point trial_end(const State& state) const {
+    SPREKK_ASSERT(state.search && state.search->length() > 0 && std::isfinite(state.search->angle()));
     return state.end + state.search->length() * turned(state.ahead, state.search->angle());
   }
 
@@ -204,6 +210,7 @@ class Growth {
   }
 
   void abandon(int i) {
+    SPREKK_ASSERT(!paths_[i].added.empty(), i);
     paths_[i].added.pop_back();
     states_[i].search.reset();
     outdate_those_that_feel(i);

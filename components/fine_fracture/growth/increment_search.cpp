@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/fine_fracture/growth/kink.hpp"
+#include "framework/invariants.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -37,6 +38,9 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
       experience_(before),
       full_length_(full_length),
       length_(full_length) {
+  SPREKK_EXPECT(toughness_ > 0, toughness_);
+  SPREKK_EXPECT(full_length_ > 0, full_length_);
+  SPREKK_EXPECT(is_finite(start_), start_.k1, start_.k2, start_.t_stress);
   forget_lengths();
   length_ = first_length();
   if (!options_.is_implicit()) {
@@ -71,6 +75,7 @@ double IncrementSearch::clamp_turn(double angle) const {
 }
 
 void IncrementSearch::limit_length(double free_length) {
+  SPREKK_EXPECT(!std::isnan(free_length), free_length);
   if (free_length >= length_) return;
   is_limited_ = true;
   if (free_length < shortest_length()) {
@@ -147,6 +152,7 @@ bool IncrementSearch::is_reversed() const {
 }
 
 double IncrementSearch::root_of_phi() {
+  SPREKK_ASSERT(!directions_.empty());
   const Direction& last = directions_.back();
   double slope = estimated_slope(last.angle) * experience_.stiffness_ratio;
   if (directions_.size() > 1) {
@@ -170,6 +176,9 @@ double IncrementSearch::root_of_phi() {
 }
 
 void IncrementSearch::learn(const Sifs& end) {
+  SPREKK_EXPECT(is_finite(end), end.k1, end.k2, end.t_stress);
+  SPREKK_ASSERT(length_ > 0 && length_ <= full_length_ * (1 + 1e-12), length_, full_length_);
+  SPREKK_ASSERT(std::abs(angle_) <= options_.largest_turn * (1 + 1e-12), angle_, options_.largest_turn);
   if (phase_ == Phase::as_it_is) {
     is_settled_ = true;
     return;
@@ -196,6 +205,7 @@ void IncrementSearch::learn(const Sifs& end) {
 }
 
 void IncrementSearch::settle(double k_eq) {
+  SPREKK_ASSERT(length_ > 0, length_);
   experience_.release = (excess(k_eq) - excess(equivalent_sif(start_))) / length_;
   directions_.clear();
 }
@@ -236,6 +246,7 @@ void IncrementSearch::correct_direction(const Sifs& end) {
 }
 
 double IncrementSearch::next_length(const std::optional<Length>& third) const {
+  SPREKK_ASSERT(longer_ && longer_->length >= shorter_.length, shorter_.length);
   const double width = longer_->length - shorter_.length, middle = shorter_.length + width / 2;
   const double a = shorter_.excess, b = longer_->excess;
   if (!(a < 0 && b > 0)) return middle;
@@ -294,6 +305,7 @@ bool IncrementSearch::has_closed(double excess_here) const {
 }
 
 void IncrementSearch::shorten(double by) {
+  SPREKK_EXPECT(by > 0 && by < 1, by);
   if (length_ <= shortest_length() * (1 + 1e-12))
     return fix_direction("no direction makes K_II vanish, of the shortest increment neither");
   ceiling_ = length_;
@@ -304,6 +316,7 @@ void IncrementSearch::shorten(double by) {
 
 /// With the direction that what was tried with the present length makes likely for the new one.
 void IncrementSearch::go_to(double length) {
+  SPREKK_EXPECT(length > 0 && std::isfinite(length), length);
   if (phase_ == Phase::searching) {
     // By how much the estimate is wrong vanishes with the length, where the estimate is exact.
     const double root = directions_.empty() ? angle_ : root_of_phi();

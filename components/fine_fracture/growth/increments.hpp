@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk::fine_fracture {
 
 /// l_max (G_i/max G)^exponent, m, for the energy release rates G_i >= 0 of the tips that grow; l_max for a single tip.
@@ -12,6 +14,7 @@ namespace sprekk::fine_fracture {
 inline std::vector<double> increment_lengths(const std::vector<double>& energy_release_rates, double l_max,
                                              double exponent) {
   std::vector<double> lengths(energy_release_rates.size(), 0.0);
+  SPREKK_EXPECT(l_max > 0, l_max);
   if (lengths.empty()) return lengths;
   const double largest = *std::max_element(energy_release_rates.begin(), energy_release_rates.end());
   if (!(largest > 0)) return lengths;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk::fine_fracture {
 
 namespace {
@@ -81,6 +83,7 @@ double odd(const std::array<double, n>& coefficients, double m) {
 }
 
 double bisect(const Sifs& sifs, double length, double near, double far) {
+  SPREKK_EXPECT(std::abs(far) > std::abs(near), near, far);
   const double sign = std::copysign(1.0, after_kink(sifs, near, length).k2);
   for (int i = 0; i < 60; ++i) {
     const double middle = (near + far) / 2;
@@ -97,6 +100,7 @@ KinkFactors kink_factors(double angle) {
 }
 
 Sifs after_kink(const Sifs& sifs, double angle, double length) {
+  SPREKK_EXPECT(length >= 0 && std::isfinite(angle), length, angle);
   const KinkFactors f = kink_factors(angle);
   const double t = sifs.t_stress * std::sqrt(length);
   const double m = angle / pi;
@@ -105,6 +109,8 @@ Sifs after_kink(const Sifs& sifs, double angle, double length) {
 }
 
 double local_symmetry_angle(const Sifs& sifs, double length, double limit) {
+  SPREKK_EXPECT(is_finite(sifs), sifs.k1, sifs.k2, sifs.t_stress);
+  SPREKK_EXPECT(limit > 0 && limit <= pi, limit);
   if (sifs.k2 == 0) return 0;
   constexpr int steps = 32;
   const double step = -std::copysign(limit / steps, sifs.k2);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk::fine_fracture {
 
 bool is_finite(const Sifs& sifs) {
@@ -15,6 +17,7 @@ double tangential_sif(const Sifs& sifs, double angle) {
 }
 
 double maximum_tangential_angle(const Sifs& sifs) {
+  SPREKK_EXPECT(is_finite(sifs), sifs.k1, sifs.k2);
   if (sifs.k2 == 0) return 0;
   const double root = std::hypot(sifs.k1, std::sqrt(8.0) * sifs.k2);
   const double size = sifs.k1 >= 0 ? std::atan2(2 * std::abs(sifs.k2), sifs.k1 + root)
@@ -25,6 +28,7 @@ double maximum_tangential_angle(const Sifs& sifs) {
 double equivalent_sif(const Sifs& sifs) { return std::max(0.0, tangential_sif(sifs, maximum_tangential_angle(sifs))); }
 
 double energy_release_rate(const Sifs& sifs, double youngs_prime) {
+  SPREKK_EXPECT(youngs_prime > 0, youngs_prime);
   return (sifs.k1 * sifs.k1 + sifs.k2 * sifs.k2) / youngs_prime;
 }
 

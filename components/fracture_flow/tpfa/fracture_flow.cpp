@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 
 namespace sprekk::fracture_flow {
@@ -190,6 +191,8 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assemble_fluxes(assembly, step);
   if (!assembly.has_row(pressure_)) return;
   BalanceRows fluid = assembly.balance(pressure_, "fluid");
+  SPREKK_EXPECT(step.dt > 0, step.dt);
+  SPREKK_EXPECT(source_.size() == mesh_.fracture_cell_count(), source_.size(), mesh_.fracture_cell_count());
   const int count = mesh_.fracture_cell_count();
   Vector stored(count), capacity(count), stored_by_aperture(count);
   for (int i = 0; i < count; ++i) {
@@ -212,6 +215,9 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   std::vector<Triplet> outflow;
   Vector leaving = Vector::Zero(count);
   for (const Link& link : links_) {
+    SPREKK_ASSERT(is_index(link.first, count), link.first, count);
+    SPREKK_ASSERT(link.second == none || is_index(link.second, count), link.second, count);
+    SPREKK_ASSERT(is_index(link.point, flux_.size()), link.point, flux_.size());
     outflow.emplace_back(link.first, link.point, step.dt);
     if (link.second != none)
       outflow.emplace_back(link.second, link.point, -step.dt);

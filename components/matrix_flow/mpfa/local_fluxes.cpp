@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "framework/invariants.hpp"
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::matrix_flow {
@@ -37,6 +38,7 @@ void LocalFluxes::find_arms(const Mesh& mesh, int node, const InteractionRegion&
       arm[i] = middle + towards_node_[f] * (mesh.nodes[node] - middle) - mesh.cell_center[region.subcells[k].cell];
     }
     const double determinant = cross(arm[0], arm[1]);
+    SPREKK_ASSERT(determinant != 0, node, region.subcells[k].cell);
     gradient_[k] = {Point(arm[1][1], -arm[1][0]) / determinant, Point(-arm[0][1], arm[0][0]) / determinant};
   }
 }
@@ -76,6 +78,8 @@ LocalFluxes::Cure LocalFluxes::solve(const Mesh& mesh, int node, const Interacti
 void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& region, const std::vector<Tensor>& mobility,
                              const std::vector<FlowCondition>& conditions) {
   const int subcells = region.subcell_count();
+  SPREKK_EXPECT(static_cast<int>(towards_node_.size()) == region.subface_count(), towards_node_.size());
+  SPREKK_EXPECT(static_cast<int>(arm_.size()) == subcells, arm_.size(), subcells);
   subfaces_ = region.subface_count();
   columns_ = subcells;
   for (int f = 0; f < subfaces_; ++f) columns_ += !region.is_inner(f);
@@ -95,6 +99,7 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& regi
     }
     // The fluxes out of the neighbours add up to zero, or to the half of what is prescribed for the face.
     for (const int k : region.neighbours[f]) {
+      SPREKK_ASSERT(k == none || is_index(k, subcells), f, k, subcells);
       if (k == none) continue;
       for (int i = 0; i < 2; ++i) {
         const double weight = weights_[k][region.place(f, k)][i];

@@ -13,6 +13,7 @@
 #include "framework/discretization/interaction_region.hpp"
 #include "framework/discretization/node_stencil.hpp"
 #include "framework/discretization/tips_nearby.hpp"
+#include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
@@ -79,6 +80,8 @@ class CellColumns {
     };
     places(own, own_);
     places(flow->cells(), of_flow_);
+    SPREKK_ASSERT(are_indices(own_, static_cast<long>(cells.size())) &&
+                  are_indices(of_flow_, static_cast<long>(cells.size())));
     values_.resize(cells.size());
   }
 
@@ -142,6 +145,10 @@ class ChangeColumns {
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
                               const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
   check_conditions(mesh, mobility, conditions, nodes);
+  SPREKK_EXPECT(static_cast<int>(mobility.size()) == mesh.cell_count(), mobility.size(), mesh.cell_count());
+  SPREKK_EXPECT(static_cast<int>(conditions.size()) == mesh.face_count(), conditions.size(), mesh.face_count());
+  SPREKK_EXPECT(nodes.empty() || static_cast<int>(nodes.size()) == mesh.node_count(), nodes.size(), mesh.node_count());
+  SPREKK_EXPECT(std::ranges::all_of(mobility, [](const Tensor& m) { return m.allFinite(); }));
   const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
   const Adjacency all = contributing_nodes(mesh.face_nodes, [&](int, int node) { return is_wanted(node); });
   const Adjacency outer = contributing_nodes(
@@ -167,6 +174,8 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
+    SPREKK_ASSERT(region.subcell_count() > 0, node);
+    SPREKK_ASSERT(are_indices(region.faces, mesh.face_count()), node);
     if (local.solve(mesh, node, region, mobility, conditions) == LocalFluxes::Cure::blend)
       for (const int face : region.faces) blended.emplace_back(face, face, 1.0 / region.subface_count());
     changes.assign(mesh, node, region, local, conditions);

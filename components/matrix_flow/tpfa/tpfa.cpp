@@ -1,6 +1,7 @@
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 
 #include "components/matrix_flow/check_conditions.hpp"
+#include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -26,6 +27,8 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     if (!nodes.empty() && !(nodes[a] && nodes[b])) continue;
     const auto [cell, other] = mesh.face_cells[face];
     const double half = half_transmissibility(mesh, mobility[cell], cell, face);
+    SPREKK_ASSERT(half > 0, face, cell, half);
+    SPREKK_ASSERT((conditions[face] == FlowCondition::none) == (other != none), face, other);
     switch (conditions[face]) {
       case FlowCondition::none: {
         const double other_half = half_transmissibility(mesh, mobility[other], other, face);

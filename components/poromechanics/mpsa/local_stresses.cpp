@@ -9,6 +9,7 @@
 #include <string>
 
 #include "components/poromechanics/mpsa/tip_correction.hpp"
+#include "framework/invariants.hpp"
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::poromechanics {
@@ -41,6 +42,7 @@ void add_cells_across(const Mesh& mesh, int cell, int node, std::vector<int>& ce
 }  // namespace
 
 Adjacency local_cells(const Mesh& mesh, const TipZones& zones) {
+  SPREKK_EXPECT(static_cast<int>(zones.tip.size()) == mesh.node_count(), zones.tip.size(), mesh.node_count());
   Adjacency cells;
   std::vector<int> of_node;
   for (int node = 0; node < mesh.node_count(); ++node) {
@@ -60,6 +62,9 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
                           const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions) {
   subcells_ = region.subcell_count();
   cells_ = static_cast<int>(cells.size());
+  SPREKK_EXPECT(is_ascending(cells));
+  SPREKK_EXPECT(static_cast<int>(stiffness.size()) == mesh.cell_count(), stiffness.size(), mesh.cell_count());
+  SPREKK_EXPECT(static_cast<int>(conditions.size()) == mesh.face_count(), conditions.size(), mesh.face_count());
   column_.resize(subcells_);
   for (int k = 0; k < subcells_; ++k)
     column_[k] =
@@ -76,6 +81,7 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
 
   stress_.resize(subcells_);
   for (int k = 0; k < subcells_; ++k) stress_[k] = stress_map(stiffness[region.subcells[k].cell]);
+  SPREKK_ASSERT(are_indices(column_, cells_), cells_);
   find_jumps(region, stiffness, 0);
 
   assemble(region, conditions);
@@ -120,13 +126,19 @@ void LocalStresses::find_jumps(const InteractionRegion& region, const std::vecto
     if (!region.is_inner(f)) continue;
     const auto [first, second] = region.neighbours[f];
     const Subcell &one = region.subcells[first], &other = region.subcells[second];
+<<<<<<< HEAD
     const Kink kink(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
     jump_[f] = {kink.rotation(), {0, 0}};
     dilation_[f] = kink.dilation();
+=======
+    SPREKK_ASSERT(one.area > 0 && other.area > 0, one.cell, other.cell);
+    jump_[f] = RotationJump::across(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
+>>>>>>> fb05c4a (Assertions in components and couplers: symmetric matrices for Cholesky, finite factors and loads, tips and walls in range, positive stiffness and areas)
     // The softer rock's: with more, what it misses of a field that is not linear would load the stiffer one.
     const double strengths[2] = {one.area * shear_modulus(stiffness[one.cell]),
                                  other.area * shear_modulus(stiffness[other.cell])};
     const double both = 2 * strengths[0] * strengths[1] / (strengths[0] + strengths[1]);
+    SPREKK_ASSERT(both > 0, one.cell, other.cell, both);
     for (int side = 0; side < 2; ++side)
       jump_[f].strength[side] = rotation_strength * std::max(both, least_strength * strengths[side]);
   }
@@ -190,8 +202,10 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
 }
 
 Point LocalStresses::couple_on(const InteractionRegion& region, int subface, int subcell,
+
                                const Point& half_face) const {
   const int side = region.neighbours[subface][0] == subcell ? 0 : 1;
+  SPREKK_ASSERT(region.neighbours[subface][side] == subcell, subface, subcell);
   const GradientRow& stress = jump_[subface].of_gradient[side];
   return jump_[subface].strength[side] / region.subcells[subcell].area *
          Point(half_face[0] * stress[0] + half_face[1] * stress[1],
@@ -204,6 +218,7 @@ void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& regi
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Subcell& subcell = region.subcells[0];
   const Stiffness& rock = stiffness[subcell.cell];
+  SPREKK_EXPECT(is_symmetric(rock), subcell.cell);
   Eigen::Map<RowMajor> system(system_.data(), 4, width_);
 
   // In place of the displacements of the faces: q, the strain and the rotation, each as the root of its energy. Then

@@ -3,16 +3,22 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
 
 BlockMatrix::Block& BlockMatrix::at(int row, int column) {
+  SPREKK_EXPECT(is_index(column, count()) && row <= column, row, column, count());
   const auto place = std::lower_bound(rows.begin() + starts[column], rows.begin() + starts[column + 1], row);
+  SPREKK_ASSERT(place != rows.begin() + starts[column + 1] && *place == row, row, column);
   return blocks[place - rows.begin()];
 }
 
 BlockCholesky::BlockCholesky(const BlockMatrix& matrix) {
+  SPREKK_EXPECT(matrix.rows.size() == matrix.blocks.size(), matrix.rows.size(), matrix.blocks.size());
+  SPREKK_EXPECT(matrix.starts.back() == static_cast<int>(matrix.rows.size()), matrix.starts.back(), matrix.rows.size());
+  SPREKK_EXPECT(are_indices(matrix.rows, matrix.count()), matrix.count());
   find_tree(matrix);
   factorize(matrix);
 }
@@ -58,6 +64,9 @@ void BlockCholesky::factorize(const BlockMatrix& matrix) {
       while (length > 0) reached[--top] = way[--length];
     }
     const Block diagonal = row[k];
+    SPREKK_EXPECT(std::abs(diagonal(0, 1) - diagonal(1, 0)) <= 1e-9 * diagonal.norm(), k, diagonal(0, 1),
+                  diagonal(1, 0));
+    SPREKK_EXPECT(diagonal.allFinite(), k);
     Block pivot = diagonal;
     row[k].setZero();
     for (; top < n; ++top) {
@@ -71,6 +80,7 @@ void BlockCholesky::factorize(const BlockMatrix& matrix) {
       rows_[end] = k;
       lower_[end] = transposed.transpose();
       ++ends[i];
+      SPREKK_ASSERT(ends[i] <= starts_[i + 1], i, ends[i], starts_[i + 1]);
     }
     invert(k, pivot, diagonal);
   }
@@ -87,6 +97,8 @@ void BlockCholesky::invert(int column, const Block& pivot, const Block& diagonal
 }
 
 Vector BlockCholesky::solve(Vector b) const {
+  SPREKK_EXPECT(b.size() == 2 * static_cast<Eigen::Index>(inverse_.size()), b.size(), inverse_.size());
+  SPREKK_EXPECT(is_finite(b), b.size());
   const int n = static_cast<int>(inverse_.size());
   for (int i = 0; i < n; ++i) {
     const Point x = b.segment<2>(2 * i);

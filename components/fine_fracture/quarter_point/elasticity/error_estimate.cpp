@@ -7,6 +7,7 @@
 #include "components/fine_fracture/quarter_point/elasticity/auxiliary_field.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -85,6 +86,7 @@ class Recovery {
   }
 
   Patch fit(int node) const {
+    SPREKK_EXPECT(is_index(node, mesh_.corner_count), node, mesh_.corner_count);
     Patch patch;
     patch.center = mesh_.nodes[node];
     for (std::size_t t = 0; t < solution_.tips.size(); ++t) {
@@ -124,6 +126,7 @@ class Recovery {
 ErrorEstimate estimate_error(const FineModel& model, const FineSolution& solution) {
   const FineMesh& mesh = *solution.mesh;
   const Recovery recovery(solution);
+  SPREKK_EXPECT(solution.displacement.size() == 2 * mesh.node_count(), solution.displacement.size(), mesh.node_count());
   ErrorEstimate estimate{{}, 0, 0};
   constexpr int degree = 4, along_rays = 3, across = 4;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
@@ -135,6 +138,7 @@ ErrorEstimate estimate_error(const FineModel& model, const FineSolution& solutio
       const Tensor difference = symmetric(recovery.stress(element, place, p.x)) - here;
       squared += place.weight * p.jacobian * difference.cwiseProduct(solution.rock.strain(difference)).sum();
     }
+    SPREKK_ASSERT(squared >= 0, e, squared);
     estimate.elements.push_back(std::sqrt(squared));
     estimate.total += squared;
   }

@@ -5,6 +5,7 @@
 #include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -30,6 +31,7 @@ void add_outline_tractions(const FineGeometry& geometry, const FineMesh& mesh, c
 
 void add_wall_tractions(const FineMesh& mesh, const FineLoads& loads, Vector& f) {
   for (const FineMesh::WallEdge& edge : mesh.wall_edges) {
+    SPREKK_EXPECT(std::abs(edge.normal.norm() - 1) < 1e-9, edge.normal.norm());
     if (edge.walls != CrackPath::Walls::traction) continue;
     for (const LinePoint& place : wall_rule(mesh, edge, edge_points)) {
       const EdgePoint p = edge_point(mesh, edge.nodes[0], place.t);
@@ -55,6 +57,7 @@ OffsetForces::OffsetForces(const FineMesh& mesh) {
   for (const FineMesh::Element& element : mesh.elements) {
     for (const TrianglePoint& place : element.tip == none ? triangle_rule(degree) : polar_rule(along_rays, across)) {
       const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
+      SPREKK_ASSERT(p.jacobian > 0, p.jacobian, place.xi, place.eta);
       places_.push_back(p.x);
       shares_.push_back({element.nodes, place.weight * p.jacobian * p.gradient});
     }
@@ -62,6 +65,7 @@ OffsetForces::OffsetForces(const FineMesh& mesh) {
 }
 
 void OffsetForces::subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const {
+  SPREKK_EXPECT(offsets.cols() == static_cast<Eigen::Index>(shares_.size()), offsets.cols(), shares_.size());
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     const Tensor s = symmetric(offsets.col(i));
     for (int k = 0; k < 6; ++k)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -14,6 +15,8 @@ namespace {
 constexpr double domain_in_radii = 4, share_of_room = 0.75;
 
 void correlate(const FineMesh::Tip& tip, const Elasticity& rock, const Vector& displacement, TipIntensities& result) {
+  SPREKK_EXPECT(tip.room.radius > 0, tip.room.radius);
+  SPREKK_EXPECT(std::abs(tip.room.direction.norm() - 1) < 1e-9, tip.room.direction.norm());
   const Point& x1 = tip.room.direction;
   const Point x2(-x1.y(), x1.x());
   std::array<Point, 2> opening;  // (normal, tangential) at a quarter of the radius, and at the radius
@@ -34,6 +37,7 @@ bool has_jump_at(const FineMesh& mesh, const FineMesh::Tip& tip) {
 }
 
 double domain_radius(const TipRoom& room) {
+  SPREKK_EXPECT(room.radius > 0 && room.clearance > 0, room.radius, room.clearance);
   return std::min(domain_in_radii * room.radius,
                   std::max(2 * room.radius, share_of_room * std::min(room.same_walls, room.clearance)));
 }
@@ -56,6 +60,7 @@ TipIntensities TipEvaluation::of(const FineLoads& loads, const Eigen::Ref<const 
   result.direction = tip_.room.direction;
   result.domain_radius = domain_radius_;
   const auto [outer, inner] = integrals_.of(loads, offsets, displacement);
+  SPREKK_ASSERT(outer.K.allFinite() && inner.K.allFinite(), result.crack);
   result.K_interaction = outer.K;
   result.T = outer.T;
   result.K_inner = inner.K;
@@ -63,6 +68,7 @@ TipIntensities TipEvaluation::of(const FineLoads& loads, const Eigen::Ref<const 
   result.K = has_jump_ ? result.K_extrapolated : result.K_interaction;
   result.error = (result.K - (has_jump_ ? result.K_correlation : result.K_inner)).cwiseAbs();
   result.energy_release_rate = result.K.squaredNorm() / rock_.plane_modulus();
+  SPREKK_ASSERT(result.energy_release_rate >= 0, result.crack, result.energy_release_rate);
   return result;
 }
 

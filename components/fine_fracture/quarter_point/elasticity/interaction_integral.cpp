@@ -7,6 +7,7 @@
 #include "components/fine_fracture/quarter_point/elasticity/auxiliary_field.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -52,6 +53,9 @@ InteractionIntegrals::InteractionIntegrals(const FineMesh& mesh, const Elasticit
       of_displacement_(Rows<Eigen::Dynamic>::Zero(sums, 2 * mesh.node_count())) {
   const Point& x1 = tip.room.direction;
   frame_ << x1.x(), -x1.y(), x1.y(), x1.x();
+  SPREKK_EXPECT(std::abs(x1.norm() - 1) < 1e-9, x1.norm());
+  SPREKK_EXPECT(radii[0] > tip.room.radius && radii[1] > tip.room.radius, radii[0], radii[1], tip.room.radius);
+  SPREKK_EXPECT(radii[0] >= radii[1], radii[0], radii[1]);
   for (const FineMesh::WallEdge& edge : mesh.wall_edges)
     if (edge.tip != none && &mesh.tips[edge.tip] == &tip) own_wall_ = &edge;
   for (const FineMesh::Element& element : mesh.elements) add_element(element);
@@ -62,6 +66,7 @@ InteractionIntegrals::InteractionIntegrals(const FineMesh& mesh, const Elasticit
 
 /// That for domain 0, the larger one, is 0 only where the others are.
 double InteractionIntegrals::weight(int node, int domain) const {
+  SPREKK_EXPECT(is_index(node, mesh_.node_count()) && is_index(domain, domains), node, domain);
   const double r = (mesh_.nodes[node] - tip_.room.position).norm(), inner = tip_.room.radius;
   return std::clamp((radii_[domain] - r) / (radii_[domain] - inner), 0.0, 1.0);
 }
@@ -115,6 +120,7 @@ Point InteractionIntegrals::weight_gradient(const FineMesh::Element& element, co
   const Point a = mesh_.nodes[element.nodes[1]] - mesh_.nodes[element.nodes[0]];
   const Point b = mesh_.nodes[element.nodes[2]] - mesh_.nodes[element.nodes[0]];
   const double determinant = a.x() * b.y() - a.y() * b.x();
+  SPREKK_ASSERT(determinant > 0, determinant);
   const double da = (q[1] - q[0]) / determinant, db = (q[2] - q[0]) / determinant;
   return frame_.transpose() * Point(da * b.y() - db * a.y(), db * a.x() - da * b.x());
 }
@@ -200,6 +206,7 @@ Point InteractionIntegrals::wall_traction(const State& state, const FineMesh::Wa
 }
 
 Point InteractionIntegrals::traction_at_tip(const State& state) const {
+  SPREKK_ASSERT(own_wall_ != nullptr);
   if (own_wall_->walls == CrackPath::Walls::jump) return state.fitted[0];
   return wall_traction(state, *own_wall_, tip_.room.position);
 }
@@ -208,6 +215,11 @@ std::array<InteractionResult, 2> InteractionIntegrals::of(const FineLoads& loads
                                                           const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
                                                           const Vector& displacement) const {
   State state{loads, offsets, displacement};
+  SPREKK_EXPECT(displacement.size() == 2 * mesh_.node_count(), displacement.size(), mesh_.node_count());
+  SPREKK_EXPECT(offsets.cols() == 0 || offsets.cols() == static_cast<Eigen::Index>(offset_places_.size()),
+                offsets.cols(), offset_places_.size());
+  SPREKK_EXPECT(is_finite(displacement));
+  SPREKK_ASSERT(own_wall_ != nullptr);
   if (!fit_.empty()) fit_traction(state);
   // The constant state has the traction that acts on the walls at the tip, and sigma_11 = 0.
   const Point t = traction_at_tip(state);

@@ -6,11 +6,14 @@
 #include <map>
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk::fine_fracture {
 namespace {
 
 /// Golub and Welsch 1969: nodes are the eigenvalues of the Jacobi matrix of the Legendre polynomials.
 std::vector<LinePoint> gauss_legendre(int n) {
+  SPREKK_EXPECT(n > 0, n);
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
   for (int i = 1; i < n; ++i) jacobi(i, i - 1) = jacobi(i - 1, i) = i / std::sqrt(4.0 * i * i - 1);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
@@ -23,6 +26,7 @@ std::vector<LinePoint> gauss_legendre(int n) {
 
 /// The three points that permute the barycentric coordinates (a, a, 1 - 2a). Weights are relative to the area.
 void add_three(std::vector<TrianglePoint>& rule, double a, double weight) {
+  SPREKK_EXPECT(a > 0 && a < 0.5, a, weight);
   for (const auto& [xi, eta] : {std::array{a, a}, std::array{a, 1 - 2 * a}, std::array{1 - 2 * a, a}}) {
     rule.push_back({xi, eta, 0.5 * weight});
   }
@@ -75,6 +79,7 @@ const std::vector<TrianglePoint>& triangle_rule(int degree) {
 }
 
 const std::vector<TrianglePoint>& polar_rule(int along, int across) {
+  SPREKK_EXPECT(along > 0 && across > 0, along, across);
   static thread_local std::map<std::pair<int, int>, std::vector<TrianglePoint>> rules;
   auto& rule = rules[{along, across}];
   if (rule.empty()) {

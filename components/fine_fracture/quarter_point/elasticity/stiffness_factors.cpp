@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -23,6 +24,7 @@ struct NodeBlocks {
     std::vector<int> of_first(unknowns.count(), none);
     for (int n = 0; n < mesh.node_count(); ++n) {
       const int x = unknowns.of(2 * n), y = unknowns.of(2 * n + 1), first = x != none ? x : y;
+      SPREKK_ASSERT(x == none || y == none || y == x + 1, n, x, y);
       if (first == none) continue;
       if (of_first[first] == none) {
         of_first[first] = static_cast<int>(first_unknown.size());
@@ -152,6 +154,7 @@ StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknown
     block_count_ = blocks.count();
     std::vector<int> place(block_count_);
     for (int k = 0; k < block_count_; ++k) place[order[k]] = k;
+    SPREKK_ASSERT(static_cast<int>(order.size()) == block_count_ && are_indices(order, block_count_), block_count_);
     matrix = pattern(blocks, order, place);
     for (int b = 0; b < block_count_; ++b) place_[blocks.first_unknown[b]] = 2 * place[b];
     for (int u = 1; u < unknowns.count(); ++u)
@@ -160,10 +163,13 @@ StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknown
   {
     const ScopedTimer timer(profile, "assembly");
     std::vector<char> is_used(2 * block_count_, false);
+    SPREKK_ASSERT(are_indices(place_, 2 * block_count_), block_count_);
+    SPREKK_EXPECT(stiffness.size() == mesh.elements.size(), stiffness.size(), mesh.elements.size());
     for (const int place : place_) is_used[place] = true;
     for (int i = 0; i < 2 * block_count_; ++i)
       if (!is_used[i]) matrix.at(i / 2, i / 2)(i % 2, i % 2) = 1;
     for (std::size_t e = 0; e < stiffness.size(); ++e) {
+      SPREKK_EXPECT(is_symmetric(stiffness[e]), e);
       std::array<int, 12> places;
       for (int k = 0; k < 12; ++k) {
         const int unknown = unknowns.of(2 * mesh.elements[e].nodes[k / 2] + k % 2);
@@ -194,6 +200,8 @@ StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknown
 }
 
 Vector StiffnessFactors::solve(const Vector& b) const {
+  SPREKK_EXPECT(b.size() == static_cast<Eigen::Index>(place_.size()), b.size(), place_.size());
+  SPREKK_EXPECT(is_finite(b), b.size());
   Vector placed = Vector::Zero(2 * block_count_);
   for (int i = 0; i < b.size(); ++i) placed[place_[i]] = b[i];
   placed = factors_->solve(std::move(placed));

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -14,7 +15,9 @@ namespace {
 class Parts {
  public:
   explicit Parts(int nodes) : part_(nodes) { std::iota(part_.begin(), part_.end(), 0); }
+
   int of(int n) {
+    SPREKK_EXPECT(is_index(n, static_cast<long>(part_.size())), n, part_.size());
     while (part_[n] != n) n = part_[n] = part_[part_[n]];
     return n;
   }
@@ -62,6 +65,7 @@ void Unknowns::tie_walls(const FineMesh& mesh) {
     if (edge.walls != CrackPath::Walls::jump) continue;
     for (int k = 0; k < 3; ++k) {
       const int plus = edge.nodes[0][k], minus = edge.nodes[1][k];
+      SPREKK_ASSERT((mesh.nodes[plus] - mesh.nodes[minus]).norm() <= 1e-9 * (1 + mesh.nodes[plus].norm()), plus, minus);
       if (trees.of(plus) == trees.of(minus) || (is_prescribed_[plus] && is_prescribed_[minus])) continue;
       trees.join(plus, minus);
       for (const int node : {plus, minus}) branches_at[node].push_back(static_cast<int>(branches.size()));
@@ -78,8 +82,10 @@ void Unknowns::tie_walls(const FineMesh& mesh) {
         if (std::exchange(is_done[b], true)) continue;
         const auto [plus, minus, wall_edge] = branches[b];
         const bool follows_plus = reached[i] == plus;
+        SPREKK_ASSERT(follows_plus || reached[i] == minus, reached[i], plus, minus);
         reached.push_back(follows_plus ? minus : plus);
         is_slave_[reached.back()] = true;
+        SPREKK_ASSERT(!is_prescribed_[reached.back()], reached.back());
         ties_.push_back({reached.back(), reached[i], follows_plus ? 1.0 : -1.0, wall_edge});
       }
     }
@@ -121,12 +127,14 @@ void Unknowns::number(const FineMesh& mesh) {
     }
   }
   for (const Tie& tie : ties_) {
+    SPREKK_ASSERT(tie.slave != tie.master && is_slave_[tie.slave], tie.slave, tie.master);
     for (int d = 0; d < 2; ++d) unknown_[2 * tie.slave + d] = unknown_[2 * tie.master + d];
   }
 }
 
 Vector Unknowns::prescribed_values(const FineMesh& mesh, const FineLoads& loads) const {
   Vector g = Vector::Zero(2 * mesh.node_count());
+  SPREKK_EXPECT(static_cast<int>(unknown_.size()) == 2 * mesh.node_count(), unknown_.size(), mesh.node_count());
   if (loads.boundary_displacement) {
     for (const Prescribed& p : prescribed_) {
       g.segment<2>(2 * p.node) = loads.boundary_displacement(mesh.nodes[p.node], p.inside);
