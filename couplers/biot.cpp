@@ -51,9 +51,9 @@ class Biot : public Coupler {
         fluid_(context.the<MatrixFluid>()),
         rock_(context.the<PoroelasticRock>()),
         counted_volume_(context.fields.add(
-            mesh_, book(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
+            mesh_, counted_field(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
         stored_(context.fields.add(
-            mesh_, book(context, "fluid_stored", "Fluid stored by the change of volume and of grains"))),
+            mesh_, counted_field(context, "fluid_stored", "Fluid stored by the change of volume and of grains"))),
         origin_(context.origin),
         options_(options) {
     alpha_ = Property(options.biot_coefficient, cell_places(mesh_), context.start_time);
@@ -107,9 +107,9 @@ class Biot : public Coupler {
     stored_.set(std::move(stored));
   }
 
-  /// The fluid in the pores does not feel that the rock is described by other cells: the volume that has been counted
-  /// becomes that of the same state on the new mesh. What the two descriptions differ by in all is spread evenly over
-  /// the cells that are new, so that the total of the fluid stays to the last digit.
+  /// For the fluid in the pores it makes no difference that the rock is described by other cells: the volume that has
+  /// been counted becomes that of the same state on the new mesh. What the two descriptions differ by in all is spread
+  /// evenly over the cells that are new, so that the total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
     if (decoupled_) return;
     Vector volume = rock_.volume_change().now();
@@ -160,7 +160,7 @@ class Biot : public Coupler {
   }
 
  private:
-  FieldSpec book(const CouplerContext& context, const char* name, const char* doc) const {
+  FieldSpec counted_field(const CouplerContext& context, const char* name, const char* doc) const {
     return {.owner = context.name,
             .name = name,
             .location = Location::cell,

@@ -25,8 +25,8 @@ struct WallExchangeOptions {
 /// Determines lambda of every wall, from the fracture into the matrix: lambda = kappa (p_i − tr p). Its row is divided
 /// by about kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well
 /// scaled from sealed to wide open walls; the exact divisor leaves a power of two in front of tr p, so that what is
-/// read from the matrix keeps its digits when kappa changes (BulkResponse). lambda leaves the fluid balance of the
-/// fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture.
+/// read from the matrix keeps its digits when kappa changes (BulkSchurComplement). lambda leaves the fluid balance of
+/// the fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture.
 ///
 /// What the matrix has received through each wall is kept in `exchanged`, and what of it the fracture has counted in
 /// `counted`, so that nothing is lost when the two are solved one after the other, or one of them in substeps.
@@ -39,9 +39,9 @@ class WallExchange : public Coupler {
         fluid_(context.find<MatrixFluid>()),
         fracture_(context.the<FractureFluid>()),
         exchanged_(context.fields.add(
-            mesh_, book(context, "exchanged", walls_.wall_flux(), "Fluid that the matrix has received"))),
+            mesh_, counted_field(context, "exchanged", walls_.wall_flux(), "Fluid that the matrix has received"))),
         counted_(context.fields.add(
-            mesh_, book(context, "counted", fracture_.pressure(), "Of it, what the fracture has counted"))) {
+            mesh_, counted_field(context, "counted", fracture_.pressure(), "Of it, what the fracture has counted"))) {
     context.determine(walls_.wall_flux());
     std::vector<Triplet> entries, sums, counts;
     for (int w = 0; w < mesh_.wall_count(); ++w) {
@@ -164,7 +164,7 @@ class WallExchange : public Coupler {
     return mantissa == 0 ? 0 : std::ldexp(1.0, mantissa < std::numbers::sqrt2 / 2 ? exponent - 1 : exponent);
   }
 
-  static FieldSpec book(const CouplerContext& context, const char* name, const Field& with, const char* doc) {
+  static FieldSpec counted_field(const CouplerContext& context, const char* name, const Field& with, const char* doc) {
     return {.owner = context.name,
             .name = name,
             .location = Location::wall,

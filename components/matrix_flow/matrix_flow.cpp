@@ -45,15 +45,15 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                            .role = Role::unknown(BlockKind::bulk_elliptic),
                                            .unit = "Pa",
                                            .doc = "Fluid pressure of the matrix"})),
-      books_(context.fields.add(mesh_, {.owner = context.name,
-                                        .name = "fluid_books",
-                                        .location = Location::cell,
-                                        .components = 3,
-                                        .role = Role::derived(),
-                                        .unit = "m^2",
-                                        .doc = "Fluid stored, injected, and flowed out through the outer boundary",
-                                        .accepted_with = pressure_.name(),
-                                        .is_amount = true})) {
+      cumulative_(context.fields.add(mesh_, {.owner = context.name,
+                                             .name = "cumulative_balance",
+                                             .location = Location::cell,
+                                             .components = 3,
+                                             .role = Role::derived(),
+                                             .unit = "m^2",
+                                             .doc = "Fluid stored, injected, and flowed out through the outer boundary",
+                                             .accepted_with = pressure_.name(),
+                                             .is_amount = true})) {
   if (mesh_.wall_count() > 0)
     wall_flux_ = &context.fields.add(mesh_, {.owner = context.name,
                                              .name = "wall_flux",
@@ -401,24 +401,24 @@ const Vector& MatrixFlow::face_fluxes() const {
 void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
   if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
   const Vector& fluxes = face_fluxes();
-  Vector books = books_.accepted();
+  Vector sums = cumulative_.accepted();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    books[3 * c] += storage_[c] * mesh_.cell_area[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
-    books[3 * c + 1] += step.dt * source_[c];
+    sums[3 * c] += storage_[c] * mesh_.cell_area[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
+    sums[3 * c + 1] += step.dt * source_[c];
   }
-  for (const auto& [face, cell] : outer_faces_) books[3 * cell + 2] += step.dt * fluxes[face];
-  replicate(mesh_, Location::cell, 3, books);
-  books_.set(std::move(books));
+  for (const auto& [face, cell] : outer_faces_) sums[3 * cell + 2] += step.dt * fluxes[face];
+  replicate(mesh_, Location::cell, 3, sums);
+  cumulative_.set(std::move(sums));
 }
 
 void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
   Balance& fluid = balances["fluid"];
   fluid.unit = "m^2";
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    fluid.stored += books_.now()[3 * c];
-    fluid.injected += books_.now()[3 * c + 1];
-    fluid.outflow += books_.now()[3 * c + 2];
-    fluid.throughput += books_.now().segment<3>(3 * c).lpNorm<1>();
+    fluid.stored += cumulative_.now()[3 * c];
+    fluid.injected += cumulative_.now()[3 * c + 1];
+    fluid.outflow += cumulative_.now()[3 * c + 2];
+    fluid.throughput += cumulative_.now().segment<3>(3 * c).lpNorm<1>();
   }
 }
 

@@ -116,7 +116,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Discretize discretize_;
   Field& pressure_;
   Field* wall_flux_ = nullptr;  ///< exists with fractures only
-  Field& books_;                ///< (stored, injected, outflow) of each cell since the start, m^2
+  Field& cumulative_;           ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, 3> permeability_;  ///< xx, yy, xy
   Property viscosity_, porosity_, compressibility_, storage_;

@@ -25,7 +25,7 @@ struct TwoLevelOptions {
         "whose pressure the walls carry that grow on the fine level (without it they carry none).");
     spec.ignore("type").ignore("between");
     spec.choice("reconstruction", reconstruction,
-                {{"wall_traction", "walls feel the tractions of the coarse level, which are smooth at tips"},
+                {{"wall_traction", "walls are loaded by the tractions of the coarse level, which are smooth at tips"},
                  {"wall_jump", "walls have the displacement jump of the coarse level (Eq. 15)"},
                  {"cell_centred",
                   "the same with jumps and displacements between cell centres, where strain counts as slip: for "

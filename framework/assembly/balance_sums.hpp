@@ -38,7 +38,7 @@ class BalanceSums {
  public:
   /// Where rows alone lose the mode (is_weak). For direct solvers only: the row of a sum is no elliptic one.
   bool are_used = false;
-  /// Also where other unknowns of a bulk answer to the mode. Costs a row that feels all of them.
+  /// Also where other unknowns of a bulk depend on the mode. Costs a row coupled to all of them.
   bool are_used_where_answered = false;
 
   /// Whether the sum of these balances takes the place of one of them. Collective.

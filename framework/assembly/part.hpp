@@ -80,8 +80,8 @@ class Part {
   virtual void save(std::map<std::string, Vector>& /*state*/) const {}
   virtual void restore(const std::map<std::string, Vector>& /*state*/) {}
 
-  /// Keeps the books (derived fields) of the fields that a `solve` has just determined: what was stored, what flowed
-  /// out.
+  /// Keeps the cumulative balances (derived fields) of the fields that a `solve` has just determined: what was stored,
+  /// what flowed out.
   virtual void after_solve(const std::vector<Field*>& /*solved*/, const StepTime&) {}
   /// Adds this part's totals to those of the conserved quantities, by name.
   virtual void balance(std::map<std::string, Balance>&) const {}

@@ -25,8 +25,8 @@ struct FieldSpec {
   std::string doc;
   /// Of an input that makes no sense unless a coupler determines it: the type of coupler that would; else "".
   std::string needs_coupler = "";
-  /// Of a derived field that keeps the books of another (what has been stored, what has flowed out): that field's full
-  /// name. Both are accepted together, also after a substep.
+  /// Of a derived field that keeps the cumulative balance of another (what has been stored, what has flowed out): that
+  /// field's full name. Both are accepted together, also after a substep.
   std::string accepted_with = "";
   /// For fields on cells: whether the value is an amount in the cell (m^2 of fluid), and not a density or a mean. When
   /// the mesh changes, amounts are divided by area, and all other values are averaged (Eq. 17 of the paper).

@@ -110,7 +110,7 @@ class LinearSolver {
   /// complement, without its sign, of a border of columns C (n × c) and rows R (r × n). This costs less than the
   /// columns of A^-1 C. Returns std::nullopt, and has done nothing, for a solver that does not offer this.
   virtual std::optional<LinearReport> factor_bordered(const LinearSystem& /*system*/, const SparseMatrix& /*columns*/,
-                                                      const SparseMatrix& /*rows*/, Eigen::MatrixXd& /*response*/) {
+                                                      const SparseMatrix& /*rows*/, Eigen::MatrixXd& /*schur*/) {
     return std::nullopt;
   }
   virtual std::string name() const = 0;

@@ -32,7 +32,7 @@ void Restart::restore(SimulationState& state) const {
   state.model->restore_extra_state(checkpoint_.extra);
   state.controller.restore(checkpoint_.extra);
   state.notes.restore(notes_of(checkpoint_.notes));
-  state.books.restore(checkpoint_.extra);
+  state.balance.restore(checkpoint_.extra);
 }
 
 RunOutput::Continued Restart::continued(const SimulationState& restored) const {

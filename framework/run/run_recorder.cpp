@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-#include "framework/linear/blas_memory.hpp"
+#include "framework/linear/direct/blas_memory.hpp"
 #include "framework/mesh/mesh_quality.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"

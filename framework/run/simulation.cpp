@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "framework/linear/blas_memory.hpp"
+#include "framework/linear/direct/blas_memory.hpp"
 #include "framework/output/activity.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -156,7 +156,7 @@ void Simulation::accept(const StepTime& step, int iterations) {
   const std::vector<Quantity> quantities = model.quantities();
   state_.notes.at_time(step.end);
   for (const Part* part : model.parts()) part->note_step(state_.notes, step);
-  state_.books.note_step(model.balances(), state_.notes);
+  state_.balance.note_step(model.balances(), state_.notes);
   early_end_.look_at(model, step, quantities);
   const bool writes_fields = early_end_.is_reached() || output_times_.contains(step.end);
   const std::vector<OutputField> fields = writes_fields ? model.output() : std::vector<OutputField>();

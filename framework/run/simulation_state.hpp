@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "framework/run/books.hpp"
+#include "framework/run/cumulative_balance.hpp"
 #include "framework/scene/model.hpp"
 #include "framework/schedule/step_controller.hpp"
 
@@ -12,7 +12,7 @@ namespace sprekk {
 struct SimulationState {
   std::unique_ptr<Model> model;  ///< another one each time that the mesh has grown
   StepController controller;
-  Books books = {};
+  CumulativeBalance balance = {};
   Notes notes = {};  ///< of all accepted steps
 };
 

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "framework/linear/blas_memory.hpp"
+#include "framework/linear/direct/blas_memory.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {

@@ -40,7 +40,7 @@ std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
 
 }  // namespace
 
-/// Cells that slipped last lie on a kink, and those that have felt nothing yet on several: which piece the path starts
+/// Cells that slipped last lie on a kink, and those without a load yet on several: which piece the path starts
 /// in, and which comes after it, would be round-off. It may start anywhere, so it starts beside them. Fields of one
 /// unit share a scale: jumps that are zero while everything sticks are compared with displacements.
 void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {

@@ -12,9 +12,10 @@ struct SubcycleOptions {
   Spec spec();
 };
 
-/// Fields that are not solved for inside keep their latest values. After each substep the fields inside, and the books
-/// kept of them, are accepted, so that a change of something outside counts once, in the first substep. At the end the
-/// accepted values of the start are put back: the step as a whole is accepted by the step controller.
+/// Fields that are not solved for inside keep their latest values. After each substep the fields inside, and the
+/// cumulative balances kept of them, are accepted, so that a change of something outside counts once, in the first
+/// substep. At the end the accepted values of the start are put back: the step as a whole is accepted by the step
+/// controller.
 class SubcycleStep : public ScheduleStep {
  public:
   SubcycleStep(const SubcycleOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);
@@ -30,7 +31,7 @@ class SubcycleStep : public ScheduleStep {
   SubcycleOptions options_;
   std::unique_ptr<ScheduleStep> inside_;
   std::vector<Part*> parts_;
-  std::vector<Field*> fields_;  ///< solved for inside, and the books kept of them
+  std::vector<Field*> fields_;  ///< solved for inside, and the cumulative balances kept of them
 };
 
 }  // namespace sprekk

@@ -1,4 +1,5 @@
-// All properties of section 5.1 of the paper change with time: books, solvers, schemes and repeated steps.
+// All properties of section 5.1 of the paper change with time: cumulative balances, solvers, schemes and repeated
+// steps.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -95,7 +95,7 @@ TEST(CrossingTips, WithPrescribedJumpsDoNotDependOnTheSquareEither) {
   }
 }
 
-// Walls feel the pressure of the fluid, and the rock that of its pores: as large everywhere, it bends no wall.
+// Walls are loaded by the pressure of the fluid, the rock by that of its pores: as large everywhere, it bends no wall.
 TEST(CrossingTips, UnderPressureOfTheFluidInFracturesAndPores) {
   for (const char* size : {"0.3 m", "8 m"}) {
     SceneRun run = SceneRun::from_text(

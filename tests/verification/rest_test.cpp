@@ -51,7 +51,7 @@ TEST(Balance, EveryCellBalancesFluidAndForces) {
   run.run_until(7 * 3600);
   const Mesh& mesh = run.mesh();
   const StepTime step{7 * 3600, 3600, 8 * 3600};
-  const Vector books_before = run.field("pore.fluid_books");
+  const Vector balance_before = run.field("pore.cumulative_balance");
   const Vector volume_before = run.field("biot.fluid_stored");
   ASSERT_TRUE(run.model().attempt(step).converged);
   const matrix_flow::MatrixFlow* flow = nullptr;
@@ -65,8 +65,8 @@ TEST(Balance, EveryCellBalancesFluidAndForces) {
   const double largest_flux = step.dt * fluxes.lpNorm<Eigen::Infinity>();
   const double largest_force = forces.lpNorm<Eigen::Infinity>();
   for (int c = 0; c < mesh.cell_count(); ++c) {
-    double fluid = run.field("pore.fluid_books")[3 * c] - books_before[3 * c] + run.field("biot.fluid_stored")[c] -
-                   volume_before[c];
+    double fluid = run.field("pore.cumulative_balance")[3 * c] - balance_before[3 * c] +
+                   run.field("biot.fluid_stored")[c] - volume_before[c];
     Point force = Point::Zero();
     for (const int face : mesh.cell_faces[c]) {
       const double sign = mesh.face_cells[face][0] == c ? 1 : -1;

@@ -1,5 +1,5 @@
 // What could be kept of a factorization when fractures grow? Runs a scene, and after each change of the mesh solves the
-// equations of the bulk for the response to what lives on fractures (the columns of CondensedSolver) in several ways:
+// equations of the bulk for their Schur complement on fractures (the columns of CondensedSolver) in several ways:
 //
 //   new       ordering by METIS, unknown by unknown, factorization, columns
 //   cells     the same with an ordering of cells (EntityGraph): what the program does

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "framework/assembly/block_system.hpp"
-#include "framework/linear/bulk_splitting.hpp"
-#include "framework/linear/umfpack_solver.hpp"
+#include "framework/linear/direct/umfpack_solver.hpp"
+#include "framework/linear/reduction/bulk_splitting.hpp"
 #include "framework/run/mesh_growth.hpp"
 
 namespace sprekk::growth_event {
@@ -46,7 +46,7 @@ inline std::unique_ptr<Bulk> bulk_of(Model& model, const StepTime& step) {
   split.bf.update(system.local.valuePtr());
   auto bulk = std::make_unique<Bulk>();
   bulk->system = split.bulk_system();
-  bulk->columns = Eigen::MatrixXd(split.bf.matrix)(Eigen::all, split.felt);
+  bulk->columns = Eigen::MatrixXd(split.bf.matrix)(Eigen::all, split.interface_columns);
   for (const UnknownBlock& block : bulk->system.blocks)
     for (int i = 0; i < block.entities * block.components; ++i) {
       bulk->place.push_back(block.coordinates[i / block.components]);

@@ -33,7 +33,7 @@ struct State {
   Sifs sifs;
   bool is_stopped = false;
   bool is_outdated = true;  ///< whether `sifs`, or those of the increment, belong to older paths
-  Experience experience;
+  WarmStart warm_start;
   std::unique_ptr<IncrementSearch> search;
   Sifs found;  ///< at the end of the increment once the search is settled
 };
@@ -41,12 +41,12 @@ struct State {
 class Growth {
  public:
   Growth(const std::vector<GrowingTip>& tips, const GrowthOptions& options, const EvaluateSifs& evaluate,
-         const FreeLength& free_length, const FeelsOther& feels)
+         const FreeLength& free_length, const InteractsWith& interacts)
       : tips_(tips),
         options_(options),
         evaluate_(evaluate),
         free_length_(free_length),
-        feels_(feels),
+        interacts_(interacts),
         states_(tips.size()),
         outcomes_(tips.size()) {
     for (const GrowingTip& tip : tips_) paths_.push_back(tip.path);
@@ -58,7 +58,7 @@ class Growth {
       const std::vector<Point>& added = tips_[i].path.added;
       state.end = added.empty() ? tips_[i].tip : added.back();
       state.ahead = tips_[i].direction;
-      state.experience = tips_[i].experience;
+      state.warm_start = tips_[i].warm_start;
       if (!added.empty())
         state.ahead = (added.back() - (added.size() > 1 ? added[added.size() - 2] : tips_[i].tip)).normalized();
     }
@@ -76,7 +76,7 @@ class Growth {
       if (states_[i].is_outdated && outcomes_[i].reason != not_finite) update(i);
       outcomes_[i].path = paths_[i];
       outcomes_[i].end = states_[i].sifs;
-      outcomes_[i].experience = states_[i].experience;
+      outcomes_[i].warm_start = states_[i].warm_start;
       if (!states_[i].is_stopped) outcomes_[i].arrested = true;
     }
     return std::move(outcomes_);
@@ -93,9 +93,9 @@ class Growth {
     return evaluate_(i, paths_);
   }
 
-  void outdate_those_that_feel(int moved) {
+  void outdate_those_that_interact(int moved) {
     for (int i = 0; i < count(); ++i)
-      if (i != moved && (!feels_ || feels_(i, moved))) states_[i].is_outdated = true;
+      if (i != moved && (!interacts_ || interacts_(i, moved))) states_[i].is_outdated = true;
   }
 
   void stop(int i, const std::string& reason, bool arrested) {
@@ -149,7 +149,7 @@ class Growth {
       double length = std::max(lengths[k], options_.smallest_length());
       if (options_.longest) length = std::min(length, *options_.longest - outcomes_[i].length);
       states_[i].search = std::make_unique<IncrementSearch>(options_, states_[i].sifs, tips_[i].toughness, length,
-                                                            states_[i].experience);
+                                                            states_[i].warm_start);
       paths_[i].added.push_back(states_[i].end);
       place(i);
     }
@@ -173,7 +173,7 @@ class Growth {
     } else {
       paths_[i] = std::move(before);
     }
-    outdate_those_that_feel(i);
+    outdate_those_that_interact(i);
   }
 
   void search_increments() {
@@ -213,12 +213,13 @@ class Growth {
     SPREKK_ASSERT(!paths_[i].added.empty(), i);
     paths_[i].added.pop_back();
     states_[i].search.reset();
-    outdate_those_that_feel(i);
+    outdate_those_that_interact(i);
   }
 
   bool others_advance(int i) const {
     for (int j = 0; j < count(); ++j)
-      if (j != i && states_[j].search && states_[j].search->length() > 0 && (!feels_ || feels_(i, j))) return true;
+      if (j != i && states_[j].search && states_[j].search->length() > 0 && (!interacts_ || interacts_(i, j)))
+        return true;
     return false;
   }
 
@@ -229,7 +230,7 @@ class Growth {
       const IncrementSearch& search = *state.search;
       if (!search.note().empty())
         outcomes_[i].notes.push_back("increment " + std::to_string(outcomes_[i].increments + 1) + ": " + search.note());
-      state.experience = search.experience();
+      state.warm_start = search.warm_start();
       const Point ahead = turned(state.ahead, search.angle());
       if (search.length() > 0) {
         state.sifs = state.found;
@@ -254,7 +255,7 @@ class Growth {
   const GrowthOptions& options_;
   const EvaluateSifs& evaluate_;
   const FreeLength& free_length_;
-  const FeelsOther& feels_;
+  const InteractsWith& interacts_;
   std::vector<State> states_;
   std::vector<TipPath> paths_;
   std::vector<TipOutcome> outcomes_;
@@ -264,8 +265,8 @@ class Growth {
 
 std::vector<TipOutcome> grow_tips(const std::vector<GrowingTip>& tips, const GrowthOptions& options,
                                   const EvaluateSifs& evaluate, const FreeLength& free_length,
-                                  const FeelsOther& feels) {
-  return Growth(tips, options, evaluate, free_length, feels).run();
+                                  const InteractsWith& interacts) {
+  return Growth(tips, options, evaluate, free_length, interacts).run();
 }
 
 }  // namespace sprekk::fine_fracture

@@ -26,7 +26,7 @@ struct GrowingTip {
   double toughness = 0;             ///< K_IC, Pa sqrt(m)
   double youngs_prime = 0;          ///< E' = E/(1 − nu^2), Pa
   TipPath path;                     ///< added before this growth, which starts from its end
-  Experience experience = {};       ///< with the increment before
+  WarmStart warm_start = {};        ///< with the increment before
 };
 
 /// A tip after growth.
@@ -41,7 +41,7 @@ struct TipOutcome {
   Point ahead = Point::Zero();     ///< unit vector, where a blocked tip would go on
   std::string reason;              ///< why growth ended
   std::vector<std::string> notes;  ///< increments whose direction or length is not what the options ask for
-  Experience experience;           ///< with the last increment
+  WarmStart warm_start;            ///< with the last increment
   int increments = 0;              ///< added in this call
   double length = 0;               ///< m, added in this call
   long evaluations = 0;            ///< of this tip's stress intensity factors
@@ -53,16 +53,16 @@ using EvaluateSifs = std::function<Sifs(int tip, const std::vector<TipPath>& pat
 /// less the margin that the mesh needs; at least |to − end| when nothing is in the way.
 using FreeLength = std::function<double(int tip, const TipPath& path, const Point& to)>;
 /// Whether a tip's stress intensity factors depend on the path of the other.
-using FeelsOther = std::function<bool(int tip, int other)>;
+using InteractsWith = std::function<bool(int tip, int other)>;
 
 /// Lets tips grow in rounds. In each round all tips with K_eq > K_IC advance together, their lengths scaled by Eq. 13
 /// of the paper, in the direction and to the length that IncrementSearch finds; then the stress intensity factors of
 /// all tips are renewed. A tip at rest grows when others have raised its K_eq. Unstable growth (K_eq rises with the
 /// length) goes on until the tip has no free length, or has added the length `longest` or `at_most` increments; the tip
 /// is then not arrested. If an evaluation gives numbers that are not finite, its tip stops at its position before the
-/// increment. `feels` saves evaluations for tips that do not affect each other; without it all tips do.
+/// increment. `interacts` saves evaluations for tips that do not affect each other; without it all tips do.
 std::vector<TipOutcome> grow_tips(const std::vector<GrowingTip>& tips, const GrowthOptions& options,
                                   const EvaluateSifs& evaluate, const FreeLength& free_length,
-                                  const FeelsOther& feels = {});
+                                  const InteractsWith& interacts = {});
 
 }  // namespace sprekk::fine_fracture

@@ -31,11 +31,11 @@ constexpr int lengths_tried = 4;
 }  // namespace
 
 IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start, double toughness, double full_length,
-                                 const Experience& before)
+                                 const WarmStart& before)
     : options_(options),
       start_(start),
       toughness_(toughness),
-      experience_(before),
+      warm_start_(before),
       full_length_(full_length),
       length_(full_length) {
   SPREKK_EXPECT(toughness_ > 0, toughness_);
@@ -58,9 +58,9 @@ double IncrementSearch::first_length() const {
   // Only where the whole length is much too long: near the toughness a small part of K_eq is a large one of the length,
   // and whole increments are what tips that grow together have in common.
   constexpr double tolerances = 5;
-  const double excess_of_whole = shorter_.excess + experience_.release * full_length_;
+  const double excess_of_whole = shorter_.excess + warm_start_.release * full_length_;
   if (excess_of_whole < tolerances * options_.arrest_tolerance) return full_length_;
-  return std::clamp(-shorter_.excess / experience_.release, shortest_length(), full_length_);
+  return std::clamp(-shorter_.excess / warm_start_.release, shortest_length(), full_length_);
 }
 
 /// A tip waits rather than grow by very little, but not where that would leave it well above the toughness.
@@ -154,14 +154,14 @@ bool IncrementSearch::is_reversed() const {
 double IncrementSearch::root_of_phi() {
   SPREKK_ASSERT(!directions_.empty());
   const Direction& last = directions_.back();
-  double slope = estimated_slope(last.angle) * experience_.stiffness_ratio;
+  double slope = estimated_slope(last.angle) * warm_start_.stiffness_ratio;
   if (directions_.size() > 1) {
     const Direction& before = directions_[directions_.size() - 2];
     const double secant = (last.phi - before.phi) / (last.angle - before.angle);
     if (secant > 0.02 && secant < 100) {
       slope = secant;
       if (std::max(std::abs(last.phi), std::abs(before.phi)) < nearly_right)
-        experience_.stiffness_ratio = std::clamp(secant / estimated_slope(last.angle), 0.1, 20.0);
+        warm_start_.stiffness_ratio = std::clamp(secant / estimated_slope(last.angle), 0.1, 20.0);
     }
   }
   constexpr double longest_step = 0.5;  // as long as the root is not between two angles
@@ -206,7 +206,7 @@ void IncrementSearch::learn(const Sifs& end) {
 
 void IncrementSearch::settle(double k_eq) {
   SPREKK_ASSERT(length_ > 0, length_);
-  experience_.release = (excess(k_eq) - excess(equivalent_sif(start_))) / length_;
+  warm_start_.release = (excess(k_eq) - excess(equivalent_sif(start_))) / length_;
   directions_.clear();
 }
 
@@ -275,7 +275,7 @@ double IncrementSearch::longer_length() const {
 void IncrementSearch::change_length(double excess_here) {
   const Length here = {length_, excess_here, angle_};
   if (here.excess > 0 && length_ <= shortest_length() * (1 + 1e-12)) {
-    experience_.release = (here.excess - excess(equivalent_sif(start_))) / length_;
+    warm_start_.release = (here.excess - excess(equivalent_sif(start_))) / length_;
     return stay();
   }
   std::optional<Length> third;

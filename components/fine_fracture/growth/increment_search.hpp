@@ -11,7 +11,7 @@
 namespace sprekk::fine_fracture {
 
 /// What an increment of a tip tells its next one to try first.
-struct Experience {
+struct WarmStart {
   double stiffness_ratio = 1;  ///< measured over estimated d phi/d angle
   double release = 0;  ///< 1/m: by how much ln K_eq fell over its length; none is known where this is not positive
 };
@@ -35,7 +35,7 @@ class IncrementSearch {
  public:
   /// `start`: at the tip before the increment; `full_length` in m.
   IncrementSearch(const GrowthOptions& options, const Sifs& start, double toughness, double full_length,
-                  const Experience& before = {});
+                  const WarmStart& before = {});
 
   double angle() const { return angle_; }    ///< rad, counted from the direction ahead
   double length() const { return length_; }  ///< m, 0 when the tip is not to move
@@ -49,7 +49,7 @@ class IncrementSearch {
   void learn(const Sifs& end);
 
   bool is_settled() const { return is_settled_; }
-  const Experience& experience() const { return experience_; }
+  const WarmStart& warm_start() const { return warm_start_; }
   const std::string& note() const { return note_; }  ///< in what the increment falls short of the options, or ""
 
  private:
@@ -92,7 +92,7 @@ class IncrementSearch {
   const GrowthOptions options_;
   const Sifs start_;
   const double toughness_;
-  Experience experience_;
+  WarmStart warm_start_;
   double full_length_;
   double angle_ = 0, length_ = 0;
   bool is_limited_ = false, is_settled_ = false;

@@ -23,7 +23,8 @@ FineLoads Tips::loads_of(const Tip& tip) const {
   loads.wall_traction = [this, &domain, arc, lengths](int crack, int segment, double s) -> Point {
     const int fracture = domain.sources[crack].fracture;
     const double at = arc(crack, segment, s);
-    // What has grown on the fine level is open and feels the fluid (design: the walls that grow carry its pressure).
+    // What has grown on the fine level is open and loaded by the fluid (design: the walls that grow carry its
+    // pressure).
     const std::vector<Point>& points = domain.geometry.cracks[crack].points;
     const Point along = (points[segment + 1] - points[segment]).normalized();
     const Point normal(along[1], -along[0]);

@@ -257,7 +257,7 @@ Growing::Growth Tips::grow(const StepTime&) {
   for (const Tip& tip : tips_) {
     const LameParameters lame = surroundings_->stiffness(position(tip, {}));
     growing.push_back({position(tip, {}), direction(tip), *options_.toughness,
-                       Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path, tip.now.experience});
+                       Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path, tip.now.warm_start});
   }
   GrowthOptions growth = options_.growth;
   // Beyond what the coarse level wants to know of, its answer counts: the fluid's pressure falls as tips go on.
@@ -285,7 +285,7 @@ Growing::Growth Tips::grow(const StepTime&) {
       set_factors(tip, outcome.end);
     }
     if (!was_stopped) ended.push_back(i);
-    tip.now.experience = outcome.experience;
+    tip.now.warm_start = outcome.warm_start;
     if (outcome.blocked && options_.meeting == "join") blocked.push_back(i);
     if (outcome.increments == 0) continue;
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
@@ -383,7 +383,7 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     const State& kept = tip.accepted;
     Vector values(state_size + 2 * kept.path.added.size());
     values.head<state_size>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped,
-        kept.has_started, kept.sif_error, kept.experience.stiffness_ratio, kept.experience.release, kept.is_evaluated,
+        kept.has_started, kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated,
         kept.load;
     for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(state_size + 2 * i) = kept.path.added[i];
     state[name() + "." + tip.name] = std::move(values);
@@ -402,7 +402,7 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.is_stopped = values[4] != 0;
     kept.has_started = values[5] != 0;
     kept.sif_error = values[6];
-    kept.experience = {values[7], values[8]};
+    kept.warm_start = {values[7], values[8]};
     kept.is_evaluated = values[9] != 0;
     kept.load = values[10];
     for (int i = state_size; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);

@@ -65,7 +65,7 @@ class Tips : public Component, public FractureTips, public Growing {
     double load = 0;            ///< K_eq over the toughness, or the estimate by which a fine level was skipped
     double grown = 0;           ///< m, passed to the coarse level
     bool has_started = false;   ///< whether the tip has begun to grow: its onset is over
-    Experience experience;      ///< with its last increment
+    WarmStart warm_start;       ///< with its last increment
     bool is_stopped = false;    ///< for good, at or before another fracture, or before the boundary
   };
   struct Tip {

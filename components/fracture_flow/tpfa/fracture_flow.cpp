@@ -31,14 +31,14 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                            .role = Role::input(BlockKind::interface),
                                            .unit = "m",
                                            .doc = "Aperture of the fractures (below Eq. 8)"})),
-      books_(context.fields.add(mesh_, {.owner = context.name,
-                                        .name = "fluid_books",
-                                        .location = Location::fracture_cell,
-                                        .components = 3,
-                                        .role = Role::derived(),
-                                        .unit = "m^2",
-                                        .doc = "Fluid stored, injected, and flowed out through the outer boundary",
-                                        .accepted_with = pressure_.name()})) {
+      cumulative_(context.fields.add(mesh_, {.owner = context.name,
+                                             .name = "cumulative_balance",
+                                             .location = Location::fracture_cell,
+                                             .components = 3,
+                                             .role = Role::derived(),
+                                             .unit = "m^2",
+                                             .doc = "Fluid stored, injected, and flowed out through the outer boundary",
+                                             .accepted_with = pressure_.name()})) {
   if (mesh_.fracture_cell_count() == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
@@ -237,16 +237,16 @@ void FractureFlow::constrain(Assembly& assembly) const {
 
 void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
   if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
-  Vector books = books_.accepted();
+  Vector sums = cumulative_.accepted();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const double length = mesh_.fracture_cells[i].length;
-    books[3 * i] += length * (aperture_.now()[i] - aperture_.accepted()[i]) +
-                    length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);
-    if (!is_prescribed_[i]) books[3 * i + 1] += step.dt * source_[i];  // else the balance is not solved for
+    sums[3 * i] += length * (aperture_.now()[i] - aperture_.accepted()[i]) +
+                   length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);
+    if (!is_prescribed_[i]) sums[3 * i + 1] += step.dt * source_[i];  // else the balance is not solved for
   }
   for (const Link& link : links_)
-    if (link.second == none) books[3 * link.first + 2] += step.dt * flux_.now()[link.point];
-  books_.set(std::move(books));
+    if (link.second == none) sums[3 * link.first + 2] += step.dt * flux_.now()[link.point];
+  cumulative_.set(std::move(sums));
 }
 
 void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
@@ -254,10 +254,10 @@ void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
   fluid.unit = "m^2";
   fluid.is_closed = fluid.is_closed && prescribed_.empty();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    fluid.stored += books_.now()[3 * i];
-    fluid.injected += books_.now()[3 * i + 1];
-    fluid.outflow += books_.now()[3 * i + 2];
-    fluid.throughput += books_.now().segment<3>(3 * i).lpNorm<1>();
+    fluid.stored += cumulative_.now()[3 * i];
+    fluid.injected += cumulative_.now()[3 * i + 1];
+    fluid.outflow += cumulative_.now()[3 * i + 2];
+    fluid.throughput += cumulative_.now().segment<3>(3 * i).lpNorm<1>();
   }
 }
 

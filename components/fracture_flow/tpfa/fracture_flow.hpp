@@ -99,7 +99,7 @@ class FractureFlow : public Component, public FractureFluid {
   Field& pressure_;
   Field& flux_;
   Field& aperture_;
-  Field& books_;  ///< (stored, injected, outflow) of each cell since the start, m^2
+  Field& cumulative_;  ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_aperture_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one
   double released_share_ = 0;  ///< of the cubic law's change from the held apertures to the present ones

@@ -37,7 +37,7 @@ Adjacency local_cells(const Mesh& mesh, const TipZones& zones);
 /// such layers.)
 ///
 /// The volume change of subcells is div u of these displacements, and what neighbours exchange (see VolumeExchange),
-/// which forces and displacements do not feel.
+/// which forces and displacements do not see.
 ///
 /// Near the tip of a crack the displacement is not linear but like sqrt(r): see TipCorrection.
 ///

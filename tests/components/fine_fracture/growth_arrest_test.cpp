@@ -82,14 +82,14 @@ TEST(Arrest, is_found_sooner_after_another_one) {
       EXPECT_TRUE(outcome.arrested);
       EXPECT_NEAR(0.02 + added_length(tip, outcome.path), exact, 2.1 * 1e-2 * exact) << rise;
       tip.path = outcome.path;
-      if (outcome.increments > 0) tip.experience = outcome.experience;
+      if (outcome.increments > 0) tip.warm_start = outcome.warm_start;
       return outcome.evaluations - 1;  // without that of the start
     };
     with += grow(knowing);
-    forgetful.experience = {};
+    forgetful.warm_start = {};
     without += grow(forgetful);
     // 10 times and a tenth of what is true here, 25 to 15 per m.
-    misled.experience = {1, rise % 2 == 0 ? 200.0 : 2.0};
+    misled.warm_start = {1, rise % 2 == 0 ? 200.0 : 2.0};
     grow(misled);
   }
   EXPECT_LE(with, 20);
@@ -221,7 +221,7 @@ TEST(GrowTips, a_tip_at_rest_is_woken_by_its_neighbour) {
   for (const TipOutcome& outcome : outcomes) EXPECT_TRUE(outcome.arrested);
 }
 
-TEST(GrowTips, tips_that_do_not_feel_each_other_are_not_evaluated_for_each_other) {
+TEST(GrowTips, tips_that_do_not_interact_are_not_evaluated_for_each_other) {
   const std::vector<GrowingTip> tips = {tip_at(0), tip_at(1)};
   const auto sifs = [&](int i, const std::vector<TipPath>& paths) {
     return Sifs{i == 0 ? 0.5e6 / std::sqrt(pi * (0.02 + added_length(tips[0], paths[0]))) : 0.1e6, 0};

@@ -180,7 +180,7 @@ TEST(ImplicitDirection, falls_back_to_the_explicit_one_with_a_note) {
 }
 
 TEST(GrowTips, mirrored_problems_have_mirrored_paths) {
-  // Two tips that feel one another: SIFs of a kinked tip with a K_I and a K_II that the distance of the other changes.
+  // Two tips that interact: SIFs of a kinked tip with a K_I and a K_II that the distance of the other changes.
   const auto problem = [](double mirror, const std::string& direction) {
     std::vector<GrowingTip> tips(2, {.tip = Point(0, 0),
                                      .direction = Point(0.8, 0.6 * mirror),

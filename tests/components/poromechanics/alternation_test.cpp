@@ -90,7 +90,7 @@ double alternating(const Mesh& mesh, const Vector& p) {
   return static_cast<double>(alternate) / inner;
 }
 
-/// By Gauss's rule with two points: rock that is nearly incompressible feels what the centre alone is wrong by.
+/// By Gauss's rule with two points: rock that is nearly incompressible sees what the centre alone is wrong by.
 Point mean_displacement(const Mesh& mesh, int face, const Crack& crack) {
   const auto& ends = mesh.face_nodes[face];
   const Point arm = (mesh.nodes[ends[1]] - mesh.nodes[ends[0]]) / std::sqrt(12);

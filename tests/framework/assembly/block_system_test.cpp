@@ -40,7 +40,7 @@ struct Blocks : testing::Test {
   BlockSystem system{mesh, {&p, &q}};
   Operator steady = chain(1), coupling = chain(0.5);
 
-  /// What the equations consist of: p feels itself by `steady`, q by `coupling`, and q what is computed anew.
+  /// The terms of the equations: p depends on itself by `steady`, on q by `coupling`, and q on what is computed anew.
   double dt = 1, entry = 2, weight = 1, scale_of_fixed = 0;
   bool is_wide = false;
 

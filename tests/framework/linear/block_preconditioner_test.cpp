@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "framework/linear/local_elimination.hpp"
+#include "framework/linear/iterative/local_elimination.hpp"
 #include "tests/framework/linear/test_systems.hpp"
 
 namespace sprekk {

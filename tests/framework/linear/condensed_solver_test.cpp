@@ -1,5 +1,5 @@
 // Condensation answers like the solver of the whole system, and does less.
-#include "framework/linear/condensed_solver.hpp"
+#include "framework/linear/reduction/condensed_solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -145,7 +145,7 @@ TEST_P(Condensed, KeepsACellOfABulkThatFloats) {
   EXPECT_EQ(solver.counts().factorizations, 1);
 }
 
-// The Laplacian of n × n nodes, the first `count` of which each feel a local unknown and are felt by it.
+// The Laplacian of n × n nodes, the first `count` of which are coupled to a local unknown each.
 LinearSystem with_local_unknowns(int n, int count) {
   const LinearSystem bulk = test::poisson(n);
   std::vector<Triplet> entries;

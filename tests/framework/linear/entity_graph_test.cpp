@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/linear/umfpack_solver.hpp"
+#include "framework/linear/direct/umfpack_solver.hpp"
 
 namespace sprekk::testing {
 namespace {
@@ -81,7 +81,7 @@ TEST(EntityGraph, TheSolverThatOrdersByEntitiesHasTheSolution) {
   EXPECT_EQ(solver.counts().orderings, 1);
 }
 
-/// The system with more: what lies within the radius of the middle feels the places next to the middle, too.
+/// The system with more: what lies within the radius of the middle depends on the places next to the middle, too.
 LinearSystem felt_from_afar(int width, double radius) {
   LinearSystem system = two_fields(width);
   const std::vector<Point>& places = system.blocks[0].coordinates;

@@ -1,5 +1,5 @@
 // Blocks of a bulk that nothing in its own equations holds, of springs whose rigid motions are exact.
-#include "framework/linear/floating_parts.hpp"
+#include "framework/linear/reduction/floating_parts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Parts of a system that do not feel one another are factorized and solved by themselves.
-#include "framework/linear/separated_solver.hpp"
+// Independent parts of a system are factorized and solved by themselves.
+#include "framework/linear/reduction/separated_solver.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The level of contents that exchange much more than they store, against its closed form.
-#include "framework/linear/summed_balances.hpp"
+#include "framework/linear/reduction/summed_balances.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -106,7 +106,7 @@ TEST(Griffith, CorrelationHasThePublishedErrorsOfItsRosette) {
                        row.radius);
       correlation += (tip.K_correlation.cwiseQuotient(exact.K()) - Point(1, 1)) / double(sizes.size());
       extrapolated += (tip.K_extrapolated.cwiseQuotient(exact.K()) - Point(1, 1)) / double(sizes.size());
-      // The interaction integral hardly feels the sectors.
+      // The interaction integral hardly depends on the sectors.
       EXPECT_LT(relative_error(tip.K, exact.K(), "K"), row.sectors == 8 ? 1.5e-3 : 6e-4) << where;
     }
     // With few sectors the elements around the rosette are as coarse as they are, and the published figures hold for

@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
+#include "framework/linear/direct/umfpack_solver.hpp"
 #include "framework/linear/linear_solver.hpp"
-#include "framework/linear/umfpack_solver.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "tests/framework/linear/test_systems.hpp"
 

@@ -49,10 +49,10 @@ class BulkSplitting {
   double backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk, const Vector& b_local) const;
 
   SubMatrix bb, bf, fb, ff;
-  std::vector<int> felt;        ///< the local unknowns that have a column in A_BF
-  std::vector<int> feeling;     ///< the local rows that have an entry in A_FB
-  std::vector<int> near;        ///< the unknowns of the bulk that have a column in A_FB
-  std::vector<int> near_place;  ///< of every unknown of the bulk: its place in `near`, or -1
+  std::vector<int> interface_columns;  ///< the local unknowns that have a column in A_BF
+  std::vector<int> interface_rows;     ///< the local rows that have an entry in A_FB
+  std::vector<int> near;               ///< the unknowns of the bulk that have a column in A_FB
+  std::vector<int> near_place;         ///< of every unknown of the bulk: its place in `near`, or -1
 
  private:
   Vector part(const Vector& whole, bool local, int size) const;

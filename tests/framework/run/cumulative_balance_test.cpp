@@ -1,4 +1,4 @@
-#include "framework/run/books.hpp"
+#include "framework/run/cumulative_balance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,27 +12,27 @@ std::map<std::string, Balance> fluid(double stored, double injected, double outf
   return {{"fluid", {stored, injected, outflow, throughput, "m^2", is_closed}}};
 }
 
-TEST(Books, ThatAreOffByMoreThanAMillionthOfWhatWasMovedAreTold) {
+TEST(CumulativeBalance, ThatAreOffByMoreThanAMillionthOfWhatWasMovedAreTold) {
   for (const double error : {2e-6, -2e-6, 0.5e-6, -0.5e-6, 0.0}) {
-    Books books;
+    CumulativeBalance balance;
     Notes notes;
-    books.note_step(fluid(3 + 4 * error, 4, 1, 4), notes);
+    balance.note_step(fluid(3 + 4 * error, 4, 1, 4), notes);
     ASSERT_EQ(notes.all().size(), std::abs(error) > 1e-6 ? 1U : 0U) << error;
     for (const Notes::Note& note : notes.all()) EXPECT_NEAR(note.measure, std::abs(error), 1e-12);
   }
 }
 
-TEST(Books, AreComparedWithTheLargestThroughputSoFar) {
-  // What has been put in has been taken out again: the books are empty, and what is left is rounding.
-  Books books;
+TEST(CumulativeBalance, AreComparedWithTheLargestThroughputSoFar) {
+  // What has been put in has been taken out again: the balance is empty, and what is left is rounding.
+  CumulativeBalance balance;
   Notes notes;
-  books.note_step(fluid(1, 1, 0, 1), notes);
-  books.note_step(fluid(1e-9, 0, 0, 1e-9), notes);
+  balance.note_step(fluid(1, 1, 0, 1), notes);
+  balance.note_step(fluid(1e-9, 0, 0, 1e-9), notes);
   EXPECT_TRUE(notes.empty());
   // After a restart, too.
   std::map<std::string, Vector> kept;
-  books.save(kept);
-  Books restored, forgetful;
+  balance.save(kept);
+  CumulativeBalance restored, forgetful;
   restored.restore(kept);
   restored.note_step(fluid(1e-9, 0, 0, 1e-9), notes);
   EXPECT_TRUE(notes.empty());
@@ -40,10 +40,10 @@ TEST(Books, AreComparedWithTheLargestThroughputSoFar) {
   EXPECT_EQ(notes.all().size(), 1U);
 }
 
-TEST(Books, ThatAreNotClosedAreNotTold) {
-  Books books;
+TEST(CumulativeBalance, ThatAreNotClosedAreNotTold) {
+  CumulativeBalance balance;
   Notes notes;
-  books.note_step(fluid(1, 0, 0, 1, false), notes);
+  balance.note_step(fluid(1, 0, 0, 1, false), notes);
   EXPECT_TRUE(notes.empty());
 }
 

@@ -1,4 +1,4 @@
-#include "framework/linear/bulk_splitting.hpp"
+#include "framework/linear/reduction/bulk_splitting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -119,12 +119,12 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
                 system.local.nonZeros());
   SPREKK_ASSERT(is_well_formed(bb.matrix) && is_well_formed(ff.matrix), bulk, local);
 
-  std::vector<char> is_felt(local, 0);
-  for (int k = 0; k < bf.matrix.nonZeros(); ++k) is_felt[bf.matrix.innerIndexPtr()[k]] = 1;
+  std::vector<char> is_interface(local, 0);
+  for (int k = 0; k < bf.matrix.nonZeros(); ++k) is_interface[bf.matrix.innerIndexPtr()[k]] = 1;
   for (int i = 0; i < local; ++i)
-    if (is_felt[i]) felt.push_back(i);
+    if (is_interface[i]) interface_columns.push_back(i);
   for (int i = 0; i < local; ++i)
-    if (fb.has_row(i)) feeling.push_back(i);
+    if (fb.has_row(i)) interface_rows.push_back(i);
   near_place.assign(bulk, -1);
   for (int k = 0; k < fb.matrix.nonZeros(); ++k) near_place[fb.matrix.innerIndexPtr()[k]] = 0;
   for (int i = 0; i < bulk; ++i) {

@@ -23,7 +23,7 @@ class MumpsSolver final : public LinearSolver {
   LinearReport solve(const Vector& b_rows, Vector& x) override;
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
   std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
-                                              const SparseMatrix& rows, Eigen::MatrixXd& response) override;
+                                              const SparseMatrix& rows, Eigen::MatrixXd& schur) override;
   std::string name() const override { return "mumps"; }
 
  private:

@@ -1,14 +1,14 @@
-#include "framework/linear/condensed_solver.hpp"
+#include "framework/linear/reduction/condensed_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "framework/invariants.hpp"
-#include "framework/linear/bulk_response.hpp"
-#include "framework/linear/bulk_splitting.hpp"
 #include "framework/linear/expect_sound.hpp"
-#include "framework/linear/floating_parts.hpp"
+#include "framework/linear/reduction/bulk_schur_complement.hpp"
+#include "framework/linear/reduction/bulk_splitting.hpp"
+#include "framework/linear/reduction/floating_parts.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -16,7 +16,7 @@ namespace sprekk {
 namespace {
 
 constexpr std::size_t kept_bulks = 2;
-constexpr double largest_felt = 1.5e8;  ///< entries of what is kept in any case, 1.2 GB
+constexpr double most_schur_entries = 1.5e8;  ///< entries of what is kept in any case, 1.2 GB
 
 bool same_values(const SparseMatrix& a, const std::vector<double>& kept) {
   return a.nonZeros() == static_cast<Eigen::Index>(kept.size()) &&
@@ -32,14 +32,14 @@ bool has_both_kinds(const LinearSystem& system) {
   return bulk && local;
 }
 
-/// Entries of A_FF, and in rows that feel the bulk those of all columns that the bulk feels.
+/// Entries of A_FF, and in interface rows those of all interface columns.
 SparseMatrix pattern_of_reduced(const BulkSplitting& split) {
   std::vector<Triplet> entries;
   for (int row = 0; row < split.local_size(); ++row) {
     for (SparseMatrix::InnerIterator entry(split.ff.matrix, row); entry; ++entry)
       entries.emplace_back(row, static_cast<int>(entry.col()), 0.0);
     if (split.fb.has_row(row))
-      for (const int column : split.felt) entries.emplace_back(row, column, 0.0);
+      for (const int column : split.interface_columns) entries.emplace_back(row, column, 0.0);
   }
   SparseMatrix pattern(split.local_size(), split.local_size());
   pattern.setFromTriplets(entries.begin(), entries.end());
@@ -48,16 +48,17 @@ SparseMatrix pattern_of_reduced(const BulkSplitting& split) {
 
 /// A_FF - A_FB X.
 SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& pattern,
-                            const BulkResponse::RowMatrix& felt_rows) {
-  SPREKK_EXPECT(felt_rows.cols() == static_cast<Eigen::Index>(split.felt.size()), felt_rows.cols(), split.felt.size());
-  SPREKK_EXPECT(felt_rows.rows() == static_cast<Eigen::Index>(split.feeling.size()), felt_rows.rows());
+                            const BulkSchurComplement::RowMatrix& schur_rows) {
+  SPREKK_EXPECT(schur_rows.cols() == static_cast<Eigen::Index>(split.interface_columns.size()), schur_rows.cols(),
+                split.interface_columns.size());
+  SPREKK_EXPECT(schur_rows.rows() == static_cast<Eigen::Index>(split.interface_rows.size()), schur_rows.rows());
   SPREKK_EXPECT(pattern.rows() == split.local_size(), pattern.rows(), split.local_size());
   SparseMatrix reduced = pattern;
-  int feeling = 0;
+  int schur_row = 0;
   for (int row = 0; row < split.local_size(); ++row) {
     SparseMatrix::InnerIterator kept(split.ff.matrix, row);
-    const bool feels = split.fb.has_row(row);
-    const double* const by_bulk = feels ? felt_rows.row(feeling++).data() : nullptr;
+    const bool has_schur_row = split.fb.has_row(row);
+    const double* const by_bulk = has_schur_row ? schur_rows.row(schur_row++).data() : nullptr;
     std::size_t c = 0;
     for (SparseMatrix::InnerIterator entry(reduced, row); entry; ++entry) {
       double value = 0;
@@ -65,14 +66,14 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
         value = kept.value();
         ++kept;
       }
-      if (feels) {
-        while (c < split.felt.size() && split.felt[c] < entry.col()) ++c;
-        if (c < split.felt.size() && split.felt[c] == entry.col()) value -= by_bulk[c];
+      if (has_schur_row) {
+        while (c < split.interface_columns.size() && split.interface_columns[c] < entry.col()) ++c;
+        if (c < split.interface_columns.size() && split.interface_columns[c] == entry.col()) value -= by_bulk[c];
       }
       entry.valueRef() = value;
     }
   }
-  SPREKK_ASSERT(feeling == static_cast<int>(split.feeling.size()), feeling, split.feeling.size());
+  SPREKK_ASSERT(schur_row == static_cast<int>(split.interface_rows.size()), schur_row, split.interface_rows.size());
   return reduced;
 }
 
@@ -81,7 +82,7 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
 /// R = (f / (7 sqrt(n)))^3 for its dense part; measured from 4,000 to 250,000 unknowns, docs/performance.md. Then m
 /// systems cost 1 + C + m R instead of m. With the factorization (`is_short_lived`) they cost f / 700 or less.
 double price_of_columns(const BulkSplitting& split, bool is_short_lived) {
-  const double f = split.felt.size(), reduced = std::pow(f / (7 * std::sqrt(split.bulk_size())), 3);
+  const double f = split.interface_columns.size(), reduced = std::pow(f / (7 * std::sqrt(split.bulk_size())), 3);
   return reduced < 1 ? f / (is_short_lived ? 700 : 200) / (1 - reduced) : HUGE_VAL;
 }
 
@@ -100,7 +101,7 @@ struct CondensedSolver::Bulk {
   bool is_tried = false;                ///< whether it has been factorized, successfully or not
   bool is_proven = false;               ///< a solution was accurate; callers see the residuals of the others
   LinearReport report;
-  BulkResponse response;
+  BulkSchurComplement schur;
 };
 
 CondensedSolver::CondensedSolver(const LinearOptions& options) : options_(options) {}
@@ -142,8 +143,8 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   SPREKK_ASSERT(split.bulk_size() + split.local_size() == system.local.cols(), split.bulk_size(), split.local_size());
   split.take_sums(system.sums);
   // Of each bulk the rows of X that are read and their products, and the pattern of reduced systems, in triplets first.
-  const double felt = split.felt.size();
-  if ((kept_bulks * split.near.size() + 6 * felt) * felt > largest_felt)
+  const double width = split.interface_columns.size();
+  if ((kept_bulks * split.near.size() + 6 * width) * width > most_schur_entries)
     return LinearReport::failure("too many unknowns on fractures to condense the bulk");
   if (has_changed) choose_bulk();
   pattern_number_ = system.pattern_number;
@@ -154,19 +155,19 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
     const double price = price_of_columns(split, options_.bulk_changes_often);
     if (price > worth_at_once && bulk.systems <= price)
       return LinearReport::failure("condensing costs more than the few systems that the bulk has had so far");
-    bulk.report = bulk.response.compute(split, *bulk.solver, options_.bulk_changes_often);
+    bulk.report = bulk.schur.compute(split, *bulk.solver, options_.bulk_changes_often);
     bulk.is_tried = true;
     bulk.is_proven = false;
   }
   if (!bulk.report.solved) return bulk.report;
   if (is_same(system.number, reduced_number_)) return reduced_report_;
   if (reduced_pattern_.rows() == 0) reduced_pattern_ = pattern_of_reduced(split);
-  const BulkResponse::RowMatrix* const felt_rows = bulk.response.felt_rows(split, *bulk.solver);
-  if (!felt_rows)
+  const BulkSchurComplement::RowMatrix* const schur_rows = bulk.schur.schur_rows(split, *bulk.solver);
+  if (!schur_rows)
     return bulk.report =
                LinearReport::failure("the bulk could not be factorized for equations on fractures that have changed");
   reduced_number_ = system.number;
-  return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix(split, reduced_pattern_, *felt_rows)));
+  return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix(split, reduced_pattern_, *schur_rows)));
 }
 
 void CondensedSolver::split_anew(const LinearSystem& system, std::vector<char> held) {
@@ -210,7 +211,7 @@ LinearReport CondensedSolver::solve_condensed(const Vector& b_bulk, const Vector
   }
   const LinearReport report = reduced_.solve(b_local - split.fb.matrix * bulk, local);
   if (!report.solved) return report;
-  bulks_.front().response.subtract(split, *bulks_.front().solver, local, bulk);
+  bulks_.front().schur.subtract(split, *bulks_.front().solver, local, bulk);
   return report;
 }
 

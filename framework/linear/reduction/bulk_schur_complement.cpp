@@ -1,4 +1,4 @@
-#include "framework/linear/bulk_response.hpp"
+#include "framework/linear/reduction/bulk_schur_complement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,10 +54,10 @@ std::optional<double> common_factor(const double* a, const double* b, int size) 
 
 }  // namespace
 
-LinearReport BulkResponse::compute(const BulkSplitting& split, LinearSolver& solver, bool is_short_lived) {
+LinearReport BulkSchurComplement::compute(const BulkSplitting& split, LinearSolver& solver, bool is_short_lived) {
   is_whole_ = false;
   columns_.resize(0, 0);
-  of_felt_rows_.clear();
+  schur_rows_made_with_.clear();
   of_bordered_.clear();
   if (is_short_lived)
     if (const std::optional<LinearReport> report = compute_bordered(split, solver)) return *report;
@@ -68,35 +68,35 @@ LinearReport BulkResponse::compute(const BulkSplitting& split, LinearSolver& sol
   return report;
 }
 
-std::optional<LinearReport> BulkResponse::compute_bordered(const BulkSplitting& split, LinearSolver& solver) {
-  Eigen::MatrixXd response;
+std::optional<LinearReport> BulkSchurComplement::compute_bordered(const BulkSplitting& split, LinearSolver& solver) {
+  Eigen::MatrixXd schur;
   const std::optional<LinearReport> report =
-      solver.factor_bordered(split.bulk_system(), chosen_columns(split.bf.matrix, split.felt),
-                             chosen_rows(split.fb.matrix, split.feeling), response);
+      solver.factor_bordered(split.bulk_system(), chosen_columns(split.bf.matrix, split.interface_columns),
+                             chosen_rows(split.fb.matrix, split.interface_rows), schur);
   of_bordered_.clear();
   if (report && report->solved) {
-    SPREKK_ASSERT(response.rows() == static_cast<Eigen::Index>(split.feeling.size()), response.rows());
-    SPREKK_ASSERT(response.cols() == static_cast<Eigen::Index>(split.felt.size()), response.cols());
-    SPREKK_ASSERT(is_finite(response));
-    bordered_ = response;
+    SPREKK_ASSERT(schur.rows() == static_cast<Eigen::Index>(split.interface_rows.size()), schur.rows());
+    SPREKK_ASSERT(schur.cols() == static_cast<Eigen::Index>(split.interface_columns.size()), schur.cols());
+    SPREKK_ASSERT(is_finite(schur));
+    bordered_ = schur;
     of_bordered_.assign(split.fb.matrix.valuePtr(), split.fb.matrix.valuePtr() + split.fb.matrix.nonZeros());
   }
   return report;
 }
 
-bool BulkResponse::solve_columns(const BulkSplitting& split, LinearSolver& solver) {
-  const int rows = split.bulk_size(), count = static_cast<int>(split.felt.size());
+bool BulkSchurComplement::solve_columns(const BulkSplitting& split, LinearSolver& solver) {
+  const int rows = split.bulk_size(), count = static_cast<int>(split.interface_columns.size());
   SPREKK_EXPECT(are_indices(split.near, rows), rows);
-  const SparseMatrix felt = chosen_columns(split.bf.matrix, split.felt);
+  const SparseMatrix from_interface = chosen_columns(split.bf.matrix, split.interface_columns);
   near_.resize(split.near.size(), count);
   is_whole_ = static_cast<double>(rows) * count <= largest_;
-  columns_.resize(rows, 0);  // what it stays if nothing is felt
+  columns_.resize(rows, 0);  // stays so without interface columns
   const int width = is_whole_ ? count : piece_;
   for (int first = 0; first < count; first += width) {
     const int end = std::min(count, first + width);
     columns_.setZero(rows, end - first);
     for (int row = 0; row < rows; ++row)
-      for (SparseMatrix::InnerIterator entry(felt, row); entry; ++entry)
+      for (SparseMatrix::InnerIterator entry(from_interface, row); entry; ++entry)
         if (entry.col() >= first && entry.col() < end) columns_(row, entry.col() - first) = entry.value();
     if (!solver.solve_columns(columns_)) return false;
     for (std::size_t k = 0; k < split.near.size(); ++k)
@@ -107,55 +107,59 @@ bool BulkResponse::solve_columns(const BulkSplitting& split, LinearSolver& solve
 }
 
 /// Row k of A_FB with X.
-void BulkResponse::multiply(const BulkSplitting& split, std::size_t k) {
-  SPREKK_EXPECT(k < split.feeling.size(), k, split.feeling.size());
-  SPREKK_ASSERT(felt_rows_.cols() == near_.cols(), felt_rows_.cols(), near_.cols());
+void BulkSchurComplement::multiply(const BulkSplitting& split, std::size_t k) {
+  SPREKK_EXPECT(k < split.interface_rows.size(), k, split.interface_rows.size());
+  SPREKK_ASSERT(schur_rows_.cols() == near_.cols(), schur_rows_.cols(), near_.cols());
   const SparseMatrix& fb = split.fb.matrix;
-  felt_rows_.row(k).setZero();
-  for (SparseMatrix::InnerIterator entry(fb, split.feeling[k]); entry; ++entry)
-    felt_rows_.row(k) += entry.value() * near_.row(split.near_place[entry.col()]);
+  schur_rows_.row(k).setZero();
+  for (SparseMatrix::InnerIterator entry(fb, split.interface_rows[k]); entry; ++entry)
+    schur_rows_.row(k) += entry.value() * near_.row(split.near_place[entry.col()]);
 }
 
-bool BulkResponse::are_multiples_of_bordered(const BulkSplitting& split) const {
+bool BulkSchurComplement::are_multiples_of_bordered(const BulkSplitting& split) const {
   const SparseMatrix& fb = split.fb.matrix;
-  return std::all_of(split.feeling.begin(), split.feeling.end(), [&](int row) {
+  return std::all_of(split.interface_rows.begin(), split.interface_rows.end(), [&](int row) {
     const int begin = fb.outerIndexPtr()[row], count = fb.outerIndexPtr()[row + 1] - begin;
     return common_factor(&of_bordered_[begin], fb.valuePtr() + begin, count).has_value();
   });
 }
 
-const BulkResponse::RowMatrix* BulkResponse::felt_rows(const BulkSplitting& split, LinearSolver& solver) {
+const BulkSchurComplement::RowMatrix* BulkSchurComplement::schur_rows(const BulkSplitting& split,
+                                                                      LinearSolver& solver) {
   const SparseMatrix& fb = split.fb.matrix;
   if (!of_bordered_.empty() && !are_multiples_of_bordered(split)) {
-    of_felt_rows_.clear();
+    schur_rows_made_with_.clear();
     const std::optional<LinearReport> report = compute_bordered(split, solver);
     if (!report || !report->solved) return nullptr;
   }
-  const bool is_first = of_felt_rows_.empty();
+  const bool is_first = schur_rows_made_with_.empty();
   if (is_first) {
-    of_felt_rows_.resize(fb.nonZeros());
-    felt_rows_.resize(split.feeling.size(), split.felt.size());
+    schur_rows_made_with_.resize(fb.nonZeros());
+    schur_rows_.resize(split.interface_rows.size(), split.interface_columns.size());
   }
-  for (std::size_t k = 0; k < split.feeling.size(); ++k) {
-    const int begin = fb.outerIndexPtr()[split.feeling[k]], count = fb.outerIndexPtr()[split.feeling[k] + 1] - begin;
+  for (std::size_t k = 0; k < split.interface_rows.size(); ++k) {
+    const int begin = fb.outerIndexPtr()[split.interface_rows[k]],
+              count = fb.outerIndexPtr()[split.interface_rows[k] + 1] - begin;
     const double* const values = fb.valuePtr() + begin;
-    if (!is_first && std::memcmp(&of_felt_rows_[begin], values, count * sizeof(double)) == 0) continue;
-    std::memcpy(&of_felt_rows_[begin], values, count * sizeof(double));
+    if (!is_first && std::memcmp(&schur_rows_made_with_[begin], values, count * sizeof(double)) == 0) continue;
+    std::memcpy(&schur_rows_made_with_[begin], values, count * sizeof(double));
     if (of_bordered_.empty())
       multiply(split, k);
     else
-      felt_rows_.row(k) = *common_factor(&of_bordered_[begin], values, count) * bordered_.row(k);
+      schur_rows_.row(k) = *common_factor(&of_bordered_[begin], values, count) * bordered_.row(k);
   }
-  return &felt_rows_;
+  return &schur_rows_;
 }
 
-void BulkResponse::subtract(const BulkSplitting& split, LinearSolver& solver, const Vector& local, Vector& bulk) const {
+void BulkSchurComplement::subtract(const BulkSplitting& split, LinearSolver& solver, const Vector& local,
+                                   Vector& bulk) const {
   SPREKK_EXPECT(local.size() == split.local_size(), local.size(), split.local_size());
   SPREKK_EXPECT(bulk.size() == split.bulk_size(), bulk.size(), split.bulk_size());
   if (is_whole_) {
-    Vector felt(split.felt.size());
-    for (std::size_t c = 0; c < split.felt.size(); ++c) felt[c] = local[split.felt[c]];
-    bulk.noalias() -= columns_ * felt;
+    Vector of_interface(split.interface_columns.size());
+    for (std::size_t c = 0; c < split.interface_columns.size(); ++c)
+      of_interface[c] = local[split.interface_columns[c]];
+    bulk.noalias() -= columns_ * of_interface;
     return;
   }
   Eigen::MatrixXd answer = split.bf.matrix * local;

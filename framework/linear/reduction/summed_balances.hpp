@@ -25,7 +25,7 @@ class SummedBalances final : public LinearSolver {
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
   /// std::nullopt where there are rows to sum.
   std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
-                                              const SparseMatrix& rows, Eigen::MatrixXd& response) override;
+                                              const SparseMatrix& rows, Eigen::MatrixXd& schur) override;
   std::string name() const override { return solver_->name(); }
   const LinearCounts& counts() const override { return solver_->counts(); }
 

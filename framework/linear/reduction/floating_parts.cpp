@@ -1,4 +1,4 @@
-#include "framework/linear/floating_parts.hpp"
+#include "framework/linear/reduction/floating_parts.hpp"
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

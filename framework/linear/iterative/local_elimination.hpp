@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "framework/linear/direct/umfpack_solver.hpp"
 #include "framework/linear/linear_solver.hpp"
-#include "framework/linear/umfpack_solver.hpp"
 
 namespace sprekk {
 

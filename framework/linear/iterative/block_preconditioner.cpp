@@ -1,4 +1,4 @@
-#include "framework/linear/block_preconditioner.hpp"
+#include "framework/linear/iterative/block_preconditioner.hpp"
 
 #include <stdexcept>
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "framework/linear/bulk_splitting.hpp"
 #include "framework/linear/linear_solver.hpp"
+#include "framework/linear/reduction/bulk_splitting.hpp"
 
 namespace sprekk {
 

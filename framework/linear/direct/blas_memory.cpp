@@ -1,4 +1,4 @@
-#include "framework/linear/blas_memory.hpp"
+#include "framework/linear/direct/blas_memory.hpp"
 
 #include <sys/mman.h>
 #include <sys/resource.h>

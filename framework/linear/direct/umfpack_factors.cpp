@@ -1,4 +1,4 @@
-#include "framework/linear/umfpack_factors.hpp"
+#include "framework/linear/direct/umfpack_factors.hpp"
 
 #include <umfpack.h>
 

@@ -1,4 +1,4 @@
-#include "framework/linear/mumps_solver.hpp"
+#include "framework/linear/direct/mumps_solver.hpp"
 
 #include <dmumps_c.h>
 #include <mpi.h>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "framework/invariants.hpp"
+#include "framework/linear/direct/near_singular.hpp"
 #include "framework/linear/expect_sound.hpp"
-#include "framework/linear/near_singular.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/unknown_names.hpp"
@@ -103,7 +103,7 @@ LinearReport MumpsSolver::factor(const LinearSystem& system) {
 }
 
 std::optional<LinearReport> MumpsSolver::factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
-                                                         const SparseMatrix& rows, Eigen::MatrixXd& response) {
+                                                         const SparseMatrix& rows, Eigen::MatrixXd& schur) {
   if (parallel::size() > 1 || !system.local.isCompressed()) return std::nullopt;
   expect_sound(system);
   SPREKK_EXPECT(columns.rows() == system.local.rows(), columns.rows(), system.local.rows());
@@ -117,12 +117,12 @@ std::optional<LinearReport> MumpsSolver::factor_bordered(const LinearSystem& sys
   if (!report.solved) return report;
   SPREKK_ASSERT(std::max(rows.rows(), columns.cols()) <= border_.size(), rows.rows(), columns.cols(), border_.size());
   SPREKK_ASSERT(mumps_->schur.size() == static_cast<std::size_t>(border_.size()) * border_.size());
-  response.resize(rows.rows(), columns.cols());
+  schur.resize(rows.rows(), columns.cols());
   const int size = border_.size();
-  for (int row = 0; row < response.rows(); ++row)
-    for (int column = 0; column < response.cols(); ++column)
-      response(row, column) = -mumps_->schur[static_cast<std::size_t>(row) * size + column] /
-                              (border_.row_scale[row] * border_.column_scale[column]);
+  for (int row = 0; row < schur.rows(); ++row)
+    for (int column = 0; column < schur.cols(); ++column)
+      schur(row, column) = -mumps_->schur[static_cast<std::size_t>(row) * size + column] /
+                           (border_.row_scale[row] * border_.column_scale[column]);
   return report;
 }
 

@@ -1,4 +1,4 @@
-#include "framework/linear/near_singular.hpp"
+#include "framework/linear/direct/near_singular.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "framework/linear/umfpack_solver.hpp"
+#include "framework/linear/direct/umfpack_solver.hpp"
 
 #include <umfpack.h>
 
@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "framework/invariants.hpp"
+#include "framework/linear/direct/near_singular.hpp"
+#include "framework/linear/direct/umfpack_factors.hpp"
 #include "framework/linear/entity_graph.hpp"
 #include "framework/linear/expect_sound.hpp"
-#include "framework/linear/near_singular.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
-#include "framework/linear/umfpack_factors.hpp"
 #include "framework/linear/unknown_names.hpp"
 
 namespace sprekk {
@@ -126,7 +126,8 @@ std::vector<int> UmfpackSolver::order_of_entities() const {
   void* symbolic = nullptr;
   std::array<double, UMFPACK_CONTROL> control = control_;
   // Pivots will come from the diagonal. Without values UMFPACK does not see that, and would order columns alone: with
-  // 1.4 times the fill, and 3 times where many entities feel some that do not feel them, as around tips of fractures.
+  // 1.4 times the fill, and 3 times where many entities depend on some that do not depend on them, as around tips of
+  // fractures.
   control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
   constexpr int worth_dissecting = 4000;  // below, minimum degree is quicker and leaves no more fill
   if (n < worth_dissecting) control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;

@@ -1,4 +1,4 @@
-#include "framework/linear/local_elimination.hpp"
+#include "framework/linear/iterative/local_elimination.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,12 +1,12 @@
-#include "framework/linear/belos_solver.hpp"
+#include "framework/linear/iterative/belos_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
-#include "framework/linear/block_preconditioner.hpp"
 #include "framework/linear/equilibration.hpp"
+#include "framework/linear/iterative/block_preconditioner.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/trilinos_module/trilinos_module.hpp"

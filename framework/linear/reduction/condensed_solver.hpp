@@ -4,9 +4,9 @@
 #include <list>
 #include <memory>
 
+#include "framework/linear/direct/umfpack_solver.hpp"
 #include "framework/linear/linear_solver.hpp"
-#include "framework/linear/summed_balances.hpp"
-#include "framework/linear/umfpack_solver.hpp"
+#include "framework/linear/reduction/summed_balances.hpp"
 
 namespace sprekk {
 
@@ -19,8 +19,9 @@ class BulkSplitting;
 ///
 /// S is the Schur complement of the bulk. The equations of the bulk are linear, so A_BB and A_BF stay as long as the
 /// mesh and the time step do. A new system then costs the factorization of S. A right-hand side costs one back-solve
-/// with A_BB, or none where b_B = 0, and one more where X is too large to be kept (BulkResponse). X has a column for
-/// each unknown of F that has entries in A_BF. The factorizations of the last two bulks are kept, for two time steps.
+/// with A_BB, or none where b_B = 0, and one more where X is too large to be kept (BulkSchurComplement). X has a column
+/// for each unknown of F that has entries in A_BF. The factorizations of the last two bulks are kept, for two time
+/// steps.
 ///
 /// The whole system is solved instead where there is nothing to condense, where S costs more than the whole, as long as
 /// X would cost more than it could have saved so far, and where the first solution with a bulk turns out to be

@@ -1,4 +1,4 @@
-#include "framework/run/books.hpp"
+#include "framework/run/cumulative_balance.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@ namespace sprekk {
 namespace {
 
 constexpr double most = 1e-6;  ///< of the throughput
-const std::string key = "books.throughput.";
+const std::string key = "cumulative_balance.throughput.";
 
 }  // namespace
 
-void Books::note_step(const std::map<std::string, Balance>& balances, Notes& notes) {
+void CumulativeBalance::note_step(const std::map<std::string, Balance>& balances, Notes& notes) {
   for (const auto& [name, balance] : balances) {
     double& throughput = throughput_[name];
     throughput = std::max(throughput, balance.throughput);
@@ -28,11 +28,11 @@ void Books::note_step(const std::map<std::string, Balance>& balances, Notes& not
   }
 }
 
-void Books::save(std::map<std::string, Vector>& state) const {
+void CumulativeBalance::save(std::map<std::string, Vector>& state) const {
   for (const auto& [name, value] : throughput_) state[key + name] = Vector::Constant(1, value);
 }
 
-void Books::restore(const std::map<std::string, Vector>& state) {
+void CumulativeBalance::restore(const std::map<std::string, Vector>& state) {
   for (const auto& [name, value] : state)
     if (name.starts_with(key) && value.size() == 1) throughput_[name.substr(key.size())] = value[0];
 }

@@ -1,4 +1,4 @@
-#include "framework/linear/summed_balances.hpp"
+#include "framework/linear/reduction/summed_balances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -213,10 +213,10 @@ LinearReport SummedBalances::solve(const Vector& b_rows, Vector& x) {
 }
 
 std::optional<LinearReport> SummedBalances::factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
-                                                            const SparseMatrix& rows, Eigen::MatrixXd& response) {
+                                                            const SparseMatrix& rows, Eigen::MatrixXd& schur) {
   if (parallel::size() > 1 || !exchanging_rows(system.local, system.blocks).empty()) return std::nullopt;
   sums_.clear();
-  return solver_->factor_bordered(system, columns, rows, response);
+  return solver_->factor_bordered(system, columns, rows, schur);
 }
 
 bool SummedBalances::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {

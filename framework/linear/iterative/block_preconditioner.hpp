@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "framework/linear/iterative/local_elimination.hpp"
 #include "framework/linear/linear_solver.hpp"
-#include "framework/linear/local_elimination.hpp"
 #include "framework/linear/trilinos_module/trilinos_module.hpp"
 
 namespace sprekk {

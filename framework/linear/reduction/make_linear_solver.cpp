@@ -1,12 +1,12 @@
 #include <stdexcept>
 
-#include "framework/linear/belos_solver.hpp"
-#include "framework/linear/condensed_solver.hpp"
+#include "framework/linear/direct/mumps_solver.hpp"
+#include "framework/linear/direct/umfpack_solver.hpp"
+#include "framework/linear/iterative/belos_solver.hpp"
 #include "framework/linear/linear_solver.hpp"
-#include "framework/linear/mumps_solver.hpp"
-#include "framework/linear/separated_solver.hpp"
-#include "framework/linear/summed_balances.hpp"
-#include "framework/linear/umfpack_solver.hpp"
+#include "framework/linear/reduction/condensed_solver.hpp"
+#include "framework/linear/reduction/separated_solver.hpp"
+#include "framework/linear/reduction/summed_balances.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -22,8 +22,8 @@ class AutomaticSolver final : public LinearSolver {
 
   LinearReport factor(const LinearSystem& system) override { return chosen_for(system).factor(system); }
   std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
-                                              const SparseMatrix& rows, Eigen::MatrixXd& response) override {
-    return chosen_for(system).factor_bordered(system, columns, rows, response);
+                                              const SparseMatrix& rows, Eigen::MatrixXd& schur) override {
+    return chosen_for(system).factor_bordered(system, columns, rows, schur);
   }
   LinearReport solve(const Vector& b_rows, Vector& x) override {
     if (!chosen_) return LinearReport::failure("solve was called before factor");

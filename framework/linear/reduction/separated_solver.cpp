@@ -1,4 +1,4 @@
-#include "framework/linear/separated_solver.hpp"
+#include "framework/linear/reduction/separated_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

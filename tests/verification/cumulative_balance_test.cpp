@@ -10,8 +10,8 @@
 namespace sprekk::testing {
 namespace {
 
-/// The largest error of the books after any step, over the largest figure in them.
-double error_of_books(SceneRun& run) {
+/// The largest error of the cumulative balance after any step, over the largest figure in it.
+double error_of_balance(SceneRun& run) {
   double error = 0, turnover = 0;
   run.run_until(run.model().scene().time.end, [&] {
     error = std::max(error, std::abs(run.quantity("fluid_balance_error")));
@@ -32,12 +32,12 @@ std::vector<Override> scene(const std::string& permeability) {
 
 // A pressure of 5 MPa has the round-off of itself, which drives a flow: of k/mu dt p in a step of an hour. Beside 0.07
 // m^2 that flow out this counts from 1e-6 m^2 on.
-TEST(Books, CloseWithAnOpenSide) {
+TEST(CumulativeBalance, CloseWithAnOpenSide) {
   for (const double permeability : {1e-24, 1e-17, 1e-10, 1e-6, 1e-3}) {
     SCOPED_TRACE(permeability);
     SceneRun run("tutorial/first_scene.yaml", scene(std::to_string(permeability * 1e24) + "e-24 m^2"));
     const double round_off = 64 * 2.2e-16 * permeability / 1e-3 * 3600 * 5e6 / 0.07;
-    EXPECT_LT(error_of_books(run), 1e-7 + round_off);
+    EXPECT_LT(error_of_balance(run), 1e-7 + round_off);
   }
 }
 
@@ -75,16 +75,16 @@ time: {end: 80 s, step: 20 s}
 
 // The level of the pressure is held by what rock and fluid store, as little as 1e-15 of what the rock conducts in a
 // step.
-TEST(Books, CloseInAClosedBlock) {
+TEST(CumulativeBalance, CloseInAClosedBlock) {
   for (const char* permeability : {"1e-24 m^2", "5e-20 m^2", "1e-10 m^2", "1e-6 m^2", "1e-3 m^2"}) {
     SCOPED_TRACE(permeability);
     SceneRun run = SceneRun::from_text(closed_scene(permeability));
-    EXPECT_LT(error_of_books(run), 1e-7);
+    EXPECT_LT(error_of_balance(run), 1e-7);
   }
 }
 
 // Flow and rock in turn: the same test ends the iteration.
-TEST(Books, CloseWhereASchemeIterates) {
+TEST(CumulativeBalance, CloseWhereASchemeIterates) {
   for (const char* permeability : {"1e-17 m^2", "1e-10 m^2"}) {
     SCOPED_TRACE(permeability);
     std::vector<Override> changes = scene(permeability);
@@ -92,7 +92,7 @@ TEST(Books, CloseWhereASchemeIterates) {
                        "[{iterate: {steps: [{solve: [pore, conduit], stabilize: fixed_stress}, "
                        "{solve: [rock, contact]}]}}]"});
     SceneRun run("tutorial/first_scene.yaml", changes);
-    EXPECT_LT(error_of_books(run), 1e-5);
+    EXPECT_LT(error_of_balance(run), 1e-5);
   }
 }
 
