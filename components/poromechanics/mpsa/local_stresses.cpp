@@ -339,19 +339,19 @@ void LocalStresses::add_jump(const InteractionRegion& region, int subface, const
 void LocalStresses::exchange_volumes(const Mesh& mesh, const InteractionRegion& region,
                                      const std::vector<Stiffness>& stiffness) {
   exchange_.assign(mesh, region, stiffness, dilation_);
-  const int count = static_cast<int>(exchange_.volume.rows());
+  const int count = static_cast<int>(exchange_.subfaces.size());
   jumps_.assign(count * columns_, 0);
   for (int i = 0; i < count; ++i) {
     const GradientJump& jump = dilation_[exchange_.subfaces[i]];
     add_jump(region, exchange_.subfaces[i], jump, VolumeExchange::modulus(jump), jumps_.data() + i * columns_);
   }
+  exchanged_.assign(count * columns_, 0);
   for (int i = 0; i < count; ++i) {
+    double* volume = exchanged_.data() + i * columns_;
+    for (int j = 0; j < count; ++j) add_scaled(volume, exchange_.volume(i, j), jumps_.data() + j * columns_, columns_);
     const auto [first, second] = region.neighbours[exchange_.subfaces[i]];
-    for (int j = 0; j < count; ++j) {
-      const double* jump = jumps_.data() + j * columns_;
-      add_scaled(volumes_.data() + first * columns_, -exchange_.volume(i, j), jump, columns_);
-      add_scaled(volumes_.data() + second * columns_, exchange_.volume(i, j), jump, columns_);
-    }
+    add_scaled(volumes_.data() + first * columns_, -1, volume, columns_);
+    add_scaled(volumes_.data() + second * columns_, 1, volume, columns_);
   }
 }
 

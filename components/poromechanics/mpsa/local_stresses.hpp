@@ -93,11 +93,11 @@ class LocalStresses {
   std::vector<RotationJump> jump_;      ///< of the subfaces; of inner ones only
   std::vector<GradientJump> dilation_;  ///< likewise
   VolumeExchange exchange_;
-  std::vector<int> load_column_;   ///< of the subfaces: place of their boundary values, or none
-  std::vector<double> system_;     ///< the rows of [A B], then of [I A^-1 B]
-  std::vector<double> gradients_;  ///< four rows a subcell
-  std::vector<double> turns_;      ///< rho of the subfaces
-  std::vector<double> jumps_;      ///< y of the exchange
+  std::vector<int> load_column_;           ///< of the subfaces: place of their boundary values, or none
+  std::vector<double> system_;             ///< the rows of [A B], then of [I A^-1 B]
+  std::vector<double> gradients_;          ///< four rows a subcell
+  std::vector<double> turns_;              ///< rho of the subfaces
+  std::vector<double> jumps_, exchanged_;  ///< y of the exchange, and E y
   std::vector<double> forces_, volumes_;
 };
 

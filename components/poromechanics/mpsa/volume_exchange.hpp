@@ -24,14 +24,19 @@ namespace sprekk::poromechanics {
 ///   quarter could exceed that, where subcells are equal.
 /// - What s exchanges, T' E T s, is symmetric and positive semidefinite.
 /// - Of y what is wrong in stiff rock, however large as a stress, moves no more volume than belongs to that rock.
-struct VolumeExchange {
-  std::vector<int> subfaces;  ///< the inner ones
-  Eigen::MatrixXd volume;     ///< E, m^2/Pa; empty where there are less than three, which tell no more than a slope
+class VolumeExchange {
+ public:
+  std::vector<int> subfaces;  ///< the inner ones; none where there are less than three, which tell no more than a slope
+  Eigen::MatrixXd volume;     ///< E, m^2/Pa
 
   void assign(const Mesh& mesh, const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
               const std::vector<GradientJump>& dilation);
   /// The mean M, Pa: times the jump of dilation it gives y, which has −s_1 + s_2 in it.
   static double modulus(const GradientJump& dilation) { return -1 / dilation.of_stress; }
+
+ private:
+  Eigen::VectorXd root_;  ///< of c
+  Eigen::MatrixX2d slope_;
 };
 
 }  // namespace sprekk::poromechanics
