@@ -33,12 +33,13 @@ class Assembly {
 
   /// residual(row) += values.
   void add(const Field& row, const Vector& values);
-  /// The rows are balances of a quantity; said once, by the field's owner, before any of their terms. With those of
-  /// other fields that say the same, in the same unit, they may be added up.
+  /// Declares the rows of a field as balances of a quantity. To be called once, by the owner of the field, before any
+  /// of their terms are added. The balances of one quantity, of this and of other fields, have one unit and may be
+  /// added up.
   BalanceRows balance(const Field& row, const std::string& quantity);
-  /// For what others add to balances that the owner of the field has declared, if it has.
+  /// For terms that other parts add to balances; without effect beside the residual if the owner has declared none.
   BalanceRows balance(const Field& row);
-  /// Something else that the residual is to be small against, in the units of the equation.
+  /// Adds another magnitude that the residual is compared with, in the units of the equation.
   void compare_with(const Field& row, double magnitude);
   /// Adds a bound of the numbers whose differences make up the residual: these numbers leave round-off of their own
   /// size in the residual.
@@ -62,7 +63,8 @@ class Assembly {
   /// residual(row) += factor · diag(weights) · expression, with its derivatives.
   void linear(const Field& row, const LinearExpression& expression, double factor = 1, const Vector* weights = nullptr);
 
-  /// For terms that a part puts together itself. Those of exchanges with BalanceRows::exchange.
+  /// The product of matrix and column, for terms that a part puts together itself. Terms of exchanges are then added
+  /// with BalanceRows::exchange.
   const Vector& product(const Operator& matrix, const Field& column) { return products_->value_now(matrix, column); }
   const Vector& accepted_product(const Operator& matrix, const Field& column) {
     return products_->value_accepted(matrix, column);

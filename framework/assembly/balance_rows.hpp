@@ -1,4 +1,4 @@
-// What a part says of the balances of a conserved quantity: one call, and each term by what it is.
+// How a part declares the balances of a conserved quantity and adds their terms.
 #pragma once
 
 #include "framework/types.hpp"
@@ -8,31 +8,32 @@ namespace sprekk {
 class Assembly;
 class Field;
 
-/// The rows of one field as balances of a quantity: stored + outflow = supplied, in amounts over the step. From
-/// Assembly::balance, in each assemble(); terms of rows that are not in the solve are ignored, as everywhere.
+/// The rows of one field as balances of a quantity: stored + outflow = supplied, in amounts over the step. Parts get it
+/// from Assembly::balance in each assemble(); terms of rows that are not in the solve are ignored.
 ///
 ///   BalanceRows fluid = assembly.balance(pressure_, "fluid");
 ///   fluid.store(capacity.cwiseProduct(p.now() - p.accepted()), largest_of(capacity, p.now()));
 ///   fluid.exchange(dt * outflow, dt * outflow_through_the_boundary, dt * largest_conductance * largest_pressure);
 ///   fluid.supply(dt * source);
 ///
-/// Terms that are told so need nothing else: the step is accepted only when the errors of the balances are small
-/// against what is turned over, not only against what rows exchange, which may be any multiple of it; and the constant
-/// mode of the potentials is held by the sum of the rows where the rows alone, rounded, do not hold it. Derivatives go
-/// to Assembly::derivative; those of an exchange as an Operator that knows what leaves all rows together
-/// (docs/numerics/constant_modes.md).
+/// Two things follow from terms that are added in this way. The step is accepted only when the errors of the balances
+/// are small against their turnover, and not only against what rows exchange, which may be any multiple of it. And
+/// where the rounded rows alone do not hold the constant mode of the potentials, the sum of the rows holds it.
+/// Derivatives are added by Assembly::derivative; those of an exchange as an Operator that knows what leaves all rows
+/// together (docs/numerics/constant_modes.md).
 class BalanceRows {
  public:
-  /// residual += amounts: what each row stores in the step. `largest`: a bound of the numbers whose differences these
-  /// are, which leave round-off of their own size.
+  /// residual += amounts that each row stores in the step. `largest`: a bound of the numbers whose differences these
+  /// amounts are; such numbers leave round-off of their own size.
   void store(const Vector& amounts, double largest = 0);
-  /// residual −= amounts: what is brought in from outside of all balances.
+  /// residual −= amounts that sources bring in from outside of all balances.
   void supply(const Vector& amounts);
-  /// residual += outflow: what each row gives to others. `leaving` adds up to what `outflow` would without round-off:
-  /// what leaves all rows of the quantity together. `largest`: as in `store`, of each row; absent from the sum.
+  /// residual += outflow from each row to others. The sum of `leaving` is what the sum of `outflow` would be without
+  /// round-off: the amount that leaves all rows of the quantity together. `largest`: as in `store`, for each row; it
+  /// does not count for the sum.
   void exchange(const Vector& outflow, const Vector& leaving, double largest = 0);
-  /// Of amounts that other terms of these rows store, bring in or let out (by Assembly::linear, say); the sign does not
-  /// matter.
+  /// Adds to the turnover the amounts that other terms of these rows (by Assembly::linear, say) store, bring in or let
+  /// out; their sign does not matter.
   void turn_over(const Vector& amounts);
 
  private:

@@ -1,4 +1,4 @@
-// Sums of balances that hold a constant mode which their rows, rounded, do not.
+// Sums of balances that hold a constant mode which the rounded rows do not hold.
 #pragma once
 
 #include <vector>
@@ -8,37 +8,40 @@
 
 namespace sprekk {
 
-/// Whether little holds the constant mode of what balances exchange: less than 1e-6 of the exchange itself. Their rows,
-/// whose entries are rounded, then have lost it, and their sum has not. Where other unknowns of a bulk answer to the
-/// mode, how much they hold is known with the solution only: there `also_answered` decides, which who has seen the mode
-/// lost sets. Never where values are fixed in place of balances. Collective; needs the derivatives.
+/// Whether the balances of a quantity are near-singular for a constant: whether the derivatives without exchanges (the
+/// sum of their absolute entries) are at most 1e-6 of the largest exchange. Round-off of the rows then hides what holds
+/// the constant; the sum of the rows without exchanges has it. Where other unknowns of the bulk respond to the
+/// constant, how much these hold is known only with the solution: there `also_answered` decides, which a caller sets
+/// that has seen the constant lost. Never true where values are fixed in place of balances. Collective; needs the
+/// derivatives.
 bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_answered = false);
 
-/// The sum of all rows of the derivatives.
+/// A row of the Jacobian that is the sum of all rows of a quantity's balances.
 struct SumRow {
   std::vector<int> columns;  ///< ascending, counted over all unknowns of the assembly; no entry is zero
   std::vector<double> values;
 };
 
-// `owned`: of every row of every unknown, whether it is this process's. `first`: of every unknown, its first row and
-// column among those of all. Collective; every process gets the same.
-
+/// The sum of the rows of the balances. `owned`: for every row of every unknown, whether this process owns it. `first`:
+/// for every unknown, its first row and column among all. Collective; every process gets the same.
 SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first);
 
-/// The row that exchanges most, counted over all unknowns: the one that the sum may replace.
+/// The row with the largest exchange, counted over all unknowns: the row that the sum may replace.
 int row_to_replace(const Assembly& assembly, const Balances::Quantity& quantity,
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first);
 
-/// The sum of the residuals of the balances of one unknown, without what is exchanged. Collective.
+/// The sum of the residuals of the balances of one unknown, without what rows exchange. Collective.
 double sum_of_residuals(const Assembly& assembly, int unknown, const std::vector<char>& owned);
 
-/// Puts sums of balances in the place of one of them, in the systems of one solve.
+/// Puts the sum of balances in the place of one of them, in the systems of one solve.
 class BalanceSums {
  public:
-  /// Where rows alone lose the mode (is_weak). For direct solvers only: the row of a sum is no elliptic one.
+  /// Whether sums are used where the rounded rows lose the constant mode (is_weak). For direct solvers only: the row of
+  /// a sum is not elliptic.
   bool are_used = false;
-  /// Also where other unknowns of a bulk depend on the mode. Costs a row coupled to all of them.
+  /// Whether sums are also used where other unknowns of the bulk respond to the constant mode. The row of such a sum
+  /// has entries in the columns of all these unknowns.
   bool are_used_where_answered = false;
 
   /// Whether the sum of these balances takes the place of one of them. Collective.
@@ -51,8 +54,8 @@ class BalanceSums {
   /// The last system, with sums; the plain one, where none is needed.
   const LinearSystem& with_sums(const LinearSystem& plain) const { return replaced_.empty() ? plain : with_sums_; }
 
-  /// The balances of which one row of the last system is the sum, and its place among the owned rows, -1 where another
-  /// process has it.
+  /// A sum of balances in the last system, and the place of its row among the owned rows, -1 where another process has
+  /// the row.
   struct Replaced {
     Balances::Quantity quantity;
     int place;

@@ -1,4 +1,4 @@
-// Balances of conserved quantities, and what is left of them when they are added up.
+// Balances of conserved quantities, and their sums.
 #pragma once
 
 #include <algorithm>
@@ -9,27 +9,27 @@
 
 namespace sprekk {
 
-/// What the parts have said of balances while they assembled one state. With the sums of rows, in which exchanges are
-/// absent, the constant mode of their potentials is held by all the digits that storage and boundaries have
-/// (docs/numerics/constant_modes.md). An unknown is a number in the assembly's order. Parts write into it by
-/// BalanceRows.
+/// The balances that parts have declared while they assembled one state, with their terms in the sum of all rows. In
+/// such a sum exchanges are absent, so it holds the constant mode of the potentials with all digits of storage and
+/// boundary terms (docs/numerics/constant_modes.md). Unknowns are numbers in the order of the assembly. Parts write
+/// into it by BalanceRows.
 class Balances {
  public:
   explicit Balances(std::size_t unknowns) : of_(unknowns) {}
 
-  /// Balances that are added up: their constant modes are one.
+  /// The balances of one quantity, which are added up: their potentials share one constant mode.
   struct Quantity {
     std::string name;
     std::vector<int> unknowns;
     bool has(int unknown) const { return std::find(unknowns.begin(), unknowns.end(), unknown) != unknowns.end(); }
   };
 
-  /// The rows of an unknown are balances of a quantity; `so_far`: their residual until now. Throws std::logic_error
-  /// where that has been said before. `field` is its name.
+  /// Declares the rows of an unknown as balances of a quantity. `field`: the name of the unknown; `so_far`: the
+  /// residual of its rows until now. Throws std::logic_error for a second declaration.
   void declare(int unknown, const std::string& field, const std::string& quantity, const Vector& so_far);
   bool are_rows_of(int unknown) const { return of_[unknown].residual.size() > 0; }
 
-  // Of an unknown whose rows are balances; for others nothing happens.
+  // These add to the balances of an unknown; without effect where its rows are no balances.
   void add(int unknown, const Vector& values);
   void turn_over(int unknown, const Vector& amounts);
   void compare_round_off(int unknown, double largest);
@@ -37,10 +37,11 @@ class Balances {
   const std::vector<Quantity>& quantities() const { return quantities_; }
   /// The residual without what rows exchange, to be added up.
   const Vector& residual(int unknown) const { return of_[unknown].residual; }
-  /// What each row stores, what is brought in and what leaves all rows: not negative; as wrong as a residual where the
-  /// row is another process's.
+  /// The turnover of each row, not negative: what it stores, what sources bring in and what leaves all rows. Right on
+  /// rows that this process owns.
   const Vector& turnover(int unknown) const { return of_[unknown].turnover; }
-  /// Of the sum of all rows: the largest sum of absolute values of a term, and of the numbers whose differences it is.
+  /// For the sum of all rows: the largest sum of the absolute values of a term, and of the numbers whose differences
+  /// the term is.
   double magnitude(int unknown) const { return of_[unknown].magnitude; }
   double round_off_base(int unknown) const { return of_[unknown].round_off_base; }
 

@@ -30,7 +30,7 @@ class BlockSystem {
   const BalanceSums& sums() const { return sums_; }
   void use_sums(bool wanted) { sums_.are_used = wanted; }
   void use_answered_sums(bool wanted);
-  /// Of all processes: the sum of the residuals of conserved rows, without round-off of what is exchanged.
+  /// The sum over all processes of the residuals of balances, without the round-off of what rows exchange. Collective.
   double residual_of_sum(const Assembly& assembly, int unknown) const {
     return sum_of_residuals(assembly, unknown, owned_[unknown]);
   }

@@ -1,4 +1,4 @@
-// What holds a potential, so that no constant can be added to all of its values (docs/numerics/constant_modes.md).
+// Which unknowns have a constant mode in their null space, and what removes it (docs/numerics/constant_modes.md).
 #pragma once
 
 #include <map>
@@ -12,16 +12,17 @@
 
 namespace sprekk {
 
-/// Components say which of their unknowns float, couplers what ties or holds them. A field of which nobody says that it
-/// floats is held.
+/// Finds potentials to which any constant may be added. Components declare which of their unknowns float (the equations
+/// leave a constant open), couplers which fields they tie together or hold. A field that nobody declares floating is
+/// held.
 class ConstantModes {
  public:
-  /// Its own equations and data leave a constant open: `why`, and what would hold it.
+  /// Declares that the field's own equations and data leave a constant open: `why`, and what would hold it.
   void floats(const Field& field, const Origin& where, const std::string& why, const std::string& suggestion);
   void hold(const Field& field) { held_.insert(&field); }
-  /// They share one constant: what holds one holds the other.
+  /// Declares that two fields share one constant: what holds one holds the other.
   void tie(const Field& one, const Field& other) { ties_.emplace_back(&one, &other); }
-  /// Throws InputError naming a field whose constant nothing holds.
+  /// Throws InputError naming a floating field that nothing holds.
   void require_held() const;
 
  private:

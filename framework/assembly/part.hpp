@@ -110,7 +110,7 @@ class Part {
   virtual void stabilize(const std::string& /*scheme*/, Stabilization&) const {}
   /// Pairs of components of which the first cannot be in a solve without the second.
   virtual std::vector<Dependence> dependences() const { return {}; }
-  /// Says which potentials may be shifted by a constant, and what holds them.
+  /// Declares which unknowns float by a constant, and what holds or ties them.
   virtual void hold_constants(ConstantModes&) const {}
   /// Times (s) that a step must end at, because data jump there.
   virtual std::vector<double> switch_times() const { return {}; }

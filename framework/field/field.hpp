@@ -15,6 +15,7 @@ namespace sprekk {
 enum class Location { cell, face, node, fracture_cell, fracture_point, wall };
 int entity_count(const Mesh& mesh, Location location);
 
+/// What a field is: its owner, name, place on the mesh, components for each entity, role and unit.
 struct FieldSpec {
   std::string owner;  ///< the component's name in the scene
   std::string name;
@@ -23,7 +24,7 @@ struct FieldSpec {
   Role role;  ///< with the kind of its block, where it is solved for
   std::string unit;
   std::string doc;
-  /// Of an input that makes no sense unless a coupler determines it: the type of coupler that would; else "".
+  /// For an input that makes no sense unless a coupler determines it: the type of that coupler; else "".
   std::string needs_coupler = "";
   /// Of a derived field that keeps the cumulative balance of another (what has been stored, what has flowed out): that
   /// field's full name. Both are accepted together, also after a substep.

@@ -5,8 +5,9 @@
 
 namespace sprekk {
 
-/// unknown: determined by its owner's balance law. input: given to its owner; a coupler may determine it, else it keeps
-/// its initial value. derived: follows from the others, kept because its accepted value is needed or for output.
+/// The role of a field. unknown: determined by its owner's balance law. input: given to its owner; a coupler may
+/// determine it, else it keeps its initial value. derived: follows from other fields; kept because its accepted value
+/// is needed, or for output.
 ///
 /// There is no default: a wrong kind of block gives the right answer, but many times slower, and nothing would tell.
 class Role {
@@ -18,7 +19,7 @@ class Role {
   constexpr bool is_unknown() const { return who_ == Who::unknown; }
   constexpr bool is_input() const { return who_ == Who::input; }
   constexpr bool is_derived() const { return who_ == Who::derived; }
-  /// Of an unknown or an input; nobody asks for that of a derived field.
+  /// The kind of block of an unknown or an input; without meaning for a derived field.
   constexpr BlockKind kind() const { return kind_; }
 
  private:

@@ -1,4 +1,4 @@
-// A copy of UMFPACK's factors, for solving with many right-hand sides at once.
+// A copy of UMFPACK's factors, for solves with many right-hand sides at once.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// What Sprekk asks of Trilinos: distributed matrices, multigrid cycles and GMRES.
+// The part of Trilinos that Sprekk uses: distributed matrices, multigrid cycles and GMRES.
 #pragma once
 
 #include <functional>
@@ -28,22 +28,23 @@ class Multigrid {
 /// Right-preconditioned GMRES (Belos) for one matrix.
 class Gmres {
  public:
+  /// A solution, converged or not.
   struct Result {
     Vector x;  ///< on this process's rows
     int iterations;
   };
   virtual ~Gmres() = default;
-  /// A x = b, from x = 0, until the residual is `tolerance` times that of the start. Collective. Throws std::exception
-  /// where the method breaks down.
+  /// Solves A x = b, from x = 0, until the residual is `tolerance` times that of the start. Collective. Throws
+  /// std::exception where the method breaks down.
   virtual Result solve(const Vector& b, double tolerance, int max_iterations) const = 0;
 };
 
-/// The module "trilinos": a hundred libraries. Each call is collective and wants MPI to run: see `trilinos()`.
+/// The module "trilinos", which loads a hundred libraries. Each call is collective and needs MPI: see `trilinos()`.
 class TrilinosModule {
  public:
   virtual ~TrilinosModule() = default;
-  /// `rows`: this process's rows, columns global. `row_ids`, `column_ids`: global numbers of the rows that this process
-  /// holds of the result, and of the entries that it holds of the operand.
+  /// Makes a distributed matrix. `rows`: this process's rows, with global columns. `row_ids`, `column_ids`: global
+  /// numbers of the entries of the result, and of the operand, that this process holds.
   virtual std::unique_ptr<DistributedMatrix> matrix(const SparseMatrix& rows, const std::vector<int>& row_ids,
                                                     const std::vector<int>& column_ids, int row_count) const = 0;
   /// Smoothed aggregation (MueLu) with symmetric Gauss-Seidel smoothing; rigid-body modes span the near-null space of
@@ -52,7 +53,7 @@ class TrilinosModule {
   virtual std::unique_ptr<Multigrid> multigrid(const SparseMatrix& rows, const std::vector<int>& ids,
                                                const UnknownBlock& block) const = 0;
   /// `rows`: this process's rows, columns global. `ids`: their numbers. `precondition(r, z)`: z = M r on these rows.
-  /// `basis`: vectors that are kept before the method starts again from its best x.
+  /// `basis`: the number of vectors that are kept before the method restarts from its best x.
   virtual std::unique_ptr<Gmres> gmres(const SparseMatrix& rows, const std::vector<int>& ids,
                                        std::function<void(const Vector&, Vector&)> precondition, int basis) const = 0;
 };
