@@ -1,9 +1,9 @@
-// How a module tells the program what it offers. Included by one source of each module.
+// Defines the function by which a module offers its interface. Included by one source of each module.
 #pragma once
 
 namespace sprekk {
 
-/// What the one function that a module exports returns.
+/// The description of a module, returned by the one function that the module exports.
 struct ModuleDescription {
   const char* version;    ///< of Sprekk, when the module was built
   const void* interface;  ///< to an object of the abstract class that the module implements

@@ -1,10 +1,10 @@
-// Parts of the program that are opened when they are needed: what only some runs use would slow the start of each.
+// Modules: parts of the program that are opened when a run needs them, so that they do not slow the start of others.
 #pragma once
 
 namespace sprekk {
 
-/// What the module `name` offers, from its file sprekk_<name>.so. It is opened at the first call and stays open. The
-/// files lie where the program was built or installed to look for them: beside it, in lib/sprekk. Throws
+/// The interface of the module `name`, from its file sprekk_<name>.so, which is opened at the first call and stays
+/// open. The files are beside the program that was built, or in lib/sprekk of an installation. Throws
 /// std::runtime_error, with the reason, if the file is missing, damaged or of another version of Sprekk.
 const void* open_module(const char* name);
 

@@ -9,20 +9,20 @@
 
 namespace sprekk {
 
-/// Writes a checkpoint now and then, and when the run ends. What has been written last is what the run can go on from.
+/// Writes a checkpoint from time to time, and when the run ends. A run can be continued from the last one.
 class Checkpoints {
  public:
   /// Both must outlive this object. The interval counts from now on.
   Checkpoints(const SimulationState& state, RunOutput& output, std::string fingerprint);
 
-  void step_begins();  ///< the next step starts from the state as it is
+  void step_begins();  ///< the next step starts from the present state
   void write();        ///< of the accepted state. Collective
-  /// Of the moment of step_begins(): for a step that has been given up and rewound. Collective
+  /// Writes the state at step_begins(), for a step that has been given up and rewound. Collective
   void write_begin_of_step();
   void write_if_due();  ///< Collective
 
  private:
-  /// What a step that is given up has changed besides what Model::rewind puts back.
+  /// The state that a step changes and Model::rewind does not restore.
   struct Moment {
     std::map<std::string, Vector> steps;  ///< of the controller
     RunOutput::Rows rows;

@@ -10,20 +10,20 @@
 
 namespace sprekk {
 
-/// `stop:` and `stop_when_steady:` of `time:`.
+/// The conditions `stop:` and `stop_when_steady:` of `time:`.
 class EarlyEnd {
  public:
   /// `quantities`: of the scene. Throws InputError as StopCondition does.
   EarlyEnd(const Scene& scene, const std::vector<Quantity>& quantities) : stop_(scene, quantities) {}
 
-  /// Looks at a step that is about to be accepted, with the quantities at its end.
+  /// Checks a step that is about to be accepted, with the quantities at its end.
   void look_at(const Model& model, const StepTime& step, const std::vector<Quantity>& quantities);
 
   bool is_reached() const { return steady_since_ || has_stopped_; }
   std::string text() const;                          ///< "fluid_injected has reached 3 m^2", "steady since 3 h"
   bool has_stopped() const { return has_stopped_; }  ///< by `stop:`
   const std::optional<double>& steady_since() const { return steady_since_; }  ///< s
-  /// What `stop:` waits for in vain: "fluid_injected is 2 m^2, and has not reached 3 m^2".
+  /// Says that `stop:` has not been reached: "fluid_injected is 2 m^2, and has not reached 3 m^2".
   std::string missed_text(const std::vector<Quantity>& quantities) const { return stop_.missed_text(quantities); }
 
  private:

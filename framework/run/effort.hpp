@@ -1,4 +1,4 @@
-// What a run has cost: attempts, iterations, and what its models have counted and timed.
+// The effort of a run: attempts, iterations, and the counts and times of its models.
 #pragma once
 
 #include <map>
@@ -9,6 +9,7 @@
 
 namespace sprekk {
 
+/// Adds up the effort of a run, over all models that changes of the mesh have made.
 class Effort {
  public:
   void attempted(const StepStatus& status) { iterations_ += status.iterations; }
@@ -17,8 +18,8 @@ class Effort {
   /// settling.
   void mesh_changed(const Model& before, const Model& after);
 
-  /// Adds all to the record, and to the profile the time of what the models have timed inside of "steps" and of "change
-  /// of mesh", which is taken from these. `last`: the model at the end. To be called once.
+  /// Adds all counts to the record, and to the profile the times of the models' work. These times lie inside of "steps"
+  /// and of "change of mesh", and are subtracted there. `last`: the model at the end. To be called once.
   void finish(const Model& last, RunRecord& record, Profile& profile);
 
  private:

@@ -7,12 +7,12 @@
 
 namespace sprekk {
 
-/// The times that the scene asks for, and its end.
+/// The times at which a scene asks for fields, and the end of the run.
 class OutputTimes {
  public:
   explicit OutputTimes(const Scene& scene);
   const std::vector<double>& all() const { return times_; }  ///< s, in any order
-  /// Whether `time` (s) is one of them. The step controller takes times that are as near for one.
+  /// Whether `time` (s) is one of them, to the tolerance to which the step controller takes two times for one.
   bool contains(double time) const;
 
  private:

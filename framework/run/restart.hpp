@@ -1,4 +1,4 @@
-// The checkpoint that a run goes on from.
+// The checkpoint from which a run is continued.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,12 @@
 
 namespace sprekk {
 
+/// Continues a run from a checkpoint.
 class Restart {
  public:
-  /// Reads the file, and locks the output's folder, in which it is. Throws InputError when the file is no checkpoint of
-  /// this scene, naming the parameters that differ, or when another run is at work in the folder. Collective.
+  /// Reads the file, and locks the folder of `output`, which contains the file. Throws InputError when the file is no
+  /// checkpoint of this scene, naming the parameters that differ, or when another run has locked the folder.
+  /// Collective.
   Restart(const Scene& scene, const std::filesystem::path& file, RunOutput& output);
 
   Mesh mesh() const;  ///< of the checkpoint, which may have grown; divided among today's processes
@@ -26,8 +28,8 @@ class Restart {
   Checkpoint checkpoint_;
 };
 
-/// A run that goes on appends to its tables, whose columns are there. Throws InputError when history.csv lacks the
-/// column of one of the quantities.
+/// For a run that is continued, which appends to tables with given columns: throws InputError when history.csv lacks
+/// the column of one of the quantities.
 void require_columns(const std::vector<Quantity>& quantities, const RunOutput& output);
 
 }  // namespace sprekk

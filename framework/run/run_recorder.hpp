@@ -12,21 +12,22 @@
 
 namespace sprekk {
 
+/// Collects the content of run.json.
 class RunRecorder {
  public:
-  /// The time of the set-up counts from now on.
+  /// The time of the set-up begins now.
   explicit RunRecorder(std::vector<std::string> scene_files);
-  void set_up_ends();  ///< the time of the run counts from now on
+  void set_up_ends();  ///< the time of the run begins now
 
-  /// What is known before the first step: the scene, the mesh, the unknowns, the notes.
+  /// Records what is known before the first step: the scene, the mesh, the unknowns, the notes.
   void begin(const Model& model);
   void accepted(const std::vector<Quantity>& quantities);  ///< at the end of a step
-  /// `reason`: why the run has not come to its end; nothing when it has.
+  /// Records how the run has ended. `reason`: why it has not come to its end; "" when it has.
   void end(ExitCode code, const std::string& reason, const Scene& scene, const EarlyEnd& early);
   void add(const MeshGrowth& growth);
-  /// What is said and timed at the end; `profile` is complete.
+  /// Records notes and times; `profile` must be complete.
   void close(const Notes& step_notes, const Profile& profile);
-  /// The run ends because something could not be written.
+  /// Records that the run ends because something could not be written.
   void fail(const std::string& reason);
 
   const RunRecord& record() const { return record_; }
@@ -34,7 +35,7 @@ class RunRecorder {
 
  private:
   RunRecord record_;
-  Notes start_notes_;  ///< and, at the end, on what was asked for and did not happen
+  Notes start_notes_;  ///< at the end also on requests that had no effect
   std::vector<Quantity> last_quantities_;
   long steps_ = 0;
   double processor_at_start_, processor_after_set_up_ = 0, began_ = 0;  ///< s

@@ -1,4 +1,4 @@
-// By what a checkpoint is known to be of the same scene.
+// The fingerprint that tells whether a checkpoint belongs to a scene.
 #pragma once
 
 #include <string>

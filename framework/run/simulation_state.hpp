@@ -1,4 +1,4 @@
-// What a run changes from step to step: all that its checkpoints hold.
+// The state of a run, which changes from step to step and is stored in checkpoints.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,9 @@
 
 namespace sprekk {
 
+/// The model with its fields, the step controller, the check of balances and the notes.
 struct SimulationState {
-  std::unique_ptr<Model> model;  ///< another one each time that the mesh has grown
+  std::unique_ptr<Model> model;  ///< replaced each time that the mesh has grown
   StepController controller;
   CumulativeBalance balance = {};
   Notes notes = {};  ///< of all accepted steps

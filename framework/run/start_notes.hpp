@@ -1,4 +1,4 @@
-// What a user would not expect of a run that is about to begin.
+// Notes on a run that is about to begin.
 #pragma once
 
 #include "framework/mesh/mesh_quality.hpp"
@@ -6,8 +6,8 @@
 
 namespace sprekk {
 
-/// The notes of the scene and of all parts, and those on the program, the mesh and the processes. `unknowns`: how many
-/// the run solves for.
+/// The notes of the scene and of all parts, and those on the program, the mesh and the processes. `unknowns`: the
+/// number of unknowns of the run.
 Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns);
 
 }  // namespace sprekk

@@ -1,12 +1,13 @@
-// Whether anything is still going on in a run.
+// Whether a run has reached a steady state.
 #pragma once
 
 #include "framework/scene/model.hpp"
 
 namespace sprekk {
 
-/// `stop_when_steady:` of `time:`: whether changes like those of `step`, which is about to be accepted, would add up to
-/// less than that share of the unknowns until the end, with no data that jump ahead. Never in a scene that has none.
+/// The condition `stop_when_steady:` of `time:`. True if changes like those of `step`, which is about to be accepted,
+/// would add up to less than the given share of the unknowns until the end, and no data jump until then. Never true in
+/// a scene without `stop_when_steady:`.
 bool is_steady(const Model& model, const StepTime& step);
 
 }  // namespace sprekk

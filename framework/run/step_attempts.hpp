@@ -12,16 +12,18 @@
 
 namespace sprekk {
 
+/// Attempts one step of a run.
 class StepAttempts {
  public:
+  /// How the step has ended.
   enum class Outcome { converged, failed, interrupted };
 
   /// All must outlive this object.
   StepAttempts(SimulationState& state, MeshGrowth& growth, Effort& effort, Profile& profile, Progress& progress)
       : state_(state), growth_(growth), effort_(effort), profile_(profile), progress_(progress) {}
 
-  /// Tries steps from the accepted state until one has converged on a mesh that it does not change any more, and leaves
-  /// the model at its end. Otherwise the model is rewound, unless the mesh could not follow.
+  /// Tries steps from the accepted state until one has converged on a mesh that no longer changes, and leaves the model
+  /// at the end of that step. Otherwise the model is rewound, unless the mesh could not be changed.
   Outcome run();
 
   const StepTime& step() const { return step_; }         ///< the last one tried
@@ -29,7 +31,7 @@ class StepAttempts {
   const std::string& reason() const { return reason_; }  ///< why there is no step
 
  private:
-  /// One attempt, which sets the status; when there cannot be another, how the step ends.
+  /// Makes one attempt and sets the status. Returns the outcome of the step when no other attempt is to follow.
   std::optional<Outcome> attempt(bool may_be_interrupted);
   MeshGrowth::Outcome follow_growth();
   bool cut();

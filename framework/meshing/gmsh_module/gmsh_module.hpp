@@ -1,4 +1,4 @@
-// What Sprekk asks of gmsh: triangles between lines in the plane.
+// The part of gmsh that Sprekk uses: triangles between lines in the plane.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@ struct PlanarLines {
   double random_factor = 1e-9;                    ///< gmsh's Mesh.RandomFactor: how far points are moved, of the whole
 };
 
+/// Triangles between lines, in the unit of the points. All numbers count from 0.
 struct PlanarTriangles {
   std::vector<std::array<double, 2>> nodes;
   std::vector<std::array<int, 3>> triangles;  ///< numbers of nodes

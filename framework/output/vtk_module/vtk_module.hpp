@@ -1,4 +1,4 @@
-// What Sprekk asks of VTK: files of unstructured grids (.vtu).
+// The part of VTK that Sprekk uses: files of unstructured grids (.vtu).
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@ namespace sprekk {
 
 /// The content of a .vtu file.
 struct GridData {
+  /// Named values on points or on cells.
   struct Array {
     std::string name;
     int components;
@@ -28,8 +29,8 @@ struct GridData {
 class VtkModule {
  public:
   virtual ~VtkModule() = default;
-  /// Arrays of all types of numbers; those without a name are left out. Throws std::runtime_error for a file that
-  /// cannot be read.
+  /// Reads arrays of all types of numbers; arrays without a name are left out. Throws std::runtime_error for a file
+  /// that cannot be read.
   virtual GridData read(const std::filesystem::path& vtu) const = 0;
 };
 
