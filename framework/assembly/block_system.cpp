@@ -11,7 +11,8 @@ namespace sprekk {
 
 namespace {
 
-/// Where entities are; those of one fracture cell are at one point, by which preconditioners group them.
+/// The positions of entities, m. All entities of one fracture cell are at one point, by which preconditioners group
+/// them.
 std::vector<Point> coordinates(const Mesh& mesh, Location location) {
   if (location == Location::cell) return mesh.cell_center;
   std::vector<Point> points;
@@ -98,7 +99,7 @@ bool BlockSystem::has_same_fixed(const Assembly& assembly) const {
                     });
 }
 
-/// Where equations say that they are balances, the others are none.
+/// Marks the blocks whose rows may be balances: the declared ones, or all where no part declares balances.
 void BlockSystem::mark_balances(const Assembly& assembly) {
   const std::vector<Balances::Quantity>& quantities = assembly.balances().quantities();
   for (UnknownBlock& block : system_.blocks) block.may_store = quantities.empty();
@@ -133,7 +134,7 @@ void BlockSystem::build_pattern(const Assembly& assembly) {
   inner.reserve(entries);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     std::vector<Source>& sources = by_row[u];
-    // From left to right: what each column field adds is then sorted by itself, and mostly is already.
+    // Column fields from left to right: then only the entries of one field need sorting, and mostly are sorted already.
     std::vector<Source*> ordered;
     for (Source& source : sources) ordered.push_back(&source);
     std::stable_sort(ordered.begin(), ordered.end(),

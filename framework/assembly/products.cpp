@@ -14,7 +14,7 @@ FieldProduct multiplied(const SparseMatrix& a, const Vector& x) {
   const int *outer = a.outerIndexPtr(), *inner = a.innerIndexPtr();
   const double *entries = a.valuePtr(), *values = x.data();
   for (int row = 0; row < a.rows(); ++row) {
-    // Two sums at a time: one would wait for each of its additions.
+    // Two sums at a time, since additions to a single sum wait for one another.
     double value[2] = {0, 0}, size[2] = {0, 0};
     int k = outer[row];
     for (; k + 1 < outer[row + 1]; k += 2)

@@ -87,7 +87,7 @@ void require_command(const CLI::App& app, int argc, char** argv) {
     throw unknown_name({"sprekk", 0, 0}, "command", argv[1], names);
 }
 
-/// Every process has met the same wrong input, or only the first one a folder that cannot be written.
+/// Wrong input has been found by every process; a folder that cannot be written, perhaps by the first process only.
 int answer_wrong_input(const InputError& error) {
   if (parallel::is_root()) std::cerr << "error: " << error.what() << "\n";
   return static_cast<int>(ExitCode::wrong_input);

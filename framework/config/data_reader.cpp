@@ -66,7 +66,7 @@ void check_constant_windows(const Data& sum, const std::vector<Window>& windows,
   }
   std::vector<double> instants = sum.switch_times();
   if (instants.empty()) return;
-  // A scene that starts at a window's `from`, as nearly all do at 0 s, does not see what was before.
+  // In a scene that starts at the `from` of a window, as nearly all do at 0 s, the time before has no effect.
   if (instants.front() > 0) instants.insert(instants.begin(), std::nextafter(instants.front(), -forever));
   for (const double t : instants) {
     const double value = sum.at({Point::Zero(), 0, t});

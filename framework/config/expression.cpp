@@ -99,7 +99,7 @@ class Expression {
     return std::any_of(unit_constants().begin(), unit_constants().end(),
                        [this](const auto& unit) { return mentions(unit.first); });
   }
-  /// Its value in units that are `sizes` times as small: of m, kg, s, K and rad.
+  /// The value in units of m, kg, s, K and rad that are smaller by the factors `sizes`.
   double in_units(const std::array<double, 5>& sizes) {
     for (const auto& [name, value] : unit_constants()) {
       const Dimension dimension = parse_unit(name).dimension;
@@ -188,7 +188,8 @@ LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, con
   const LackOfUnit lack = expression.mentions_unit() ? LackOfUnit::of_a_term : LackOfUnit::any;
   if (expression.uses_time() || expression.uses_space()) return LackOfUnit::none;
   const double value = expression.unchecked({});
-  // Any sizes of which no two products of small powers are the same. Angles count as numbers, unless one is asked for.
+  // Sizes such that no two products of small powers of them are equal. Angles count as numbers, unless the dimension
+  // has an angle.
   std::array<double, 5> sizes = {1.0137, 1.0171, 1.0193, 1.0229, 1};
   if (dimension.exponents[4] != 0) sizes[4] = 1.0271;
   double factor = 1;

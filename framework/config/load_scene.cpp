@@ -18,7 +18,7 @@ Node::Entry* entry_of(Node& map, const std::string& key) {
   return nullptr;
 }
 
-/// Merges `later` over `base` by the rules of RFC 7386, with null as the value that removes.
+/// Merges `later` over `base` by the rules of RFC 7386: null removes a key.
 void merge(Node& base, Node later) {
   if (!base.is_map() || !later.is_map()) {
     base = std::move(later);
@@ -56,7 +56,7 @@ void set_origins(Node& node, const Origin& origin) {
   }
 }
 
-/// Where a message about the path of an override points.
+/// The origin for messages about the path of an override.
 Origin place_of(const Override& change) {
   return change.key_origin.source == "--set" ? Origin{"--set " + change.path} : change.key_origin;
 }

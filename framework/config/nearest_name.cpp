@@ -1,4 +1,4 @@
-// The name that a misspelt one was probably meant to be.
+// The name that was probably meant by a misspelt one.
 #include <algorithm>
 #include <cctype>
 

@@ -30,7 +30,8 @@ std::string escaped(const std::string& text) {
   return result + "\"";
 }
 
-/// The parser does not tell the commonest mistake: a tab in the indentation of the line, or of the one above.
+/// Finds the commonest mistake, which the parser does not name: a tab in the indentation of a line, or of the line
+/// above.
 std::optional<Origin> tab_in_indentation(const std::string& text, const std::string& source, int line_of_error) {
   std::istringstream lines(text);
   int line = 0;

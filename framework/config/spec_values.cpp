@@ -43,7 +43,7 @@ std::string text_of(const std::optional<Value>& value, const About& about) {
   return value ? text_of(*value, about) : "";
 }
 
-/// A default that the scene itself could not write would make `sprekk show` a liar.
+/// Checks that a scene may give the default itself: otherwise the output of `sprekk show` could not be run.
 void require_default_in_range(double value, const std::string& name, const About& about) {
   if (about.required || about.range.contains(value)) return;
   throw std::logic_error(

@@ -39,8 +39,8 @@ Data combined(const std::vector<Data>& parts, const Combine& combine) {
   return Data(std::move(evaluate), in_time, in_space, merged_switch_times(pointers));
 }
 
-/// Only together do the components make a definite tensor: constants are checked now, others with every evaluation of
-/// the off-diagonal one.
+/// Checks that the components together are a definite tensor: constants now, other data at every evaluation of the
+/// off-diagonal component.
 TensorData definite(TensorData tensor, const Origin& where, const DataRequest& request) {
   if (!must_be_definite(request.about)) return tensor;
   const bool is_constant = tensor.xx.is_constant() && tensor.yy.is_constant() && tensor.xy.is_constant();

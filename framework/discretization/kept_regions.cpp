@@ -24,7 +24,7 @@ std::vector<int> inverse(const std::vector<int>& origin, int count) {
   return inverse;
 }
 
-/// Where both lists map item by item: `origin` of the items after.
+/// Whether both lists agree item by item; `origin` maps items after the change to those before.
 template <class After, class Before>
 bool maps(const After& after, const Before& before, const std::vector<int>& origin) {
   return std::equal(std::begin(after), std::end(after), std::begin(before), std::end(before),
@@ -75,7 +75,7 @@ class Comparison {
     }
   }
 
-  /// Those of a cell, whatever is on their other sides.
+  /// Whether a cell has the same faces as before, regardless of the cells on their other sides.
   bool has_same_faces(int cell, int was) const {
     const auto faces = after_.mesh.cell_faces[cell], old_faces = before_.mesh.cell_faces[was];
     if (!maps(faces, old_faces, change_.face)) return false;
@@ -109,7 +109,7 @@ class Comparison {
   std::vector<char> is_same_face_, is_same_cell_;
 };
 
-/// What several nodes add to one place of a row is summed up in the order of the nodes.
+/// Terms of several nodes at one place of a row are added in the order of the nodes.
 template <class Nodes>
 bool same_order(const Nodes& nodes, const std::vector<int>& kept_node) {
   for (const int a : nodes)

@@ -38,7 +38,7 @@ TipFrame::Polar TipFrame::polar(const Point& x, int side) const {
   SPREKK_EXPECT(side >= -1 && side <= 1, side);
   const Point local = axes_.transpose() * (x - tip_);
   const double angle = std::atan2(local.y(), local.x());
-  // A fracture that bends a little leaves its line: behind the tip the side decides.
+  // A fracture that bends a little leaves the line of the tip: behind the tip, `side` decides the sign of the angle.
   const bool is_beyond = angle * side < 0 && std::abs(local.y()) < -0.5 * local.x();
   return {local.norm(), is_beyond ? angle + 2 * std::numbers::pi * side : angle};
 }

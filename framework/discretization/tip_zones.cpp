@@ -13,7 +13,7 @@
 namespace sprekk {
 namespace {
 
-/// Of a distance from the line of the tip's fracture to that from the tip: farther off, it has left its line.
+/// Largest ratio of a node's distance from the line of the tip to that from the tip for a fracture that keeps its line.
 constexpr double off_line = 1e-3;
 
 /// Half of the width of a zone along the fracture, in lengths of the cell at the tip.
@@ -25,7 +25,7 @@ double fading(double part) {
   return s * s * (3 - 2 * s);
 }
 
-/// Nodes of sides and fractures: what can be in the way of a tip's field.
+/// Nodes of sides and fractures, which disturb the field of a tip.
 std::vector<int> outer_nodes(const Mesh& mesh) {
   std::set<int> nodes;
   for (int face = 0; face < mesh.face_count(); ++face)
@@ -33,7 +33,7 @@ std::vector<int> outer_nodes(const Mesh& mesh) {
   return {nodes.begin(), nodes.end()};
 }
 
-/// To what is nearest in the way of a tip's field, m.
+/// The distance from a tip to the nearest node that disturbs its field, m.
 double free_way(const Mesh& mesh, int tip, const std::vector<int>& outer) {
   const TipFrame frame(mesh, tip);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];

@@ -9,9 +9,10 @@
 namespace sprekk {
 namespace {
 
-/// Edges from the tip to where linear functions do: what they miss falls with the square of the distance.
+/// Number of edges from the tip to where linear functions suffice: their error falls with the square of the distance.
 constexpr int layers = 3;
-/// Halfway between two tips both fields count, and a symmetric mesh must have a symmetric answer: neither is taken.
+/// Halfway between two tips both fields are as strong, and a symmetric mesh must have a symmetric result: neither tip
+/// is taken.
 constexpr double clearly = 0.9;
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace sprekk {
 namespace {
 
-/// Builds one mesh; its members are what the steps hand to each other.
+/// Builds one mesh; the members are the intermediate results that the steps share.
 class MeshBuilder {
  public:
   explicit MeshBuilder(const RawMesh& raw)

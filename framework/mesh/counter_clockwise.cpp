@@ -17,7 +17,7 @@ constexpr double smallest_flatness = 1e-10;
 void require_triangle(const std::vector<Point>& nodes, const Ring& cell) {
   const Point &p = nodes[cell[0]], &q = nodes[cell[1]], &r = nodes[cell[2]];
   const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
-  // Negated, so that NaN is refused too.
+  // The comparison is negated so that NaN is refused, too.
   if (!(std::abs(2 * signed_area(p, q, r)) > smallest_flatness * longest)) {
     throw InputError("the triangle at " + to_text((p + q + r) / 3) + " is degenerate (it has no area)");
   }

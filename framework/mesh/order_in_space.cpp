@@ -10,7 +10,7 @@ namespace sprekk {
 
 namespace {
 
-/// Of the curve through 2^bits × 2^bits squares: the place of square (x, y) along it.
+/// The place of square (x, y) along Hilbert's curve through 2^bits × 2^bits squares.
 std::uint64_t place_on_curve(std::uint32_t x, std::uint32_t y, int bits) {
   std::uint64_t place = 0;
   for (int bit = bits - 1; bit >= 0; --bit) {

@@ -36,7 +36,7 @@ Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options) {
   try {
     return finish(std::move(raw), geometry, options);
   } catch (const InputError& error) {
-    // What is wrong with the triangles of a file is the user's to mend: say in which file.
+    // Wrong triangles of a file are a mistake of the user: the message names the file.
     throw InputError(geometry.file_origin, "cannot use the mesh file '" + geometry.file + "'", error.what());
   }
 }

@@ -9,7 +9,7 @@
 namespace sprekk {
 namespace {
 
-/// By how much the width of a gap may vary along a part that counts as one.
+/// The largest variation of the width of a gap along one part.
 constexpr double evenness = 1.25;
 /// Lines that join each other count as neighbours across a gap where the way along the fractures is at least so many
 /// times the gap.
@@ -22,7 +22,7 @@ struct Stretch {
 
 double way_between(const Stretch& a, const Stretch& b) { return std::max({0.0, b.from - a.to, a.from - b.to}); }
 
-/// Where a fracture touches what leads to another line.
+/// A place where a fracture touches another fracture, through which a way leads to another line.
 struct Joint {
   Stretch at;     ///< of the fracture
   double beyond;  ///< m, the way from there along the other line's fracture
@@ -80,7 +80,7 @@ class Search {
         if (gap >= touch_ && gap < limits_.widest) pairs.push_back({gap, i, j});
       }
     }
-    // The narrowest ones first: most others ask for nothing more then.
+    // The narrowest gaps first: most others then need no smaller edges.
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.gap < b.gap; });
     for (const auto& [gap, one, other] : pairs) {
       look_along(lines_[one], lines_[other]);

@@ -19,7 +19,7 @@
 namespace sprekk {
 namespace {
 
-/// m. What is farther away, or smaller as a whole, is a mistake, and its squares would leave the range of numbers.
+/// m. A mesh that is farther away, or smaller as a whole, is a mistake, and squares of its lengths might overflow.
 constexpr double farthest = 1e12, smallest_extent = 1e-12;
 
 struct CurveGroup {
@@ -148,7 +148,7 @@ class Reader {
     names.push_back(name);
   }
 
-  /// Regions in the order of their groups' numbers; what has no group comes last.
+  /// Regions in the order of the numbers of their groups; cells without group come last.
   std::map<int, int> name_regions() {
     std::set<int> groups;
     bool has_rest = false;

@@ -35,7 +35,7 @@ int node_opposite(const RawMesh& mesh, int triangle, int p, int q) {
   return none;
 }
 
-/// Cures the corners that do not share triangles with an earlier one of this pass.
+/// Removes the single-cell corners that share no triangles with an earlier one of this pass.
 class Pass {
  public:
   explicit Pass(RawMesh& mesh)

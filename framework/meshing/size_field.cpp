@@ -46,7 +46,7 @@ void SizeField::add_gaps(const Geometry& geometry, const MeshOptions& options) {
   double shortest = far_size_;
   for (const Source& source : sources_) shortest = std::min(shortest, source.size);
   const double least = options.gap_size.value_or(least_gap_part * shortest);
-  // What is narrow is a number of edges.
+  // Whether a gap is narrow is measured in numbers of edges.
   const double edges = options.gap_edges, growth = std::min(growth_, most_growth_from_gaps);
   for_each_narrow_gap(
       geometry, {edges * least, edges * far_size_, edges * growth_}, [&](const Point& x) { return edges * at(x); },

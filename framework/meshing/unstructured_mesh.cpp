@@ -129,7 +129,7 @@ RawMesh raw_mesh(const Geometry& geometry, const Arrangement& arrangement, const
       mesh.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, side_of_segment[s]});
     }
   }
-  // The frame's rounding is taken back where a position was given.
+  // Given positions are restored, so that the rounding of the frame has no effect on them.
   for (const auto& [nodes, side] : mesh.boundary_edges) {
     const int axis = side / 2;
     for (const int node : nodes) {

@@ -11,7 +11,7 @@
 namespace sprekk {
 namespace {
 
-/// Closes what it holds.
+/// A guard that closes an HDF5 object.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
@@ -41,7 +41,7 @@ constexpr hsize_t largest_chunk = hsize_t{1} << 20;        // values; the chunks
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
-/// The bytes of a file that HDF5 keeps in memory. It lets them go when it closes the file, and this takes them.
+/// The bytes of a file that HDF5 keeps in memory. HDF5 frees them when it closes the file; this object takes them over.
 /// H5Fget_file_image would be simpler, but its image has a wrong checksum (HDF5 1.10.8).
 struct Hdf5Writer::Image {
   void* bytes = nullptr;

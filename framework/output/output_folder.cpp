@@ -16,8 +16,8 @@ InputError unusable(const fs::path& path, const std::string& why) {
   return InputError("the output folder " + path.string() + " cannot be made (" + why + ") choose another one with -o");
 }
 
-/// Throws InputError where the file system gives no answer, as further names would have none either: a name that is too
-/// long, a folder that may not be searched, links that lead in a circle.
+/// Throws InputError for errors of the file system, which further names would also have: a name that is too long, a
+/// folder without permission to search, links in a circle.
 bool is_free(const fs::path& path) {
   std::error_code error;
   const fs::file_type type = fs::symlink_status(path, error).type();

@@ -30,7 +30,7 @@ std::size_t columns() {
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
-/// Signals are for the thread that works.
+/// Blocks signals in this thread, so that the main thread receives them.
 void block_signals() {
   sigset_t all;
   sigfillset(&all);
@@ -85,7 +85,7 @@ void Progress::watch() {
   try {
     watcher_ = std::jthread(look_after);
   } catch (const std::system_error&) {
-    // Where no thread is to be had (a limit of memory or of processes) the run goes on without.
+    // Where no thread can be started (a limit of memory or of processes), the run goes on without one.
   }
 }
 
@@ -120,7 +120,7 @@ void Progress::clear_bar() {
   is_bar_shown_ = false;
 }
 
-/// What does not fit into the line would be left behind when it is drawn again.
+/// Cuts a text to the width of the line: the rest would stay on the terminal when the line is drawn again.
 void Progress::draw_bar() {
   clear_bar();
   std::string text = status_;

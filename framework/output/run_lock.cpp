@@ -29,7 +29,7 @@ std::string own_name() {
   return "process " + std::to_string(::getpid()) + " on " + host + "\n";
 }
 
-/// Whether the file that is open is the one that has the name: who held it before may have removed it meanwhile.
+/// Whether the open file still has its name: the former holder of the lock may have removed it meanwhile.
 bool is_still_there(int descriptor, const std::filesystem::path& file) {
   struct stat open_one {
   }, named{};

@@ -14,7 +14,7 @@ namespace {
 
 using Reason = ExtensionError::Reason;
 
-/// A segment counts as approached only when the path comes nearer than its beginning is.
+/// A path approaches a segment if its distance falls below this part of that of its beginning.
 constexpr double approach = 0.9;
 /// Parts of one and the same path may be as near to each other as this part of the way between them along the path.
 constexpr double self_gap = 0.25;
@@ -72,7 +72,7 @@ void join(const Segment& edge, Segment& line) {
   }
 }
 
-/// The straight part of a side that a face belongs to: what counts shall not depend on how short edges are.
+/// The straight part of a side that a face belongs to: the result must not depend on the length of edges.
 Segment straight_side(const Mesh& mesh, int face) {
   const Segment given = segment_of_face(mesh, face);
   Segment line = given;
@@ -262,7 +262,7 @@ class Check {
     }
   }
 
-  /// What stands in the way of a path. Meeting it is worse than being near to it, and of two such the first counts.
+  /// An obstacle of a path. Meeting an obstacle is worse than being near to one; of two equal cases the first counts.
   struct Obstacle {
     bool is_met;
     std::size_t segment;

@@ -22,7 +22,8 @@ struct Attempt {
   double radius_factor, size_factor;
 };
 constexpr Attempt attempts[] = {{1, 1}, {1, 0.75}, {1.25, 1}, {1.25, 0.75}, {1.6, 1}, {2, 1}};
-/// So many attempts in a row without gain are the last: small angles between lines that must stay remain.
+/// The number of attempts in a row without gain after which no more are made: some angles between fixed lines are
+/// small.
 constexpr int most_vain_attempts = 2;
 /// An edge of an interface is divided when it is so many times longer than the gap between it and a path.
 constexpr double too_long = 1.5;

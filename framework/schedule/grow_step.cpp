@@ -101,7 +101,7 @@ StepStatus GrowStep::run(const StepTime& step) {
   if (load_.now <= 1) return {true, "", 0};
   now_doing("growing");
   Growing::Growth growth = growing_->grow(step);
-  // Growth that does not arrest begins when the load is reached: there is nothing to find by smaller steps then.
+  // Growth that does not arrest begins as soon as the load is reached, so smaller steps have nothing to resolve.
   if (!growth.arrested && load_.now > most && may_shrink(step))
     return refused("tips grow further than the mesh can follow in one step", step, load_.accepted, load_.now);
   extensions_ = std::move(growth.extensions);

@@ -207,8 +207,8 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
 
 StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start) {
   state_has_changed_ = false;
-  // Where the system is singular, since discrete states leave nothing for an unknown to be held by, once more from
-  // loosened ones.
+  // If the system is singular, because nothing holds some unknown in the present discrete state, a further attempt
+  // starts from loosened fields (Part::loosen).
   int iterations = 0;
   const auto attempt_also_loosened = [&](Until until) {
     StepStatus tried = attempt(step, options_.undamped, until);
@@ -276,7 +276,8 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1});
   for (int iteration = 0;; ++iteration) {
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
-    // While other equations do not hold balances need not, and round-off of the bulk's rows is worth no back-solve.
+    // As long as other equations do not hold, balances are not checked, and round-off of rows of the bulk needs no
+    // back-solve.
     seeks_balance = seeks_balance || (check.rows_hold && !check.balances_hold);
     if (!seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
     bool holds = check.converged;
@@ -319,7 +320,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
     SPREKK_ASSERT(update.size() == system_.size(), update.size(), system_.size());
 
-    // A state that stays is no cycle; one that has been left and comes back is, if it does so again and again.
+    // A discrete state that stays is no cycle. A state that has been left and returns repeatedly is one.
     const std::uint64_t state = discrete_state();
     if (iteration == 0 || state != last_state) {
       cycling = cycling || seen_states.count(state) > 1;

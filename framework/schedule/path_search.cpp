@@ -1,4 +1,4 @@
-// The path from piece to piece to which Newton's method falls back.
+// The last attempt of Newton's method: a path from piece to piece.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace sprekk {
 namespace {
 
-/// Where along an update the piece changes: it is the old one up to `before` and another at `behind`, in lengths of the
+/// A change of the piece along an update: up to `before` the old piece, at `behind` another one, in lengths of the
 /// update.
 struct Crossing {
   double before = 0, behind = 0;
@@ -40,9 +40,10 @@ std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
 
 }  // namespace
 
-/// Cells that slipped last lie on a kink, and those without a load yet on several: which piece the path starts
-/// in, and which comes after it, would be round-off. It may start anywhere, so it starts beside them. Fields of one
-/// unit share a scale: jumps that are zero while everything sticks are compared with displacements.
+/// Moves the fields off kinks. Cells that slipped last lie on a kink, and cells without load on several; round-off
+/// would decide in which piece a path starts from there, and which piece follows. A path may start anywhere, so it
+/// starts beside the kinks. Fields of one unit share a scale: jumps that are zero while everything sticks are compared
+/// with displacements.
 void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
   constexpr double aside = 1e-5, golden_ratio = 0.6180339887498949;
   SPREKK_EXPECT(update.size() == system_.size(), update.size(), system_.size());

@@ -1,4 +1,4 @@
-// The way from coefficients that are held to their own, on which Newton's method goes on from the end of a path.
+// Releases held coefficients in small shares, from the end of a path of Newton's method.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -40,7 +40,7 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   }
 }
 
-/// Whether what is conserved is there in the end.
+/// Whether the balances of conserved quantities hold against their turnover.
 void check_balances(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
   constexpr double looser = 100;
   check.is_unbalanced.assign(assembly.unknowns().size(), 0);

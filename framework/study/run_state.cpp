@@ -29,7 +29,7 @@ json read_json(const fs::path& file) {
   return json::parse(stream, nullptr, false);
 }
 
-/// The last line that says something: the message of a run that did not come to write its record.
+/// The last line that is not empty: the message of a run that ended before it could write its record.
 std::string last_line(const fs::path& log) {
   std::ifstream stream(log);
   std::string last;

@@ -187,7 +187,7 @@ class Mesher {
     return triangle.edges[k] != Delaunay::Edge::free || states_[triangle.across[k]].state == State::done;
   }
 
-  /// Large triangles beside one that is done can be worked on.
+  /// Puts large triangles beside a finished one into the queue.
   void wake_neighbours(int t) {
     const Delaunay::Triangle& triangle = delaunay_.triangles()[t];
     for (int k = 0; k < 3; ++k) {

@@ -27,8 +27,8 @@ bool have_same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
          std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
 }
 
-/// Powers of two that bring the largest entries of a border to 2^-10: MUMPS compares pivots with all entries of a row,
-/// and those of the border shall not matter.
+/// Powers of two that scale the largest entries of a border to 2^-10: MUMPS compares pivots with all entries of a row,
+/// and the entries of the border should not affect the choice of pivots.
 Vector scales_of_border(const Vector& largest) {
   return largest.unaryExpr([](double size) {
     int exponent = 0;
@@ -241,9 +241,9 @@ LinearReport MumpsSolver::factor_values() {
   (parallel::size() > 1 ? mumps_->data.a_loc : mumps_->data.a) = list_values();
   mumps_->schur.resize(static_cast<std::size_t>(border_.size()) * border_.size());
   mumps_->data.schur = mumps_->schur.data();
-  // What is a zero pivot: the default, round-off of the largest entry; where sums of balances hold by less, zero.
-  constexpr double by_default = 0, zero_alone = -1e-200;  // negative: absolute, and not of the largest entry
-  mumps_->data.cntl[2] = system_.sums.empty() ? by_default : zero_alone;
+  // The threshold of a zero pivot: the default is round-off of the largest entry; with sums of balances, whose entries
+  // may be smaller, it is zero.
+  mumps_->data.cntl[2] = system_.sums.empty() ? 0 : -1e-200;
   const int spare = mumps_->icntl(14);
   // Pivoting may need more room than the analysis foresaw (-9: the main array, -8, -17, -20: buffers).
   for (int attempt = 0; attempt < 6; ++attempt) {

@@ -38,8 +38,9 @@ void remove_from(Vector& v, const std::vector<Vector>& known) {
   for (const Vector& other : known) v -= other.dot(v) * other;
 }
 
-/// What the sums of balances make of vectors, a row for each sum: 0 where their terms cancel, up to 1 where they do
-/// not. Only columns count that a vector moves beyond doubt: round-off of the others may be more than what a sum holds.
+/// The products of the sums of balances with vectors, over the sizes of their terms, a row for each sum: 0 where the
+/// terms cancel, up to 1 where they do not. Only columns in which a vector is clearly not zero count: round-off of
+/// others may exceed the entries of a sum.
 Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
   constexpr double doubtful = 1e-8;
   const int sums = static_cast<int>(system.sums.size()), count = static_cast<int>(vectors.size());
@@ -68,7 +69,7 @@ Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows,
   return result;
 }
 
-/// The combination of vectors that no sum resists; empty if there is none.
+/// The combination of the vectors for which all sums of balances are zero; empty if there is none.
 Vector unresisted(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
   constexpr double cancelled = 1e-2;
   if (system.sums.empty()) return vectors.back();
@@ -110,8 +111,8 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
       normalize(v);
     }
 
-    // The factors of a nearly singular matrix may be inaccurate themselves, which hides that it is; A is not. The step
-    // v - A^-1 A v leaves a null vector of A as it is and removes the error that the factors put into it.
+    // The factors of a near-singular matrix may be inaccurate, which hides the singularity; A itself is accurate. The
+    // step v - A^-1 A v leaves a null vector of A as it is and removes the error that the factors put into it.
     double smallest = HUGE_VAL;
     Vector best;
     for (int step = 0;; ++step) {

@@ -15,8 +15,8 @@ using Row = Eigen::Map<Eigen::Array<double, width, 1>>;
 
 }  // namespace
 
-// P A^T Q = L U with L by rows and U by columns, so A = Q U^T L^T P: U^T is solved forwards and L^T backwards, and both
-// lie in memory the way that this needs.
+// P A^T Q = L U with L by rows and U by columns, so A = Q U^T L^T P: U^T is solved forwards and L^T backwards, each
+// along its order in memory.
 UmfpackFactors::UmfpackFactors(void* numeric, int n) : n_(n) {
   SPREKK_EXPECT(numeric != nullptr && n > 0, n);
   int lower = 0, upper = 0, rows = 0, columns = 0, diagonal = 0;

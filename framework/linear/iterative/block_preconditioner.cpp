@@ -21,7 +21,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
   for (int row_part = 0; row_part < parts; ++row_part) {
     owned_rows_.push_back(partition.parts[row_part].owned_rows);
     for (int column_part = 0; column_part < parts; ++column_part) {
-      // Of the bulk, a sweep needs only what was solved before.
+      // A sweep needs only couplings to bulk parts that it has solved before.
       const bool is_needed = row_part == local ? column_part != local : column_part < row_part || column_part == local;
       if (!is_needed || partition.parts[row_part].unknowns.empty()) continue;
       const SparseMatrix block = sub_matrix(system.local, partition, row_part, column_part);
@@ -73,7 +73,7 @@ void BlockPreconditioner::apply(const Vector& r, Vector& z) const {
   const int local = static_cast<int>(cycles_.size());
   std::vector<Vector> solutions;
   for (int part = 0; part < local; ++part) {
-    // What the fractures would do now, acting on the rows of this part.
+    // The correction of the local unknowns, as it acts on the rows of this part.
     const Vector rest_local = without_couplings(local, r, solutions);
     Vector rest = without_couplings(part, r, solutions);
     if (local_unknowns_ > 0) {

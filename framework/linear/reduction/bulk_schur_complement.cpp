@@ -11,7 +11,7 @@ namespace sprekk {
 
 namespace {
 
-/// The columns of A_BF for those unknowns, and the rows of A_FB.
+/// The given columns of a matrix that has no entries in others.
 SparseMatrix chosen_columns(const SparseMatrix& a, const std::vector<int>& columns) {
   SPREKK_EXPECT(are_indices(columns, a.cols()), a.cols());
   SPREKK_EXPECT(is_ascending(columns));
@@ -42,7 +42,7 @@ SparseMatrix chosen_rows(const SparseMatrix& a, const std::vector<int>& rows) {
   return chosen;
 }
 
-/// The power of two, or its negative, with which all of a are the bits of b, if there is one.
+/// The power of two, or its negative, that turns all values of `a` into those of `b` to the bit, if there is one.
 std::optional<double> common_factor(const double* a, const double* b, int size) {
   const auto begins = std::find_if(a, a + size, [](double x) { return x != 0; });
   const double factor = begins == a + size ? 1 : b[begins - a] / *begins;

@@ -31,8 +31,9 @@ void multiply(const SparseMatrix& a, const Vector& x, Vector& product, Vector& s
     }
 }
 
-/// What the sizes of the terms of its own rows, to so small a part, make of those of the rows that read an unknown:
-/// jumps that are zero are differences of displacements that are not, and round-off is no mistake.
+/// Lower bounds of the sizes of the terms in the rows of `a`. Each unknown counts with at least a small part of what
+/// the terms of its own row allow: a jump that is zero is a difference of displacements that are not, and its round-off
+/// is no error.
 Vector least_sizes(const SparseMatrix& a, const Vector& size) {
   constexpr double small = 1e-4;
   Vector determined = Vector::Zero(a.cols()), least = Vector::Zero(a.rows());

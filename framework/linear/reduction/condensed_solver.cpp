@@ -77,18 +77,20 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
   return reduced;
 }
 
-/// For how many systems a bulk has to stay until condensing has paid for the columns of X, or infinity. In
-/// factorizations of the bulk, with their ordering, f columns cost C = f / 200, and a reduced system
-/// R = (f / (7 sqrt(n)))^3 for its dense part; measured from 4,000 to 250,000 unknowns, docs/performance.md. Then m
-/// systems cost 1 + C + m R instead of m. With the factorization (`is_short_lived`) they cost f / 700 or less.
+/// The number of systems for which a bulk has to stay until condensing has paid for the columns of X, or infinity. The
+/// unit of cost is a factorization of the bulk, with its ordering. Then f columns cost C = f / 200, and the dense part
+/// of a reduced system R = (f / (7 sqrt(n)))^3, measured from 4,000 to 250,000 unknowns (docs/performance.md); so m
+/// systems cost 1 + C + m R instead of m. Columns that come with the factorization (`is_short_lived`) cost f / 700 or
+/// less.
 double price_of_columns(const BulkSplitting& split, bool is_short_lived) {
   const double f = split.interface_columns.size(), reduced = std::pow(f / (7 * std::sqrt(split.bulk_size())), 3);
   return reduced < 1 ? f / (is_short_lived ? 700 : 200) / (1 - reduced) : HUGE_VAL;
 }
 
-/// Nobody knows for how many systems a bulk will stay, at least for the three or so of one step. Against the best that
-/// could be done, condensing at once costs at most (1 + C) / 3 times as much, if it stays for no more; waiting for C
-/// systems first (1 + 2 C) / (1 + C) times, if it stays. They are equal at C = 2 + sqrt(6).
+/// The price of columns up to which a bulk is condensed at once. The number of systems for which a bulk will stay is
+/// unknown; it is about three, those of one step, or more. Compared with the best choice, condensing at once costs at
+/// most (1 + C) / 3 times as much, if the bulk stays for three systems only; waiting for C systems first costs at most
+/// (1 + 2 C) / (1 + C) times as much, if the bulk stays longer. Both are equal at C = 2 + sqrt(6).
 constexpr double worth_at_once = 4.4;
 
 }  // namespace
@@ -234,8 +236,9 @@ LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
   return whole_ ? whole_->solve(b_rows, x) : LinearReport::failure("solve was called before factor");
 }
 
-/// Whether this solution is accurate, or would be with one step of refinement. That step is not kept: of later
-/// solutions nobody asks, and a run that goes on from a checkpoint is to have the bits of one that was not interrupted.
+/// Whether this solution is accurate, or would be after one step of refinement. The refined solution is not used: later
+/// solutions are not refined either, and a run that is continued from a checkpoint, whose first solution comes later,
+/// must have the same bits as a run without interruption.
 bool CondensedSolver::proves(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local) {
   constexpr double acceptable = 1e-9;
   const BulkSplitting& split = *splitting_;

@@ -16,13 +16,13 @@ constexpr int most_modes = 3;
 using Modes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
 using OfMode = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_modes>;
 
-/// A connected set of entities, and how it may move as a whole: as one level, or shifted and turned.
+/// A connected set of entities, and the null space that it may have: a constant, or rigid motions.
 struct Part {
   std::vector<int> entities;
   Point centre = Point::Zero();
   double radius = 0;  ///< largest distance from the centre; 0 where nothing can turn
   int modes = 0;
-  Modes triangle;  ///< R^T R = sum of w^T w: what the modes do to the balances, each over the size of its terms
+  Modes triangle;  ///< R^T R = sum of w^T w over the balances, w = residuals of the modes over the size of the terms
 };
 
 class Parts {
@@ -35,7 +35,7 @@ class Parts {
       if (is_balance[row]) take(row);
   }
 
-  /// Entities that fix the motions which nothing resists; `preferred` first.
+  /// Entities that have to be fixed to remove all modes that no balance resists; `preferred` ones first.
   std::vector<int> to_fix(const std::vector<char>& preferred) const {
     SPREKK_EXPECT(static_cast<int>(preferred.size()) == block_.entities, preferred.size(), block_.entities);
     std::vector<int> chosen;

@@ -11,7 +11,7 @@
 namespace sprekk {
 namespace {
 
-/// Of every block the number of the set that it belongs to, counted from 0.
+/// For every block the number of its set, counted from 0.
 std::vector<int> sets_of_blocks(const LinearSystem& system, int& sets) {
   const SparseMatrix& a = system.local;
   const int count = static_cast<int>(system.blocks.size());

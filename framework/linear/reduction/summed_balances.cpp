@@ -54,7 +54,7 @@ SparseMatrix local_rows(const LinearSystem& system) {
   return whole;
 }
 
-/// A column as the rows of one block see it.
+/// The entries of a column in the rows of one block.
 struct Column {
   int entries = 0, first = -1, second = -1;
   double value = 0, sum = 0;
@@ -85,8 +85,8 @@ int root_of(std::vector<int>& parent, int row) {
   return row;
 }
 
-/// What is left of the sum of rows: entries that cancel are no entries. One that is zero by itself stays, so that the
-/// pattern does not follow the values.
+/// The sum of rows without the entries that cancel. An entry whose terms are all zero stays, so that the pattern does
+/// not depend on the values.
 std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows) {
   struct Total {
     double value = 0;
@@ -125,7 +125,7 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
         return std::abs(column.value * rows.coeff(at, row) / rows.coeff(at, at));
       };
       const bool joins = column.entries == 2;
-      // An exchange that answers to other exchanges only, or to nothing, joins no contents by itself.
+      // An exchange that depends on other exchanges only, or on nothing, does not join contents.
       if (joins && conductance(column.first) == 0 && conductance(column.second) == 0) continue;
       for (const int row : {column.first, column.second}) {
         if (row < 0 || std::isnan(conductance(row))) continue;
