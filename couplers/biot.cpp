@@ -38,11 +38,11 @@ struct BiotOptions {
 /// Adds alpha (div u − div u_old) V to the fluid balance of each cell, the compressibility of the grains (alpha −
 /// phi)/K to its storage, and −alpha (p − p_0) I to the stress.
 ///
-/// What is subtracted as "old" is the volume that the fluid balance has counted last, kept in `counted_volume`: so a
-/// split scheme that is not iterated counts every change of volume once, if late.
+/// The "old" volume is the volume that the fluid balance has counted last (`counted_volume`). So a split scheme that is
+/// not iterated counts every change of volume once, if late.
 ///
-/// alpha and the compressibility of the grains are those of the end of the step. They multiply changes: one of them
-/// that changes moves no fluid by itself, as a storage does not.
+/// alpha and the compressibility of the grains are taken at the end of the step. They multiply changes of the state: a
+/// change of alpha or of the compressibility alone moves no fluid.
 class Biot : public Coupler {
  public:
   Biot(const CouplerContext& context, const BiotOptions& options)
@@ -107,9 +107,9 @@ class Biot : public Coupler {
     stored_.set(std::move(stored));
   }
 
-  /// For the fluid in the pores it makes no difference that the rock is described by other cells: the volume that has
-  /// been counted becomes that of the same state on the new mesh. What the two descriptions differ by in all is spread
-  /// evenly over the cells that are new, so that the total of the fluid stays to the last digit.
+  /// A change of the mesh must not change the fluid in the pores: the volume that has been counted becomes the volume
+  /// of the same state on the new mesh. The difference of both totals is spread evenly over the new cells, so that the
+  /// total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
     if (decoupled_) return;
     Vector volume = rock_.volume_change().now();
@@ -128,7 +128,7 @@ class Biot : public Coupler {
     balances["fluid"].stored += stored_.now().sum();
   }
 
-  /// The level of the pressure loads the rock, and the grains store fluid.
+  /// The constant mode of the pressure loads the rock, and the grains store fluid.
   void hold_constants(ConstantModes& modes) const override {
     if (!decoupled_) modes.hold(fluid_.pressure());
   }

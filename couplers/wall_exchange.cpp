@@ -24,12 +24,12 @@ struct WallExchangeOptions {
 
 /// Determines lambda of every wall, from the fracture into the matrix: lambda = kappa (p_i − tr p). Its row is divided
 /// by about kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well
-/// scaled from sealed to wide open walls; the exact divisor leaves a power of two in front of tr p, so that what is
-/// read from the matrix keeps its digits when kappa changes (BulkSchurComplement). lambda leaves the fluid balance of
-/// the fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture.
+/// scaled from sealed to wide open walls. The exact divisor leaves a power of two as factor of tr p, so that the
+/// products with rows of tr p are only scaled when kappa changes (BulkResponse). lambda leaves the fluid balance of the
+/// fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture.
 ///
-/// What the matrix has received through each wall is kept in `exchanged`, and what of it the fracture has counted in
-/// `counted`, so that nothing is lost when the two are solved one after the other, or one of them in substeps.
+/// `exchanged` has the amount that the matrix has received through each wall, `counted` the part of it that the
+/// fracture has counted. So nothing is lost when the two are solved one after the other, or one of them in substeps.
 class WallExchange : public Coupler {
  public:
   WallExchange(const CouplerContext& context, const WallExchangeOptions&)
@@ -132,7 +132,7 @@ class WallExchange : public Coupler {
     if (has(fracture_.pressure())) counted_.set(exchanged_.now());
   }
 
-  /// What the matrix has received and the fracture has not counted yet is on its way.
+  /// The amount that the matrix has received and the fracture has not counted yet is stored in both: it is subtracted.
   void balance(std::map<std::string, Balance>& balances) const override {
     balances["fluid"].stored -= (exchanged_.now() - counted_.now()).sum();
   }

@@ -77,7 +77,8 @@ class WallTraction : public Coupler {
     if (loaded_with_ != alpha_.version()) load_with_fluid();
   }
 
-  /// Below zero against the stress that holds the walls: whatever level pressures count from.
+  /// Notes suction, a pressure below zero. It pulls the walls together whatever the reference of pressures is: the wall
+  /// traction contains the pressure itself.
   void note_step(Notes& notes, const StepTime&) const override {
     if (!fluid_) return;
     const Vector& pressure = fluid_->pressure().now();
@@ -114,9 +115,9 @@ class WallTraction : public Coupler {
   }
 
  private:
-  /// On rough meshes (two fractures one cell apart) a wall may move against its own traction while the cells around
-  /// keep their place. As a scale, and as what contact takes for the stiffness of walls, it must be positive: at least
-  /// a tenth of the mean, in proportion to the length of the cell.
+  /// On rough meshes (two fractures one cell apart) a wall may move against its own traction while the cells around it
+  /// do not move. The compliance is used as a scale, and by the contact as stiffness of walls, so it must be positive:
+  /// at least a tenth of the mean, in proportion to the length of the cell.
   Vector positive(Vector compliance) const {
     SPREKK_EXPECT(compliance.size() == 2 * mesh_.fracture_cell_count(), compliance.size());
     double mean[2] = {0, 0};

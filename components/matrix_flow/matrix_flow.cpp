@@ -14,7 +14,7 @@ namespace sprekk::matrix_flow {
 
 namespace {
 
-/// Of rock without permeability: what is prescribed on a side is all that flows.
+/// The operators of rock without permeability: the only fluxes are those that are prescribed on sides.
 FluxOperators no_flow(const Mesh& mesh, const std::vector<FlowCondition>& conditions) {
   FluxOperators operators;
   operators.flux_cell.resize(mesh.face_count(), mesh.cell_count());
@@ -141,7 +141,7 @@ void MatrixFlow::check_mobility() {
 }
 
 void MatrixFlow::place_wells() {
-  // What a well adds must not reach rock of another permeability: there it might be caught.
+  // Fluid of a well must not be added to rock of another permeability, where it might not be able to flow away.
   const auto is_like = [&](int cell, int other) {
     const double ratio = mobility_[other].trace() / mobility_[cell].trace();
     return is_sealed_ || (ratio > 0.5 && ratio < 2);
@@ -210,7 +210,7 @@ void MatrixFlow::use_operators() {
   boundary_applied_ = false;
   forget_flow();
   const int rank = parallel::rank();
-  // What flows through inner faces enters one cell as it leaves another.
+  // Flux through an inner face leaves one cell and enters another.
   std::vector<char> is_outer(mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) is_outer[f] = mesh_.face_cells[f][1] == none;
   const auto outflow_of = [&](const SparseMatrix& fluxes) {
@@ -290,7 +290,7 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
     const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
     const SideCondition& side = found->second;
     if (side.pressure && (side.pressure->depends_on_space() || !options_.gravity.is_zero())) {
-      // At the third points of the face, which exact linear pressures on it follow from.
+      // At the third points of the face: these are exact for linear pressures on the face.
       const Point third = (mesh_.nodes[mesh_.face_nodes[f][1]] - mesh_.nodes[mesh_.face_nodes[f][0]]) / 6;
       const auto value = [&](const Point& x) {
         return value_in_step(*side.pressure, {x, place.region, 0}, step) - gravity_potential(x);

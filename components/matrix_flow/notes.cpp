@@ -1,4 +1,4 @@
-// What the flow in the matrix tells beside its answer.
+// The notes of the flow in the matrix.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ void MatrixFlow::note_step(Notes& notes, const StepTime& step) const {
   const Vector& pressure = pressure_.now();
   Eigen::Index lowest = 0, largest = 0;
   const double smallest = pressure.minCoeff(&lowest), most = pressure.cwiseAbs().maxCoeff(&largest);
-  // Pressures that begin above zero everywhere count from that of the air; others may count from any level.
+  // Pressures that begin above zero everywhere are absolute; others may be relative to any reference.
   const double initial = initial_pressure_.minCoeff();
   if (initial > 0 && smallest < -rounding * initial)
     notes.add(

@@ -10,11 +10,11 @@ namespace sprekk::matrix_flow {
 namespace {
 
 constexpr double least_share_of_range = 0.01;
-/// What flows in beside the faces is a source if it is more than this share of all that flows and is stored.
+/// Inflow other than through faces is a source if it exceeds this share of all fluxes and of the storage.
 constexpr double least_share_of_source = 1e-3;
 
-/// What a cell receives otherwise than through its inner faces and from prescribed pressures, as a share of what it
-/// exchanges and stores.
+/// The amount that a cell receives other than through its inner faces and from prescribed pressures, as a share of all
+/// that it exchanges and stores.
 double share_of_source(const FlowStep& step, int cell) {
   const double stored = step.capacity[cell] * (step.potential[cell] - step.potential_before[cell]);
   double source = stored, all = std::abs(stored);
@@ -27,7 +27,7 @@ double share_of_source(const FlowStep& step, int cell) {
   return all > 0 ? source / all : 0;
 }
 
-/// By how much the potential of a cell times `sign` is above all that it may come from.
+/// By how much the potential of a cell, times `sign`, exceeds all potentials from which fluid may have come.
 double excess(const FlowStep& step, int cell, double sign) {
   const double own = sign * step.potential[cell];
   double largest = sign * step.potential_before[cell];

@@ -1,4 +1,4 @@
-// What the rock tells beside its answer.
+// The notes of the rock.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double softest_rock = 1e3;  // Pa; a scene with less is one without un
 }  // namespace
 
 void Rock::note_input(Notes& notes) const {
-  // Of what is prescribed as a force, what falls onto a direction whose displacement is prescribed.
+  // The part of a prescribed force in a direction whose displacement is prescribed.
   struct Share {
     double length = 0, all = 0;
   };
@@ -66,7 +66,7 @@ void Rock::note_input(Notes& notes) const {
 }
 
 void Rock::note_step(Notes& notes, const StepTime&) const {
-  // By how much neighbours move apart, against their distance: the displacement gradient along it.
+  // The relative displacement of neighbours over their distance: the displacement gradient along it.
   double largest = 0, softest = std::numeric_limits<double>::infinity();
   int place = 0;
   const Vector& u = displacement_.now();

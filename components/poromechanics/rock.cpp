@@ -222,7 +222,8 @@ void Rock::evaluate_data(const StepTime& step) {
       boundary_values_.segment<2>(2 * f) = initial_load(f);
       continue;
     }
-    // What tractions prescribe is the total; the stress that deformation makes is the total less the initial one.
+    // Prescribed tractions are those of the total stress; the stress of the deformation is the total less the initial
+    // one.
     boundary_values_.segment<2>(2 * f) = -length * initial;
     const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;

@@ -108,9 +108,8 @@ Coulomb::Trial Coulomb::trial(int i) const {
   t.gap = u_n - std::abs(u_t) * dilation_[i];
   t.normal = f_n + stiffness()[2 * i] * t.gap;
   t.tangential = f_t + stiffness()[2 * i + 1] * (u_t - jump_.accepted()[2 * i + 1]);
-  t.bound =
-      !kept_.empty() && kept_[i] ? std::numeric_limits<double>::infinity() : -friction_[i] * std::min(0.0, t.normal);
-  // At the very start of slip, |slip| has the slope of the side that it is about to take.
+  t.bound = -friction_[i] * std::min(0.0, t.normal);
+  // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
   t.slip_sign = u_t > 0 ? 1 : u_t < 0 ? -1 : t.tangential > 0 ? 1 : -1;
   return t;
 }
@@ -144,7 +143,7 @@ Coulomb::Trial Coulomb::trial_of_update(int i) const {
   if (back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
   t.slip_sign = -t.slip_sign;
   t.gap = jump_.now()[2 * i] - t.slip_sign * jump_.now()[2 * i + 1] * dilation_[i];
-  // Walls that touch, whatever the sign here: this is the linear function that goes through the values beyond the kink.
+  // Walls that touch, whatever the sign here: this linear function passes through the values beyond the kink.
   const double normal = traction_.now()[2 * i] + stiffness()[2 * i] * t.gap;
   t.bound = -friction_[i] * normal;
   t.normal = std::min(normal, 0.0);
@@ -167,7 +166,7 @@ int Coulomb::piece(int i) const {
   return 2 * piece + (has_kink && t.slip_sign > 0);
 }
 
-/// Open by next to nothing: within a state the conditions are linear, so by how much makes no difference.
+/// Opens all cells by next to nothing. The amount makes no difference: within a state the conditions are linear.
 void Coulomb::loosen() {
   constexpr double opening = 1e-9;  // of the length of a cell
   Vector traction = traction_.now(), jump = jump_.now();
@@ -264,8 +263,7 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
         {{2 * i, 2 * i, n_un}, {2 * i, 2 * i + 1, n_ut}, {2 * i + 1, 2 * i, t_un}, {2 * i + 1, 2 * i + 1, t_ut}});
   }
   assembly.add(traction_, residual);
-  SPREKK_ASSERT(residual.size() == traction_.size(), residual.size(), traction_.size());
-  // What the residual is small against: the jumps, and where all of them stick those that the tractions would make.
+  // The residual is compared with the jumps, or, where all cells stick, with the jumps that the tractions would make.
   assembly.compare_with(traction_, traction_.now().cwiseQuotient(stiffness()).lpNorm<Eigen::Infinity>());
   assembly.compare_with(traction_, jump_.now().lpNorm<Eigen::Infinity>());
   if (!assembly.wants_derivatives()) return;

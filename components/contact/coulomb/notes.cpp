@@ -1,4 +1,4 @@
-// What the contact tells beside its answer.
+// The notes of the contact.
 #include <fmt/format.h>
 
 #include "components/contact/coulomb/coulomb.hpp"
@@ -30,7 +30,7 @@ void Coulomb::note_step(Notes& notes, const StepTime&) const {
                       "stiffness and what holds the rock",
                       fracture.name, jump, jump / length, length),
           jump);
-    // One that has been open all the time is meant to be; cells that have grown start closed.
+    // A cell that has been open all the time is meant to be open; cells that have grown start closed.
     if (all_open && was_in_contact)
       notes.add(name() + " all open: " + fracture.name,
                 fmt::format("all {} cells of fracture '{}' have opened (the fluid carries all that pressed its walls "

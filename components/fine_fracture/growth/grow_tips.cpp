@@ -27,7 +27,7 @@ Point turned(const Point& direction, double angle) {
 
 constexpr const char* not_finite = "its stress intensity factors are not finite";
 
-/// A tip as it stands between rounds, and its increment while one is being searched.
+/// A tip between rounds, and its increment while one is searched for.
 struct State {
   Point end, ahead;
   Sifs sifs;
@@ -104,7 +104,7 @@ class Growth {
     outcomes_[i].arrested = arrested;
   }
 
-  /// Tips between increments that may grow yet.
+  /// Tips between increments that may still grow.
   void update_resting() {
     for (int i = 0; i < count(); ++i)
       if (states_[i].is_outdated && !states_[i].is_stopped) update(i);
@@ -161,7 +161,7 @@ class Growth {
     return state.end + state.search->length() * turned(state.ahead, state.search->angle());
   }
 
-  /// Puts the end of the searched increment where the search wants it, as far as it may go.
+  /// Puts the end of the increment to the place that the search asks for, as far as its free length allows.
   void place(int i) {
     State& state = states_[i];
     TipPath before = paths_[i];

@@ -103,7 +103,7 @@ void IncrementSearch::stay() {
 
 bool IncrementSearch::is_direction_met(const Sifs& end) const {
   const double tolerance = options_.direction_tolerance;
-  // A tip that hardly is loaded has no direction.
+  // A tip that is hardly loaded has no direction.
   return phase_ != Phase::searching || std::abs(end.k2) <= tolerance * end.k1 ||
          equivalent_sif(end) <= tolerance * toughness_;
 }
@@ -183,7 +183,7 @@ void IncrementSearch::learn(const Sifs& end) {
     is_settled_ = true;
     return;
   }
-  // What was found for other places of the other tips no longer binds.
+  // Results for other positions of the other tips no longer count.
   if (is_settled_) {
     const double length = length_;
     forget_lengths();
@@ -218,7 +218,7 @@ void IncrementSearch::settle_for_less(double k_eq) {
   } else if (phase_ == Phase::searching) {
     fix_direction("K_II did not vanish within the tries");
   } else if (options_.seeks_arrest() && k_eq < 0.9 * toughness_) {
-    // An increment that ends far below the toughness is more than the tip has grown.
+    // An increment that ends far below the toughness is longer than the true growth of the tip.
     fall_back();
   } else {
     accept_as_it_is();
@@ -226,7 +226,7 @@ void IncrementSearch::settle_for_less(double k_eq) {
 }
 
 void IncrementSearch::correct_direction(const Sifs& end) {
-  // Beyond, the tip is closed and K_II tells nothing about where it should go.
+  // Beyond this angle the tip is closed, and K_II does not tell the direction of growth.
   constexpr double closed = 0.75 * std::numbers::pi;
   const bool may_shorten = options_.seeks_arrest();
   if (may_shorten && std::abs(directions_.back().phi) >= closed) {
@@ -286,7 +286,7 @@ void IncrementSearch::change_length(double excess_here) {
     shorter_ = here;
   }
   if (has_closed(here.excess)) {
-    // On nothing: what has just been tried holds, and the other end does not.
+    // Nothing to bisect: the last length holds, and the other end of the bracket does not.
     if (here.excess > 0)
       shorter_ = {0, excess(equivalent_sif(start_)), 0};
     else

@@ -1,4 +1,4 @@
-// How growth ends that does not end as it should: what a run says about it, and tips that cannot go on.
+// Growth that does not end at the toughness: the notes on it, and tips that cannot go on.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -23,7 +23,7 @@ double distance_to_boundary(const Mesh& mesh, const Point& x) {
 
 }  // namespace
 
-/// Whether a point is a tip that has a path of its own, which the mesh does not know yet: what is there is not its end.
+/// Whether a point is a tip with a path that the mesh does not have yet: then the point is not the end of its fracture.
 bool Tips::goes_on_elsewhere(const FracturePoint& point) const {
   return point.kind == FracturePoint::Kind::tip && std::any_of(tips_.begin(), tips_.end(), [&](const Tip& tip) {
            return !tip.now.path.added.empty() && position(tip, {}) == point.position;
@@ -40,7 +40,7 @@ std::optional<Tips::Joining> Tips::find_joining(const Tip& tip, const TipOutcome
   const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, outcome.ahead);
   const double reach = 2 * cavity().size;
   const bool is_met = free.met != Met::nothing && free.length < reach;
-  // A side stops it, and so does a fracture that it is connected with.
+  // The tip cannot join a side, nor a fracture that it is connected with.
   if (is_met && (free.met == Met::boundary || networks[free.index] == own)) return std::nullopt;
   // Where another fracture passes by, the nearest point that is not behind.
   const Point wanted = is_met ? free.where : from;

@@ -1,4 +1,4 @@
-// What a scene says about tips.
+// The parameters of tips.
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
 namespace sprekk::fine_fracture {

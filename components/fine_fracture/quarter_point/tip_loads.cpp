@@ -1,4 +1,4 @@
-// What the coarse level tells the fine one: displacements of its boundary, stress, and what the walls carry.
+// The loads that the fine level takes from the coarse level: displacements of its boundary, stress, tractions of walls.
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
 namespace sprekk::fine_fracture {
@@ -23,8 +23,7 @@ FineLoads Tips::loads_of(const Tip& tip) const {
   loads.wall_traction = [this, &domain, arc, lengths](int crack, int segment, double s) -> Point {
     const int fracture = domain.sources[crack].fracture;
     const double at = arc(crack, segment, s);
-    // What has grown on the fine level is open and loaded by the fluid (design: the walls that grow carry its
-    // pressure).
+    // Walls that have grown in the fine level are open, and carry the pressure of the fluid.
     const std::vector<Point>& points = domain.geometry.cracks[crack].points;
     const Point along = (points[segment + 1] - points[segment]).normalized();
     const Point normal(along[1], -along[0]);

@@ -35,7 +35,7 @@ std::vector<TipEnd> all_ends(const Mesh& mesh) {
 
 bool is_same(const TipEnd& a, const TipEnd& b) { return a.fracture == b.fracture && a.at_end == b.at_end; }
 
-/// Of the original fracture's cell at this end.
+/// The size of the original fracture's cell at this end.
 double original_size(const Mesh& mesh, const TipEnd& end) {
   const Fracture& cells = mesh.fractures[end.fracture];
   for (int i = 0; i < cells.cell_count; ++i) {
@@ -45,7 +45,7 @@ double original_size(const Mesh& mesh, const TipEnd& end) {
   return end_cell(mesh, end).length;
 }
 
-/// Of the fracture's new cells at this end, m.
+/// The length of the fracture's new cells at this end, m.
 double new_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change) {
   const Fracture& cells = mesh.fractures[end.fracture];
   double length = 0;
@@ -218,7 +218,7 @@ Growing::Load Tips::examine(const StepTime&) {
       set_factors(tip, evaluate(i, paths));
       tip.answered_for = surroundings_->version();
     }
-    // At the end of an increment the load is 1 to within its tolerance: that is no reason to grow again.
+    // At the end of an increment the load is 1 to within a tolerance, and the tip should not grow again for that.
     const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
     loads.now = std::max(loads.now, tip.now.load / (1 + rest));
     loads.accepted = std::max(loads.accepted, tip.accepted.load / (1 + rest));
@@ -236,7 +236,7 @@ void Tips::set_factors(Tip& tip, const Sifs& sifs) const {
 }
 
 bool Tips::is_near(const Tip& tip, const Tip& other) const {
-  // What an increment changes falls off with the square of its length over the distance.
+  // The effect of an increment decreases with the square of its length over the distance.
   return tip.end.fracture == other.end.fracture ||
          (position(tip, tip.now.path) - position(other, other.now.path)).norm() < 10 * options_.growth.increment;
 }
@@ -356,7 +356,7 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
     for (const Tip& same : old.tips_) {
       if (!is_same(same.end, tip.end)) continue;
       tip.now = same.now;
-      // Only now: were it when the path is handed over, a mesh that cannot take it would lose it.
+      // Only now: if the path were dropped when it is passed on, a mesh that cannot take it would lose it.
       const double taken = new_length(mesh_, tip.end, change);
       if (taken > 0) {
         tip.now.grown += taken;

@@ -119,8 +119,8 @@ void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& row
     rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
 }
 
-/// The cell of a junction that conducts best may be another one in the next iteration, and the pattern is to stay:
-/// entries of zero wherever some hub would have one.
+/// Adds zero entries wherever any hub would have entries: the hub of a junction may change from one iteration to the
+/// next, and the sparsity pattern must not.
 void FractureFlow::add_pattern(const Link& link, FluxRows& rows) const {
   const Junction& junction = mesh_.junctions[link.junction];
   for (const int cell : {link.first, link.second}) rows.by_pressure.emplace_back(link.point, cell, 0);

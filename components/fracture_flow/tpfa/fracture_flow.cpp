@@ -226,7 +226,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   }
   SparseMatrix divergence(count, flux_.size());
   divergence.setFromTriplets(outflow.begin(), outflow.end());
-  // In a steady flow nothing else is left than what fluxes leave of one another.
+  // In a steady flow, the residual is the round-off of fluxes that cancel.
   fluid.exchange(divergence * flux_.now(), leaving, step.dt * flux_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, flux_, std::move(divergence));
 }

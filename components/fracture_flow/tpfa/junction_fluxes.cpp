@@ -19,7 +19,7 @@ int JunctionFluxes::point_between(int one, int other) const {
   return junction_.points[found - ends_.begin()];
 }
 
-/// What the flux from the hub to `to` brings to that from `from` to `to`.
+/// The share of the flux from the hub to `to` in the flux from `from` to `to`.
 JunctionFluxes::Flux::Part JunctionFluxes::part(int from, int to, double sign) const {
   if (hub_ > to) sign = -sign;
   const Half &half = halves_[from], &hub = halves_[hub_];

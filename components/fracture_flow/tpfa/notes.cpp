@@ -1,4 +1,4 @@
-// What the flow in fractures tells beside its answer.
+// The notes of the flow in fractures.
 #include <fmt/format.h>
 
 #include <algorithm>

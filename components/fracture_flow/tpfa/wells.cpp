@@ -23,7 +23,7 @@ int nearest_original_cell(const Mesh& mesh, int fracture, const Point& x) {
   return nearest < low ? low : high;
 }
 
-/// A place or a whole fracture is what it was at the start: what has grown is no part of it.
+/// A place, or a whole fracture, stays what it was at the start of the run: cells that have grown do not belong to it.
 std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
   std::vector<int> cells;
   if (where.at) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double round_off = 1e-12;
 
-/// Makes the diagonal of a form 1.
+/// Scales a quadratic form so that its diagonal is 1.
 Eigen::VectorXd scale_of(const Eigen::MatrixXd& form) {
   Eigen::VectorXd scale = form.diagonal().cwiseAbs().cwiseSqrt();
   for (double& value : scale) value = value > 0 ? 1 / value : 0;
@@ -75,7 +75,7 @@ LocalFluxes::Matrix LocalFluxes::kinks(const Mesh& mesh, int node, const Interac
 LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const InteractionRegion& region,
                                     const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
   const std::vector<double> points = towards_node_;
-  // Those of walls and sides are not free: their other halves have the same.
+  // Continuity points on walls and sides are not free: both halves of such a face have the same point.
   for (const double other : {0.15, 0.0, 1.0 / 3, 0.5}) {
     for (int f = 0; f < subfaces_; ++f)
       if (region.is_inner(f)) towards_node_[f] = other;
@@ -92,7 +92,7 @@ LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const Interactio
   const std::vector<double> symmetric_pressures = pressures_, symmetric_fluxes = fluxes_;
   const Eigen::VectorXd scale = scale_of(lost_power(region, conditions));
 
-  // What is not linear: orthogonal to all that has no kinks, in units of equal energy.
+  // The part of the pressures that is not linear: orthogonal to all pressures without kinks, in units of equal energy.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(kinks * scale.asDiagonal(), Eigen::ComputeFullV);
   const auto& size = svd.singularValues();
   const Eigen::MatrixXd turned = svd.matrixV().leftCols((size.array() > 1e-9 * size[0]).count());

@@ -8,9 +8,10 @@ namespace sprekk::matrix_flow {
 namespace {
 
 constexpr int linear_terms = 3, terms = linear_terms + 2;
-/// Of the fit's smallest singular value to its largest; below, flows and linear pressures are too alike.
+/// Least ratio of the fit's smallest singular value to its largest; below, the modes are too similar to linear
+/// pressures.
 constexpr double well_posed = 1e-6;
-/// How large an amount (times the root of the edge length) pressures of cells that differ by 1 make: 5 to 8 on good
+/// Largest amount of a mode (times the root of the edge length) for cell pressures that differ by 1: 5 to 8 on good
 /// meshes.
 constexpr double largest_share = 20;
 

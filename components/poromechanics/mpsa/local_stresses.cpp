@@ -16,12 +16,12 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-/// How far what is prescribed on the two faces of a single subcell tells its gradient, as the sine of an angle: below
-/// the first nothing is taken from it, above the second all.
+/// How well the conditions on the two faces of a single subcell determine a component of its gradient, as the sine of
+/// an angle: below the first value the conditions are not used for it, above the second they alone are.
 constexpr double vague = 0.1, certain = 0.5;
 
-/// Of what holds the rotations of neighbours together, relative to their shear modulus. Between an eighth and a half
-/// errors change little (docs/numerics/poromechanics.md); far below, rotations are loose.
+/// The strength of the coupling between rotations of neighbours, relative to their shear modulus. Between an eighth and
+/// a half errors change little (docs/numerics/poromechanics.md); far below, rotations are hardly coupled.
 constexpr double rotation_strength = 0.25;
 
 /// target += factor * source, both of `count` values.
@@ -94,8 +94,8 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
   const auto smallest_pivot = [&] { return eliminate(system_.data(), 2 * subfaces_, width_); };
   double pivot = smallest_pivot();
   if (pivot < 1e-6) {
-    // A stiff subcell among very soft ones, free to turn: it has to turn with them a little. The forces on it are
-    // theirs, and small.
+    // A stiff subcell among very soft ones can turn freely, since the soft ones exert small forces only: it is coupled
+    // to their rotation a little.
     find_jumps(region, stiffness, 0.1);
     assemble(region, conditions);
     pivot = smallest_pivot();
@@ -126,11 +126,8 @@ void LocalStresses::find_jumps(const InteractionRegion& region, const std::vecto
     if (!region.is_inner(f)) continue;
     const auto [first, second] = region.neighbours[f];
     const Subcell &one = region.subcells[first], &other = region.subcells[second];
-    SPREKK_ASSERT(one.area > 0 && other.area > 0, one.cell, other.cell);
-    const Kink kink(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
-    jump_[f] = {kink.rotation(), {0, 0}};
-    dilation_[f] = kink.dilation();
-    // The softer rock's: with more, what it misses of a field that is not linear would load the stiffer one.
+    jump_[f] = RotationJump::across(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
+    // The strength of the softer rock: with more, its error for a field that is not linear would load the stiffer rock.
     const double strengths[2] = {one.area * shear_modulus(stiffness[one.cell]),
                                  other.area * shear_modulus(stiffness[other.cell])};
     const double both = 2 * strengths[0] * strengths[1] / (strengths[0] + strengths[1]);
@@ -240,10 +237,10 @@ void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& regi
     value.row(i) /= norm;
   }
 
-  // Prescribed displacements hold. In what they leave free, forces tell q along the singular vectors, each as far as
-  // its singular value is large: two faces that nearly agree in a force say next to nothing of the stress along them,
-  // and the normal of a curved side is wrong by more than that. The rest continues the displacement of the cells across
-  // to their centres, by least squares.
+  // Prescribed displacements hold. In the components of q that they leave free, forces determine q along the singular
+  // vectors, each to the degree that its singular value is large: two faces with nearly equal forces hardly determine
+  // the stress along them, and the error of the normal of a curved side is larger than that. The remaining components
+  // continue the displacement of the cells across to their centres, by least squares.
   std::vector<int> held, forces;
   for (int i = 0; i < 4; ++i)
     (conditions[region.faces[i / 2]][i % 2] == MechanicalCondition::displacement ? held : forces).push_back(i);

@@ -13,7 +13,8 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr int linear_terms = 6;
-/// Of the fit's smallest singular value to its largest; below, fields and linear displacements are too alike.
+/// Least ratio of the fit's smallest singular value to its largest; below, the modes are too similar to linear
+/// displacements.
 constexpr double well_posed = 1e-3;
 
 bool is_isotropic(const Stiffness& c) {

@@ -98,7 +98,7 @@ std::pair<double, double> clipped(const Rectangle& box, const Point& from, const
   return {first, last};
 }
 
-/// Onto the outline to the last digit.
+/// Moves a point onto the outline to the last digit.
 Point snapped(const Rectangle& box, Point x) {
   const double near = 1e-9 * (box.high - box.low).maxCoeff();
   for (int k = 0; k < dimension; ++k) {
@@ -152,8 +152,8 @@ bool add_if_on(FracturePath& path, const Point& x, double tolerance) {
   return false;
 }
 
-/// What has been added at an end may lead to another fracture, at a point of its mesh, before the coarse level knows
-/// of it. Then it is no tip any more, and both paths have a point there.
+/// The added path of an end may reach another fracture, at a point of its mesh, before the coarse level has the path.
+/// Then the end is no tip any more, and both paths have a point there.
 std::vector<FracturePath> joined(std::vector<FracturePath> paths, double tolerance) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (const bool at_end : {false, true}) {

@@ -147,7 +147,7 @@ RegionDrawing region(const Drawing& drawing, const CanonicalDrawing& canonical) 
   return region;
 }
 
-/// From the frame back to where things are.
+/// Maps points from the frame back to their positions.
 class Reader {
  public:
   Reader(const Drawing& drawing, const CanonicalDrawing& canonical, const RegionMesh& mesh, RawMesh& raw)
@@ -226,7 +226,7 @@ OutsideMesh mesh_outside(const FineGeometry& geometry, const std::vector<TipRoom
                          const std::function<double(const Point&)>& size) {
   const Drawing drawing = Draughtsman(geometry, rooms, sectors).take();
   const CanonicalDrawing canonical(drawing.points, drawing.lines);
-  // Without the last digits, in which images of one another differ.
+  // Without the last digits, in which mirrored or shifted domains differ.
   RegionMesh mesh = mesh_region(region(drawing, canonical), [&](const Point& x) {
     return static_cast<double>(static_cast<float>(size(canonical.outward(x)) / canonical.scale()));
   });

@@ -56,7 +56,7 @@ TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double larges
       to_others = std::min(to_others, distance(tip, Segment{points[i], points[i + 1]}));
     }
   }
-  // A third of what separates two tips leaves a third between their rosettes.
+  // Radii of a third of the distance between two tips leave a third of it between their rosettes.
   room.radius = std::min(
       {largest_radius, room.straight / (has_two_tips ? 3 : 2), room.same_walls / 2, room.clearance / 2, to_others / 3});
   if (walk.ends_in_tip) room.radius = std::min(room.radius, (walk.points.back() - tip).norm() / 3);

@@ -64,7 +64,7 @@ InteractionIntegrals::InteractionIntegrals(const FineMesh& mesh, const Elasticit
   if (own_wall_ != nullptr && own_wall_->walls == CrackPath::Walls::jump) add_places_of_fit();
 }
 
-/// That for domain 0, the larger one, is 0 only where the others are.
+/// The weight for domain 0, the larger one, is 0 only where the other weights are.
 double InteractionIntegrals::weight(int node, int domain) const {
   SPREKK_EXPECT(is_index(node, mesh_.node_count()) && is_index(domain, domains), node, domain);
   const double r = (mesh_.nodes[node] - tip_.room.position).norm(), inner = tip_.room.radius;
@@ -95,8 +95,8 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
       for (int f = 0; f < fields; ++f) {
         const AuxiliaryPoint& a = auxiliary[f];
         const int row = d * fields + f;
-        // What the integrand multiplies the offset and the gradient g by, in the frame of the tip. Stress without the
-        // offset is C g, and sa : eps = sa : g.
+        // The coefficients of the offset and of the gradient g in the integrand, in the frame of the tip. Stress
+        // without the offset is C g, and sa : eps = sa : g.
         const Tensor work = a.displacement_along * dq[d].transpose();
         const Tensor by_offset =
             frame_ * (factor * (0.5 * (work + work.transpose()) + q_here * a.strain_along)) * frame_.transpose();

@@ -92,7 +92,7 @@ void Unknowns::tie_walls(const FineMesh& mesh) {
   }
 }
 
-/// Parts of the rock that nothing holds are kept from moving as rigid bodies.
+/// Pins parts of the rock that nothing holds, which removes their rigid-body motions.
 void Unknowns::pin_floating_parts(const FineMesh& mesh) {
   Parts parts(mesh.node_count());
   const auto root = [&parts](int n) { return parts.of(n); };
