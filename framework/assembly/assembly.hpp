@@ -99,13 +99,13 @@ class Assembly {
   /// The largest sum of absolute products in a row: round-off is a small multiple of machine epsilon times this.
   double round_off_base(int unknown) const { return round_off_bases_[unknown]; }
   const std::vector<Block>& blocks() const { return blocks_; }
-  /// Those of the rows that are balances of something.
+  /// The balances that parts have declared.
   const Balances& balances() const { return balances_; }
 
  private:
   friend class BalanceRows;
   int index_of(const Field& row) const;  ///< -1 where it is not in the solve
-  /// `in_sum`: what of the values stays when rows are added up.
+  /// `in_sum`: the values that count in a sum of rows.
   void add(int unknown, const Vector& values, const Vector& in_sum);
   void compare_round_off_of_rows(int unknown, double largest);
   void keep_block(const Field& row, const Field& column, const SparseMatrix& block, double factor,

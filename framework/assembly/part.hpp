@@ -1,4 +1,4 @@
-// What every component and coupler is to the schedule.
+// Components and couplers, as the schedule sees them.
 #pragma once
 
 #include <cstdint>

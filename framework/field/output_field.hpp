@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// What is written of one field. Values are entity-major: component c of entity i is values[i * components + c].
+/// A field as it is written. Values are entity-major: component c of entity i is values[i * components + c].
 struct OutputField {
   std::string name;  ///< "pore.pressure"
   std::string unit;  ///< SI, "" for a plain number

@@ -1,4 +1,4 @@
-// Who determines the values of a field, and what its equations are to linear solvers.
+// The role of a field, and the kind of its equations for linear solvers.
 #pragma once
 
 #include "framework/linear/block_kind.hpp"

@@ -62,7 +62,7 @@ struct LinearReport {
   }
 };
 
-/// What a solver did and what it could skip, since it was made.
+/// Counts and times of a solver's work since it was made, and of work that it could skip.
 struct LinearCounts {
   int orderings = 0;       ///< symbolic analyses of a new pattern
   int factorizations = 0;  ///< numeric factorizations, or preconditioner set-ups

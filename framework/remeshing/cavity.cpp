@@ -84,7 +84,7 @@ class Choice {
     return in >= sides - 1 || (in > 0 && out == 0);
   }
 
-  /// Where more than one rim edge leaves a node, all cells around it are taken.
+  /// Takes all cells around nodes that more than one rim edge leaves; returns whether there are any.
   bool part_pinches() {
     std::vector<char> leaving(node_count_, 0);
     bool is_pinched = false;

@@ -71,7 +71,7 @@ class Growth {
         moved.push_back(cell);
       }
     }
-    // What lies beyond the end moves to the lowest free numbers; new cells take the others.
+    // Kept cells with numbers beyond the new count move to the lowest free numbers; new cells get the others.
     int free = 0;
     const auto next_free = [&] {
       while (free < count && change.cell[free] != none) ++free;
@@ -137,7 +137,7 @@ class Growth {
     });
   }
 
-  /// The old cell that a new cell is, or that holds its centre.
+  /// The old cell that is the same as a new cell, or that contains its centre.
   int ancestor(const MeshChange& change, int cell, int& next_new) const {
     return change.cell[cell] != none ? change.cell[cell] : holder_[next_new++];
   }

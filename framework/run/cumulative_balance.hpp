@@ -8,13 +8,13 @@
 
 namespace sprekk {
 
-/// Compares the error of each balance with the largest throughput that it has had so far.
-class CumulativeBalance {
+/// Compares the error of each balance with the largest throughput of that balance so far.
+class Books {
  public:
   /// `balances`: at the end of the step that is about to be accepted.
   void note_step(const std::map<std::string, Balance>& balances, Notes& notes);
 
-  /// What it keeps, for checkpoints.
+  /// State for checkpoints.
   void save(std::map<std::string, Vector>& state) const;
   void restore(const std::map<std::string, Vector>& state);
 

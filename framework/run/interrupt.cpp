@@ -22,7 +22,7 @@ void handle(int signal) {
   interruption::request();
 }
 
-/// A terminal that closes may send several.
+/// A terminal that closes may send several signals.
 void handle_loss(int) { interruption::request(); }
 
 bool is_ignored(int signal) {

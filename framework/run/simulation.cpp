@@ -56,7 +56,7 @@ SimulationState first_state(const Scene& scene, std::unique_ptr<Model> model, co
   return {std::move(model), StepController(scene.time, std::move(targets))};
 }
 
-/// One run from its first step to its end, however it ends.
+/// One run, from its first step to its end or to a failure.
 class Simulation {
  public:
   Simulation(const Scene& scene, const RunOptions& options);
@@ -185,7 +185,7 @@ void Simulation::finish(ExitCode code) {
   report_end(recorder_.record(), profile_, state_, output_, options_.quiet);
 }
 
-/// When what a run has found cannot be written any more: its last checkpoint stays, and what it knows of the tables.
+/// For a run whose results cannot be written any more: its last checkpoint stays, with the row counts of the tables.
 void Simulation::fail(const std::string& reason) {
   recorder_.fail(reason);
   try {

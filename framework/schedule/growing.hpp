@@ -1,4 +1,4 @@
-// What a `grow` step asks of the component that has growing fractures.
+// The interface of a component with fractures that can grow, for `grow` steps.
 #pragma once
 
 #include <vector>

@@ -35,11 +35,11 @@ struct ResidualCheck {
 /// does not depend on units. Where the system puts the sum of balances in the place of one (BlockSystem::use_sums), the
 /// sum of the balances of each field is checked like an equation, too.
 ///
-/// What is exchanged may be any multiple of what is stored, and a residual that is small against it may be all of that.
-/// So the balances of a conserved quantity also hold against their turnover (BalanceRows): neither the sum of
-/// all absolute residuals nor their sum without what is exchanged, which has more digits, is above 100 × tolerance
-/// times it, but for round-off. Not where values are fixed in place of balances, which lets an unknown amount in.
-/// Collective.
+/// What rows exchange may be any multiple of what they store, and a residual that is small against the exchange may be
+/// as large as all of the storage. So the balances of a conserved quantity are also compared with their turnover
+/// (BalanceRows): neither the sum of all absolute residuals, nor their sum without exchanges, which has more digits,
+/// may exceed 100 × tolerance times the turnover, but for round-off. Balances in whose place values are fixed are left
+/// out: fixed values let an unknown amount in. Collective.
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance);
 
 }  // namespace sprekk
