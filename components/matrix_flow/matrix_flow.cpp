@@ -351,9 +351,9 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   fluid.store(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()),
               capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, pressure_, capacity_of_pressure_);
-  // What flows depends on differences of pressure only, so its terms are added together, and compared with what flows
-  // through faces: terms of the pressure itself would hide it where the level is high. Where all terms vanish the
-  // residual is small against the flow before the step.
+  // Fluxes depend on differences of pressure only, so their terms are added together and compared with the fluxes
+  // through faces: single terms of the pressure would hide them where the pressure is high everywhere. Where all terms
+  // vanish, the residual is compared with the flow before the step.
   const double largest_before = flow(pressure_.accepted(), pressure_.accepted_version()).largest_outflow;
   const Flow& flows = flow(pressure_.now(), pressure_.version());
   fluid.exchange(step.dt * flows.outflow, step.dt * flows.leaving,

@@ -126,7 +126,7 @@ class Expression {
   }
 
  private:
-  /// As a whole word, not as a function.
+  /// Whether the name occurs as a whole word, not as a function.
   bool mentions(const std::string& name) const {
     const auto in_word = [](char c) {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';

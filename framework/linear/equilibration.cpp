@@ -32,7 +32,7 @@ struct Largest {
   Vector of_row, of_column;
 };
 
-/// Of |A| scaled by rows and columns.
+/// The largest entries of the rows and columns of |A|, scaled by rows and columns.
 Largest largest_entries(const SparseMatrix& a, const Vector& row_scale, const Vector& column_scale) {
   SPREKK_EXPECT(row_scale.size() == a.rows() && column_scale.size() == a.cols(), row_scale.size(), column_scale.size());
   Largest largest{Vector::Zero(a.rows()), Vector::Zero(a.cols())};

@@ -115,7 +115,7 @@ void validate_fracture(const Box& box, const FractureGeometry& fracture) {
   }
 }
 
-/// The ends of two segments that lie on both, and where they cross.
+/// The common points of two segments: ends that lie on both, and their crossing.
 std::vector<Point> common_points(const Segment& one, const Segment& other, double tolerance) {
   std::vector<Point> common;
   for (const Point& end : {one.from, one.to, other.from, other.to}) {

@@ -251,7 +251,7 @@ class Parser {
     }
   }
 
-  /// What the type of an element means, or an error at `place`.
+  /// The kind of an element by its type. Throws InputError at `place` for other types.
   Kind require_kind(int type, std::size_t place) const {
     const Kind kind = kind_of(type);
     if (kind.node_count > 0) return kind;
@@ -363,7 +363,7 @@ class Parser {
     }
   }
 
-  /// From blocks, which is what elements of version 4.1 know, to lists of groups. Entities may stand behind elements.
+  /// Replaces the blocks of elements of version 4.1 by lists of groups. The file may list entities behind elements.
   void assign_groups() {
     std::vector<int> list_of_block;
     const bool has_entities = !entities_.empty() || !partitioned_.empty();

@@ -142,8 +142,8 @@ class Search {
     }
   }
 
-  /// Along the fractures of two lines from a part of the one to the other: the shortest way, and a bound for the
-  /// longest.
+  /// The length of the way along the fractures from a part of one line to another line: the shortest, and a bound for
+  /// the longest.
   static Stretch way_along(const Line& line, const Stretch& range, const Line& other,
                            const std::vector<Joint>& joints) {
     const auto at = [&](double t) { return line.stretch.from + t * (line.stretch.to - line.stretch.from); };

@@ -57,7 +57,7 @@ class Path {
   }
 
  private:
-  /// From `node` on, away from `previous`, to the end.
+  /// The nodes of the path from `node` on, away from `previous`, to its end.
   std::vector<int> walk(int previous, int node) const {
     std::vector<int> nodes{node};
     while (nodes.size() <= group_.lines.size()) {

@@ -24,7 +24,7 @@ constexpr double long_silence = 60;      // s
 constexpr int bar_width = 30;
 const std::string clear_line = "\r\x1b[K";
 
-/// Of the terminal; 0 for none.
+/// The width of the terminal; 0 without a terminal.
 std::size_t columns() {
   winsize size{};
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
@@ -101,7 +101,7 @@ void Progress::close() {
 std::string Progress::status(double time, int step) const {
   const double fraction = end_ > start_ ? std::clamp((time - start_) / (end_ - start_), 0.0, 1.0) : 1.0;
   const double elapsed = clock_() - began_;
-  // What remains is taken to go as fast as what is done.
+  // The estimate assumes that the rest of the run is as fast as the run so far.
   const std::string left = fraction > 0 ? duration_text(elapsed * (1 - fraction) / fraction) + " left" : "";
   const std::string numbers =
       fmt::format("{:3.0f} %  step {}  t = {}  {}", std::floor(100 * fraction), step, duration_text(time), left);

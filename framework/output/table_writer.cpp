@@ -26,7 +26,7 @@ std::string csv_text(std::string text) {
 }
 
 std::string csv_value(const TableWriter::Value& value) {
-  // What is not known has an empty cell.
+  // Unknown values (NaN) have an empty cell.
   if (const double* number = std::get_if<double>(&value))
     return std::isnan(*number) ? std::string() : fmt::format("{}", *number);
   return csv_text(std::get<std::string>(value));

@@ -22,7 +22,7 @@ std::vector<double> divided(std::vector<double> values, double scale) {
   return values;
 }
 
-/// The same values for more than half of the time steps.
+/// Whether both curves have the same values for more than half of the time steps.
 bool hides(const Curve& upper, const Curve& lower, double range) {
   if (upper.x != lower.x) return false;
   std::size_t count = 0;

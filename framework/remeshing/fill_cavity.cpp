@@ -82,7 +82,7 @@ Triangulation triangulate(const CavityOutline& outline, const std::function<doub
   return filling;
 }
 
-/// Whether each edge is there, and the triangles cover what is inside of the rim.
+/// Checks that each edge of the outline is an edge of the filling, and that the triangles cover the inside of the rim.
 void verify(const CavityOutline& outline, const CanonicalDrawing& drawing, const Triangulation& filling) {
   std::vector<std::array<int, 2>> edges;
   double area = 0, wanted = 0;

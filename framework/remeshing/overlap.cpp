@@ -36,7 +36,7 @@ struct Polygon {
   std::array<Point, most_corners> corners;
   int count = 0;
 
-  /// What lies to the left of the line from p to q (Sutherland-Hodgman).
+  /// The part to the left of the line from p to q (Sutherland-Hodgman).
   Polygon left_of(const Point& p, const Point& q) const {
     Polygon part;
     for (int i = 0; i < count; ++i) {

@@ -156,7 +156,8 @@ class Placement {
            std::find(found->second.begin(), found->second.end(), node) != found->second.end();
   }
 
-  /// What a path may be near to. A side or a fracture on which it ends meets it at an angle and leaves no gap.
+  /// A segment that a path may be near to. A side or a fracture on which the path ends is no obstacle: both meet at an
+  /// angle, without a gap.
   struct Obstacle {
     Segment segment;
     double least;  ///< m, the length of edges beside it that cannot change

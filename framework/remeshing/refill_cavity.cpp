@@ -194,7 +194,7 @@ class Refilling {
     return chain;
   }
 
-  /// So that it has edges no longer than what is between it and a path, where that is little.
+  /// Divides an interface between regions so that its edges are no longer than a small gap between it and a path.
   std::vector<int> divide_interface(int face, int a, int b, std::vector<Point>& nodes) const {
     std::vector<int> chain = with_added_nodes(face, a, b, nodes);
     for (std::size_t i = 0; i + 1 < chain.size();) {

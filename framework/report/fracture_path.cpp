@@ -23,7 +23,7 @@ class Graph {
 
   bool is_done() const { return left_.empty(); }
 
-  /// From an end if there is one, else from anywhere, as far as it goes.
+  /// Takes one path out of the graph: from an end if there is one, else from anywhere, as far as it goes.
   FracturePath take_path() {
     FracturePath path;
     path.points.push_back(beginning());

@@ -110,8 +110,8 @@ void Model::check_constant_modes() const {
 
 namespace {
 
-/// What a run decides by must be the same on all of its processes. Where somebody took for whole what only the owner of
-/// an entity has, processes would go on with different steps: a wrong answer, or none.
+/// Values on which decisions of a run depend must be the same on all processes. If code used values that are right only
+/// on the owner of an entity, processes would go on with different steps and give a wrong answer, or hang.
 void require_agreement(const std::string& what, const std::vector<double>& values) {
   if (!parallel::is_same_everywhere(values))
     throw std::logic_error("processes differ in " + what + " (a value that its owner only has was taken for whole)");

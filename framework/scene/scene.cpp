@@ -173,7 +173,8 @@ void read_name(Scene& scene, const std::string& default_name, const ReadContext&
   read.record("name", yaml_scalar(scene.name), name ? name->origin.text() : "default");
 }
 
-/// A section that the scene does not have is read as well: so its defaults are known, and what it requires is missed.
+/// A section of the scene, or an empty map: a section that is absent is read as well, for its defaults and for errors
+/// on required parameters.
 Node section(const Node& whole, const std::string& key) {
   if (const Node* node = whole.find(key)) return *node;
   Node empty;
@@ -201,7 +202,7 @@ void note_unused_materials(Scene& scene, const std::set<std::string>& used) {
                       entry.origin.text() + ": no component of this scene uses " + quoted(entry.key));
 }
 
-/// Times that nothing comes of.
+/// Notes times without effect.
 void note_times(Scene& scene) {
   const TimeOptions& time = scene.time;
   const auto note = [&](const char* section, const std::string& key, const std::string& text) {

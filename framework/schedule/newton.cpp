@@ -245,7 +245,7 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     set(start);
     StepStatus path = follow_path(step, look);
     status.iterations += path.iterations;
-    // And now with the coefficients that belong to it, and with balances that hold.
+    // From the end of the path, iterations with the true coefficients, and until balances hold.
     if (path.converged) {
       const std::vector<Vector> end = values();
       path = attempt(step, options_.undamped);
@@ -282,10 +282,9 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     if (!seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
     bool holds = check.converged;
     if (check.rows_hold && !check.balances_hold && factored) {
-      // What another iteration does not improve is lost in the matrix. Sums of balances may have it; what they do not
-      // give is as much as round-off allows.
-      constexpr double hardly_better = 0.5;
-      const bool stalls = check.imbalance > hardly_better * last_imbalance;
+      // An imbalance that another iteration does not reduce is lost in the round-off of the matrix. Sums of balances
+      // may remove it; otherwise no smaller imbalance is possible.
+      const bool stalls = check.imbalance > 0.5 * last_imbalance;
       last_imbalance = check.imbalance;
       if (stalls && system_.sums().are_used && !system_.sums().are_used_where_answered)
         system_.use_answered_sums(true);

@@ -91,7 +91,7 @@ std::vector<std::string> varied_keys(const StudyOptions& options) {
   return keys;
 }
 
-/// As the scene has it: written, or by default.
+/// The value of a parameter in a scene, given or by default.
 std::string value_of(const Scene& scene, const std::string& path) {
   for (const Scene::Resolved& value : scene.resolved)
     if (value.path == path) return value.value;

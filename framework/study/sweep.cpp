@@ -123,7 +123,7 @@ void Sweep::start(std::size_t i) {
   arguments.insert(arguments.end(), study_.scene_files.begin(), study_.scene_files.end());
   for (const Setting& setting : run.settings)
     arguments.insert(arguments.end(), {"--set", setting.path + "=" + setting.value});
-  // What a run wrote before its first checkpoint is of no use.
+  // Results of a run that has no checkpoint yet are of no use.
   if (!goes_on) fs::remove_all(run_folder(i));
   arguments.insert(arguments.end(), {"-o", run_folder(i).string()});
   if (goes_on) arguments.emplace_back("--restart");

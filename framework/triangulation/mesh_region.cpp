@@ -176,7 +176,7 @@ class Mesher {
     const auto& corners = delaunay_.triangles()[t].corners;
     const double size = (size_at(corners[0]) + size_at(corners[1]) + size_at(corners[2])) / 3;
     kept.excess = std::numbers::sqrt3 * circumcircle(t).radius / size;
-    // Halfway, as a factor, between a triangle and its division.
+    // The geometric mean of the excess of a triangle that fits and of one that should be divided.
     constexpr double most = 1.2247;
     kept.state = kept.excess > most ? State::large : State::done;
     if (kept.state == State::large) queue_.push({kept.excess, t, kept.version});
@@ -227,8 +227,8 @@ class Mesher {
     return best;
   }
 
-  /// Adds a point at the height of an equilateral triangle over the edge, or at a smaller one of a circle that is not
-  /// larger than what it takes.
+  /// Adds a point over the middle of an edge: at the height of an equilateral triangle, or lower, so that the
+  /// circumradius does not exceed the wanted one.
   bool divide(int t, int k) {
     const auto& corners = delaunay_.triangles()[t].corners;
     const Point &a = point(corners[k]), &b = point(corners[(k + 1) % 3]);

@@ -55,8 +55,8 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
 
 double IncrementSearch::first_length() const {
   if (!options_.seeks_arrest()) return full_length_;
-  // Only where the whole length is much too long: near the toughness a small part of K_eq is a large one of the length,
-  // and whole increments are what tips that grow together have in common.
+  // A shorter length is tried first only where the whole length is much too long: near the toughness a small change of
+  // K_eq corresponds to a large change of the length, and tips that grow together share whole increments.
   constexpr double tolerances = 5;
   const double excess_of_whole = shorter_.excess + warm_start_.release * full_length_;
   if (excess_of_whole < tolerances * options_.arrest_tolerance) return full_length_;
@@ -314,11 +314,11 @@ void IncrementSearch::shorten(double by) {
   go_to(std::max(shorter, shortest_length()));
 }
 
-/// With the direction that what was tried with the present length makes likely for the new one.
+/// Changes the length, and estimates the direction for it from the directions that were tried with the present length.
 void IncrementSearch::go_to(double length) {
   SPREKK_EXPECT(length > 0 && std::isfinite(length), length);
   if (phase_ == Phase::searching) {
-    // By how much the estimate is wrong vanishes with the length, where the estimate is exact.
+    // The error of the estimate vanishes with the length.
     const double root = directions_.empty() ? angle_ : root_of_phi();
     const double wrong = root - local_symmetry_angle(start_, length_, options_.largest_turn);
     angle_ = clamp_turn(local_symmetry_angle(start_, length, options_.largest_turn) + wrong * length / length_);

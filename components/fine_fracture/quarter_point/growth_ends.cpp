@@ -14,17 +14,17 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
   const double k_eq = equivalent_sif(outcome.end) / *options_.toughness, excess = k_eq - 1;
   const double shear = outcome.end.k2 / outcome.end.k1;
   const bool has_grown = outcome.increments > 0;
-  // Twice and three times what is aimed at: the length and the direction of the last increment, and a rest that is
-  // shorter than the shortest one.
+  // Twice and three times the tolerances: the length and the direction of the last increment may be off by that, and by
+  // a rest that is shorter than the shortest increment.
   const double most_excess = 2 * growth.arrest_tolerance, most_shear = 3 * growth.direction_tolerance;
-  // One that has met another fracture ends there, whatever its load.
+  // A tip that has met another fracture ends there, whatever its load.
   const bool is_off =
       growth.seeks_arrest() && !has_joined && (excess > most_excess || (has_grown && excess < -most_excess));
   // For good, whatever increments are like.
   const bool is_blocked = outcome.blocked && !has_joined && excess > 0;
-  // Above its toughness by no more than a rest may be, yet not at it.
+  // A tip that did not grow although its load is above the toughness by more than the tolerance.
   const bool waits = growth.seeks_arrest() && !has_grown && excess > growth.arrest_tolerance;
-  // A tip that hardly is loaded has no direction.
+  // A tip that is hardly loaded has no direction.
   const bool is_sheared = growth.is_implicit() && has_grown && k_eq > growth.direction_tolerance &&
                           !(std::abs(outcome.end.k2) <= most_shear * outcome.end.k1);
   if (!is_off && !is_sheared && !is_blocked && !waits) return;

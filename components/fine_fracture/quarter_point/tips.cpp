@@ -147,7 +147,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   } else {
     tip.domain = std::move(domain);
   }
-  // Paths of others change nothing where they are out of its domain, and a search begins where the tip was examined.
+  // The answer is still valid if only paths outside of its domain have changed, or at the first evaluation of a search.
   if (tip.answer && tip.answer->version == surroundings_->version()) {
     ++kept_;
     tip.now.sif_error = tip.answer->error;
@@ -260,7 +260,7 @@ Growing::Growth Tips::grow(const StepTime&) {
                        Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path, tip.now.warm_start});
   }
   GrowthOptions growth = options_.growth;
-  // Beyond what the coarse level wants to know of, its answer counts: the fluid's pressure falls as tips go on.
+  // Longer growth needs a new solution of the coarse level: the pressure of the fluid falls as tips grow.
   if (!growth.longest)
     for (const Tip& tip : tips_) growth.longest = std::max(growth.longest.value_or(0), longest_path(tip));
   const std::vector<TipOutcome> outcomes = grow_tips(
@@ -295,7 +295,8 @@ Growing::Growth Tips::grow(const StepTime&) {
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
   }
   stop_refused(extensions, outcomes);
-  // When it is known where all others go. A path that goes on to another fracture takes the place of the one before.
+  // Last, when the paths of all other tips are known. A path that joins another fracture replaces the tip's former
+  // path.
   for (const std::size_t i : blocked) {
     Tip& tip = tips_[i];
     std::vector<PathExtension> others;

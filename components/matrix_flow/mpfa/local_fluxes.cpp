@@ -13,10 +13,10 @@ bool is_triangle(const Mesh& mesh, int cell) { return mesh.cell_nodes[cell].size
 
 /// Where the pressures of both sides of a subface agree, from the centre of the face (0) to the node (1). At the third
 /// points of a triangle, and at the centres of a parallelogram's faces, the arms from the centre of the cell to the
-/// points are dual to the half faces: what flows out of a subcell is a symmetric positive definite function of its
-/// drops of pressure, for any tensor. Wherever all subcells are like that, no flow can gain energy. So points lie there
-/// on walls and on the boundary as well: with its centre for the wall's face, a triangle in anisotropic rock may feed
-/// on itself.
+/// points are dual to the half faces: the fluxes out of a subcell are then a symmetric positive definite function of
+/// its pressure drops, for any tensor. Where all subcells have this property, no flow can gain energy. So the points of
+/// walls and of the boundary are chosen in the same way: with the centre of a wall's face, the flow in a triangle of
+/// anisotropic rock may gain energy.
 double continuity_point(const Mesh& mesh, int face) {
   for (const int cell : mesh.face_cells[face])
     if (cell != none && is_triangle(mesh, cell)) return 1.0 / 3;

@@ -193,7 +193,7 @@ void MumpsSolver::list_entries() {
   }
 }
 
-/// Of those entries.
+/// The values of the entries of list_entries().
 double* MumpsSolver::list_values() {
   if (border_.size() == 0) return scaled_.matrix.valuePtr();
   std::vector<double>& values = mumps_->values;

@@ -144,9 +144,10 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   BulkSplitting& split = *splitting_;
   SPREKK_ASSERT(split.bulk_size() + split.local_size() == system.local.cols(), split.bulk_size(), split.local_size());
   split.take_sums(system.sums);
-  // Of each bulk the rows of X that are read and their products, and the pattern of reduced systems, in triplets first.
-  const double width = split.interface_columns.size();
-  if ((kept_bulks * split.near.size() + 6 * width) * width > most_schur_entries)
+  // The entries to be kept: for each bulk the rows of X that are read and their products; the triplets of the reduced
+  // pattern.
+  const double felt = split.felt.size();
+  if ((kept_bulks * split.near.size() + 6 * felt) * felt > largest_felt)
     return LinearReport::failure("too many unknowns on fractures to condense the bulk");
   if (has_changed) choose_bulk();
   pattern_number_ = system.pattern_number;
