@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "framework/module/module.hpp"
+
 namespace sprekk {
 
 FieldOutput::FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures)
-    : folder_(std::move(folder)), matrix_(std::move(matrix)), fractures_(std::move(fractures)) {}
+    : folder_(std::move(folder)), matrix_(std::move(matrix)), fractures_(std::move(fractures)) {
+  open_module("vtk");  // a run that cannot write ends before it begins
+}
 
 FieldOutput::FieldOutput(const std::filesystem::path& folder)
     : FieldOutput(folder, TimeSeries(folder / "matrix.pvd"), TimeSeries(folder / "fractures.pvd")) {}

@@ -1,16 +1,27 @@
 #include "framework/output/vtk_module/vtk_module.hpp"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDataArray.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkIdList.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSMPTools.h>
+#include <vtkSmartPointer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "framework/module/define_module.hpp"
 
@@ -25,9 +36,53 @@ std::vector<GridData::Array> arrays_of(vtkFieldData& data) {
     GridData::Array read{array->GetName(), array->GetNumberOfComponents(), {}};
     for (vtkIdType k = 0; k < array->GetNumberOfTuples(); ++k)
       for (int c = 0; c < read.components; ++c) read.values.push_back(array->GetComponent(k, c));
+    read.is_integer = array->GetDataType() == VTK_INT;
     arrays.push_back(std::move(read));
   }
   return arrays;
+}
+
+/// The numbers themselves, for as long as they live.
+vtkSmartPointer<vtkDoubleArray> view_of(const std::vector<double>& values, int components) {
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  constexpr int keep = 1;  // VTK shall not free them, nor does it change them
+  array->SetNumberOfComponents(components);
+  array->SetArray(const_cast<double*>(values.data()), static_cast<vtkIdType>(values.size()), keep);
+  return array;
+}
+
+void add_arrays(vtkFieldData& data, const std::vector<GridData::Array>& arrays) {
+  for (const GridData::Array& array : arrays) {
+    vtkSmartPointer<vtkDataArray> added;
+    if (array.is_integer) {
+      vtkNew<vtkIntArray> integers;
+      integers->SetNumberOfComponents(array.components);
+      integers->SetNumberOfValues(static_cast<vtkIdType>(array.values.size()));
+      std::copy(array.values.begin(), array.values.end(), integers->GetPointer(0));
+      added = integers;
+    } else {
+      added = view_of(array.values, array.components);
+    }
+    added->SetName(array.name.c_str());
+    data.AddArray(added);
+  }
+}
+
+void set_cells(vtkUnstructuredGrid& grid, const GridData& data) {
+  vtkNew<vtkTypeInt64Array> starts, points;
+  vtkNew<vtkUnsignedCharArray> types;
+  starts->InsertNextValue(0);
+  std::int64_t first = 0;
+  for (const std::int64_t end : data.cell_ends) {
+    const std::int64_t count = end - std::exchange(first, end);
+    starts->InsertNextValue(end);
+    types->InsertNextValue(count == 2 ? VTK_LINE : count == 3 ? VTK_TRIANGLE : VTK_QUAD);
+  }
+  points->SetNumberOfValues(static_cast<vtkIdType>(data.cell_points.size()));
+  std::copy(data.cell_points.begin(), data.cell_points.end(), points->GetPointer(0));
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(starts, points);
+  grid.SetCells(types, cells);
 }
 
 class Module final : public VtkModule {
@@ -58,6 +113,27 @@ class Module final : public VtkModule {
     data.on_cells = arrays_of(*grid.GetCellData());
     data.on_points = arrays_of(*grid.GetPointData());
     return data;
+  }
+
+  std::string text_of(const GridData& data) const override {
+    // The range of each array is found in this thread: more of them cost more than they gain.
+    vtkSMPTools::SetBackend("Sequential");
+    vtkNew<vtkUnstructuredGrid> grid;
+    vtkNew<vtkPoints> points;
+    points->SetData(view_of(data.points, 3));
+    grid->SetPoints(points);
+    set_cells(*grid, data);
+    add_arrays(*grid->GetPointData(), data.on_points);
+    add_arrays(*grid->GetCellData(), data.on_cells);
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->SetInputData(grid);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToNone();
+    writer->SetHeaderTypeToUInt64();
+    writer->WriteToOutputStringOn();
+    if (writer->Write() == 0) throw std::runtime_error("VTK cannot write a grid");
+    return writer->GetOutputString();
   }
 };
 

@@ -15,6 +15,7 @@ struct GridData {
     std::string name;
     int components;
     std::vector<double> values;  ///< the components of an entity stand together
+    bool is_integer = false;     ///< the file has them as integers of 32 bits
   };
   std::vector<double> points;             ///< x, y, z of each
   std::vector<std::int64_t> cell_points;  ///< numbers of points, of one cell after the other
@@ -32,6 +33,9 @@ class VtkModule {
   /// Reads arrays of all types of numbers; arrays without a name are left out. Throws std::runtime_error for a file
   /// that cannot be read.
   virtual GridData read(const std::filesystem::path& vtu) const = 0;
+  /// The text of a .vtu file with all the bits of the numbers: appended, raw, not compressed. Two points make a line,
+  /// three a triangle, four a quadrilateral.
+  virtual std::string text_of(const GridData& grid) const = 0;
 };
 
 }  // namespace sprekk

@@ -8,6 +8,10 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <bit>
+#include <cstdint>
+#include <limits>
+
 #include "framework/mesh/build_mesh.hpp"
 #include "tests/framework/output/small_case.hpp"
 
@@ -129,6 +133,23 @@ TEST_F(VtuWriter, FracturesAreReadBackToTheBitWithTheirWallsAndFrames) {
   expect_values(grid->GetCellData()->GetArray("rock.wall_displacement.plus[Pa]"), walls, 0, 2);
   expect_values(grid->GetCellData()->GetArray("rock.wall_displacement.minus[Pa]"), walls, 1, 2);
   EXPECT_EQ(grid->GetCellData()->GetArray("pore.pressure[Pa]"), nullptr);
+}
+
+TEST_F(VtuWriter, ValuesThatAreNoNumbersKeepTheirBitsAndNamesTheirCharacters) {
+  OutputField field = field_on(mesh, "a & b < \"c\"", Location::cell, 1);
+  const double special[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -0.0,
+                            std::numeric_limits<double>::denorm_min()};
+  for (int i = 0; i < 4; ++i) field.values[i] = special[i];
+  write_matrix_vtu(folder / "m.vtu", mesh, {field});
+  vtkDataArray* array = read(folder / "m.vtu")->GetCellData()->GetArray("a & b < \"c\"[Pa]");
+  ASSERT_NE(array, nullptr);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(array->GetComponent(i, 0)), std::bit_cast<std::uint64_t>(special[i]));
+}
+
+TEST_F(VtuWriter, RegionsAreIntegers) {
+  write_matrix_vtu(folder / "m.vtu", mesh, {});
+  EXPECT_EQ(read(folder / "m.vtu")->GetCellData()->GetArray("region")->GetDataType(), VTK_INT);
 }
 
 TEST_F(VtuWriter, AMeshWithoutFracturesGivesAnEmptyFractureGrid) {
