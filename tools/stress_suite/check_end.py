@@ -4,7 +4,7 @@ import re
 
 from . import written
 
-NOISE = re.compile(r"runtime error:|AddressSanitizer|terminate called|Segmentation fault|std::\w+|_GLIBCXX|\bassert", re.I)
+NOISE = re.compile(r"runtime error:|AddressSanitizer|terminate called|Segmentation fault|std::\w+|_GLIBCXX|a broken (?:invariant|precondition)|\bassert", re.I)
 REASONS = ("did not converge", "is too long", "has no data")
 
 
