@@ -120,12 +120,13 @@ class WallTraction : public Coupler {
   /// at least a tenth of the mean, in proportion to the length of the cell.
   Vector positive(Vector compliance) const {
     SPREKK_EXPECT(compliance.size() == 2 * mesh_.fracture_cell_count(), compliance.size());
+    constexpr double least = 0.1;  // of the mean
     double mean[2] = {0, 0};
     const int cells = mesh_.fracture_cell_count();
     for (int i = 0; i < 2 * cells; ++i)
       mean[i % 2] += std::abs(compliance[i]) / mesh_.fracture_cells[i / 2].length / cells;
     for (int i = 0; i < 2 * cells; ++i)
-      compliance[i] = std::max(compliance[i], 0.1 * mean[i % 2] * mesh_.fracture_cells[i / 2].length);
+      compliance[i] = std::max(compliance[i], least * mean[i % 2] * mesh_.fracture_cells[i / 2].length);
     return compliance;
   }
 

@@ -144,7 +144,8 @@ void MatrixFlow::place_wells() {
   // Fluid of a well must not be added to rock of another permeability, where it might not be able to flow away.
   const auto is_like = [&](int cell, int other) {
     const double ratio = mobility_[other].trace() / mobility_[cell].trace();
-    return is_sealed_ || (ratio > 0.5 && ratio < 2);
+    constexpr double most = 2;
+    return is_sealed_ || (ratio > 1 / most && ratio < most);
   };
   for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at, is_like);
 }

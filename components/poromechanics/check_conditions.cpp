@@ -34,7 +34,8 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
       throw InputError(where, std::string("nothing holds the rock along ") + "xy"[k],
                        std::string("no side has a displacement in ") + "xy"[k] + ", so that it may move freely", add);
   const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(resistance).eigenvalues();
-  if (eigenvalues[0] <= 1e-10 * eigenvalues[2])
+  constexpr double round_off = 1e-10;
+  if (eigenvalues[0] <= round_off * eigenvalues[2])
     throw InputError(where, "nothing keeps the rock from turning",
                      "the displacements of its sides allow a small rotation about a point", add);
 }

@@ -83,9 +83,10 @@ void Coulomb::set_wall_stiffness(const Vector& stiffness) {
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
     stiffness_of_fractures_[2 * i + 1] *= cell.length / fracture_length_[cell.fracture];
-    const double wedge = std::max(friction_[i] * dilation_[i], 1e-300);
+    constexpr double at_most = 0.5;  // of that along the tangent over the wedge
+    const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
     for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_})
-      (*c)[2 * i] = std::min((*c)[2 * i], 0.5 * (*c)[2 * i + 1] / wedge);
+      (*c)[2 * i] = std::min((*c)[2 * i], at_most * (*c)[2 * i + 1] / wedge);
   }
 }
 

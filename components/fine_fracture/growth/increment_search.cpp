@@ -25,6 +25,9 @@ bool turns_away(const Sifs& sifs, double length) {
 /// abs(phi) up to which estimates for the right direction hold.
 constexpr double nearly_right = 0.5;
 
+/// Of the toughness: where an increment ends that is more than the tip has grown.
+constexpr double far_below = 0.9;
+
 /// How often one increment is evaluated in all, over how often it is with one length.
 constexpr int lengths_tried = 4;
 
@@ -141,7 +144,8 @@ double IncrementSearch::estimated_slope(double angle) const {
   constexpr double step = 1e-3;
   const double change =
       phase_of(after_kink(start_, angle + step, length_)) - phase_of(after_kink(start_, angle - step, length_));
-  return std::max(0.1, std::remainder(change, 2 * std::numbers::pi) / (2 * step));
+  constexpr double least = 0.1;
+  return std::max(least, std::remainder(change, 2 * std::numbers::pi) / (2 * step));
 }
 
 bool IncrementSearch::is_reversed() const {
@@ -158,7 +162,8 @@ double IncrementSearch::root_of_phi() {
   if (directions_.size() > 1) {
     const Direction& before = directions_[directions_.size() - 2];
     const double secant = (last.phi - before.phi) / (last.angle - before.angle);
-    if (secant > 0.02 && secant < 100) {
+    constexpr double flattest = 0.02, steepest = 100;  // slopes that are believed
+    if (secant > flattest && secant < steepest) {
       slope = secant;
       if (std::max(std::abs(last.phi), std::abs(before.phi)) < nearly_right)
         warm_start_.stiffness_ratio = std::clamp(secant / estimated_slope(last.angle), 0.1, 20.0);
@@ -217,8 +222,8 @@ void IncrementSearch::settle_for_less(double k_eq) {
     angle_ = good_->angle;
   } else if (phase_ == Phase::searching) {
     fix_direction("K_II did not vanish within the tries");
-  } else if (options_.seeks_arrest() && k_eq < 0.9 * toughness_) {
-    // An increment that ends far below the toughness is longer than the true growth of the tip.
+  } else if (options_.seeks_arrest() && k_eq < far_below * toughness_) {
+    // An increment that ends far below the toughness is more than the tip has grown.
     fall_back();
   } else {
     accept_as_it_is();
@@ -232,16 +237,17 @@ void IncrementSearch::correct_direction(const Sifs& end) {
   if (may_shorten && std::abs(directions_.back().phi) >= closed) {
     const double linear = shorter_.excess / (shorter_.excess - excess(end.k1));
     directions_.clear();
-    return shorten(std::clamp(linear, 0.1, 0.7));
+    constexpr double shortest = 0.1, longest = 0.7;
+    return shorten(std::clamp(linear, shortest, longest));
   }
   const double present = angle_, root = root_of_phi();
   if (is_reversed()) return fix_direction("K_II grows with the turn that should remove it");
   if (root == present && !may_shorten) return fix_direction("no direction within the largest turn makes K_II vanish");
-  constexpr double near_the_root = 0.2;
+  constexpr double near_the_root = 0.2, about_a_third = 0.35;
   const int tries_with_one_length =
       std::abs(directions_.back().phi) < near_the_root ? options_.tries : std::max(2, options_.tries / 2);
   if (may_shorten && (root == present || static_cast<int>(directions_.size()) >= tries_with_one_length))
-    return shorten(0.35);
+    return shorten(about_a_third);
   angle_ = root;
 }
 

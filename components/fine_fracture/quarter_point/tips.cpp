@@ -291,7 +291,8 @@ Growing::Growth Tips::grow(const StepTime&) {
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
     const double length = length_of(position(tip, {}), tip.now.path);
     // Whole increments may fall short of the threshold by what their last one was shortened.
-    if (length < 0.95 * surroundings_->propagation_threshold() * tip.coarse_size) continue;
+    constexpr double nearly = 0.95;
+    if (length < nearly * surroundings_->propagation_threshold() * tip.coarse_size) continue;
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
   }
   stop_refused(extensions, outcomes);

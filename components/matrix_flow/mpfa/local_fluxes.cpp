@@ -109,7 +109,8 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& regi
     }
     if (!region.is_inner(f)) row[boundary_column++] = 0.5;
   }
-  if (eliminate(system_.data(), subfaces_, width) < 1e-14)
+  constexpr double singular = 1e-14;  // of a row: round-off
+  if (eliminate(system_.data(), subfaces_, width) < singular)
     throw std::runtime_error("MPFA: singular local problem at a node of cell " +
                              std::to_string(region.subcells[0].cell) + " (is its mobility positive definite?)");
   pressures_.resize(subfaces_ * columns_);

@@ -18,7 +18,8 @@ constexpr double largest_share = 20;
 }  // namespace
 
 bool resembles(const Tensor& mobility, const Tensor& other) {
-  return (mobility - other).lpNorm<Eigen::Infinity>() <= 0.2 * other.lpNorm<Eigen::Infinity>();
+  constexpr double alike = 0.2;
+  return (mobility - other).lpNorm<Eigen::Infinity>() <= alike * other.lpNorm<Eigen::Infinity>();
 }
 
 std::map<int, std::vector<int>> cells_around_tips(const Mesh& mesh, const std::vector<int>& tips) {

@@ -23,11 +23,12 @@ class WantedSizes {
       const double edge = std::sqrt(2 * std::abs(a.x() * b.y() - a.y() * b.x()) / std::sqrt(3.0));
       const double excess = allowed / std::max(estimate.elements[e], 1e-300);
       // The error of a quadratic element goes with the third power of its size where the stress is smooth.
-      const double shrink = std::clamp(std::cbrt(excess), 0.3, 1.0);
+      constexpr double smallest = 0.3, smallest_of_tip = 0.4;  // in one round
+      const double shrink = std::clamp(std::cbrt(excess), smallest, 1.0);
       sizes_.push_back(edge * shrink);
       expected_elements_ += 1 / (shrink * shrink);
       // The error in a rosette goes with the root of its radius.
-      if (mesh_->elements[e].tip != none) tip_shrink_ = std::min(tip_shrink_, std::clamp(excess, 0.4, 1.0));
+      if (mesh_->elements[e].tip != none) tip_shrink_ = std::min(tip_shrink_, std::clamp(excess, smallest_of_tip, 1.0));
     }
   }
   double at(const Point& x) const {
