@@ -4,6 +4,7 @@
 
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "components/fracture_flow/tpfa/half_cell_apertures.hpp"
+#include "components/fracture_flow/tpfa/junction_apertures.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -46,15 +47,46 @@ Conductance FractureFlow::conductance_by_opening(const Link& link, double half, 
 std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
   std::vector<JunctionFluxes> fluxes;
   for (const Junction& junction : mesh_.junctions) {
-    std::vector<JunctionFluxes::Half> halves;
-    for (const int cell : junction.cells) {
-      const Transmissivity t = transmissivity(cell, junction.points.front());
-      const double half = 0.5 * mesh_.fracture_cells[cell].length;
-      halves.push_back({t.value / half, t.by_aperture / half});
-    }
-    fluxes.emplace_back(junction, std::move(halves));
+    fluxes.emplace_back(junction,
+                        options_.transmissivity == "cubic_law" ? halves_by_opening(junction) : given_halves(junction));
   }
   return fluxes;
+}
+
+std::vector<JunctionFluxes::Half> FractureFlow::given_halves(const Junction& junction) const {
+  std::vector<JunctionFluxes::Half> halves;
+  for (const int cell : junction.cells) {
+    const double half = 0.5 * mesh_.fracture_cells[cell].length;
+    halves.push_back({transmissivity(cell, junction.points.front()).value / half,
+                      Vector::Zero(static_cast<Eigen::Index>(junction.cells.size()))});
+  }
+  return halves;
+}
+
+std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction& junction) const {
+  const int count = static_cast<int>(junction.cells.size());
+  const auto fracture_of = [&](int place) { return mesh_.fracture_cells[junction.cells[place]].fracture; };
+  std::vector<int> partners(count, -1);
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j)
+      if (i != j && (count == 2 || fracture_of(i) == fracture_of(j))) partners[i] = j;
+  const auto arms_of = [&](const Vector& aperture) {
+    std::vector<CellAperture> cells;
+    for (const int cell : junction.cells)
+      cells.push_back(
+          {0.5 * mesh_.fracture_cells[cell].length, aperture[cell], aperture[cell] - initial_aperture_[cell]});
+    return junction_apertures(cells, partners);
+  };
+  const std::vector<ArmAperture> arms = arms_of(aperture_.now());
+  const std::vector<ArmAperture> held = is_held() ? arms_of(held_aperture_) : arms;
+  std::vector<JunctionFluxes::Half> halves;
+  for (int i = 0; i < count; ++i) {
+    const auto [a, by_present] = cubic_law_aperture(arms[i].value, held[i].value);
+    const double half = 0.5 * mesh_.fracture_cells[junction.cells[i]].length;
+    const double value = a * a * a / (12 * viscosity_[junction.cells[i]] * half);
+    halves.push_back({value, 3 * value / a * by_present * arms[i].by_aperture});
+  }
+  return halves;
 }
 
 double FractureFlow::pressure_drop(const Link& link) const {

@@ -79,6 +79,8 @@ class FractureFlow : public Component, public FractureFluid {
   /// The conductance by the cubic law, from the apertures of the half cells.
   Conductance conductance_by_opening(const Link& link, double half, double other_half) const;
   std::vector<JunctionFluxes> junction_fluxes() const;
+  std::vector<JunctionFluxes::Half> given_halves(const Junction& junction) const;
+  std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   double pressure_drop(const Link& link) const;
   struct FluxRows;
   void assemble_fluxes(Assembly& assembly, const StepTime& step) const;

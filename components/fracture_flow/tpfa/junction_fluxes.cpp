@@ -24,10 +24,14 @@ JunctionFluxes::Flux::Part JunctionFluxes::part(int from, int to, double sign) c
   if (hub_ > to) sign = -sign;
   const Half &half = halves_[from], &hub = halves_[hub_];
   const double share = sign * half.value / hub.value;
-  return {point_between(hub_, to),
-          {share,
-           {{junction_.cells[from], sign * half.by_aperture / hub.value},
-            {junction_.cells[hub_], -share * hub.by_aperture / hub.value}}}};
+  const Vector by_aperture = (sign * half.by_aperture - share * hub.by_aperture) / hub.value;
+  return {point_between(hub_, to), {share, by_cell(by_aperture)}};
+}
+
+std::vector<std::pair<int, double>> JunctionFluxes::by_cell(const Vector& by_aperture) const {
+  std::vector<std::pair<int, double>> derivatives;
+  for (Eigen::Index k = 0; k < by_aperture.size(); ++k) derivatives.emplace_back(junction_.cells[k], by_aperture[k]);
+  return derivatives;
 }
 
 JunctionFluxes::Flux JunctionFluxes::flux(int place) const {
@@ -37,10 +41,12 @@ JunctionFluxes::Flux JunctionFluxes::flux(int place) const {
   if (i != hub_ && j != hub_) flux.parts = {part(i, j, 1), part(j, i, -1)};
   const double to_i = halves_[i].value / sum_, to_j = halves_[j].value / sum_;
   flux.conductance.value = halves_[i].value * to_j;
+  Vector by_aperture = Vector::Zero(static_cast<Eigen::Index>(halves_.size()));
   for (int k = 0; k < static_cast<int>(halves_.size()); ++k) {
     const double by = (k == i ? to_j : 0) + (k == j ? to_i : 0) - to_i * to_j;
-    flux.conductance.by_aperture.emplace_back(junction_.cells[k], by * halves_[k].by_aperture);
+    by_aperture += by * halves_[k].by_aperture;
   }
+  flux.conductance.by_aperture = by_cell(by_aperture);
   return flux;
 }
 

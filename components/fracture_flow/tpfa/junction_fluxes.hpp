@@ -24,9 +24,10 @@ struct Conductance {
 /// from pressures; the others follow from these fluxes: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
 class JunctionFluxes {
  public:
-  /// The conductance t_i, m^2/(Pa s), and its derivative by the aperture.
+  /// The conductance t_i, m^2/(Pa s), and its derivatives by the apertures of the junction's cells.
   struct Half {
-    double value, by_aperture;
+    double value;
+    Vector by_aperture;
   };
   /// `halves`: one for each of the junction's cells.
   JunctionFluxes(const Junction& junction, std::vector<Half> halves);
@@ -48,6 +49,8 @@ class JunctionFluxes {
  private:
   Flux::Part part(int from, int to, double sign) const;
   int point_between(int one, int other) const;
+  /// Derivatives by the apertures of the junction's cells, with their numbers.
+  std::vector<std::pair<int, double>> by_cell(const Vector& by_aperture) const;
 
   const Junction& junction_;
   std::vector<Half> halves_;

@@ -40,7 +40,7 @@ TEST(JunctionFluxes, AreThoseThroughAStarOfResistances) {
     std::vector<JunctionFluxes::Half> halves;
     double sum = 0, weighted = 0;
     for (int i = 0; i < 4; ++i) {
-      halves.push_back({conductances[i], 0});
+      halves.push_back({conductances[i], Vector::Zero(4)});
       sum += conductances[i];
       weighted += conductances[i] * potentials[i];
     }
@@ -61,7 +61,7 @@ TEST(JunctionFluxes, AreThoseThroughAStarOfResistances) {
 
 TEST(JunctionFluxes, AreNoneWhereNothingConducts) {
   const Junction junction = junction_of(3);
-  const JunctionFluxes at(junction, {{0, 1}, {0, 1}, {0, 1}});
+  const JunctionFluxes at(junction, {{0, Vector::Unit(3, 0)}, {0, Vector::Unit(3, 1)}, {0, Vector::Unit(3, 2)}});
   for (int place = 0; place < 3; ++place) {
     EXPECT_EQ(at.flux(place).conductance.value, 0);
     EXPECT_TRUE(at.flux(place).parts.empty());
@@ -76,13 +76,19 @@ std::map<int, double> derivatives(const Conductance& factor) {
 }
 
 TEST(JunctionFluxes, HaveTheDerivativesOfTheirFactors) {
-  // Half conductances that go with the cube of apertures; central differences.
+  // Half conductances that go with the cube of apertures, the last one with the cube of a mean of two; central
+  // differences.
   const std::vector<double> apertures = {1.1, 0.7, 1.3, 0.2};
   const Junction junction = junction_of(4);
   const auto at = [&](std::vector<double> a) {
     std::vector<JunctionFluxes::Half> halves;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      halves.push_back({(i + 1) * a[i] * a[i] * a[i], 3 * (i + 1) * a[i] * a[i]});
+    for (int i = 0; i < 4; ++i) {
+      Vector weights = Vector::Unit(4, i);
+      if (i == 3) weights << 0.25, 0, 0, 0.75;
+      double mean = 0;
+      for (int k = 0; k < 4; ++k) mean += weights[k] * a[k];
+      halves.push_back({(i + 1) * mean * mean * mean, 3 * (i + 1) * mean * mean * weights});
+    }
     return JunctionFluxes(junction, halves);
   };
   constexpr double step = 1e-5;

@@ -1,0 +1,56 @@
+// The apertures of the half cells at a junction of fractures.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "components/fracture_flow/tpfa/half_cell_apertures.hpp"
+
+namespace sprekk::fracture_flow {
+
+/// The aperture of a half cell at a junction, and its derivatives by the apertures of all cells there.
+struct ArmAperture {
+  double value;
+  Eigen::VectorXd by_aperture;
+};
+
+/// Through a junction a fracture goes on as elsewhere, its opening linear between its two cells (half_cell_apertures),
+/// and so does one that another takes over from. Arms of different fractures open as they like, since the rock between
+/// them may turn and slide: what one has says nothing about another, so a half cell without a counterpart has the
+/// aperture of its cell, which is of second order in all.
+///
+/// That would keep fluid out of an arm that is closed for ever. So no opening at a junction is taken for less than a
+/// tenth of the widest one there. Such an arm conducts a thousandth of the widest, whatever it is taken for: flows
+/// through the others do not notice, and the arm itself is off by a half cell, as long as it is closed beside a wide
+/// one.
+///
+/// `partners`: for each cell the place of the cell on the other side, or -1.
+inline std::vector<ArmAperture> junction_apertures(const std::vector<CellAperture>& cells,
+                                                   const std::vector<int>& partners) {
+  constexpr double least_share = 0.1;
+  const int count = static_cast<int>(cells.size());
+  const int widest = static_cast<int>(
+      std::max_element(cells.begin(), cells.end(),
+                       [](const CellAperture& a, const CellAperture& b) { return a.opening < b.opening; }) -
+      cells.begin());
+  std::vector<ArmAperture> arms;
+  for (int i = 0; i < count; ++i) {
+    ArmAperture arm{cells[i].aperture, Eigen::VectorXd::Unit(count, i)};
+    if (partners[i] >= 0) {
+      const HalfCellAperture half = half_cell_apertures(cells[i], cells[partners[i]])[0];
+      arm.value = half.value;
+      arm.by_aperture[i] = half.by_aperture[0];
+      arm.by_aperture[partners[i]] = half.by_aperture[1];
+    }
+    const double initial = cells[i].aperture - cells[i].opening, least = initial + least_share * cells[widest].opening;
+    if (arm.value < least) {
+      arm.value = least;
+      arm.by_aperture = least_share * Eigen::VectorXd::Unit(count, widest);
+    }
+    arms.push_back(std::move(arm));
+  }
+  return arms;
+}
+
+}  // namespace sprekk::fracture_flow
