@@ -87,6 +87,10 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   /// The flux through every face, out of face_cells[f][0], integrated over it (m^2/s); for tests and output.
   const Vector& face_fluxes() const;
 
+ protected:
+  const Mesh& mesh() const { return mesh_; }
+  const std::vector<Tensor>& mobility() const { return mobility_; }  ///< m^2/(Pa s), one a cell
+
  private:
   /// Notes pressures that violate a maximum principle (find_overshoots), and nodes where fluxes are not exact.
   void note_fluxes(Notes& notes, const StepTime& step) const;

@@ -19,9 +19,12 @@ constexpr double off_line = 1e-3;
 /// Half of the width of a zone along the fracture, in lengths of the cell at the tip.
 constexpr double half_width = 8;
 
-/// Falls smoothly from 1 at nine tenths of the way to 0 at its end.
-double fading(double part) {
-  const double s = std::clamp(10 * (1 - part), 0.0, 1.0);
+/// Of the way, where the correction fades out; and where the zone of the fracture's other tip goes on.
+constexpr double fading_part = 0.1, joining_part = 0.01;
+
+/// Falls smoothly from 1 at 1 - width to 0 at 1.
+double fading(double part, double width) {
+  const double s = std::clamp((1 - part) / width, 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
 
@@ -33,20 +36,26 @@ std::vector<int> outer_nodes(const Mesh& mesh) {
   return {nodes.begin(), nodes.end()};
 }
 
-/// The distance from a tip to the nearest node that disturbs its field, m.
-double free_way(const Mesh& mesh, int tip, const std::vector<int>& outer) {
+/// What is nearest in the way of a tip's field.
+struct Obstacle {
+  double distance = std::numeric_limits<double>::infinity();  ///< m
+  bool is_other_tip = false;                                  ///< of the fracture, which is straight
+};
+
+Obstacle nearest_obstacle(const Mesh& mesh, int tip, const std::vector<int>& outer) {
   const TipFrame frame(mesh, tip);
-  const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];
   SPREKK_ASSERT(is_tip(mesh, tip), tip);
-  double way = std::numeric_limits<double>::infinity();
+  const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];
+  Obstacle nearest;
   for (const int node : outer) {
     if (node == tip) continue;
     const Point from_tip = mesh.nodes[node] - mesh.nodes[tip];
-    if (from_tip.squaredNorm() >= way * way) continue;
+    if (from_tip.squaredNorm() >= nearest.distance * nearest.distance) continue;
     const bool is_on_line = std::abs(frame.axes().col(1).dot(from_tip)) <= off_line * from_tip.norm();
-    if (!is_on_line || is_tip(mesh, node) || !tip_field_goes_on(mesh, node, last)) way = from_tip.norm();
+    const bool ends = is_tip(mesh, node), goes_on = is_on_line && tip_field_goes_on(mesh, node, last);
+    if (ends || !goes_on) nearest = {from_tip.norm(), ends && goes_on};
   }
-  return way;
+  return nearest;
 }
 
 struct Reached {
@@ -54,15 +63,16 @@ struct Reached {
   double weight;
 };
 
-/// The nodes of a zone that ends at the radius (m), reached along nodes where the field goes on.
-std::vector<Reached> nodes_within(const Mesh& mesh, int tip, double radius) {
-  SPREKK_EXPECT(radius > 0, tip, radius);
+/// The nodes of a zone that ends half of the way to an obstacle, reached along nodes where the field goes on.
+std::vector<Reached> nodes_of_zone(const Mesh& mesh, int tip, const Obstacle& obstacle) {
+  const double radius = 0.5 * obstacle.distance, width = obstacle.is_other_tip ? joining_part : fading_part;
   const TipFrame frame(mesh, tip);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];
   const auto weight = [&](int node) {
     const Point local = frame.axes().transpose() * (mesh.nodes[node] - mesh.nodes[tip]);
     const double from_fracture = local.x() < 0 ? std::abs(local.y()) : local.norm();
-    return fading(local.norm() / radius) * fading(from_fracture / (half_width * frame.size()));
+    return fading(local.norm() / radius, width) *
+           fading(from_fracture / (half_width * frame.size()), fading_part);
   };
   std::vector<Reached> reached{{tip, 1}};
   std::set<int> seen{tip};
@@ -91,7 +101,7 @@ TipZones tip_zones(const Mesh& mesh) {
   for (int tip = 0; tip < mesh.node_count(); ++tip) {
     if (!is_tip(mesh, tip)) continue;
     zones.cells[tip] = cells_next_to(mesh, tip);
-    for (const auto& [node, weight] : nodes_within(mesh, tip, 0.5 * free_way(mesh, tip, outer))) {
+    for (const auto& [node, weight] : nodes_of_zone(mesh, tip, nearest_obstacle(mesh, tip, outer))) {
       if (zones.tip[node] != none) continue;
       zones.tip[node] = tip;
       SPREKK_ASSERT(weight > 0 && weight <= 1, node, weight);

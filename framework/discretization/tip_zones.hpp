@@ -9,9 +9,10 @@
 
 namespace sprekk {
 
-/// For every node a tip (a node, see tips_nearby) or none, and the weight of the tip's singular field there: 1 near the
-/// tip, and farther away smoothly down to 0. A field that ended abruptly would leave an error at the end of the zone
-/// that does not decrease with the cell size.
+/// For every node a tip (a node, see tips_nearby) or none, and how much of its field counts there: 1 near the tip, and
+/// less from there on, smoothly down to 0. A field that ended abruptly would leave an error at its end which does not
+/// become smaller with the cells. Zones of both tips of a straight fracture meet in its middle, where the fields of
+/// both are much alike: there they end within one hundredth of their length.
 ///
 /// A zone reaches half of the way to the nearest other tip, side, junction, other fracture, or place where the tip's
 /// own fracture leaves its line: so the error at the end of the zone decreases with the cell size. To both sides of the

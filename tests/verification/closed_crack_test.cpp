@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tests/verification/scene_run.hpp"
 
@@ -28,6 +29,7 @@ struct Crack {
   double angle = 0, dilation = 0;  ///< degrees
   double half_width = 40;          ///< of the box, m
   Point center = Point::Zero();
+  bool has_field = true;  ///< otherwise the rock is anisotropic, a little, and there is no fine level
 };
 
 /// The worst over the cells of the crack or over both tips.
@@ -50,15 +52,20 @@ Errors errors_of(const Crack& crack) {
   const Point half(c, s);
   SceneRun run = SceneRun::from_text(fmt::format(
       "{{geometry: {{box: {{x: [{0} m, {1} m], y: [{0} m, {1} m]}}, fractures: {{crack: {{points: [{2}, {3}]}}}}}}, "
-      "mesh: {4}, components: {{rock: {{type: poromechanics/mpsa, young_modulus: 40 GPa, poisson_ratio: 0.2, "
+      "mesh: {4}, components: {{rock: {{type: poromechanics/mpsa, {11}, "
       "initial_stress: {{xx: {5}, yy: {6}, xy: {7}}}, boundary: {{left: {{displacement_x: 0 m, traction_y: {8}}}, "
       "bottom: {{displacement_y: 0 m, traction_x: {8}}}, right: {{traction: [{5}, {7}]}}, top: {{traction: [{7}, "
-      "{6}]}}}}}}, contact: {{type: contact/coulomb, friction: {9}, dilation_angle: {10} deg}}, tips: {{type: "
-      "fine_fracture/quarter_point, size: 4 m, growth: {{increment: 10 mm}}}}}}, couplers: [{{type: wall_traction, "
-      "between: [rock, contact]}}, {{type: two_level, between: [rock, tips]}}], schedule: [{{solve: [rock, contact]}}, "
-      "{{grow: tips, settle: [rock, contact]}}], time: {{end: 1 s, step: 1 s}}}}",
+      "{6}]}}}}}}, contact: {{type: contact/coulomb, friction: {9}, dilation_angle: {10} deg}}{12}}}, couplers: [{{type: "
+      "wall_traction, between: [rock, contact]}}{13}], schedule: [{{solve: [rock, contact]}}{14}], time: {{end: 1 s, "
+      "step: 1 s}}}}",
       -w, w, point(crack.center - half), point(crack.center + half), crack.mesh, xx, yy, xy, minus_xy, friction,
-      crack.dilation));
+      crack.dilation,
+      crack.has_field ? "young_modulus: 40 GPa, poisson_ratio: 0.2"
+                      : "stiffness: {xxxx: 44.444444444 GPa, yyyy: 44.444444444 GPa, xxyy: 11.111111111 GPa, xyxy: "
+                        "16.666683333 GPa}",
+      crack.has_field ? ", tips: {type: fine_fracture/quarter_point, size: 4 m, growth: {increment: 10 mm}}" : "",
+      crack.has_field ? ", {type: two_level, between: [rock, tips]}" : "",
+      crack.has_field ? ", {grow: tips, settle: [rock, contact]}" : ""));
   Errors errors{0, 0, 0, 0};
   if (!run.step()) return {1, 1, 1, 1};
   const ClosedForm exact(dilation);
@@ -72,6 +79,7 @@ Errors errors_of(const Crack& crack) {
     norm += cell.length * slip * slip;
   }
   errors.slip = std::sqrt(difference / norm);
+  if (!crack.has_field) return errors;
   const double K_II = exact.shear_drop * std::sqrt(M_PI), K_I = exact.normal_drop * std::sqrt(M_PI);
   for (const std::string tip : {"tips.crack_first.", "tips.crack_last."}) {
     errors.K_I = std::max(errors.K_I, std::abs(run.quantity(tip + "K_I") - K_I) / K_II);
@@ -86,23 +94,47 @@ std::string triangles(int cells_on_crack) {
                      3.0 / cells_on_crack);
 }
 
-class ClosedCrack : public ::testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(Angles, ClosedCrack, ::testing::Values(0, 20, 45, 110),
-                         [](const auto& info) { return fmt::format("{:.0f}", info.param); });
+// The aim: on whatever mesh K_I is within 0.1 % of K_II with 20 cells, and half of that with 40. The largest error of
+// the tractions of one mesh is that of its worst cell, some 0.1 h/b to 0.3 h/b by chance: their mean falls, and none is
+// far off it.
+TEST(ClosedCrack, FollowsTheClosedFormOnMeshesInAnyDirection) {
+  std::vector<Errors> mean;
+  for (const int cells : {10, 20, 40}) {
+    Errors sum{0, 0, 0, 0}, largest{0, 0, 0, 0};
+    int meshes = 0;
+    for (const double angle : {0, 17, 30, 45})
+      for (const Point& center : {Point(0, 0), Point(0.37, -0.21)}) {
+        ++meshes;
+        const Errors errors = errors_of({triangles(cells), angle, 1, 40, center});
+        for (double Errors::*error : {&Errors::traction, &Errors::slip, &Errors::K_I, &Errors::K_II}) {
+          sum.*error += errors.*error;
+          largest.*error = std::max(largest.*error, errors.*error);
+        }
+      }
+    for (double Errors::*error : {&Errors::traction, &Errors::slip, &Errors::K_I, &Errors::K_II}) sum.*error /= meshes;
+    mean.push_back(sum);
+    const double h = 20.0 / cells;
+    EXPECT_LT(largest.traction, 1.2e-2 * h * std::max(h, 1.0)) << cells;
+    EXPECT_LT(largest.slip, 3e-3 * h * h) << cells;
+    EXPECT_LT(largest.K_I, 1e-3 * std::pow(h, 1.5)) << cells;
+    EXPECT_LT(largest.K_II, 2e-3 * h * h) << cells;
+  }
+  for (const int finer : {1, 2}) {
+    EXPECT_LT(mean[finer].traction, 0.52 * mean[finer - 1].traction) << finer;
+    EXPECT_LT(mean[finer].K_I, 0.5 * mean[finer - 1].K_I) << finer;
+  }
+}
 
-// The aim: K_I within 0.1 % of K_II with 20 cells, half of that with 40, and tractions whose largest error falls.
-TEST_P(ClosedCrack, TractionsAndFactorsFollowTheClosedForm) {
-  const Errors ten = errors_of({triangles(10), GetParam(), 1}), twenty = errors_of({triangles(20), GetParam(), 1});
-  const Errors forty = errors_of({triangles(40), GetParam(), 1});
-  EXPECT_LT(twenty.K_I, 1e-3);
-  EXPECT_LT(forty.K_I, 0.5e-3);
-  EXPECT_LT(twenty.K_II, 2e-3);
-  EXPECT_LT(forty.K_II, 1e-3);
-  EXPECT_LT(twenty.slip, 3e-3);
-  EXPECT_LT(forty.slip, 1e-3);
-  EXPECT_LT(ten.traction, 2e-2);
-  EXPECT_LT(twenty.traction, 1e-2);
-  EXPECT_LT(forty.traction, 1e-2);
+// What `sprekk check` tells of tips in rock that is anisotropic, here by a millionth.
+TEST(ClosedCrack, WithoutFieldsAtItsTipsSlipsByAsMuchTooFarAsTheNoteSays) {
+  const auto slip = [](int cells) {
+    Crack crack{triangles(cells), 30, 0};
+    crack.has_field = false;
+    return errors_of(crack).slip;
+  };
+  EXPECT_NEAR(slip(10), 0.11, 0.02);
+  EXPECT_NEAR(slip(20), 0.065, 0.007);
+  EXPECT_NEAR(slip(40), 0.027, 0.004);
 }
 
 // Rectangles, and triangles of which four or eight meet at a tip, which one more or one fewer cell decides: the

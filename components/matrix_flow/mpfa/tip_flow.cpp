@@ -17,6 +17,11 @@ constexpr double largest_share = 20;
 
 }  // namespace
 
+bool is_isotropic(const Tensor& mobility) {
+  const Tensor deviator = mobility - 0.5 * mobility.trace() * Tensor::Identity();
+  return mobility.trace() > 0 && deviator.lpNorm<Eigen::Infinity>() <= 1e-9 * mobility.trace();
+}
+
 bool resembles(const Tensor& mobility, const Tensor& other) {
   constexpr double alike = 0.2;
   return (mobility - other).lpNorm<Eigen::Infinity>() <= alike * other.lpNorm<Eigen::Infinity>();
@@ -44,8 +49,7 @@ std::optional<TipFlow> TipFlow::find(const Mesh& mesh, int tip, const std::vecto
   for (const int cell : at_tip) mean += mobility[cell] / static_cast<double>(at_tip.size());
   for (const int cell : cells)
     if (!resembles(mobility[cell], mean)) return std::nullopt;
-  const Tensor deviator = mean - 0.5 * mean.trace() * Tensor::Identity();
-  if (!(mean.trace() > 0) || deviator.lpNorm<Eigen::Infinity>() > 1e-9 * mean.trace()) return std::nullopt;
+  if (!is_isotropic(mean)) return std::nullopt;
   TipFlow flow(mesh, tip, cells, mean);
   if (!flow.fit(mesh)) return std::nullopt;
   return flow;

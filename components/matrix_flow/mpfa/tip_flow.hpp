@@ -51,6 +51,9 @@ class TipFlow {
   Eigen::Matrix2Xd share_;
 };
 
+/// Whether a mobility is isotropic, to 1e-9 of its trace; false where it is zero.
+bool is_isotropic(const Tensor& mobility);
+
 /// Whether the entries of two mobilities differ by at most 20 % of the largest entry of `other`.
 bool resembles(const Tensor& mobility, const Tensor& other);
 

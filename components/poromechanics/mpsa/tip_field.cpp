@@ -17,17 +17,17 @@ constexpr int linear_terms = 6;
 /// displacements.
 constexpr double well_posed = 1e-3;
 
-bool is_isotropic(const Stiffness& c) {
-  const double near = 1e-9 * c(0, 0);
-  return std::abs(c(0, 0) - c(1, 1)) < near && std::abs(c(0, 2)) < near && std::abs(c(1, 2)) < near &&
-         std::abs(c(0, 0) - c(0, 1) - 2 * c(2, 2)) < near;
-}
-
 double order(int term) { return term < 2 ? 0.5 : 1.5; }
 /// a of phi = a z^o.
 Complex amplitude(int term) { return term % 2 == 0 ? Complex(0.5, 0) : Complex(0, -0.5); }
 
 }  // namespace
+
+bool is_isotropic(const Stiffness& c) {
+  const double near = 1e-9 * c(0, 0);
+  return std::abs(c(0, 0) - c(1, 1)) < near && std::abs(c(0, 2)) < near && std::abs(c(1, 2)) < near &&
+         std::abs(c(0, 0) - c(0, 1) - 2 * c(2, 2)) < near;
+}
 
 bool resembles(const Stiffness& rock, const Stiffness& other) {
   return (rock - other).lpNorm<Eigen::Infinity>() <= 0.2 * other.lpNorm<Eigen::Infinity>();

@@ -11,6 +11,9 @@
 
 namespace sprekk::poromechanics {
 
+/// Whether a stiffness is isotropic, to 1e-9 of its entries.
+bool is_isotropic(const Stiffness& stiffness);
+
 /// Whether the entries of two stiffnesses differ by at most 20 % of the largest entry of `other`.
 bool resembles(const Stiffness& rock, const Stiffness& other);
 

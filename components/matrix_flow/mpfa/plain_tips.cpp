@@ -1,0 +1,46 @@
+#include "components/matrix_flow/mpfa/plain_tips.hpp"
+
+#include <algorithm>
+
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
+#include "framework/discretization/tip_surroundings.hpp"
+#include "framework/discretization/tips_nearby.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+bool is_like_the_tip(const Mesh& mesh, int node, const std::vector<Tensor>& mobility, const Tensor& rock) {
+  return std::ranges::all_of(mesh.node_cells[node], [&](int cell) { return resembles(mobility[cell], rock); });
+}
+
+/// Empty where the flow is there.
+std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells, const std::vector<Tensor>& mobility) {
+  const Tensor& rock = mobility[mesh.node_cells[tip][0]];
+  if (const auto flow = TipFlow::find(mesh, tip, cells, mobility)) {
+    for (const int node : nodes_around_tip(mesh, tip, 1))
+      if (!is_like_the_tip(mesh, node, mobility, flow->mobility()))
+        return "the permeability of cells next to it differs by more than 20 %";
+    return "";
+  }
+  if (!std::ranges::all_of(cells, [&](int cell) { return resembles(mobility[cell], rock); }))
+    return "the permeability around it differs by more than 20 %";
+  if (!std::ranges::all_of(mesh.node_cells[tip], [&](int cell) { return is_isotropic(mobility[cell]); }))
+    return "the permeability is anisotropic";
+  return "there are too few cells around it";
+}
+
+}  // namespace
+
+PlainTips plain_tips(const Mesh& mesh, const std::vector<Tensor>& mobility) {
+  PlainTips found;
+  for (const auto& [tip, cells] : cells_around_tips(mesh, tips_nearby(mesh))) {
+    ++found.tips;
+    const std::string reason = why_plain(mesh, tip, cells, mobility);
+    if (reason.empty() || found.plain++ > 0) continue;
+    found.first = mesh.nodes[tip];
+    found.reason = reason;
+  }
+  return found;
+}
+
+}  // namespace sprekk::matrix_flow

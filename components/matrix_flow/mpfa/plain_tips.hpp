@@ -1,0 +1,20 @@
+// Tips of fractures around which pressures are taken to be linear, as elsewhere.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/matrix_flow/flux_operators.hpp"
+
+namespace sprekk::matrix_flow {
+
+struct PlainTips {
+  int tips = 0;        ///< of fractures, all of them
+  int plain = 0;       ///< those whose flow (TipFlow) is missing, or at a node next to the tip is
+  Point first;         ///< of the plain ones, m
+  std::string reason;  ///< why the first is plain
+};
+
+PlainTips plain_tips(const Mesh& mesh, const std::vector<Tensor>& mobility);
+
+}  // namespace sprekk::matrix_flow
