@@ -25,8 +25,8 @@ struct WallExchangeOptions {
 /// Determines lambda of every wall, from the fracture into the matrix: lambda = kappa (p_i − tr p). Its row is divided
 /// by about kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well
 /// scaled from sealed to wide open walls. The exact divisor leaves a power of two as factor of tr p, so that the
-/// products with rows of tr p are only scaled when kappa changes (BulkResponse). lambda leaves the fluid balance of the
-/// fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture.
+/// products with rows of tr p are only scaled when kappa changes (BulkSchurComplement). lambda leaves the fluid balance
+/// of the fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture.
 ///
 /// `exchanged` has the amount that the matrix has received through each wall, `counted` the part of it that the
 /// fracture has counted. So nothing is lost when the two are solved one after the other, or one of them in substeps.

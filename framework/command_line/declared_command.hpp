@@ -11,6 +11,7 @@ class App;
 
 namespace sprekk {
 
+/// An option or argument of a command as its parser declares it; completions and the manual page are made from it.
 struct DeclaredOption {
   std::vector<std::string> names;  ///< "-o", "--output"; none for what is told by its place
   std::string value;               ///< what it takes, "FOLDER" or "scene|study"; empty for a flag
@@ -25,12 +26,14 @@ struct DeclaredOption {
   std::vector<std::string> choices() const;
 };
 
+/// A command with its options, and for the program itself its commands.
 struct DeclaredCommand {
   std::string name, description;
   std::vector<DeclaredOption> options;
   std::vector<DeclaredCommand> commands;  ///< those of the program
 };
 
+/// Reads back what a parser declares.
 DeclaredCommand declared_command(const CLI::App& app);
 
 }  // namespace sprekk

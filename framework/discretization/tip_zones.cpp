@@ -71,8 +71,7 @@ std::vector<Reached> nodes_of_zone(const Mesh& mesh, int tip, const Obstacle& ob
   const auto weight = [&](int node) {
     const Point local = frame.axes().transpose() * (mesh.nodes[node] - mesh.nodes[tip]);
     const double from_fracture = local.x() < 0 ? std::abs(local.y()) : local.norm();
-    return fading(local.norm() / radius, width) *
-           fading(from_fracture / (half_width * frame.size()), fading_part);
+    return fading(local.norm() / radius, width) * fading(from_fracture / (half_width * frame.size()), fading_part);
   };
   std::vector<Reached> reached{{tip, 1}};
   std::set<int> seen{tip};

@@ -9,7 +9,7 @@
 namespace sprekk {
 
 /// Compares the error of each balance with the largest throughput of that balance so far.
-class Books {
+class CumulativeBalance {
  public:
   /// `balances`: at the end of the step that is about to be accepted.
   void note_step(const std::map<std::string, Balance>& balances, Notes& notes);

@@ -12,16 +12,21 @@ namespace {
 
 constexpr double plane_modulus = 10e9 / (1 - 0.2 * 0.2), load = 1e6, volume = 1e-3;
 
-/// Two fractures of 2 m that cross in the middle of a wide box, at an angle (degrees), with the fluid flowing into the first.
+/// Two fractures of 2 m that cross in the middle of a wide box, at an angle (degrees), with the fluid flowing into the
+/// first.
 SceneRun cross_at(double angle, const std::string& well) {
   const double c = std::cos(angle * M_PI / 180), s = std::sin(angle * M_PI / 180);
   return SceneRun::from_text(fmt::format(
       "{{geometry: {{box: {{x: [-80, 80], y: [-80, 80]}}, fractures: {{along: {{points: [[{}, {}], [{}, {}]]}}, "
-      "across: {{points: [[{}, {}], [{}, {}]]}}}}}}, mesh: {{size: 20, fracture_size: 0.2, growth: 0.25}}, components: {{"
-      "rock: {{type: poromechanics/mpsa, young_modulus: 10 GPa, poisson_ratio: 0.2, boundary: {{left: {{displacement_x: 0}}, "
+      "across: {{points: [[{}, {}], [{}, {}]]}}}}}}, mesh: {{size: 20, fracture_size: 0.2, growth: 0.25}}, components: "
+      "{{"
+      "rock: {{type: poromechanics/mpsa, young_modulus: 10 GPa, poisson_ratio: 0.2, boundary: {{left: "
+      "{{displacement_x: 0}}, "
       "bottom: {{displacement_y: 0}}, right: {{normal_stress: -1 MPa}}, top: {{normal_stress: -1 MPa}}}}}}, "
-      "conduit: {{type: fracture_flow/tpfa, viscosity: 1.0e-5 Pa*s, fluid_compressibility: 1.0e-10 1/Pa, initial_aperture: "
-      "0.1 um, injection: {{w: {{{}, rate: 1.0e-5 m^2/s}}}}}}, contact: {{type: contact/coulomb, friction: 0.5}}}}, couplers: "
+      "conduit: {{type: fracture_flow/tpfa, viscosity: 1.0e-5 Pa*s, fluid_compressibility: 1.0e-10 1/Pa, "
+      "initial_aperture: "
+      "0.1 um, injection: {{w: {{{}, rate: 1.0e-5 m^2/s}}}}}}, contact: {{type: contact/coulomb, friction: 0.5}}}}, "
+      "couplers: "
       "[{{type: wall_traction, between: [rock, contact, conduit]}}, {{type: aperture, between: [contact, conduit]}}], "
       "schedule: [{{solve: [rock, conduit, contact]}}], time: {{end: 100 s, step: 20 s}}}}",
       -c, -s, c, s, s, -c, -s, c, well));
@@ -46,8 +51,8 @@ TEST_P(ClosedArms, OpenLikeTheOthers) {
   EXPECT_NEAR(held[1] / held[0], 1, 0.01);
   const double p = pressure.mean() - load;
   EXPECT_LT(pressure.maxCoeff() - pressure.minCoeff(), 1e-3 * p);
-  // Where they cross, 0.675 of a single crack's (4/E') p b (configs/verification/pressurized_cross.yaml); of cells of 0.2 m
-  // the middle is at 0.1 m, where it is 2 % less to 6 % more.
+  // Where they cross, 0.675 of a single crack's (4/E') p b (configs/verification/pressurized_cross.yaml); of cells of
+  // 0.2 m the middle is at 0.1 m, where it is 2 % less to 6 % more.
   for (const double opening : middle) EXPECT_NEAR(opening / (0.675 * 4 / plane_modulus * p), 1, 0.08);
 }
 

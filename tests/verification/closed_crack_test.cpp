@@ -55,7 +55,8 @@ Errors errors_of(const Crack& crack) {
       "mesh: {4}, components: {{rock: {{type: poromechanics/mpsa, {11}, "
       "initial_stress: {{xx: {5}, yy: {6}, xy: {7}}}, boundary: {{left: {{displacement_x: 0 m, traction_y: {8}}}, "
       "bottom: {{displacement_y: 0 m, traction_x: {8}}}, right: {{traction: [{5}, {7}]}}, top: {{traction: [{7}, "
-      "{6}]}}}}}}, contact: {{type: contact/coulomb, friction: {9}, dilation_angle: {10} deg}}{12}}}, couplers: [{{type: "
+      "{6}]}}}}}}, contact: {{type: contact/coulomb, friction: {9}, dilation_angle: {10} deg}}{12}}}, couplers: "
+      "[{{type: "
       "wall_traction, between: [rock, contact]}}{13}], schedule: [{{solve: [rock, contact]}}{14}], time: {{end: 1 s, "
       "step: 1 s}}}}",
       -w, w, point(crack.center - half), point(crack.center + half), crack.mesh, xx, yy, xy, minus_xy, friction,

@@ -8,6 +8,7 @@
 
 namespace sprekk::matrix_flow {
 
+/// How many tips of a mesh get no correction of their flow, where the first of them is, and why.
 struct PlainTips {
   int tips = 0;        ///< of fractures, all of them
   int plain = 0;       ///< those whose flow (TipFlow) is missing, or at a node next to the tip is

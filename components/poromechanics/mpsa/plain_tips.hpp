@@ -8,6 +8,7 @@
 
 namespace sprekk::poromechanics {
 
+/// How many tips of a mesh get no correction of their displacements, where the first of them is, and why.
 struct PlainTips {
   int tips = 0;        ///< of fractures, all of them
   int plain = 0;       ///< those whose field (TipField) is missing, or at a node next to the tip is

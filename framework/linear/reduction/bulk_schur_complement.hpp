@@ -9,9 +9,9 @@
 namespace sprekk {
 
 /// Computes A_FB X for the Schur complement A_FF − A_FB X, where X = A_BB^-1 A_BF has a column for each of
-/// BulkSplitting::interface_columns. A solver may give A_FB X while it factorizes (LinearSolver::factor_bordered), for less than the
-/// columns of X cost. X itself spares a back-solve for each x_B, which pays after some hundred solves. The rows of X
-/// that A_FB reads are kept; all of X is kept where it is not too large.
+/// BulkSplitting::interface_columns. A solver may give A_FB X while it factorizes (LinearSolver::factor_bordered), for
+/// less than the columns of X cost. X itself spares a back-solve for each x_B, which pays after some hundred solves.
+/// The rows of X that A_FB reads are kept; all of X is kept where it is not too large.
 class BulkSchurComplement {
  public:
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -26,10 +26,10 @@ class BulkSchurComplement {
   /// Whether X is kept, all of it.
   bool is_whole() const { return is_whole_; }
 
-  /// A_FB X, a row for each of BulkSplitting::interface_rows. Products of rows of A_FB that have not changed since the last
-  /// call are kept, and products of rows that have only been scaled by a power of two since `compute` are scaled; for
-  /// other rows the factorization is made again. So the bits depend on the matrices alone, and not on earlier matrices.
-  /// `solver`: the solver that `compute` was given. Null when that factorization fails.
+  /// A_FB X, a row for each of BulkSplitting::interface_rows. Products of rows of A_FB that have not changed since the
+  /// last call are kept, and products of rows that have only been scaled by a power of two since `compute` are scaled;
+  /// for other rows the factorization is made again. So the bits depend on the matrices alone, and not on earlier
+  /// matrices. `solver`: the solver that `compute` was given. Null when that factorization fails.
   const RowMatrix* schur_rows(const BulkSplitting& split, LinearSolver& solver);
 
   /// x_B − X x_F. `solver` as for `schur_rows`; it is used where X is not whole.
@@ -44,11 +44,11 @@ class BulkSchurComplement {
   double largest_;
   int piece_;
   bool is_whole_ = false;
-  Eigen::MatrixXd columns_;           ///< X, if it is whole
-  RowMatrix near_;                    ///< the rows of X that A_FB has columns for: BulkSplitting::near
-  RowMatrix bordered_;                ///< A_FB X as the factorization gave it,
-  std::vector<double> of_bordered_;   ///< and the values of A_FB that it had
-  RowMatrix schur_rows_;               ///< A_FB X
+  Eigen::MatrixXd columns_;                   ///< X, if it is whole
+  RowMatrix near_;                            ///< the rows of X that A_FB has columns for: BulkSplitting::near
+  RowMatrix bordered_;                        ///< A_FB X as the factorization gave it,
+  std::vector<double> of_bordered_;           ///< and the values of A_FB that it had
+  RowMatrix schur_rows_;                      ///< A_FB X
   std::vector<double> schur_rows_made_with_;  ///< the values of A_FB that they were made with; empty for none
 };
 

@@ -146,8 +146,8 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   split.take_sums(system.sums);
   // The entries to be kept: for each bulk the rows of X that are read and their products; the triplets of the reduced
   // pattern.
-  const double felt = split.felt.size();
-  if ((kept_bulks * split.near.size() + 6 * felt) * felt > largest_felt)
+  const double width = split.interface_columns.size();
+  if ((kept_bulks * split.near.size() + 6 * width) * width > most_schur_entries)
     return LinearReport::failure("too many unknowns on fractures to condense the bulk");
   if (has_changed) choose_bulk();
   pattern_number_ = system.pattern_number;

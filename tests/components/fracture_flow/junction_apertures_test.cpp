@@ -74,7 +74,8 @@ TEST_P(LinearChannels, CarryTheFlowOfTheClosedFormWithSecondOrder) {
     std::vector<double> exact;
     for (const Arm& arm : network.arms) exact.push_back(arm.resistance(length - 0.5 * length / n));
     const std::vector<double> at_ends(pressures.begin(), pressures.begin() + static_cast<long>(count));
-    const std::vector<double> right = star(exact, at_ends), ours = star(resistances(network.arms, network.partners, n), at_ends);
+    const std::vector<double> right = star(exact, at_ends),
+                              ours = star(resistances(network.arms, network.partners, n), at_ends);
     double error = 0, largest = 0, sum = 0;
     for (std::size_t i = 0; i < count; ++i) {
       error = std::max(error, std::abs(ours[i] - right[i]));
@@ -92,7 +93,8 @@ TEST_P(LinearChannels, CarryTheFlowOfTheClosedFormWithSecondOrder) {
     std::vector<int> partners;
     for (auto p = network.partners.rbegin(); p != network.partners.rend(); ++p)
       partners.push_back(*p < 0 ? -1 : static_cast<int>(count) - 1 - *p);
-    const std::vector<double> turned = resistances(arms, partners, n), straight = resistances(network.arms, network.partners, n);
+    const std::vector<double> turned = resistances(arms, partners, n),
+                              straight = resistances(network.arms, network.partners, n);
     for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(turned[count - 1 - i], straight[i]);
   }
 }
@@ -128,7 +130,8 @@ TEST(JunctionApertures, LetFluidIntoArmsThatAreClosedAndLeaveTheOthersAlone) {
     EXPECT_DOUBLE_EQ(arms[2].value, initial + 1e-5);
     EXPECT_DOUBLE_EQ(arms[3].value, initial + 1e-5);
     // Where nothing is open nothing is widened.
-    for (const ArmAperture& arm : junction_apertures({cell(0), cell(0), cell(0)}, {1, 0, -1})) EXPECT_EQ(arm.value, initial);
+    for (const ArmAperture& arm : junction_apertures({cell(0), cell(0), cell(0)}, {1, 0, -1}))
+      EXPECT_EQ(arm.value, initial);
   }
 }
 
@@ -140,7 +143,8 @@ TEST(JunctionApertures, HaveTheDerivativesOfTheirValues) {
     return junction_apertures(cells, partners);
   };
   constexpr double step = 1e-6;
-  for (const std::vector<double>& openings : {std::vector<double>{1, 0.5, 0.3, 0.01}, {0.02, 0.01, 1, 0.4}, {0.6, 0.7, 0, 0.1}})
+  for (const std::vector<double>& openings :
+       {std::vector<double>{1, 0.5, 0.3, 0.01}, {0.02, 0.01, 1, 0.4}, {0.6, 0.7, 0, 0.1}})
     for (int k = 0; k < 4; ++k) {
       std::vector<double> more = openings, less = openings;
       more[k] += step;

@@ -1,5 +1,5 @@
-// Goal: pressures that no flow smooths do not alternate from cell to cell, in rock that hardly feels them (where they
-// show the dilation that the discretization finds) and in rock that does. Reference: a crack in an infinite plate,
+// Goal: pressures that no flow smooths do not alternate from cell to cell, in rock that hardly depends on them (where
+// they show the dilation that the discretization finds) and in rock that does. Reference: a crack in an infinite plate,
 // opened and sheared at its walls, by Muskhelishvili's potentials. The rock is undrained: lambda_u = lambda +
 // alpha^2/S, p = -(alpha/S) div u, and div u = 2 Re phi' / (lambda_u + G). Away from the crack, on meshes that grow
 // fast from it.
