@@ -284,7 +284,8 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     if (check.rows_hold && !check.balances_hold && factored) {
       // An imbalance that another iteration does not reduce is lost in the round-off of the matrix. Sums of balances
       // may remove it; otherwise no smaller imbalance is possible.
-      const bool stalls = check.imbalance > 0.5 * last_imbalance;
+      constexpr double hardly_better = 0.5;
+      const bool stalls = check.imbalance > hardly_better * last_imbalance;
       last_imbalance = check.imbalance;
       if (stalls && system_.sums().are_used && !system_.sums().are_used_where_answered)
         system_.use_answered_sums(true);

@@ -109,7 +109,8 @@ Coulomb::Trial Coulomb::trial(int i) const {
   t.gap = u_n - std::abs(u_t) * dilation_[i];
   t.normal = f_n + stiffness()[2 * i] * t.gap;
   t.tangential = f_t + stiffness()[2 * i + 1] * (u_t - jump_.accepted()[2 * i + 1]);
-  t.bound = -friction_[i] * std::min(0.0, t.normal);
+  t.bound =
+      !kept_.empty() && kept_[i] ? std::numeric_limits<double>::infinity() : -friction_[i] * std::min(0.0, t.normal);
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
   t.slip_sign = u_t > 0 ? 1 : u_t < 0 ? -1 : t.tangential > 0 ? 1 : -1;
   return t;

@@ -126,7 +126,10 @@ void LocalStresses::find_jumps(const InteractionRegion& region, const std::vecto
     if (!region.is_inner(f)) continue;
     const auto [first, second] = region.neighbours[f];
     const Subcell &one = region.subcells[first], &other = region.subcells[second];
-    jump_[f] = RotationJump::across(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
+    SPREKK_ASSERT(one.area > 0 && other.area > 0, one.cell, other.cell);
+    const Kink kink(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
+    jump_[f] = {kink.rotation(), {0, 0}};
+    dilation_[f] = kink.dilation();
     // The strength of the softer rock: with more, its error for a field that is not linear would load the stiffer rock.
     const double strengths[2] = {one.area * shear_modulus(stiffness[one.cell]),
                                  other.area * shear_modulus(stiffness[other.cell])};

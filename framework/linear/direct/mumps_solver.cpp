@@ -243,7 +243,8 @@ LinearReport MumpsSolver::factor_values() {
   mumps_->data.schur = mumps_->schur.data();
   // The threshold of a zero pivot: the default is round-off of the largest entry; with sums of balances, whose entries
   // may be smaller, it is zero.
-  mumps_->data.cntl[2] = system_.sums.empty() ? 0 : -1e-200;
+  constexpr double by_default = 0, zero_alone = -1e-200;  // negative: absolute, and not of the largest entry
+  mumps_->data.cntl[2] = system_.sums.empty() ? by_default : zero_alone;
   const int spare = mumps_->icntl(14);
   // Pivoting may need more room than the analysis foresaw (-9: the main array, -8, -17, -20: buffers).
   for (int attempt = 0; attempt < 6; ++attempt) {
