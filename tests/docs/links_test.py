@@ -29,7 +29,7 @@ def problems(page):
             yield f"links to {target}, which has no such heading"
     example = {path for other in pages() for block in blocks(other) for word in block.words
                for path in [word.partition("=")[2]] if word.startswith("file=")}
-    for path in PATH.findall(prose):
+    for path in PATH.findall(prose) if page.name != "CHANGELOG.md" else ():  # its files may have moved since
         if not (ROOT / path).exists() and path not in example and not any(e.startswith(path + "/") for e in example):
             yield f"names {path}, which does not exist"
     for block in blocks(page):
