@@ -147,10 +147,12 @@ def failures(p, instants, history=None):
         has_opened = has_opened or instant.on_fractures("contact.jump", "m")[:, 0].max() > 0
         low, high = bounds(p, instant, stresses, has_opened)
         size = max(abs(low), abs(high), p["initial"], stresses.largest)  # Newton judges all pressures and stresses together
-        # MPFA is no M-matrix: it may miss a bound by a part of the differences that there are around a cell.
+        # MPFA is no M-matrix: it may miss a bound by a part of the differences in the rock, and beside fractures of those
+        # between their fluid and the rock, too.
+        in_rock = pressure.max() - pressure.min()
         may_fall = p["well"] in ("extract", "inject_extract") or has_opened
         for values, around in zip((pressure, fracture), differences_around(instant, pressure, fracture)):
-            slack = 1e-8 * size + MISSED * around
+            slack = 1e-8 * size + MISSED * np.maximum(around, in_rock)
             for side, over in ((f"above {high:.6g}", values - high - slack), (f"below {low:.6g}", low - slack - values)):
                 worst = int(np.argmax(over))
                 if over[worst] > 0 and not (side.startswith("below") and may_fall):
