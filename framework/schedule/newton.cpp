@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "framework/assembly/follows_iterates.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -38,6 +39,8 @@ void Newton::set_preconditioner_stabilization(const Stabilization& stabilization
 
 std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
   ++assemblies_;
+  for (Part* part : parts_)
+    if (auto* follower = dynamic_cast<FollowsIterates*>(part)) follower->follow_iterate(unknowns_);
   auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()},
                                              Assembly::Want::residual_and_derivatives, &products_);
   for (const Part* part : parts_) part->assemble(*assembly, step);

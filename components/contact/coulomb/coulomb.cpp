@@ -116,7 +116,8 @@ Coulomb::Trial Coulomb::trial(int i) const {
   return t;
 }
 
-void Coulomb::follow_back_slip() const {
+void Coulomb::follow_iterate(const std::vector<Field*>& unknowns) {
+  if (follows_pieces_ || std::find(unknowns.begin(), unknowns.end(), &traction_) == unknowns.end()) return;
   const std::array<std::uint64_t, 2> values{traction_.version(), jump_.version()};
   if (!back_slip_.empty() && values == followed_) return;  // the same update
   followed_ = values;
@@ -142,7 +143,7 @@ void Coulomb::follow_back_slip() const {
 
 Coulomb::Trial Coulomb::trial_of_update(int i) const {
   Trial t = trial(i);
-  if (back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
+  if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
   t.slip_sign = -t.slip_sign;
   t.gap = jump_.now()[2 * i] - t.slip_sign * jump_.now()[2 * i + 1] * dilation_[i];
   // Walls that touch, whatever the sign here: this linear function passes through the values beyond the kink.
@@ -221,7 +222,6 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
   if (!assembly.has_row(traction_)) return;
   const int count = mesh_.fracture_cell_count();
   const bool guesses = assembly.wants_derivatives() && !follows_pieces_;
-  if (guesses) follow_back_slip();
   Vector residual(2 * count);
   // The blocks have the same pattern in every state, so that the sparsity of the system never changes.
   std::vector<Triplet> by_traction, by_jump;

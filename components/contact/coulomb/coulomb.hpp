@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
+#include "framework/assembly/follows_iterates.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
@@ -41,7 +42,7 @@ enum class State { stick, slip, open };
 /// between sticking and a state where the slip has the wrong direction. The state in balance lies beyond the kink of
 /// |[u]_t| at zero. Therefore a cell for which sliding back has led to slip in the wrong direction takes the
 /// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
-class Coulomb : public Component, public FractureContact {
+class Coulomb : public Component, public FractureContact, public FollowsIterates {
  public:
   Coulomb(const ComponentContext& context, const Options& options);
 
@@ -50,6 +51,7 @@ class Coulomb : public Component, public FractureContact {
   /// Cells that have grown are bonded, [u] = 0, until the equilibrium on the new mesh with bonded cells has been found.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
+  void follow_iterate(const std::vector<Field*>& unknowns) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   std::uint64_t discrete_state() const override;
   void look_for_solution(Look look) override {
@@ -107,21 +109,20 @@ class Coulomb : public Component, public FractureContact {
   };
   /// The trial state for the update, whose piece may differ from that of the present values.
   Trial trial_of_update(int cell) const;
-  void follow_back_slip() const;
 
   const Mesh& mesh_;
   Field& traction_;
   Field& jump_;
   Options options_;
-  Property friction_, dilation_angle_;               ///< mu_s, psi
-  Vector dilation_;                                  ///< tan psi
-  std::vector<char> bonded_;                         ///< empty for none
-  std::vector<char> kept_;                           ///< stick as long as they touch; empty for none
-  mutable std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
-  mutable std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in follow_back_slip
-  bool is_careful_ = false;                          ///< after Newton's method has failed
-  bool follows_pieces_ = false;                      ///< as they are: no guess of what lies beyond the kink
-  std::vector<double> fracture_length_;              ///< m
+  Property friction_, dilation_angle_;       ///< mu_s, psi
+  Vector dilation_;                          ///< tan psi
+  std::vector<char> bonded_;                 ///< empty for none
+  std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
+  std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
+  std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in follow_iterate
+  bool is_careful_ = false;                  ///< after Newton's method has failed
+  bool follows_pieces_ = false;              ///< as they are: no guess of what lies beyond the kink
+  std::vector<double> fracture_length_;      ///< m
   /// c, Pa/m, (normal, tangential) of each cell: with the tangential stiffness of the cell's walls, and with that of
   /// its whole fracture. Newton's method first uses the stiffness of the fracture, with which cells that unload
   /// together stick at once. After a failure it uses that of the walls: with the other one it may cycle between states

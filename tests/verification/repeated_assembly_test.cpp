@@ -1,0 +1,118 @@
+// One state has one residual and one Jacobian: whatever has been assembled before, all terms of all parts come back to
+// the bit.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "framework/assembly/assemble_all.hpp"
+#include "framework/assembly/follows_iterates.hpp"
+#include "framework/scene/registry.hpp"
+#include "tests/verification/scene_run.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+const std::vector<Override> coarse = {{"mesh", "{size: 0.5 m, fracture_size: 25 mm}"},
+                                      {"components.tips.size", "0.3 m"},
+                                      {"components.tips.sectors", "8"},
+                                      {"components.tips.mesh_ratio", "1"},
+                                      {"time.step", "1 min"}};
+
+/// Everything that an assembly knows, by name.
+using Terms = std::map<std::string, std::vector<double>>;
+
+void append(std::vector<double>& to, const Vector& values) { to.insert(to.end(), values.begin(), values.end()); }
+
+Terms terms_at(const std::vector<Part*>& parts, const std::vector<const Field*>& unknowns, const StepTime& step) {
+  Assembly assembly(unknowns, Assembly::Want::residual_and_derivatives);
+  assemble_all(assembly, parts, step);
+  Terms terms;
+  for (int u = 0; u < static_cast<int>(unknowns.size()); ++u) {
+    std::vector<double>& row = terms[unknowns[u]->name()];
+    for (const Vector& values : {assembly.residual(u), assembly.in_sum(u), assembly.turnover(u)}) append(row, values);
+    row.insert(row.end(), {assembly.magnitude(u), assembly.round_off_base(u)});
+  }
+  for (const Assembly::Block& block : assembly.blocks()) {
+    std::vector<double>& entries = terms[unknowns[block.row]->name() + " by " + unknowns[block.column]->name()];
+    entries.push_back(block.factor);
+    if (block.weights) append(entries, *block.weights);
+    for (int outer = 0; outer < block.matrix->outerSize(); ++outer)
+      for (SparseMatrix::InnerIterator entry(*block.matrix, outer); entry; ++entry)
+        entries.insert(entries.end(), {double(entry.row()), double(entry.col()), entry.value()});
+  }
+  for (const Assembly::Fixed& fixed : assembly.fixed())
+    terms["fixed"].insert(terms["fixed"].end(), {double(fixed.unknown), double(fixed.row), fixed.scale, fixed.error});
+  return terms;
+}
+
+/// Values that Newton's method may try: any size, and either sign where the values now have both.
+std::vector<Vector> random_values(const std::vector<const Field*>& unknowns, std::mt19937& random) {
+  std::uniform_real_distribution<double> factor(-1, 2);
+  std::vector<Vector> values;
+  for (const Field* field : unknowns) {
+    const double scale = field->now().size() ? std::max(field->now().lpNorm<Eigen::Infinity>(), 1e-6) : 0;
+    values.push_back(field->now());
+    const bool is_positive = field->now().size() && field->now().minCoeff() > 0;
+    for (double& value : values.back())
+      value = is_positive ? value * std::exp(0.2 * factor(random)) : 0.5 * value + 0.3 * scale * factor(random);
+  }
+  return values;
+}
+
+class RepeatedAssembly : public ::testing::TestWithParam<std::vector<Override>> {};
+
+TEST_P(RepeatedAssembly, GivesTheSameBits) {
+  std::vector<Override> settings = coarse;
+  settings.insert(settings.end(), GetParam().begin(), GetParam().end());
+  SceneRun run("paper/wing_cracks.yaml", settings);
+  ASSERT_TRUE(run.step());
+  Model& model = run.model();
+  const std::vector<const Field*> unknowns = model.schedule().unknowns();
+  const auto set = [&](const std::vector<Vector>& values) {
+    for (std::size_t u = 0; u < unknowns.size(); ++u) model.fields().at(unknowns[u]->name()).set(values[u]);
+  };
+  std::vector<Field*> solved;
+  for (const Field* field : unknowns) solved.push_back(&model.fields().at(field->name()));
+  const StepTime step{run.time(), 60, run.time() + 60};
+  begin_step(model.parts(), step);
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 4; ++trial) {
+    const std::vector<Vector> here = random_values(unknowns, random);
+    set(here);
+    for (Part* part : model.parts())
+      if (auto* follower = dynamic_cast<FollowsIterates*>(part)) follower->follow_iterate(solved);
+    const Terms first = terms_at(model.parts(), unknowns, step);
+    for (int other = 0; other < 4; ++other) {
+      set(random_values(unknowns, random));
+      EXPECT_NE(terms_at(model.parts(), unknowns, step), first);
+    }
+    set(here);
+    const Terms again = terms_at(model.parts(), unknowns, step);
+    ASSERT_EQ(again.size(), first.size());
+    for (const auto& [name, entries] : first) EXPECT_EQ(again.at(name), entries) << name << ", trial " << trial;
+  }
+}
+
+const std::vector<std::vector<Override>> scenes = {
+    {},
+    {{"components.pore.type", "matrix_flow/tpfa"}},
+    {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}}};
+INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
+
+/// The scenes above have all that there is: a new type belongs into one of them.
+TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
+  std::set<std::string> types = {"matrix_flow/tpfa"}, registered;
+  SceneRun run("paper/wing_cracks.yaml", coarse);
+  for (const std::string section : {"components", "couplers"}) {
+    const Node& parts = *run.model().scene().whole.find(section);
+    for (const Node& part : parts.items) types.insert(part.find("type")->scalar);
+    for (const Node::Entry& part : parts.entries) types.insert(part.value.find("type")->scalar);
+  }
+  for (const ComponentType& type : Registry::instance().components()) registered.insert(type.type);
+  for (const CouplerType& type : Registry::instance().couplers()) registered.insert(type.type);
+  EXPECT_EQ(types, registered);
+}
+
+}  // namespace
+}  // namespace sprekk::testing
