@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "components/matrix_flow/mpfa/tip_flow.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "framework/discretization/kept_regions.hpp"
-#include "framework/discretization/tips_nearby.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 /// The cells whose geometry and mobility the local problem of each node may read: its own, and near a tip those that
 /// tell the flow around it, and those of all nodes near the same tip (lossy_part).
 Adjacency cells_read(const Mesh& mesh) {
-  const std::vector<int> tips = tips_nearby(mesh);
+  const std::vector<int> tips = ends_nearby(mesh);
   auto around = cells_around_tips(mesh, tips);
   for (int node = 0; node < mesh.node_count(); ++node)
     if (tips[node] != none)

@@ -10,9 +10,9 @@
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 #include "components/matrix_flow/mpfa/tip_correction.hpp"
 #include "components/matrix_flow/mpfa/tip_energy.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "framework/discretization/interaction_region.hpp"
 #include "framework/discretization/node_stencil.hpp"
-#include "framework/discretization/tips_nearby.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
@@ -26,7 +26,7 @@ class TipFlows {
   TipFlows(const Mesh& mesh, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions,
            const IsWanted& is_wanted)
       : of_node_(mesh.node_count()) {
-    const std::vector<int> tips = tips_nearby(mesh);
+    const std::vector<int> tips = ends_nearby(mesh);
     for (const auto& [tip, cells] : cells_around_tips(mesh, tips))
       if (const auto flow = TipFlow::find(mesh, tip, cells, mobility)) flows_.emplace(tip, *flow);
     for (int node = 0; node < mesh.node_count(); ++node) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/matrix_flow/mpfa/tip_flow.hpp"
-#include "framework/discretization/tip_surroundings.hpp"
-#include "framework/discretization/tips_nearby.hpp"
+#include "framework/discretization/end_surroundings.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
@@ -17,7 +17,7 @@ bool is_like_the_tip(const Mesh& mesh, int node, const std::vector<Tensor>& mobi
 std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells, const std::vector<Tensor>& mobility) {
   const Tensor& rock = mobility[mesh.node_cells[tip][0]];
   if (const auto flow = TipFlow::find(mesh, tip, cells, mobility)) {
-    for (const int node : nodes_around_tip(mesh, tip, 1))
+    for (const int node : nodes_around_end(mesh, tip, 1))
       if (!is_like_the_tip(mesh, node, mobility, flow->mobility()))
         return "the permeability of cells next to it differs by more than 20 %";
     return "";
@@ -33,7 +33,7 @@ std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells, 
 
 PlainTips plain_tips(const Mesh& mesh, const std::vector<Tensor>& mobility) {
   PlainTips found;
-  for (const auto& [tip, cells] : cells_around_tips(mesh, tips_nearby(mesh))) {
+  for (const auto& [tip, cells] : cells_around_tips(mesh, ends_nearby(mesh))) {
     ++found.tips;
     const std::string reason = why_plain(mesh, tip, cells, mobility);
     if (reason.empty() || found.plain++ > 0) continue;

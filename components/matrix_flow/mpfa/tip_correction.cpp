@@ -6,8 +6,8 @@ TipCorrection::TipCorrection(const TipFlow& flow, const Mesh& mesh, const Intera
                              const LocalFluxes& local, int node, const std::vector<Tensor>& mobility,
                              const std::vector<FlowCondition>& conditions)
     : flow_(flow), mesh_(mesh), region_(region), local_(local), mobility_(mobility), node_(mesh.nodes[node]) {
-  const TipFrame& frame = flow.frame();
-  if (node_ != frame.tip()) {
+  const EndFrame& frame = flow.frame();
+  if (node_ != frame.origin()) {
     side_ = frame.side_of(node_);
     for (int f = 0; f < region.subface_count(); ++f)
       if (!region.is_inner(f)) side_ = frame.side_of_wall(mesh, region.faces[f]);

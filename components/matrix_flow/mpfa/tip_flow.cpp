@@ -63,7 +63,7 @@ bool TipFlow::fit(const Mesh& mesh) {
   const double size = frame_.size();
   Eigen::MatrixXd basis(count, terms);
   for (int k = 0; k < count; ++k) {
-    const Point x = mesh.cell_center[cells_[k]], local = (x - frame_.tip()) / size;
+    const Point x = mesh.cell_center[cells_[k]], local = (x - frame_.origin()) / size;
     basis.row(k) << 1, local.x(), local.y(), pressure(x, frame_.side_of_cell(mesh, cells_[k])) / std::sqrt(size);
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);

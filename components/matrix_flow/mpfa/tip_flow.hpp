@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/matrix_flow/flux_operators.hpp"
-#include "framework/discretization/tip_frame.hpp"
+#include "framework/discretization/end_frame.hpp"
 #include "framework/mesh/adjacency.hpp"
 
 namespace sprekk::matrix_flow {
@@ -29,7 +29,7 @@ class TipFlow {
   static std::optional<TipFlow> find(const Mesh& mesh, int tip, const std::vector<int>& cells,
                                      const std::vector<Tensor>& mobility);
 
-  const TipFrame& frame() const { return frame_; }
+  const EndFrame& frame() const { return frame_; }
   Modes pressure(const Point& x, int side) const;  ///< Pa, for amounts of 1 Pa/m^0.5
   /// The stream function: the flux through any line from the tip to x, to the left of the line, for a mobility of
   /// 1 m^2/(Pa s), m^2/s.
@@ -45,7 +45,7 @@ class TipFlow {
   TipFlow(const Mesh& mesh, int tip, const std::vector<int>& cells, const Tensor& mobility);
   bool fit(const Mesh& mesh);
 
-  TipFrame frame_;
+  EndFrame frame_;
   Tensor mobility_;
   std::vector<int> cells_;
   Eigen::Matrix2Xd share_;
@@ -58,7 +58,7 @@ bool is_isotropic(const Tensor& mobility);
 bool resembles(const Tensor& mobility, const Tensor& other);
 
 /// For every tip the cells of the fit of its flow, ascending: the cells at its node, and the cells at those corners of
-/// them that are near the tip. `tips`: see tips_nearby.
+/// them that are near the tip. `tips`: see ends_nearby.
 std::map<int, std::vector<int>> cells_around_tips(const Mesh& mesh, const std::vector<int>& tips);
 
 }  // namespace sprekk::matrix_flow

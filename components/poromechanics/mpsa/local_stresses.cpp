@@ -41,16 +41,16 @@ void add_cells_across(const Mesh& mesh, int cell, int node, std::vector<int>& ce
 
 }  // namespace
 
-Adjacency local_cells(const Mesh& mesh, const TipZones& zones) {
-  SPREKK_EXPECT(static_cast<int>(zones.tip.size()) == mesh.node_count(), zones.tip.size(), mesh.node_count());
+Adjacency local_cells(const Mesh& mesh, const EndZones& zones) {
+  SPREKK_EXPECT(static_cast<int>(zones.end.size()) == mesh.node_count(), zones.end.size(), mesh.node_count());
   Adjacency cells;
   std::vector<int> of_node;
   for (int node = 0; node < mesh.node_count(); ++node) {
     const auto at_node = mesh.node_cells[node];
     of_node.assign(at_node.begin(), at_node.end());
     if (at_node.size() == 1) add_cells_across(mesh, at_node[0], node, of_node);
-    if (zones.tip[node] != none) {
-      const std::vector<int>& near_tip = zones.cells.at(zones.tip[node]);
+    if (zones.end[node] != none) {
+      const std::vector<int>& near_tip = zones.cells.at(zones.end[node]);
       of_node.insert(of_node.end(), near_tip.begin(), near_tip.end());
     }
     cells.append_set(of_node);

@@ -8,8 +8,8 @@
 #include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/mpsa/volume_exchange.hpp"
 #include "components/poromechanics/mpsa/weak_symmetry.hpp"
+#include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/interaction_region.hpp"
-#include "framework/discretization/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -20,7 +20,7 @@ using FaceConditions = std::array<MechanicalCondition, 2>;
 /// For each node, the cells whose displacements and stresses its local problem reads, in ascending order: the cells at
 /// the node. For a node with one cell, these are also the cells across the faces that do not touch the node, if any;
 /// near the tip of a crack also the cells from which the strength of its singular field is fitted.
-Adjacency local_cells(const Mesh& mesh, const TipZones& zones);
+Adjacency local_cells(const Mesh& mesh, const EndZones& zones);
 
 /// Solves the local problem of an interaction region (Nordbotten 2016, sec. 3). The displacement is linear in every
 /// subcell. Displacements agree at the continuity points; forces, (C : grad u − s I) times the normal, agree on the

@@ -8,9 +8,9 @@
 
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 #include "components/poromechanics/mpsa/tip_correction.hpp"
+#include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/interaction_region.hpp"
 #include "framework/discretization/node_stencil.hpp"
-#include "framework/discretization/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -87,12 +87,12 @@ struct Coefficients {
 /// The fields of all tips, for the nodes near them.
 class TipFields {
  public:
-  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const TipZones& zones)
+  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const EndZones& zones)
       : mesh_(mesh), stiffness_(stiffness), zones_(zones) {}
 
   /// Null where there is none, or the rock is not like the tip's.
   const TipField* at(int node) {
-    const int tip = zones_.tip[node];
+    const int tip = zones_.end[node];
     if (tip == none) return nullptr;
     const auto [found, is_new] = fields_.try_emplace(tip);
     if (is_new) found->second = TipField::find(mesh_, tip, zones_.cells.at(tip), stiffness_);
@@ -105,7 +105,7 @@ class TipFields {
  private:
   const Mesh& mesh_;
   const std::vector<Stiffness>& stiffness_;
-  const TipZones& zones_;
+  const EndZones& zones_;
   std::map<int, std::optional<TipField>> fields_;
 };
 
@@ -132,7 +132,7 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
   check_arguments(mesh, stiffness, conditions, nodes);
   const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
   const auto any = [&](int, int node) { return is_wanted(node); };
-  const TipZones zones = tip_zones(mesh);
+  const EndZones zones = end_zones(mesh);
   const Adjacency node_cells = local_cells(mesh, zones), valued_faces = faces_with_values(mesh, conditions);
   Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, valued_faces, 2);
   Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), node_cells, valued_faces, 1);

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/poromechanics/mpsa/tip_field.hpp"
-#include "framework/discretization/tip_surroundings.hpp"
-#include "framework/discretization/tip_zones.hpp"
+#include "framework/discretization/end_surroundings.hpp"
+#include "framework/discretization/end_zones.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
@@ -17,7 +17,7 @@ bool is_like_the_tip(const Mesh& mesh, int node, const std::vector<Stiffness>& s
 std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells,
                       const std::vector<Stiffness>& stiffness) {
   if (const auto field = TipField::find(mesh, tip, cells, stiffness)) {
-    for (const int node : nodes_around_tip(mesh, tip, 1))
+    for (const int node : nodes_around_end(mesh, tip, 1))
       if (!is_like_the_tip(mesh, node, stiffness, field->rock()))
         return "the stiffness of cells next to it differs by more than 20 %";
     return "";
@@ -33,7 +33,7 @@ std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells,
 
 PlainTips plain_tips(const Mesh& mesh, const std::vector<Stiffness>& stiffness) {
   PlainTips found;
-  for (const auto& [tip, cells] : tip_zones(mesh).cells) {
+  for (const auto& [tip, cells] : end_zones(mesh).cells) {
     ++found.tips;
     const std::string reason = why_plain(mesh, tip, cells, stiffness);
     if (reason.empty() || found.plain++ > 0) continue;

@@ -2,18 +2,18 @@
 
 #include <cstring>
 
+#include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/kept_regions.hpp"
-#include "framework/discretization/tip_zones.hpp"
 
 namespace sprekk::poromechanics {
 
 Rediscretized rediscretize_mpsa(const StressInputs& before, const StressOperators& operators, const StressInputs& after,
                                 const MeshChange& change) {
-  const TipZones zones_before = tip_zones(before.mesh), zones_after = tip_zones(after.mesh);
+  const EndZones zones_before = end_zones(before.mesh), zones_after = end_zones(after.mesh);
   const Adjacency cells_before = local_cells(before.mesh, zones_before),
                   cells_after = local_cells(after.mesh, zones_after);
   const auto has_same_zone = [&](int node, int was) {
-    const int tip = zones_after.tip[node], old_tip = zones_before.tip[was];
+    const int tip = zones_after.end[node], old_tip = zones_before.end[was];
     if (tip == none || old_tip == none) return tip == old_tip;
     return zones_after.weight[node] == zones_before.weight[was] && after.mesh.nodes[tip] == before.mesh.nodes[old_tip];
   };

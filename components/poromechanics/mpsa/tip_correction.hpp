@@ -13,7 +13,7 @@ namespace sprekk::poromechanics {
 /// The difference between the singular field (TipField) and what a local problem with linear displacements makes of it.
 /// A local problem takes the traction ahead of a tip from a place half a cell away, where the traction is half of its
 /// mean. So the crack behaves like one that is longer by 0.4 edge lengths at each end, and the tractions of walls
-/// nearby oscillate. Therefore this difference, times a weight (TipZones), is added to the results of a local problem.
+/// nearby oscillate. Therefore this difference, times a weight (EndZones), is added to the results of a local problem.
 /// The amount of the field is fitted to the displacements of the cells near the tip. The difference vanishes for linear
 /// displacements, for which the method stays exact.
 class TipCorrection {

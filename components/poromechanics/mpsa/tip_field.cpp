@@ -66,7 +66,8 @@ bool TipField::fit(const Mesh& mesh, int count_of_terms) {
   for (int k = 0; k < terms; ++k) unit[k] = std::pow(size, order(k));
   for (int k = 0; k < count; ++k) {
     const Point& center = mesh.cell_center[cells_[k]];
-    const Eigen::RowVector3d linear(1, (center.x() - frame_.tip().x()) / size, (center.y() - frame_.tip().y()) / size);
+    const Eigen::RowVector3d linear(1, (center.x() - frame_.origin().x()) / size,
+                                    (center.y() - frame_.origin().y()) / size);
     basis.block<1, 3>(2 * k, 0) = basis.block<1, 3>(2 * k + 1, 3) = linear;
     const Modes modes = displacement(center, frame_.side_of_cell(mesh, cells_[k]));
     basis.block(2 * k, linear_terms, 2, count_of_terms) =

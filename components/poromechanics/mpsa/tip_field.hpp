@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
-#include "framework/discretization/tip_frame.hpp"
+#include "framework/discretization/end_frame.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -22,7 +22,7 @@ bool resembles(const Stiffness& rock, const Stiffness& other);
 /// and psi = (conj(a) - o a) z^o with 2 a = 1 (mode I) and -i (mode II), in 2 G u = kappa phi - z conj(phi') -
 /// conj(psi) for 2 G = 1. So those of order r^(1/2) have stress-intensity factors of 2 G sqrt(2 pi). The amounts of the
 /// modes follow from the displacements of the cells near the tip, by a least-squares fit of the modes and of linear
-/// displacements. `side`: see TipFrame.
+/// displacements. `side`: see EndFrame.
 class TipField {
  public:
   /// (x, y) of modes I and II of order r^(1/2), and of those of order r^(3/2).
@@ -30,13 +30,13 @@ class TipField {
   using Modes = Eigen::Matrix<double, 2, terms>;
   using Amounts = Eigen::Matrix<double, 1, terms>;  ///< one value each
 
-  /// The field around a tip (a node). `cells`: those near the tip (TipZones::cells). std::nullopt unless the rock at
+  /// The field around a tip (a node). `cells`: those near the tip (EndZones::cells). std::nullopt unless the rock at
   /// the tip is isotropic and nearly the same all around (resembles), and there are enough cells to tell the modes from
   /// linear displacements. If the cells determine only the modes of order r^(1/2), the others are taken to be zero.
   static std::optional<TipField> find(const Mesh& mesh, int tip, std::span<const int> cells,
                                       const std::vector<Stiffness>& stiffness);
 
-  const TipFrame& frame() const { return frame_; }
+  const EndFrame& frame() const { return frame_; }
   /// The displacement, m.
   Modes displacement(const Point& x, int side) const;
   /// The force across any line from the tip to x, exerted by the left side on the right side, N/m.
@@ -60,7 +60,7 @@ class TipField {
   std::vector<int> cells_;
   Stiffness rock_;
   double shear_, poisson_;  ///< Pa, 1
-  TipFrame frame_;
+  EndFrame frame_;
   Eigen::Matrix<double, terms, Eigen::Dynamic> share_;
 };
 

@@ -7,7 +7,7 @@
 #include <complex>
 
 #include "components/matrix_flow/mpfa/mpfa.hpp"
-#include "framework/discretization/tips_nearby.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::matrix_flow {
@@ -86,7 +86,7 @@ TEST(TipFlow, FluxesNearATipAreExactForItBesideLinearPressures) {
   for (const MeshOptions& options : {test::unstructured(0.05), test::mixed(0.05)}) {
     const TipCase tip = slanted(options);
     const Mesh& mesh = tip.mesh;
-    const std::vector<int> tips = tips_nearby(mesh);
+    const std::vector<int> tips = ends_nearby(mesh);
     for (const Complex amount : {Complex(0.7, 0), Complex(0, 0.7), Complex(-0.3, 0.8)}) {
       const Flow flow{tip.tip, tip.angle, amount, {-0.4, 0.9}};
       const Answer answer = discretized(mesh, flow);
@@ -108,7 +108,7 @@ TEST(TipFlow, FluxesNearATipAreExactForItBesideLinearPressures) {
 
 TEST(TipFlow, NeedsEvenIsotropicRockAndEnoughCells) {
   const TipCase tip = slanted(test::unstructured(0.05));
-  const std::vector<int> cells = cells_around_tips(tip.mesh, tips_nearby(tip.mesh)).at(tip.node);
+  const std::vector<int> cells = cells_around_tips(tip.mesh, ends_nearby(tip.mesh)).at(tip.node);
   std::vector<Tensor> rock(tip.mesh.cell_count(), mobility * Tensor::Identity());
   EXPECT_TRUE(TipFlow::find(tip.mesh, tip.node, cells, rock));
   EXPECT_FALSE(TipFlow::find(tip.mesh, tip.node, {cells.begin(), cells.begin() + 5}, rock));

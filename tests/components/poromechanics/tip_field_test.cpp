@@ -8,8 +8,8 @@
 #include <complex>
 #include <numbers>
 
-#include "framework/discretization/tip_zones.hpp"
-#include "framework/discretization/tips_nearby.hpp"
+#include "framework/discretization/end_zones.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::poromechanics {
@@ -78,7 +78,7 @@ TipCase at_end_of(const std::vector<Point>& points) {
       generate_mesh(geometry, test::unstructured(0.05)), points.back(), std::atan2(ahead.y(), ahead.x()), none, {}, {}};
   for (int n = 0; n < tip.mesh.node_count(); ++n)
     if ((tip.mesh.nodes[n] - tip.tip).norm() < 1e-12) tip.node = n;
-  const std::vector<int> tips = tips_nearby(tip.mesh);
+  const std::vector<int> tips = ends_nearby(tip.mesh);
   for (int n = 0; n < tip.mesh.node_count(); ++n)
     if (tips[n] == tip.node && tip.node != none) tip.nearby.push_back(n);
   tip.conditions.assign(tip.mesh.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
@@ -287,7 +287,7 @@ TEST(TipField, RockThatChangesALittleKeepsIt) {
   const TipCase tip = slanted();
   std::vector<Stiffness> rock = even(tip.mesh);
   for (int c = 0; c < tip.mesh.cell_count(); ++c) rock[c] *= 1 + 0.3 * tip.mesh.cell_center[c].x();
-  const auto field = TipField::find(tip.mesh, tip.node, tip_zones(tip.mesh).cells.at(tip.node), rock);
+  const auto field = TipField::find(tip.mesh, tip.node, end_zones(tip.mesh).cells.at(tip.node), rock);
   ASSERT_TRUE(field.has_value());
   EXPECT_NEAR(field->rock()(2, 2), shear * (1 + 0.3 * tip.tip.x()), 0.02 * shear);
 }
@@ -297,7 +297,7 @@ TEST(TipField, IsLeftOutWhereTheRockChangesOrIsAnisotropic) {
   std::vector<Stiffness> layered = even(tip.mesh), anisotropic = even(tip.mesh);
   layered[tip.mesh.node_cells[tip.node][0]] *= 2;
   for (Stiffness& stiffness : anisotropic) stiffness(0, 0) *= 2;
-  const std::vector<int> cells = tip_zones(tip.mesh).cells.at(tip.node);
+  const std::vector<int> cells = end_zones(tip.mesh).cells.at(tip.node);
   EXPECT_TRUE(TipField::find(tip.mesh, tip.node, cells, even(tip.mesh)).has_value());
   EXPECT_FALSE(TipField::find(tip.mesh, tip.node, cells, layered).has_value());
   EXPECT_FALSE(TipField::find(tip.mesh, tip.node, cells, anisotropic).has_value());
@@ -310,7 +310,7 @@ TEST(TipsNearby, AreWithinThreeEdgesAndNotAcrossAKink) {
   crack.points = {Point(0.3, 0.4), Point(0.5, 0.4), Point(0.6, 0.5)};
   geometry.fractures = {crack};
   const Mesh mesh = generate_mesh(geometry, test::unstructured(0.05));
-  const std::vector<int> tips = tips_nearby(mesh);
+  const std::vector<int> tips = ends_nearby(mesh);
   int straight = 0, bent = 0;
   for (int n = 0; n < mesh.node_count(); ++n) {
     const double first = (mesh.nodes[n] - crack.points[0]).norm(), last = (mesh.nodes[n] - crack.points[2]).norm();

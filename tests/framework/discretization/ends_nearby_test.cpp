@@ -1,4 +1,4 @@
-#include "framework/discretization/tips_nearby.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 /// The nodes that have a tip nearby; none of them behind a fracture, as seen from the tip.
 std::set<int> nodes_near_tips(const Mesh& mesh) {
-  const std::vector<int> tips = tips_nearby(mesh);
+  const std::vector<int> tips = ends_nearby(mesh);
   std::set<int> near;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (tips[node] == none) continue;

@@ -1,4 +1,4 @@
-#include "framework/discretization/tip_surroundings.hpp"
+#include "framework/discretization/end_surroundings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,12 @@ NodeWalls::NodeWalls(const Mesh& mesh, int node) {
   }
 }
 
-bool is_tip(const Mesh& mesh, int node) {
+bool is_fracture_end(const Mesh& mesh, int node) {
   const NodeWalls walls(mesh, node);
   return walls.are_all && walls.cells[0] != none && walls.cells[0] == walls.cells[1];
 }
 
-bool tip_field_goes_on(const Mesh& mesh, int node, const FractureCell& last) {
+bool field_goes_on(const Mesh& mesh, int node, const FractureCell& last) {
   if (mesh.node_cells[node].size() < 2) return false;
   const NodeWalls walls(mesh, node);
   return walls.are_all && std::all_of(walls.cells.begin(), walls.cells.end(), [&](int i) {
@@ -37,17 +37,17 @@ bool tip_field_goes_on(const Mesh& mesh, int node, const FractureCell& last) {
          });
 }
 
-std::vector<int> nodes_around_tip(const Mesh& mesh, int tip, int edges) {
-  SPREKK_EXPECT(is_tip(mesh, tip), tip);
+std::vector<int> nodes_around_end(const Mesh& mesh, int end, int edges) {
+  SPREKK_EXPECT(is_fracture_end(mesh, end), end);
   SPREKK_EXPECT(edges >= 0, edges);
-  const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, tip).cells[0]];
-  std::vector<int> reached{tip};
+  const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
+  std::vector<int> reached{end};
   for (int layer = 0, begin = 0; layer < edges; ++layer) {
-    const int end = static_cast<int>(reached.size());
-    for (; begin < end; ++begin)
+    const int layer_end = static_cast<int>(reached.size());
+    for (; begin < layer_end; ++begin)
       for (const int face : mesh.node_faces[reached[begin]])
         for (const int node : mesh.face_nodes[face])
-          if (std::find(reached.begin(), reached.end(), node) == reached.end() && tip_field_goes_on(mesh, node, last))
+          if (std::find(reached.begin(), reached.end(), node) == reached.end() && field_goes_on(mesh, node, last))
             reached.push_back(node);
   }
   return reached;

@@ -1,4 +1,4 @@
-// The frame of the tip of a fracture: in which direction and on which side of the fracture points lie.
+// The frame of the end of a fracture: in which direction and on which side of the fracture points lie.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,33 +7,33 @@
 
 namespace sprekk {
 
-/// Polar coordinates around a tip, for fields that differ on both sides of the fracture.
+/// Polar coordinates around an end, for fields that differ on both sides of the fracture.
 ///
 /// `side` says on which side of the fracture a point near it is taken to lie: +1 left of the direction in which the
 /// fracture points, -1 right of it, 0 where the position of the point decides.
-class TipFrame {
+class EndFrame {
  public:
-  /// `tip`: a node that is the tip of a fracture (is_tip).
-  TipFrame(const Mesh& mesh, int tip);
+  /// `end`: a node that is the end of a fracture (is_fracture_end).
+  EndFrame(const Mesh& mesh, int end);
 
   int side_of(const Point& x) const;                   ///< +1 or -1: the side of the line through the last wall
   int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1: the side of the fracture, which may bend
   int side_of_cell(const Mesh& mesh, int cell) const;  ///< the side of the cell's wall, 0 for a cell without a wall
 
-  /// Polar coordinates around the tip.
+  /// Polar coordinates around the end.
   struct Polar {
     double radius;  ///< m
-    double angle;   ///< rad, from ahead of the tip, continued beyond +-pi
+    double angle;   ///< rad, from ahead of the end, continued beyond +-pi
   };
   Polar polar(const Point& x, int side) const;
 
-  const Point& tip() const { return tip_; }  ///< m
-  double size() const { return size_; }      ///< m, of the wall at the tip
-  /// Unit vectors as columns: the direction ahead of the tip, and this direction turned by +90 degrees.
+  const Point& origin() const { return origin_; }  ///< m
+  double size() const { return size_; }            ///< m, of the wall at the end
+  /// Unit vectors as columns: the direction ahead of the end, and this direction turned by +90 degrees.
   const Eigen::Matrix2d& axes() const { return axes_; }
 
  private:
-  Point tip_;
+  Point origin_;
   double size_ = 1;
   Eigen::Matrix2d axes_;
 };

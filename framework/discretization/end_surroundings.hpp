@@ -1,0 +1,31 @@
+// Which nodes are ends of fractures, and which nodes around an end its singular field reaches undisturbed.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// The fracture cells whose walls are the faces with one cell at a node: {none, none} in the rock.
+struct NodeWalls {
+  std::array<int, 2> cells{none, none};
+  bool are_all = true;  ///< whether all faces with one cell are walls of these: not on a side, nor where fractures meet
+
+  NodeWalls(const Mesh& mesh, int node);
+};
+
+/// Whether a node is an end: both faces with one cell are walls of the same fracture cell, which ends at the node.
+bool is_fracture_end(const Mesh& mesh, int node);
+
+/// Whether the singular field of an end, the end of the given fracture cell, is undisturbed at a node: not on sides,
+/// not on other fractures, not on the end's own fracture beyond a kink (10 degrees), and not where the node has one
+/// cell.
+bool field_goes_on(const Mesh& mesh, int node, const FractureCell& last);
+
+/// The nodes within so many edges of an end, the end among them, along nodes where its field is undisturbed
+/// (field_goes_on).
+std::vector<int> nodes_around_end(const Mesh& mesh, int end, int edges);
+
+}  // namespace sprekk

@@ -1,0 +1,113 @@
+#include "framework/discretization/end_zones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "framework/discretization/end_frame.hpp"
+#include "framework/discretization/end_surroundings.hpp"
+#include "framework/discretization/ends_nearby.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk {
+namespace {
+
+/// Largest ratio of a node's distance from the line of the end to that from the end for a fracture that keeps its line.
+constexpr double off_line = 1e-3;
+
+/// Half of the width of a zone along the fracture, in lengths of the cell at the end.
+constexpr double half_width = 8;
+
+/// Of the way, where the correction fades out; and where the zone of the fracture's other end goes on.
+constexpr double fading_part = 0.1, joining_part = 0.01;
+
+/// Falls smoothly from 1 at 1 - width to 0 at 1.
+double fading(double part, double width) {
+  const double s = std::clamp((1 - part) / width, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+/// Nodes of sides and fractures, which disturb the field of an end.
+std::vector<int> outer_nodes(const Mesh& mesh) {
+  std::set<int> nodes;
+  for (int face = 0; face < mesh.face_count(); ++face)
+    if (mesh.face_cells[face][1] == none) nodes.insert(mesh.face_nodes[face].begin(), mesh.face_nodes[face].end());
+  return {nodes.begin(), nodes.end()};
+}
+
+/// What is nearest in the way of an end's field.
+struct Obstacle {
+  double distance = std::numeric_limits<double>::infinity();  ///< m
+  bool is_other_tip = false;                                  ///< of the fracture, which is straight
+};
+
+Obstacle nearest_obstacle(const Mesh& mesh, int end, const std::vector<int>& outer) {
+  const EndFrame frame(mesh, end);
+  SPREKK_ASSERT(is_fracture_end(mesh, end), end);
+  const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
+  Obstacle nearest;
+  for (const int node : outer) {
+    if (node == end) continue;
+    const Point from_end = mesh.nodes[node] - mesh.nodes[end];
+    if (from_end.squaredNorm() >= nearest.distance * nearest.distance) continue;
+    const bool is_on_line = std::abs(frame.axes().col(1).dot(from_end)) <= off_line * from_end.norm();
+    const bool ends = is_fracture_end(mesh, node), goes_on = is_on_line && field_goes_on(mesh, node, last);
+    if (ends || !goes_on) nearest = {from_end.norm(), ends && goes_on};
+  }
+  return nearest;
+}
+
+struct Reached {
+  int node;
+  double weight;
+};
+
+/// The nodes of a zone that ends half of the way to an obstacle, reached along nodes where the field goes on.
+std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Obstacle& obstacle) {
+  const double radius = 0.5 * obstacle.distance, width = obstacle.is_other_tip ? joining_part : fading_part;
+  const EndFrame frame(mesh, end);
+  const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
+  const auto weight = [&](int node) {
+    const Point local = frame.axes().transpose() * (mesh.nodes[node] - mesh.nodes[end]);
+    const double from_fracture = local.x() < 0 ? std::abs(local.y()) : local.norm();
+    return fading(local.norm() / radius, width) * fading(from_fracture / (half_width * frame.size()), fading_part);
+  };
+  std::vector<Reached> reached{{end, 1}};
+  std::set<int> seen{end};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const int face : mesh.node_faces[reached[i].node])
+      for (const int node : mesh.face_nodes[face])
+        if (const double w = weight(node); w > 0 && seen.insert(node).second && field_goes_on(mesh, node, last))
+          reached.push_back({node, w});
+  return reached;
+}
+
+std::vector<int> cells_next_to(const Mesh& mesh, int end) {
+  std::set<int> cells;
+  for (const int node : nodes_around_end(mesh, end, 1))
+    cells.insert(mesh.node_cells[node].begin(), mesh.node_cells[node].end());
+  return {cells.begin(), cells.end()};
+}
+
+}  // namespace
+
+EndZones end_zones(const Mesh& mesh) {
+  EndZones zones{ends_nearby(mesh), std::vector<double>(mesh.node_count(), 0), {}};
+  const std::vector<int> outer = outer_nodes(mesh);
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (zones.end[node] != none) zones.weight[node] = 1;
+  for (int end = 0; end < mesh.node_count(); ++end) {
+    if (!is_fracture_end(mesh, end)) continue;
+    zones.cells[end] = cells_next_to(mesh, end);
+    for (const auto& [node, weight] : nodes_of_zone(mesh, end, nearest_obstacle(mesh, end, outer))) {
+      if (zones.end[node] != none) continue;
+      zones.end[node] = end;
+      SPREKK_ASSERT(weight > 0 && weight <= 1, node, weight);
+      zones.weight[node] = weight;
+    }
+  }
+  return zones;
+}
+
+}  // namespace sprekk

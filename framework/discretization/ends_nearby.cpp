@@ -1,0 +1,42 @@
+#include "framework/discretization/ends_nearby.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "framework/discretization/end_surroundings.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk {
+namespace {
+
+/// Number of edges from the end to where linear functions suffice: their error falls with the square of the distance.
+constexpr int layers = 3;
+/// Halfway between two ends both fields are as strong, and a symmetric mesh must have a symmetric result: neither end
+/// is taken.
+constexpr double clearly = 0.9;
+
+}  // namespace
+
+std::vector<int> ends_nearby(const Mesh& mesh) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  struct Nearest {
+    int end = none;
+    double distance = far, next = far;  ///< m, to the end and to the second nearest
+  };
+  std::vector<Nearest> nearest(mesh.node_count());
+  for (int end = 0; end < mesh.node_count(); ++end) {
+    if (!is_fracture_end(mesh, end)) continue;
+    for (const int node : nodes_around_end(mesh, end, layers)) {
+      Nearest& at = nearest[node];
+      const double distance = (mesh.nodes[node] - mesh.nodes[end]).norm();
+      at.next = std::min(at.next, std::max(at.distance, distance));
+      if (distance < at.distance) at = {end, distance, at.next};
+    }
+  }
+  std::vector<int> nearby;
+  for (const Nearest& at : nearest) nearby.push_back(at.distance < clearly * at.next ? at.end : none);
+  SPREKK_ASSERT(static_cast<int>(nearby.size()) == mesh.node_count(), nearby.size(), mesh.node_count());
+  return nearby;
+}
+
+}  // namespace sprekk
