@@ -5,6 +5,7 @@
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
@@ -29,7 +30,7 @@ struct BiotOptions {
                .in_time = true});
     spec.quantity("fixed_stress_factor", fixed_stress_factor,
                   {.range = positive(),
-                   .doc = "The fixed-stress stabilization of split schemes is this times alpha^2/K.",
+                   .doc = "The stabilization fixed_stress of split schemes is this times alpha^2/K.",
                    .source = "Kim, Tchelepi, Juanes 2011"});
     return spec;
   }
@@ -43,7 +44,7 @@ struct BiotOptions {
 ///
 /// alpha and the compressibility of the grains are taken at the end of the step. They multiply changes of the state: a
 /// change of alpha or of the compressibility alone moves no fluid.
-class Biot : public Coupler {
+class Biot : public Coupler, public StabilizesPreconditioner {
  public:
   Biot(const CouplerContext& context, const BiotOptions& options)
       : Coupler(context.name),
@@ -157,6 +158,9 @@ class Biot : public Coupler {
       diagonal[c] = options_.fixed_stress_factor * alpha_[c] * alpha_[c] / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
     const auto [place, fresh] = stabilization.try_emplace(&fluid_.pressure(), diagonal);
     if (!fresh) place->second += diagonal;
+  }
+  void stabilize_preconditioner(Stabilization& stabilization) const override {
+    stabilize("fixed_stress", stabilization);
   }
 
  private:

@@ -12,6 +12,7 @@
 #include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/counter_clockwise.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
+#include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
@@ -131,7 +132,8 @@ class MeshBuilder {
     if (fracture_of_node_[node] != none) {
       if (outer_edges_at_node_[node] > 0) {
         throw InputError("fractures '" + raw_.fractures[fracture_of_node_[node]].name + "' and '" + name + "' meet" +
-                         where + " (fractures may not meet on the outer boundary) let them meet inside of the rock");
+                         where + " (fractures may not meet on the outer boundary) let them meet inside of the " +
+                         medium_name());
       }
       is_junction_[node] = true;
     }

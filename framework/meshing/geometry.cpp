@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/meshing/size_field.hpp"
 
@@ -100,7 +101,7 @@ void validate_fracture(const Box& box, const FractureGeometry& fracture) {
     }
     if (depth(box, 0.5 * (points[i] + points[i + 1])) < tolerance) {
       throw InputError(fracture.origin, what + " runs along the boundary", "at " + to_text(points[i]),
-                       "move it into the rock");
+                       "move it into the " + medium_name());
     }
   }
   const std::string contact = self_contact(segments, false, tolerance);
@@ -149,7 +150,7 @@ void validate_pair(const Box& box, const FractureGeometry& a, const FractureGeom
 void validate_region(const Box& box, const RegionGeometry& region) {
   const double tolerance = point_tolerance(box);
   const std::string what = "region '" + region.name + "'";
-  if (region.name == default_region) {
+  if (region.name == medium_name()) {
     throw InputError(region.origin, "a polygon is called '" + region.name + "'",
                      "that is the name of everything outside of all polygons", "choose another name");
   }

@@ -33,11 +33,10 @@ struct RegionGeometry {
   Origin origin;
 };
 
-inline const char* const default_region = "rock";
 inline constexpr std::array<const char*, 4> box_sides = {"left", "right", "bottom", "top"};
 
-/// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is `rock`; where
-/// polygons overlap the later one counts.
+/// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is
+/// medium_name(), what no polygon covers; where polygons overlap the later one counts.
 struct Geometry {
   Box box;
   std::string file;  ///< a mesh that gmsh reads, or "" for a box

@@ -1,4 +1,5 @@
 #include "framework/meshing/geometry_spec.hpp"
+#include "framework/mesh/medium.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -78,7 +79,7 @@ Spec fracture_spec(const std::string& name, const Origin& origin, std::function<
 
 Spec region_spec(const std::string& name, const Origin& origin, std::function<void(RegionGeometry)> keep) {
   const auto polygon = std::make_shared<std::vector<Point>>();
-  Spec spec("region", "A part of the rock that may have properties of its own.");
+  Spec spec("region", "A part of the " + medium_name() + " that may have properties of its own.");
   spec.points("polygon", *polygon,
               {.unit = "m", .doc = "The corners in order, not repeating the first.", .required = true});
   spec.check([polygon, name, origin, keep = std::move(keep)](const Node&) { keep({name, *polygon, origin}); });
@@ -88,26 +89,27 @@ Spec region_spec(const std::string& name, const Origin& origin, std::function<vo
 }  // namespace
 
 Spec geometry_spec(Geometry& geometry, const std::string& folder) {
-  Spec spec("geometry", "The rock, the fractures in it, and its regions.");
-  spec.section("box", box_spec(std::make_shared<BoxInput>(), geometry.box), {.doc = "The rock as a rectangle."});
+  Spec spec("geometry", "The " + medium_name() + ", the fractures in it, and its regions.");
+  spec.section("box", box_spec(std::make_shared<BoxInput>(), geometry.box),
+               {.doc = "The " + medium_name() + " as a rectangle."});
   spec.text(
       "file", geometry.file,
       {.doc = "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: groups "
               "of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."});
-  spec.named_sections("fractures", fracture_spec("", {}, [](FractureGeometry) {}),
-                      [&geometry](const std::string& name, const Origin& origin) {
-                        return fracture_spec(name, origin, [&geometry](FractureGeometry f) {
-                          geometry.fractures.push_back(std::move(f));
-                        });
-                      },
-                      {.doc = "The fractures, by name; they may cross and touch one another inside of the rock."});
   spec.named_sections(
-      "regions", region_spec("", {}, [](RegionGeometry) {}),
+      "fractures", fracture_spec("", {}, [](FractureGeometry) {}),
       [&geometry](const std::string& name, const Origin& origin) {
-        return region_spec(name, origin, [&geometry](RegionGeometry r) { geometry.regions.push_back(std::move(r)); });
+        return fracture_spec(name, origin,
+                             [&geometry](FractureGeometry f) { geometry.fractures.push_back(std::move(f)); });
       },
-      {.doc =
-           "Polygons that the mesh conforms to, by name; the rest is called rock, and later ones cover earlier ones."});
+      {.doc = "The fractures, by name; they may cross and touch one another inside of the " + medium_name() + "."});
+  spec.named_sections("regions", region_spec("", {}, [](RegionGeometry) {}),
+                      [&geometry](const std::string& name, const Origin& origin) {
+                        return region_spec(name, origin,
+                                           [&geometry](RegionGeometry r) { geometry.regions.push_back(std::move(r)); });
+                      },
+                      {.doc = "Polygons that the mesh conforms to, by name; the rest is called " + medium_name() +
+                              ", and later ones cover earlier ones."});
   spec.check([&geometry, folder](const Node& whole) {
     const bool has_box = whole.find("box"), has_file = geometry.is_imported();
     if (has_box == has_file) {
@@ -148,10 +150,11 @@ Spec mesh_spec(MeshOptions& options) {
                  .doc = "Edge length away from fractures; by default a fiftieth of the box's longer side."});
   spec.quantity("fracture_size", options.fracture_size,
                 {.unit = "m", .range = positive(), .doc = "Edge length at fractures; by default size."});
-  spec.quantity("tip_size", options.tip_size,
-                {.unit = "m",
-                 .range = positive(),
-                 .doc = "Edge length at the ends of fractures in the rock; by default that of the fracture."});
+  spec.quantity(
+      "tip_size", options.tip_size,
+      {.unit = "m",
+       .range = positive(),
+       .doc = "Edge length at the ends of fractures in the " + medium_name() + "; by default that of the fracture."});
   spec.quantity("growth", options.growth,
                 {.unit = "",
                  .range = Range{0, 2, false, true},

@@ -11,6 +11,7 @@
 #include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/counter_clockwise.hpp"
+#include "framework/mesh/medium.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/meshing/geometry.hpp"
@@ -143,7 +144,7 @@ class Reader {
   static void add_name(const std::string& name, const std::string& what, std::vector<std::string>& names) {
     if (std::find(names.begin(), names.end(), name) != names.end()) {
       throw InputError("two " + what + " are called '" + name + "' (what has no group is called 'boundary' or '" +
-                       default_region + "'), rename one");
+                       medium_name() + "'), rename one");
     }
     names.push_back(name);
   }
@@ -163,7 +164,7 @@ class Reader {
     }
     if (has_rest) {
       region_of_group[none] = static_cast<int>(mesh_.region_names.size());
-      add_name(default_region, "regions", mesh_.region_names);
+      add_name(medium_name(), "regions", mesh_.region_names);
     }
     return region_of_group;
   }

@@ -1,12 +1,13 @@
 #include "framework/meshing/regions.hpp"
 
 #include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk {
 
 std::vector<std::string> region_names(const Geometry& geometry) {
-  std::vector<std::string> names{default_region};
+  std::vector<std::string> names{medium_name()};
   for (const RegionGeometry& region : geometry.regions) names.push_back(region.name);
   return names;
 }

@@ -25,11 +25,10 @@ Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns)
               "the reference BLAS is in use, which makes sparse factorizations several times slower: "
               "install libopenblas0-pthread");
   if (const double angle = quality.smallest_angle * 180 / std::numbers::pi; angle < least_good_angle)
-    notes.add(
-        "small angle of the mesh",
-        fmt::format("the mesh has an angle of {:.2g} degrees, where multi-point fluxes and stresses may overshoot "
-                    "(lines that meet at a small angle, or a gap narrower than mesh.gap_size)",
-                    angle));
+    notes.add("small angle of the mesh",
+              fmt::format("the mesh has an angle of {:.2g} degrees, where multi-point discretizations may overshoot "
+                          "(lines that meet at a small angle, or a gap narrower than mesh.gap_size)",
+                          angle));
   if (parallel::size() > 1 && unknowns < worth_sharing)
     notes.add(
         "too few unknowns for several processes",

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "framework/discretization/linear_fit.hpp"
+#include "framework/mesh/medium.hpp"
 
 namespace sprekk {
 
@@ -63,7 +64,8 @@ void Probe::check_names(const Mesh& mesh, const ProbeOptions& options) const {
     if (name.empty()) return;
     if (!fits)
       throw InputError(options.origin, "probe '" + name_ + "' names a " + what,
-                       options.of + " lives " + (on_fracture ? "on fractures" : "in the rock"), "remove it");
+                       options.of + " lives " + (on_fracture ? "on fractures" : "in the " + medium_name()),
+                       "remove it");
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw unknown_name(options.origin, what, name, known);
   };
@@ -93,8 +95,8 @@ void Probe::weigh_point(const Mesh& mesh, const ProbeOptions& options) {
   }
   weights_ = linear_fit(mesh, *options.at);
   if (weights_.empty())
-    throw InputError(options.origin, "probe '" + name_ + "' lies outside the rock", "there is no cell at its position",
-                     "move it inside");
+    throw InputError(options.origin, "probe '" + name_ + "' lies outside the " + medium_name(),
+                     "there is no cell at its position", "move it inside");
 }
 
 void Probe::weigh_domain(const Mesh& mesh, const ProbeOptions& options) {

@@ -17,7 +17,7 @@ Spec GrowOptions::spec() {
   spec.text("grow", component, {.doc = "The component with growing fractures.", .required = true});
   spec.texts("settle", settle,
              {.doc = "The components whose unknowns are put into equilibrium on the new mesh, everything else held: "
-                     "rock and contact.",
+                     "those that determine the deformation.",
               .required = true});
   spec.choice("update", update,
               {{"after_step", "the step is accepted, and the mesh grows between it and the next"},
@@ -29,9 +29,10 @@ Spec GrowOptions::spec() {
                 {.range = {.low = 0, .high = 1, .low_allowed = false},
                  .doc = "Steps after a growth event are this part of the standard one.",
                  .source = "epsilon of sec. 4.5"});
-  spec.quantity("settled", settled,
-                {.range = positive(),
-                 .doc = "The standard step returns when the pressure at the tips changes by less than this part."});
+  spec.quantity(
+      "settled", settled,
+      {.range = positive(),
+       .doc = "The standard step returns when what growth has disturbed at the tips changes by less than this part."});
   spec.quantity("overshoot", overshoot,
                 {.range = positive(),
                  .doc = "A step is repeated with a smaller one when the load of a tip that has not grown yet passes "
@@ -51,13 +52,12 @@ Growing* find_growing(const GrowOptions& options, const ScheduleContext& context
   return growing;
 }
 
-SolveOptions settle_options(const GrowOptions& options) {
+SolveOptions settle_options(const GrowOptions& options, const Growing& growing) {
   SolveOptions solve;
   solve.components = options.settle;
   solve.newton = options.newton;
   solve.linear = options.linear;
-  // The rock alone, with cells held closed, cost UMFPACK the digits that MUMPS keeps.
-  if (solve.linear.type == "auto") solve.linear.type = "mumps";
+  if (growing.settling_costs_digits() && solve.linear.type == "auto") solve.linear.type = "mumps";
   return solve;
 }
 
@@ -66,7 +66,7 @@ SolveOptions settle_options(const GrowOptions& options) {
 GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
     : options_(options),
       growing_(find_growing(options, context)),
-      settle_(settle_options(options), context),
+      settle_(settle_options(options, *growing_), context),
       smallest_step_(options.cut * context.standard_step) {}
 
 StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) {

@@ -33,6 +33,9 @@ class Growing {
   virtual Growth grow(const StepTime& step) = 0;
   /// How the mesh changes around a path that it takes over.
   virtual CavityOptions cavity() const = 0;
+  /// Whether the systems that settle a state after growth may be so nearly singular that a solver which is quick for
+  /// small systems loses digits.
+  virtual bool settling_costs_digits() const { return false; }
 };
 
 }  // namespace sprekk

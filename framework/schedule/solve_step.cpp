@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk {
@@ -44,7 +45,7 @@ Spec newton_spec(NewtonOptions& options) {
                {.range = between(0, 1000), .doc = "Iterations before the line search asks for descent."});
   spec.integer("pieces", options.pieces,
                {.range = between(0, 100000),
-                .doc = "When that does not converge, the path from piece to piece of the piecewise linear contact is "
+                .doc = "When that does not converge, the path from piece to piece of piecewise linear conditions is "
                        "followed, through at most so many; 0 for never."});
   return spec;
 }
@@ -56,7 +57,7 @@ Spec solver_spec(LinearOptions& options) {
       {{"auto", "UMFPACK for small systems, MUMPS for larger ones and several processes, Belos for very large ones"},
        {"umfpack", "sparse direct, one process"},
        {"mumps", "sparse direct, any number of processes"},
-       {"belos", "GMRES with a block fixed-stress preconditioner and multigrid inside"}},
+       {"belos", "GMRES with a block preconditioner, stabilized as couplers offer it, and multigrid inside"}},
       {.doc = "Which solver."});
   spec.quantity("tolerance", options.tolerance,
                 {.range = strictly_between(0, 1), .doc = "Relative residual of an iterative solver."});
@@ -74,9 +75,8 @@ Spec SolveOptions::spec() {
             "Solves for the unknowns of the named components simultaneously. All their terms count; "
             "fields that are not unknowns here keep their latest values.");
   spec.texts("solve", components, {.doc = "Names of components.", .required = true});
-  spec.text(
-      "stabilize", stabilization,
-      {.doc = "A stabilization that a coupler offers for split schemes, for example fixed_stress of biot; or none."});
+  spec.text("stabilize", stabilization,
+            {.doc = "A stabilization that a coupler offers for split schemes (its page names it); or none."});
   spec.section("newton", newton_spec(newton), {.doc = "Overrides the scene's `newton:`."}, &overrides_newton);
   spec.section("solver", solver_spec(linear), {.doc = "Overrides the scene's `solver:`."}, &overrides_linear);
   return spec;
@@ -101,7 +101,8 @@ StepStatus SolveStep::run(const StepTime& step) {
   SPREKK_EXPECT(step.dt > 0 && step.end > step.start, step.start, step.dt, step.end);
   Stabilization stabilization, preconditioning;
   for (const Part* part : parts_) {
-    part->stabilize("fixed_stress", preconditioning);
+    if (const auto* offer = dynamic_cast<const StabilizesPreconditioner*>(part))
+      offer->stabilize_preconditioner(preconditioning);
     if (options_.stabilization != "none") part->stabilize(options_.stabilization, stabilization);
   }
   newton_.set_preconditioner_stabilization(preconditioning);

@@ -54,6 +54,8 @@ class Tips : public Component, public FractureTips, public Growing {
   Load examine(const StepTime& step) override;
   Growth grow(const StepTime& step) override;
   CavityOptions cavity() const override;
+  /// The rock alone, with cells held closed, cost UMFPACK the digits that MUMPS keeps.
+  bool settling_costs_digits() const override { return true; }
 
  private:
   /// The state of a tip that a step may change and a rewind restores.

@@ -35,7 +35,7 @@ TEST(GenerateMesh, PaperGeometryIsOfGoodQuality) {
   EXPECT_NEAR(quality.fracture_length, 0.1, 1e-14);
   EXPECT_EQ(quality.fracture_cells, 20);
   EXPECT_EQ(mesh.side_names, (std::vector<std::string>{"left", "right", "bottom", "top"}));
-  EXPECT_EQ(mesh.region_names, std::vector<std::string>{"rock"});
+  EXPECT_EQ(mesh.region_names, std::vector<std::string>{"medium"});
   EXPECT_EQ(euler_characteristic(mesh), 0);
 }
 
@@ -79,7 +79,7 @@ TEST(GenerateMesh, ConformsToFracturesAndRegions) {
   EXPECT_NEAR(area[1], 1.6, 1e-12);
   EXPECT_NEAR(area[2], 0.2, 1e-12);
   EXPECT_NEAR(area[0], 8 - 1.8, 1e-12);
-  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"rock", "layer", "lens"}));
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"medium", "layer", "lens"}));
 }
 
 TEST(GenerateMesh, EndsOnTheBoundaryKnowTheirSide) {

@@ -315,7 +315,7 @@ TEST(ReadMsh, ReadsEntitiesOfVersion41) {
   const TemporaryFile file(text);
   const Mesh mesh = build_mesh(read_msh(file.path()));
   expect_consistent(mesh);
-  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"sand", "rock"}));
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"sand", "medium"}));
   EXPECT_EQ(mesh.side_names, (std::vector<std::string>{"base", "boundary"}));
   EXPECT_NEAR(total_area(mesh), 2, 1e-15);
   EXPECT_THAT(refusal(changed(text, "$Elements", "2 2 3 1", "2 8 3 1")),
