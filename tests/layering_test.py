@@ -130,13 +130,37 @@ def counterpart_violations(root, path, includes):
         yield f"{path} tests nothing (there is no {tested}.hpp, and it includes nothing of {folder})"
 
 
+def closure(edges):
+    """For each key all that can be reached from it."""
+    reachable = {}
+    for start in edges:
+        seen, waiting = set(), [start]
+        while waiting:
+            for target in edges.get(waiting.pop(), ()):
+                if target not in seen:
+                    seen.add(target)
+                    waiting.append(target)
+        reachable[start] = seen
+    return reachable
+
+
+def file_cycle_violations(includes_of):
+    """Files of the physics that need each other (a header and its source are one): none could be read alone."""
+    edges = {}
+    for path, includes in includes_of.items():
+        if path.startswith(("components/", "couplers/")):
+            stem = path.rpartition(".")[0]
+            edges.setdefault(stem, set()).update({header.rpartition(".")[0] for header in includes} - {stem})
+    reachable = closure(edges)
+    cycles = {tuple(sorted(other for other in reachable[stem] if stem in reachable.get(other, ())))
+              for stem in edges if stem in reachable[stem]}
+    for cycle in sorted(cycles):
+        yield f"{', '.join(cycle)} include each other"
+
+
 def cycle_violations(edges):
     """Folders of the framework that need each other: neither could be used or tested alone."""
-    reachable = {folder: set(targets) for folder, targets in edges.items()}
-    for _ in edges:
-        for folder in reachable:
-            for target in tuple(reachable[folder]):
-                reachable[folder] |= reachable.get(target, set())
+    reachable = closure(edges)
     for folder in sorted(reachable):
         for target in sorted(reachable[folder]):
             if folder < target and folder in reachable.get(target, set()):
@@ -171,7 +195,8 @@ def violations(root):
             needed = {header.split("/")[1] for header in includes if header.startswith("framework/") and header.count("/") > 1}
             edges.setdefault(parts[1], set()).update(needed - {parts[1]})
     found += room_violations(root, includes_of)
-    return found + list(stale_allowances(root)) + list(heavy_violations(includes_of)) + list(cycle_violations(edges))
+    found += [*stale_allowances(root), *heavy_violations(includes_of)]
+    return found + [*cycle_violations(edges), *file_cycle_violations(includes_of)]
 
 
 # (file, content, a part of the message that must appear)
@@ -198,6 +223,8 @@ PLANTED = (
     ("framework/scene/probe.cpp", "// no example\n", "allows a text that framework/scene/probe.cpp has no more"),
     ("tests/framework/a/gone_test.cpp", '#include "framework/b/b.hpp"\n', "tests/framework/a/gone_test.cpp tests nothing"),
     ("framework/b/b.cpp", '#include "framework/a/a.hpp"\n', "framework/a and framework/b include each other"),
+    ("components/flow/flow.cpp", '#include "components/flow/mpfa/mpfa.hpp"\n',
+     "components/flow/flow, components/flow/mpfa/mpfa include each other"),
     ("framework/c/c.cpp", "", "framework/c has no README.md"),
 )
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "components/poromechanics/check_conditions.hpp"
-#include "components/poromechanics/mpsa/plain_tips.hpp"
 #include "components/poromechanics/rock.hpp"
 #include "framework/mesh/planar.hpp"
 
@@ -64,14 +63,6 @@ void Rock::note_input(Notes& notes) const {
     note("bulk_modulus", origin_,
          "'bulk_modulus' of '" + name() +
              "' has no effect (that of an isotropic rock follows from young_modulus and poisson_ratio) remove it");
-  if (const PlainTips found = plain_tips(mesh_, stiffness_.of_cells()); found.plain > 0)
-    notes.add(
-        name() + ": tips without their singular field",
-        fmt::format("'{}' takes displacements for linear around {} of {} tips of fractures, the first at {} ({}): "
-                    "slip and opening come out too large, by some 11, 6.5 and 2.7 % with 10, 20 and 40 cells on the "
-                    "fracture; use a smaller mesh.fracture_size",
-                    name(), found.plain, found.tips, to_text(found.first), found.reason),
-        found.plain);
 }
 
 void Rock::note_step(Notes& notes, const StepTime&) const {

@@ -68,10 +68,8 @@ Spec side_spec(SideCondition& side) {
 
 }  // namespace
 
-Spec Options::spec() {
-  Spec spec("poromechanics/mpsa",
-            "Quasi-static deformation of the rock (Eqs. 5, 7), linear elastic in plane strain: multi-point stress "
-            "approximation with weak symmetry.");
+Spec Options::spec(const std::string& type, const std::string& doc) {
+  Spec spec(type, doc);
   spec.ignore("type");
   spec.data("young_modulus", young_modulus,
             {.unit = "Pa",

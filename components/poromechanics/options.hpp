@@ -45,7 +45,8 @@ struct Options {
   VectorData body_force;             ///< N/m^3
   TensorData initial_stress;         ///< Pa
   std::map<std::string, SideCondition> boundary;
-  Spec spec();
+  /// `type`, `doc`: of the component with its discretization.
+  Spec spec(const std::string& type, const std::string& doc);
 };
 
 }  // namespace sprekk::poromechanics

@@ -25,10 +25,11 @@ void put_term(LinearExpression& expression, const Field* field, Operator matrix)
 
 }  // namespace
 
-Rock::Rock(const ComponentContext& context, const Options& options)
+Rock::Rock(const ComponentContext& context, const Options& options, const StressDiscretization& discretization)
     : Component(context.name),
       mesh_(context.mesh),
       options_(options),
+      stress_discretization_(discretization),
       origin_(context.origin),
       displacement_(context.fields.add(mesh_, {.owner = context.name,
                                                .name = "displacement",
@@ -115,7 +116,7 @@ void Rock::discretize() {
   const std::vector<char> nodes = nodes_to_discretize(mesh_);
   discretized_cells_ += mesh_.cell_count();
   discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
-  StressOperators made = discretize_mpsa(mesh_, stiffness_.of_cells(), conditions_, nodes);
+  StressOperators made = stress_discretization_.discretize({mesh_, stiffness_.of_cells(), conditions_}, nodes);
   operators_.swap(made);
   use_operators();
 }
@@ -130,7 +131,8 @@ void Rock::carry_over(const Part& part, const MeshChange& change) {
 }
 
 void Rock::discretize_from(const StressInputs& before, const StressOperators& operators, const MeshChange& change) {
-  Rediscretized result = rediscretize_mpsa(before, operators, {mesh_, stiffness_.of_cells(), conditions_}, change);
+  Rediscretized result =
+      stress_discretization_.rediscretize(before, operators, {mesh_, stiffness_.of_cells(), conditions_}, change);
   discretized_cells_ += result.cells;
   discretized_regions_ += result.regions;
   operators_.swap(result.operators);

@@ -5,11 +5,9 @@
 
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
-#include "components/poromechanics/mpsa/local_stresses.hpp"
-#include "components/poromechanics/mpsa/mpsa.hpp"
-#include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "components/poromechanics/options.hpp"
 #include "components/poromechanics/rock_stiffness.hpp"
+#include "components/poromechanics/stress_discretization.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::poromechanics {
@@ -23,7 +21,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
  public:
   /// Throws InputError for sides that do not exist, for a stiffness that is not positive definite, and when the
   /// displacements that are prescribed let the rock move as a rigid body.
-  Rock(const ComponentContext& context, const Options& options);
+  Rock(const ComponentContext& context, const Options& options, const StressDiscretization& discretization);
 
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
@@ -58,6 +56,10 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   /// The total force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m, x and y); for tests and output.
   Vector face_forces() const;
 
+ protected:
+  const Mesh& mesh() const { return mesh_; }
+  const std::vector<Stiffness>& stiffness_of_cells() const { return stiffness_.of_cells(); }
+
  private:
   struct Load {
     const Field* pressure;
@@ -85,6 +87,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
 
   const Mesh& mesh_;
   Options options_;
+  StressDiscretization stress_discretization_;
   Origin origin_;
   Field& displacement_;
   Field* wall_traction_ = nullptr;  ///< exists with fractures only

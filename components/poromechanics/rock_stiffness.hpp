@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/options.hpp"
+#include "components/poromechanics/stiffness.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/input_error.hpp"
 

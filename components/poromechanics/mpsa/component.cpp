@@ -1,11 +1,48 @@
 // poromechanics/mpsa: deformation with the multi-point stress approximation.
+#include <fmt/format.h>
+
+#include "components/poromechanics/mpsa/mpsa.hpp"
+#include "components/poromechanics/mpsa/plain_tips.hpp"
+#include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "components/poromechanics/rock.hpp"
+#include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
 
-const RegisterComponent<Rock, Options> registration("poromechanics/mpsa");
+struct MpsaOptions : Options {
+  Spec spec() {
+    return Options::spec(
+        "poromechanics/mpsa",
+        "Quasi-static deformation of the rock (Eqs. 5, 7), linear elastic in plane strain: multi-point "
+        "stress approximation with weak symmetry.");
+  }
+};
+
+StressOperators discretize_inputs(const StressInputs& inputs, const std::vector<char>& nodes) {
+  return discretize_mpsa(inputs.mesh, inputs.stiffness, inputs.conditions, nodes);
+}
+
+class Mpsa : public Rock {
+ public:
+  Mpsa(const ComponentContext& context, const MpsaOptions& options)
+      : Rock(context, options, {discretize_inputs, rediscretize_mpsa}) {}
+
+  void note_input(Notes& notes) const override {
+    Rock::note_input(notes);
+    if (const PlainTips found = plain_tips(mesh(), stiffness_of_cells()); found.plain > 0)
+      notes.add(
+          name() + ": tips without their singular field",
+          fmt::format("'{}' takes displacements for linear around {} of {} tips of fractures, the first at {} ({}): "
+                      "slip and opening come out too large, by some 11, 6.5 and 2.7 % with 10, 20 and 40 cells on the "
+                      "fracture; use a smaller mesh.fracture_size",
+                      name(), found.plain, found.tips, to_text(found.first), found.reason),
+          found.plain);
+  }
+};
+
+const RegisterComponent<Mpsa, MpsaOptions> registration("poromechanics/mpsa");
 
 }  // namespace
 }  // namespace sprekk::poromechanics

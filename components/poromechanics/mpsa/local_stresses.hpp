@@ -5,17 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/mpsa/volume_exchange.hpp"
 #include "components/poromechanics/mpsa/weak_symmetry.hpp"
+#include "components/poromechanics/stress_operators.hpp"
 #include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/interaction_region.hpp"
 
 namespace sprekk::poromechanics {
 
 class TipCorrection;
-
-using FaceConditions = std::array<MechanicalCondition, 2>;
 
 /// For each node, the cells whose displacements and stresses its local problem reads, in ascending order: the cells at
 /// the node. For a node with one cell, these are also the cells across the faces that do not touch the node, if any;

@@ -111,22 +111,6 @@ class TipFields {
 
 }  // namespace
 
-Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus) {
-  Stiffness stiffness = Stiffness::Zero();
-  stiffness.topLeftCorner<2, 2>().setConstant(lame_lambda);
-  stiffness.diagonal() += shear_modulus * Eigen::Vector3d(2, 2, 1);
-  return stiffness;
-}
-
-void StressOperators::swap(StressOperators& other) {
-  for (SparseMatrix StressOperators::*matrix :
-       {&StressOperators::force_displacement, &StressOperators::force_stress, &StressOperators::force_boundary,
-        &StressOperators::trace_displacement, &StressOperators::trace_stress, &StressOperators::trace_boundary,
-        &StressOperators::volume_displacement, &StressOperators::volume_stress, &StressOperators::volume_boundary,
-        &StressOperators::moment_displacement})
-    (this->*matrix).swap(other.*matrix);
-}
-
 StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
                                 const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes) {
   check_arguments(mesh, stiffness, conditions, nodes);

@@ -2,51 +2,13 @@
 // Biot terms and the pressure stabilization that come from the same local problems.
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "components/poromechanics/stiffness.hpp"
+#include "components/poromechanics/stress_operators.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/types.hpp"
 
 namespace sprekk::poromechanics {
-
-/// What is prescribed in one direction of a face. Walls are `traction`; `load` applies to both directions of a face
-/// with two cells.
-enum class MechanicalCondition { none, displacement, traction, load };
-
-/// Plane-strain stiffness in Voigt form: (xx, yy, xy) stress = C · (xx, yy, 2 xy) strain, Pa. Symmetric positive
-/// definite.
-using Stiffness = Eigen::Matrix3d;
-Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus);
-
-/// Forces, traces and volume changes as linear functions of
-/// - displacements u (x, y of every cell, m),
-/// - isotropic stresses s (one for each cell, Pa; sigma = C : grad u − s I, so s is the Biot coefficient times p), and
-/// - boundary values b (x, y of every face). On `displacement` directions b is the displacement of the face centre (m);
-///   on `traction` directions the force on the face, i.e. the traction sigma·n integrated over it (N/m), n out of the
-///   rock; on `load` directions the total load on both cells of the face, the sum of their sigma·n, n out of each
-///   (N/m). Other values of b are ignored.
-///
-/// Direction c of face f has the index 2 f + c.
-/// - Force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m):
-///   force_displacement u + force_stress s + force_boundary b.
-/// - Displacement at the centre of boundary and wall faces (m):
-///   trace_displacement u + trace_stress s + trace_boundary b.
-/// - Volume change, div u integrated over every cell (m^2):
-///   volume_displacement u + volume_stress s + volume_boundary b.
-///
-/// Near the tip of a crack the traction on a face is not constant, and acts beside the centre x_f of the face.
-/// Component k (xx, yy, xy) of face f has the index 3 f + k.
-/// - Moment on inner faces, the symmetric part of sigma·n (x − x_f) integrated (N): moment_displacement u.
-struct StressOperators {
-  SparseMatrix force_displacement, force_stress, force_boundary;     ///< 2 faces × (2 cells, cells, 2 faces)
-  SparseMatrix trace_displacement, trace_stress, trace_boundary;     ///< 2 faces × …; rows of inner faces are empty
-  SparseMatrix volume_displacement, volume_stress, volume_boundary;  ///< cells × …
-  SparseMatrix moment_displacement;                                  ///< 3 faces × 2 cells; mostly empty
-
-  /// To move matrices would copy them.
-  void swap(StressOperators& other);
-};
 
 /// Discretizes the stress by MPSA-W, with the Biot terms and the stabilization of Nordbotten 2016. `conditions`:
 /// [f][direction]. `nodes` as for MPFA. Exact on any mesh for linear displacements with constant s, and for two layers
@@ -54,7 +16,6 @@ struct StressOperators {
 /// Throws std::invalid_argument for arguments that do not fit the mesh and std::runtime_error for a stiffness that is
 /// not positive definite.
 StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
-                                const std::vector<std::array<MechanicalCondition, 2>>& conditions,
-                                const std::vector<char>& nodes = {});
+                                const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes = {});
 
 }  // namespace sprekk::poromechanics

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "components/poromechanics/mpsa/local_stresses.hpp"
+#include "components/poromechanics/mpsa/mpsa.hpp"
 #include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/kept_regions.hpp"
 

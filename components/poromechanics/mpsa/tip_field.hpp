@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "components/poromechanics/mpsa/mpsa.hpp"
+#include "components/poromechanics/stiffness.hpp"
 #include "framework/discretization/end_frame.hpp"
 
 namespace sprekk::poromechanics {

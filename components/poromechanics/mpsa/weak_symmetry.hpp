@@ -5,7 +5,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "components/poromechanics/mpsa/mpsa.hpp"
+#include "components/poromechanics/stiffness.hpp"
+#include "framework/types.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -1,0 +1,34 @@
+// What a discretization of the stress does for the rock.
+#pragma once
+
+#include <vector>
+
+#include "components/poromechanics/stiffness.hpp"
+#include "components/poromechanics/stress_operators.hpp"
+#include "framework/mesh/mesh_change.hpp"
+
+namespace sprekk::poromechanics {
+
+/// What it depends on: on `load` faces both cells have that condition, on others with two cells there is none.
+struct StressInputs {
+  const Mesh& mesh;
+  const std::vector<Stiffness>& stiffness;        ///< one a cell
+  const std::vector<FaceConditions>& conditions;  ///< one a face
+};
+
+struct Rediscretized {
+  StressOperators operators;
+  int regions, cells;  ///< local problems that were solved, and cells that they touch
+};
+
+struct StressDiscretization {
+  /// `nodes`: one flag a node, around which the local problems are to be solved; empty for all. What belongs to others
+  /// stays zero.
+  StressOperators (*discretize)(const StressInputs& inputs, const std::vector<char>& nodes);
+  /// What `discretize` gives for `after` around all nodes, to the bit, from the operators that it gave for `before`:
+  /// only what has changed is computed. In one process.
+  Rediscretized (*rediscretize)(const StressInputs& before, const StressOperators& operators, const StressInputs& after,
+                                const MeshChange& change);
+};
+
+}  // namespace sprekk::poromechanics
