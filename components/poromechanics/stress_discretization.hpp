@@ -16,11 +16,13 @@ struct StressInputs {
   const std::vector<FaceConditions>& conditions;  ///< one a face
 };
 
+/// The operators of a mesh that has changed, and how much was computed for them.
 struct Rediscretized {
   StressOperators operators;
   int regions, cells;  ///< local problems that were solved, and cells that they touch
 };
 
+/// A discretization of the stress (MPSA is one), as the balance of forces uses it.
 struct StressDiscretization {
   /// `nodes`: one flag a node, around which the local problems are to be solved; empty for all. What belongs to others
   /// stays zero.
