@@ -8,6 +8,7 @@
 #include "components/matrix_flow/mpfa/mpfa.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
 #include "components/matrix_flow/tpfa/tpfa.hpp"
+#include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
 #include "tests/components/meshes.hpp"

@@ -30,7 +30,9 @@ Terms terms_at(const std::vector<Part*>& parts, const std::vector<const Field*>&
   Terms terms;
   for (int u = 0; u < static_cast<int>(unknowns.size()); ++u) {
     std::vector<double>& row = terms[unknowns[u]->name()];
-    for (const Vector& values : {assembly.residual(u), assembly.in_sum(u), assembly.turnover(u)}) append(row, values);
+    append(row, assembly.residual(u));
+    append(row, assembly.balances().residual(u));
+    append(row, assembly.balances().turnover(u));
     row.insert(row.end(), {assembly.magnitude(u), assembly.round_off_base(u)});
   }
   for (const Assembly::Block& block : assembly.blocks()) {

@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 
+#include "components/poromechanics/mpsa/mpsa.hpp"
 #include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/ends_nearby.hpp"
 #include "tests/components/meshes.hpp"
