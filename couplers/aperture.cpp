@@ -22,8 +22,8 @@ class Aperture : public Coupler {
     context.determine(fluid_.aperture());
     const int cells = context.mesh.fracture_cell_count();
     std::vector<Triplet> entries;
-    for (int i = 0; i < cells; ++i) entries.emplace_back(i, 2 * i, 1.0);
-    SparseMatrix normal(cells, 2 * cells);
+    for (int i = 0; i < cells; ++i) entries.emplace_back(i, dimension * i, 1.0);
+    SparseMatrix normal(cells, dimension * cells);
     normal.setFromTriplets(entries.begin(), entries.end());
     normal_ = Operator(std::move(normal));
   }
@@ -45,7 +45,7 @@ class Aperture : public Coupler {
  private:
   FractureContact& contact_;
   FractureFluid& fluid_;
-  Operator normal_;  ///< fracture cells × 2 fracture cells: picks the opening
+  Operator normal_;  ///< fracture cells × `dimension` fracture cells: picks the opening
 };
 
 const RegisterCoupler<Aperture, ApertureOptions> registration("aperture");

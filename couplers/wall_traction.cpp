@@ -70,7 +70,7 @@ class WallTraction : public Coupler {
     for (const LinearExpression::Term& term : rock_.displacement_jump().terms)
       if (term.field == &traction)
         for (int i = 0; i < traction.size(); ++i) compliance[i] = -term.matrix.entries().coeff(i, i);
-    replicate(mesh_, Location::fracture_cell, 2, compliance);
+    replicate(mesh_, Location::fracture_cell, dimension, compliance);
     compliance_ = positive(std::move(compliance));
     if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
     SPREKK_ASSERT(compliance_.minCoeff() > 0, compliance_.minCoeff());
@@ -119,14 +119,14 @@ class WallTraction : public Coupler {
   /// do not move. The compliance is used as a scale, and by the contact as stiffness of walls, so it must be positive:
   /// at least a tenth of the mean, in proportion to the length of the cell.
   Vector positive(Vector compliance) const {
-    SPREKK_EXPECT(compliance.size() == 2 * mesh_.fracture_cell_count(), compliance.size());
+    SPREKK_EXPECT(compliance.size() == dimension * mesh_.fracture_cell_count(), compliance.size());
     constexpr double least = 0.1;  // of the mean
-    double mean[2] = {0, 0};
+    double mean[dimension] = {};
     const int cells = mesh_.fracture_cell_count();
-    for (int i = 0; i < 2 * cells; ++i)
-      mean[i % 2] += std::abs(compliance[i]) / mesh_.fracture_cells[i / 2].length / cells;
-    for (int i = 0; i < 2 * cells; ++i)
-      compliance[i] = std::max(compliance[i], least * mean[i % 2] * mesh_.fracture_cells[i / 2].length);
+    for (int i = 0; i < dimension * cells; ++i)
+      mean[i % dimension] += std::abs(compliance[i]) / mesh_.fracture_cells[i / dimension].length / cells;
+    for (int i = 0; i < dimension * cells; ++i)
+      compliance[i] = std::max(compliance[i], least * mean[i % dimension] * mesh_.fracture_cells[i / dimension].length);
     return compliance;
   }
 
@@ -134,8 +134,8 @@ class WallTraction : public Coupler {
     loaded_with_ = alpha_.version();
     SPREKK_ASSERT(alpha_.values().size() == mesh_.fracture_cell_count(), alpha_.values().size());
     std::vector<Triplet> entries;
-    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) entries.emplace_back(2 * i, i, alpha_[i]);
-    SparseMatrix load(2 * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) entries.emplace_back(dimension * i, i, alpha_[i]);
+    SparseMatrix load(dimension * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());
     load.setFromTriplets(entries.begin(), entries.end());
     normal_load_ = Operator(std::move(load));
   }
@@ -148,7 +148,7 @@ class WallTraction : public Coupler {
   Property alpha_;  ///< alpha_i of Eq. 4 of the paper, with a fluid
   std::uint64_t loaded_with_ = 0;
   Vector compliance_;     ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
-  Operator normal_load_;  ///< 2 fracture cells × fracture cells: pressure pushes the plus wall along −n
+  Operator normal_load_;  ///< `dimension` fracture cells × fracture cells: pressure pushes the plus wall along −n
 };
 
 const RegisterCoupler<WallTraction, WallTractionOptions> registration("wall_traction");

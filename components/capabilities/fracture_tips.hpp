@@ -27,7 +27,7 @@ class TipSurroundings {
   /// A function that gives the stress without strain (of the pore pressure and the initial stress) at the last update:
   /// (xx, yy, xy) in Pa, a column for each place. The places are located once. The function must not outlive this
   /// object.
-  using StressOffsets = std::function<Eigen::Matrix3Xd()>;
+  using StressOffsets = std::function<Eigen::Matrix<double, symmetric_components, Eigen::Dynamic>()>;
   virtual StressOffsets stress_offsets(const std::vector<Point>& places) const = 0;
   /// Whether the walls are held by their jump (Eq. 15 of the paper) or by their traction.
   virtual bool gives_jumps() const = 0;

@@ -26,7 +26,7 @@ class RockState {
   /// The stress −alpha (p − p_0) that the pore pressure adds to xx and yy, for each cell, Pa.
   virtual Vector pore_stress() const = 0;
   /// The initial stress of a cell at a point x, Pa, (xx, yy, xy).
-  virtual Eigen::Vector3d initial_stress(int cell, const Point& x) const = 0;
+  virtual SymmetricTensor initial_stress(int cell, const Point& x) const = 0;
   /// The stiffness of a cell; std::nullopt where the rock is anisotropic.
   virtual std::optional<LameParameters> stiffness(int cell) const = 0;
   /// A number that grows when the stiffness, or alpha of the pore pressure, has changed.

@@ -72,7 +72,7 @@ void Rock::map_walls() {
   std::vector<Triplet> forces, jumps;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
-    const Point axes[2] = {cell.normal, cell.tangent};
+    const Point axes[2] = {cell.normal, cell.tangents};
     const bool owned = is_owned(mesh_, Location::fracture_cell, i);
     for (int side = 0; side < 2; ++side)
       for (int axis = 0; axis < 2; ++axis)

@@ -11,7 +11,7 @@ AlongFracture::AlongFracture(const Mesh& mesh, int fracture) {
   double length = 0;
   for (int i = all.first_cell; i < all.first_cell + all.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
-    cells_.push_back({i, length, length + cell.length, is_straight_on(mesh, i), cell.normal, cell.tangent, {}});
+    cells_.push_back({i, length, length + cell.length, is_straight_on(mesh, i), cell, {}});
     length += cell.length;
   }
   for (const Junction& junction : mesh.junctions)
@@ -19,7 +19,7 @@ AlongFracture::AlongFracture(const Mesh& mesh, int fracture) {
       const FractureCell& cell = mesh.fracture_cells[i];
       if (cell.fracture != fracture) continue;
       const Point& position = mesh.fracture_points[junction.points[0]].position;
-      const int end = (position - cell.center).dot(cell.tangent) > 0 ? 1 : 0;
+      const int end = (position - cell.center).dot(cell.tangents) > 0 ? 1 : 0;
       cells_[i - all.first_cell].at_junction[end].emplace(mesh, junction);
     }
   const auto is_tip = [&](int point) { return mesh.fracture_points[point].kind == FracturePoint::Kind::tip; };
@@ -37,21 +37,21 @@ Point AlongFracture::at(double s, const Vector& values) const {
   const std::size_t i = cell_at(s);
   const Cell& cell = cells_[i];
   const double middle = 0.5 * (cell.begin + cell.end);
-  Point local = values.segment<2>(2 * cell.index);
+  Point local = values.segment<dimension>(dimension * cell.index);
   const bool ahead = s > middle;
   if (ahead ? cell.continues : (i > 0 && cells_[i - 1].continues)) {
     const Cell& other = cells_[ahead ? i + 1 : i - 1];
     const double part = (s - middle) / (0.5 * (other.begin + other.end) - middle);
-    local += part * (Point(values.segment<2>(2 * other.index)) - local);
+    local += part * (Point(values.segment<dimension>(dimension * other.index)) - local);
   }
-  return global(cell, local);
+  return cell.frame.to_global(local);
 }
 
 Point AlongFracture::jump(double s, const Vector& values) const {
   const Cell& cell = cells_[cell_at(s)];
   const double half = 0.5 * (cell.end - cell.begin), from_middle = s - cell.begin - half;
   if (const auto& junction = cell.at_junction[from_middle > 0 ? 1 : 0]) {
-    const Point middle = global(cell, values.segment<2>(2 * cell.index));
+    const Point middle = cell.frame.to_global(values.segment<dimension>(dimension * cell.index));
     const double part = std::min(1.0, std::abs(from_middle) / half);
     return middle + part * (junction->of(cell.index, values) - middle);
   }

@@ -27,12 +27,11 @@ class AlongFracture {
     int index;
     double begin, end;  ///< m
     bool continues;     ///< whether the next cell has its direction
-    Point normal, tangent;
+    FractureCell frame;  ///< the cell, for its normal and tangent
     /// At its beginning and its end, where that is a junction.
     std::array<std::optional<JumpAtJunction>, 2> at_junction;
   };
   Point vanishing_at_tips(double s, const Vector& values) const;
-  Point global(const Cell& cell, const Point& local) const { return local[0] * cell.normal + local[1] * cell.tangent; }
   std::size_t cell_at(double s) const;
 
   std::vector<Cell> cells_;

@@ -8,9 +8,9 @@ JumpAtJunction::JumpAtJunction(const Mesh& mesh, const Junction& junction) {
   for (const int index : junction.cells) {
     const FractureCell& cell = mesh.fracture_cells[index];
     const Point& position = mesh.fracture_points[junction.points[0]].position;
-    const bool leads_here = (position - cell.center).dot(cell.tangent) > 0;
+    const bool leads_here = (position - cell.center).dot(cell.tangents) > 0;
     // The plus side is to the left along the tangent.
-    Arm arm{index, none, 0, leads_here ? 1.0 : -1.0, cell.normal, cell.tangent};
+    Arm arm{index, none, 0, leads_here ? 1.0 : -1.0, cell};
     const int behind = leads_here ? index - 1 : index + 1;
     if (leads_here ? is_straight_on(mesh, behind) : is_straight_on(mesh, index)) {
       arm.behind = behind;
@@ -21,9 +21,9 @@ JumpAtJunction::JumpAtJunction(const Mesh& mesh, const Junction& junction) {
 }
 
 Point JumpAtJunction::at_end(const Arm& arm, const Vector& jumps) {
-  Point local = jumps.segment<2>(2 * arm.cell);
-  if (arm.behind != none) local += arm.share * (local - Point(jumps.segment<2>(2 * arm.behind)));
-  return local[0] * arm.normal + local[1] * arm.tangent;
+  Point local = jumps.segment<dimension>(dimension * arm.cell);
+  if (arm.behind != none) local += arm.share * (local - Point(jumps.segment<dimension>(dimension * arm.behind)));
+  return arm.frame.to_global(local);
 }
 
 Point JumpAtJunction::of(int cell, const Vector& jumps) const {

@@ -25,7 +25,7 @@ class JumpAtJunction {
     int cell, behind;
     double share;  ///< distance from the centre to the junction over that to the centre of the cell behind
     double sign;   ///< of the jump on the way around, counter-clockwise
-    Point normal, tangent;
+    FractureCell frame;  ///< the cell, for its normal and tangent
   };
   static Point at_end(const Arm& arm, const Vector& jumps);
 

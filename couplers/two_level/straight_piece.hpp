@@ -10,7 +10,7 @@ inline bool is_straight_on(const Mesh& mesh, int cell) {
   if (cell < 0 || cell + 1 >= mesh.fracture_cell_count()) return false;
   const FractureCell &here = mesh.fracture_cells[cell], &next = mesh.fracture_cells[cell + 1];
   return here.fracture == next.fracture && mesh.fracture_points[here.points[1]].kind != FracturePoint::Kind::junction &&
-         here.tangent.dot(next.tangent) > 1 - 1e-8;
+         here.tangents.dot(next.tangents) > 1 - 1e-8;
 }
 
 }  // namespace sprekk::couplers

@@ -81,22 +81,22 @@ class TwoLevel : public Coupler, public TipSurroundings {
   }
 
   Point displacement(const Point& x, const Point& inside) const override {
-    return displacement_.at<2>(cell_at(inside), x);
+    return displacement_.at<dimension>(cell_at(inside), x);
   }
 
   StressOffsets stress_offsets(const std::vector<Point>& places) const override {
     std::vector<NodalValues::Place> found;
     found.reserve(places.size());
-    Eigen::Matrix3Xd initial(3, places.size());
+    Eigen::Matrix<double, symmetric_components, Eigen::Dynamic> initial(symmetric_components, places.size());
     for (const Point& x : places) {
       const int cell = cell_at(x);
       initial.col(found.size()) = rock_.initial_stress(cell, x);
       found.push_back(pore_stress_.place(cell, x));
     }
     return [this, found = std::move(found), initial = std::move(initial)] {
-      Eigen::Matrix3Xd offsets = initial;
+      auto offsets = initial;
       for (std::size_t i = 0; i < found.size(); ++i)
-        offsets.col(i).head<2>().array() += pore_stress_.at<1>(found[i])[0];
+        offsets.col(i).head<dimension>().array() += pore_stress_.at<1>(found[i])[0];
       return offsets;
     };
   }
@@ -112,7 +112,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
     return fluid_ ? fluid_->pressure().accepted()[end_cell(fracture, at_end)] : 0;
   }
   double jump_at_tip(int fracture, bool at_end) const override {
-    return jump_.segment<2>(2 * end_cell(fracture, at_end)).norm();
+    return jump_.segment<dimension>(dimension * end_cell(fracture, at_end)).norm();
   }
   double propagation_threshold() const override { return options_.propagation_threshold; }
 
@@ -132,13 +132,13 @@ class TwoLevel : public Coupler, public TipSurroundings {
 
   /// The difference of nodal displacements that are means of cells, in the middle of each fracture cell.
   Vector jump_between_cells() const {
-    Vector jump(2 * mesh_.fracture_cell_count());
+    Vector jump(dimension * mesh_.fracture_cell_count());
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
       const FractureCell& cell = mesh_.fracture_cells[i];
       Point side[2];
-      for (int k = 0; k < 2; ++k) side[k] = displacement_.at<2>(mesh_.face_cells[cell.faces[k]][0], cell.center);
+      for (int k = 0; k < 2; ++k) side[k] = displacement_.at<dimension>(mesh_.face_cells[cell.faces[k]][0], cell.center);
       const Point difference = side[1] - side[0];
-      jump.segment<2>(2 * i) = Point(difference.dot(cell.normal), difference.dot(cell.tangent));
+      jump.segment<dimension>(dimension * i) = cell.to_local(difference);
     }
     return jump;
   }

@@ -57,14 +57,22 @@ class Data {
 /// The switch times of several data, sorted, each once.
 std::vector<double> merged_switch_times(const std::vector<const Data*>& data);
 
-/// A vector (x, y) of data.
+/// A vector of data, a component for each axis.
 struct VectorData {
   std::array<Data, dimension> component;
-  Point at(const Place& place) const { return {component[0].at(place), component[1].at(place)}; }
-  bool is_zero() const { return component[0].is_zero() && component[1].is_zero(); }
-  bool depends_on_time() const { return component[0].depends_on_time() || component[1].depends_on_time(); }
-  bool depends_on_space() const { return component[0].depends_on_space() || component[1].depends_on_space(); }
-  std::vector<double> switch_times() const { return merged_switch_times({&component[0], &component[1]}); }
+  Point at(const Place& place) const {
+    Point value;
+    for (int k = 0; k < dimension; ++k) value[k] = component[k].at(place);
+    return value;
+  }
+  bool is_zero() const { return std::ranges::all_of(component, &Data::is_zero); }
+  bool depends_on_time() const { return std::ranges::any_of(component, &Data::depends_on_time); }
+  bool depends_on_space() const { return std::ranges::any_of(component, &Data::depends_on_space); }
+  std::vector<double> switch_times() const {
+    std::vector<const Data*> data;
+    for (const Data& each : component) data.push_back(&each);
+    return merged_switch_times(data);
+  }
 };
 
 /// A symmetric tensor (xx, yy, xy) of data: written as a scalar (isotropic), {xx:, yy:, xy:}, or

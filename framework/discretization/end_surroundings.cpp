@@ -33,7 +33,7 @@ bool field_goes_on(const Mesh& mesh, int node, const FractureCell& last) {
   const NodeWalls walls(mesh, node);
   return walls.are_all && std::all_of(walls.cells.begin(), walls.cells.end(), [&](int i) {
            return i == none || (mesh.fracture_cells[i].fracture == last.fracture &&
-                                mesh.fracture_cells[i].tangent.dot(last.tangent) > straight);
+                                mesh.fracture_cells[i].tangents.dot(last.tangents) > straight);
          });
 }
 

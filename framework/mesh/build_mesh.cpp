@@ -278,8 +278,8 @@ class MeshBuilder {
     const Point &from = raw_.nodes[first], &to = raw_.nodes[second];
     cell.center = 0.5 * (from + to);
     cell.length = (to - from).norm();
-    cell.tangent = (to - from) / cell.length;
-    cell.normal = {cell.tangent.y(), -cell.tangent.x()};
+    cell.tangents = (to - from) / cell.length;
+    cell.normal = {cell.tangents.y(), -cell.tangents.x()};
     const int edge = edges_.find(first, second);
     for (const int side : edges_.cells(edge)) {
       for (int k = 0; k < cells_[side].size(); ++k) {

@@ -70,7 +70,7 @@ void expect_sound_fracture_cell(const Mesh& mesh, int i) {
   SPREKK_ASSERT(cell.length > 0, i, cell.length);
   SPREKK_ASSERT(std::abs(cell.normal.norm() - 1) < nearly, i, cell.normal.norm());
   const Point turned(-cell.normal.y(), cell.normal.x());
-  SPREKK_ASSERT((cell.tangent - turned).norm() < nearly, i);
+  SPREKK_ASSERT((cell.tangents - turned).norm() < nearly, i);
   for (const int face : cell.faces) {
     SPREKK_ASSERT(mesh.face_fracture_cell[face] == i, i, face, mesh.face_fracture_cell[face]);
     SPREKK_ASSERT(std::abs(mesh.face_length[face] - cell.length) <= nearly * cell.length, i, face, cell.length);

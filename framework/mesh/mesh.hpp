@@ -28,9 +28,24 @@ struct FractureCell {
   std::array<int, 2> points;
   Point center;
   double length;
-  Point normal;        ///< unit, from the plus to the minus side
-  Point tangent;       ///< unit, from points[0] to points[1]; (normal, tangent) is right-handed: tangent = (-n_y, n_x)
+  Point normal;  ///< unit, from the plus to the minus side
+  /// Unit; (normal, tangents) is a right-handed frame. In a plane from points[0] to points[1]: (-n_y, n_x).
+  Tangents tangents;
   bool grown = false;  ///< whether the cell has grown during the run
+
+  /// A vector in the frame of the cell, (normal, tangential), as fields on fracture cells have them.
+  Point to_local(const Point& global) const {
+    Point local;
+    local[0] = global.dot(normal);
+    for (int k = 1; k < dimension; ++k) local[k] = global.dot(tangents.col(k - 1));
+    return local;
+  }
+  /// The reverse.
+  Point to_global(const Point& local) const {
+    Point global = local[0] * normal;
+    for (int k = 1; k < dimension; ++k) global += local[k] * tangents.col(k - 1);
+    return global;
+  }
 };
 
 /// A point between two fracture cells, or an end of a fracture.

@@ -56,6 +56,11 @@ void append(Adjacency& adjacency, const std::vector<int>& items) {
   adjacency.offsets.push_back(static_cast<int>(adjacency.items.size()));
 }
 
+template <class Columns>
+void append(std::vector<double>& numbers, const Columns& columns) {
+  numbers.insert(numbers.end(), columns.data(), columns.data() + columns.size());
+}
+
 Adjacency read_adjacency(const Hdf5Reader& file, const std::string& path) {
   Adjacency adjacency{file.integers(path + "/offsets"), file.integers(path + "/items")};
   if (adjacency.offsets.empty() || adjacency.offsets.front() != 0 ||
@@ -102,8 +107,10 @@ void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
   for (const FractureCell& cell : mesh.fracture_cells) {
     grown.push_back(cell.grown);
     topology.insert(topology.end(), {cell.fracture, cell.faces[0], cell.faces[1], cell.points[0], cell.points[1]});
-    geometry.insert(geometry.end(), {cell.center.x(), cell.center.y(), cell.length, cell.normal.x(), cell.normal.y(),
-                                     cell.tangent.x(), cell.tangent.y()});
+    append(geometry, cell.center);
+    geometry.push_back(cell.length);
+    append(geometry, cell.normal);
+    append(geometry, cell.tangents);
   }
   file.integers("mesh/fracture_cells/topology", topology);
   file.doubles("mesh/fracture_cells/geometry", geometry);
@@ -113,7 +120,7 @@ void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
   std::vector<int> kinds;
   Adjacency cells;
   for (const FracturePoint& point : mesh.fracture_points) {
-    positions.insert(positions.end(), {point.position.x(), point.position.y()});
+    append(positions, point.position);
     kinds.insert(kinds.end(), {static_cast<int>(point.kind), point.side});
     append(cells, point.cells);
   }
@@ -138,7 +145,10 @@ void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
 
   const auto topology = read_lists<5>(file, "mesh/fracture_cells/topology");
   const std::string geometry_path = "mesh/fracture_cells/geometry";
-  const auto geometry = grouped<std::array<double, 7>>(file.doubles(geometry_path), geometry_path);
+  // Centre, length, normal and tangents, as they are written.
+  constexpr int normal_at = dimension + 1, tangents_at = normal_at + dimension;
+  constexpr int numbers = tangents_at + dimension * (dimension - 1);
+  const auto geometry = grouped<std::array<double, numbers>>(file.doubles(geometry_path), geometry_path);
   const std::vector<int> grown = file.integers("mesh/fracture_cells/grown");
   if (topology.size() != geometry.size() || topology.size() != grown.size())
     throw Hdf5Error("array " + geometry_path + " has a wrong length");
@@ -148,10 +158,10 @@ void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
     mesh.fracture_cells.push_back({t[0],
                                    {t[1], t[2]},
                                    {t[3], t[4]},
-                                   Point(g[0], g[1]),
-                                   g[2],
-                                   Point(g[3], g[4]),
-                                   Point(g[5], g[6]),
+                                   Point(g.data()),
+                                   g[dimension],
+                                   Point(g.data() + normal_at),
+                                   Tangents(g.data() + tangents_at),
                                    grown[i] != 0});
   }
 

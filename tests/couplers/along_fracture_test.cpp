@@ -51,7 +51,7 @@ std::vector<std::pair<int, double>> middles(const Mesh& mesh) {
   return result;
 }
 
-Point global(const FractureCell& cell, const Point& local) { return local[0] * cell.normal + local[1] * cell.tangent; }
+Point global(const FractureCell& cell, const Point& local) { return local[0] * cell.normal + local[1] * cell.tangents; }
 
 TEST(AlongFracture, IsLinearBetweenCellsOfOneStraightPiece) {
   Case c = kinked(false);
@@ -185,7 +185,7 @@ TEST(AlongFracture, JumpsTowardsAJunctionAreExactForLinearDisplacements) {
     for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
       const FractureCell& cell = mesh.fracture_cells[i];
       const Point jump = jump_at(mesh, cell, cell.center, is_linear);
-      values.segment<2>(2 * i) = Point(jump.dot(cell.normal), jump.dot(cell.tangent));
+      values.segment<2>(2 * i) = Point(jump.dot(cell.normal), jump.dot(cell.tangents));
     }
     int looked_at = 0;
     for (int f = 0; f < 3; ++f) {
@@ -194,7 +194,7 @@ TEST(AlongFracture, JumpsTowardsAJunctionAreExactForLinearDisplacements) {
       for (int i = 0; i < mesh.fractures[f].cell_count; ++i) {
         const FractureCell& cell = mesh.fracture_cells[mesh.fractures[f].first_cell + i];
         for (const double part : {1e-9, 0.2, 0.7, 1 - 1e-9}) {
-          const Point x = cell.center + (part - 0.5) * cell.length * cell.tangent;
+          const Point x = cell.center + (part - 0.5) * cell.length * cell.tangents;
           if ((x - where_they_cross).norm() > 0.1) continue;  // away from tips, where it vanishes
           ++looked_at;
           EXPECT_LT((along.jump(s + part * cell.length, values) - jump_at(mesh, cell, x, is_linear)).norm(), 1e-8);
@@ -217,7 +217,7 @@ TEST(AlongFracture, JumpsAroundAJunctionAddUpToZero) {
     const AlongFracture along(mesh, cell.fracture);
     double s = 0;
     for (int k = mesh.fractures[cell.fracture].first_cell; k < i; ++k) s += mesh.fracture_cells[k].length;
-    const bool leads_there = (where_they_cross - cell.center).dot(cell.tangent) > 0;
+    const bool leads_there = (where_they_cross - cell.center).dot(cell.tangents) > 0;
     const Point jump = along.jump(s + (leads_there ? 1 - 1e-13 : 1e-13) * cell.length, values);
     // From the right of the way out of the junction to its left.
     sum += leads_there ? jump : Point(-jump);

@@ -104,7 +104,7 @@ TEST(WingCracks, StartAtTheCriticalLoadAndTurnTowardsTheLargestStress) {
   std::vector<double> angles;
   for (int i = all.first_cell; i < all.first_cell + all.cell_count; ++i)
     if (cells[i].grown && cells[i].center[0] > 1)
-      angles.push_back(std::atan2(cells[i].tangent[1], cells[i].tangent[0]) * 180 / M_PI);
+      angles.push_back(std::atan2(cells[i].tangents[1], cells[i].tangents[0]) * 180 / M_PI);
   ASSERT_GE(angles.size(), 3u);
   EXPECT_LT(angles.front(), -10);
   EXPECT_GT(angles.front(), -35);
@@ -190,7 +190,7 @@ TEST(WingCracks, SlipEndsAThirdOfACellFurtherOnWhereTheGrownCellIsClosed) {
   const Mesh& mesh = run.model().mesh();
   const int cells = mesh.fractures[0].cell_count;
   MeshChangeResult changed;
-  ASSERT_NO_FATAL_FAILURE(extend(run.model(), 0.01 * mesh.fracture_cells[cells - 1].tangent, run.time(), changed));
+  ASSERT_NO_FATAL_FAILURE(extend(run.model(), 0.01 * mesh.fracture_cells[cells - 1].tangents, run.time(), changed));
   for (int k = 0; k < cells; ++k) EXPECT_NEAR(moved_end(slip_ratio(*changed.model, run.model(), k), k), 0.3, 0.08) << k;
   EXPECT_NEAR(changed.model->fields().at("contact.jump").now().segment<2>(2 * cells).norm(), 0, 1e-15);
 }

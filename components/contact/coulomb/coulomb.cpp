@@ -40,14 +40,14 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
           mesh_, {.owner = context.name,
                   .name = "traction",
                   .location = Location::fracture_cell,
-                  .components = 2,
+                  .components = dimension,
                   .role = Role::unknown(BlockKind::interface),
                   .unit = "Pa",
                   .doc = "Contact traction on the plus wall, normal and tangential (f of Eqs. 2-4)"})),
       jump_(context.fields.add(mesh_, {.owner = context.name,
                                        .name = "jump",
                                        .location = Location::fracture_cell,
-                                       .components = 2,
+                                       .components = dimension,
                                        .role = Role::input(BlockKind::interface),
                                        .unit = "m",
                                        .doc = "Displacement jump, normal (opening) and tangential (slip) (Eq. 1)",
@@ -61,7 +61,7 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
   friction_ = Property(options_.friction, places, context.start_time);
   dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
-  stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(2 * count);
+  stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
   fracture_length_.assign(mesh_.fractures.size(), 0);
   for (const FractureCell& cell : mesh_.fracture_cells) fracture_length_[cell.fracture] += cell.length;
 }
@@ -82,11 +82,17 @@ void Coulomb::set_wall_stiffness(const Vector& stiffness) {
   stiffness_of_fractures_ = stiffness;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
-    stiffness_of_fractures_[2 * i + 1] *= cell.length / fracture_length_[cell.fracture];
+    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *=
+        cell.length / fracture_length_[cell.fracture];
     constexpr double at_most = 0.5;  // of that along the tangent over the wedge
     const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
-    for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_})
-      (*c)[2 * i] = std::min((*c)[2 * i], at_most * (*c)[2 * i + 1] / wedge);
+    for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_}) {
+      // One for all tangents: then the return to the cone does not know which way they point.
+      auto tangential = c->segment<dimension - 1>(dimension * i + 1);
+      const double least = tangential.minCoeff();
+      tangential.setConstant(least);
+      (*c)[dimension * i] = std::min((*c)[dimension * i], at_most * least / wedge);
+    }
   }
 }
 
@@ -101,18 +107,19 @@ void Coulomb::settled(const MeshChange&) { bonded_.clear(); }
 
 Coulomb::Trial Coulomb::trial(int i) const {
   SPREKK_EXPECT(is_index(i, mesh_.fracture_cell_count()), i, mesh_.fracture_cell_count());
-  SPREKK_ASSERT(stiffness()[2 * i] > 0 && stiffness()[2 * i + 1] > 0, i, stiffness()[2 * i], stiffness()[2 * i + 1]);
+  const int row = dimension * i;
+  const double c_n = stiffness()[row], c_t = stiffness()[row + 1];
+  SPREKK_ASSERT(c_n > 0 && c_t > 0, i, c_n, c_t);
   SPREKK_ASSERT(friction_[i] >= 0 && dilation_[i] >= 0, i, friction_[i], dilation_[i]);
-  const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
-  const double u_n = jump_.now()[2 * i], u_t = jump_.now()[2 * i + 1];
+  const TangentialVector u_t = tangential(jump_.now(), i);
   Trial t;
-  t.gap = u_n - std::abs(u_t) * dilation_[i];
-  t.normal = f_n + stiffness()[2 * i] * t.gap;
-  t.tangential = f_t + stiffness()[2 * i + 1] * (u_t - jump_.accepted()[2 * i + 1]);
+  t.gap = jump_.now()[row] - magnitude<dimension - 1>(u_t) * dilation_[i];
+  t.normal = traction_.now()[row] + c_n * t.gap;
+  t.tangential = tangential(traction_.now(), i) + c_t * (u_t - tangential(jump_.accepted(), i));
   t.bound =
       !kept_.empty() && kept_[i] ? std::numeric_limits<double>::infinity() : -friction_[i] * std::min(0.0, t.normal);
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
-  t.slip_sign = u_t > 0 ? 1 : u_t < 0 ? -1 : t.tangential > 0 ? 1 : -1;
+  t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
   return t;
 }
 
@@ -126,11 +133,12 @@ void Coulomb::follow_iterate(const std::vector<Field*>& unknowns) {
     BackSlip& cell = back_slip_[i];
     const Trial t = trial(i);
     SPREKK_ASSERT(is_index(i, static_cast<long>(back_slip_.size())), i, back_slip_.size());
-    const double direction = t.is_open() || t.sticks() ? 0 : t.tangential > 0 ? 1 : -1;
+    TangentialVector direction = TangentialVector::Zero();
+    if (t.state() == State::slip) direction = direction_of<dimension - 1>(t.tangential);
     const bool slides_back = dilation_[i] > 0 && t.slides_back();
-    if (cell.taken == BackSlip::Piece::before_kink && direction != cell.direction) {
-      const double slip = jump_.now()[2 * i + 1] - jump_.accepted()[2 * i + 1];
-      cell.is_beyond = cell.is_beyond || slip * cell.direction < 0;
+    if (cell.taken == BackSlip::Piece::before_kink && direction.dot(cell.direction) <= 0) {
+      const TangentialVector slip = tangential(jump_.now(), i) - tangential(jump_.accepted(), i);
+      cell.is_beyond = cell.is_beyond || slip.dot(cell.direction) < 0;
     } else if (cell.taken == BackSlip::Piece::beyond_kink && slides_back) {
       cell.is_beyond = false;  // not reached, or not there: the other piece has its turn
     }
@@ -144,29 +152,32 @@ void Coulomb::follow_iterate(const std::vector<Field*>& unknowns) {
 Coulomb::Trial Coulomb::trial_of_update(int i) const {
   Trial t = trial(i);
   if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
-  t.slip_sign = -t.slip_sign;
-  t.gap = jump_.now()[2 * i] - t.slip_sign * jump_.now()[2 * i + 1] * dilation_[i];
+  t.slip_direction = -t.slip_direction;
+  t.gap = jump_.now()[dimension * i] - t.slip_direction.dot(tangential(jump_.now(), i)) * dilation_[i];
   // Walls that touch, whatever the sign here: this linear function passes through the values beyond the kink.
-  const double normal = traction_.now()[2 * i] + stiffness()[2 * i] * t.gap;
+  const double normal = traction_.now()[dimension * i] + stiffness()[dimension * i] * t.gap;
   t.bound = -friction_[i] * normal;
   t.normal = std::min(normal, 0.0);
   return t;
 }
 
-State Coulomb::state(int i) const {
-  const Trial t = trial(i);
-  if (t.is_open()) return State::open;
-  return t.sticks() ? State::stick : State::slip;
-}
+State Coulomb::state(int i) const { return trial(i).state(); }
+
+namespace {
+
+/// Which of the two directions of a line; in space directions change without a kink, and all are one piece.
+bool is_forward(const TangentialVector& vector) { return dimension == 2 && vector[0] > 0; }
+
+}  // namespace
 
 int Coulomb::piece(int i) const {
   const Trial t = trial(i);
   const State now = state(i);
-  const int piece = 2 * static_cast<int>(now) + (now == State::slip && t.tangential > 0);
+  const int piece = 2 * static_cast<int>(now) + (now == State::slip && is_forward(t.tangential));
   if (!follows_pieces_) return piece;
   if (is_bonded(i)) return 0;
   const bool has_kink = dilation_[i] > 0 && now != State::open;
-  return 2 * piece + (has_kink && t.slip_sign > 0);
+  return 2 * piece + (has_kink && is_forward(t.slip_direction));
 }
 
 /// Opens all cells by next to nothing. The amount makes no difference: within a state the conditions are linear.
@@ -175,9 +186,9 @@ void Coulomb::loosen() {
   Vector traction = traction_.now(), jump = jump_.now();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (is_bonded(i)) continue;
-    traction.segment<2>(2 * i).setZero();
-    const double dilated = std::abs(jump[2 * i + 1]) * dilation_[i];
-    jump[2 * i] = std::max(jump[2 * i], dilated + opening * mesh_.fracture_cells[i].length);
+    traction.segment<dimension>(dimension * i).setZero();
+    const double dilated = magnitude<dimension - 1>(tangential(jump, i)) * dilation_[i];
+    jump[dimension * i] = std::max(jump[dimension * i], dilated + opening * mesh_.fracture_cells[i].length);
   }
   traction_.set(std::move(traction));
   jump_.set(std::move(jump));
@@ -188,10 +199,10 @@ int Coulomb::keep_states() {
   kept_.assign(mesh_.fracture_cell_count(), 0);
   int count = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    const double before = jump_.accepted()[2 * i + 1], slip = jump_.now()[2 * i + 1] - before;
-    const bool slides_back = dilation_[i] > 0 && slip * before < 0;
-    if (is_bonded(i) || !slides_back || std::abs(slip) < least * jump_.now().lpNorm<Eigen::Infinity>()) continue;
-    if (state(i) == State::open || traction_.accepted()[2 * i] >= 0) continue;
+    const TangentialVector before = tangential(jump_.accepted(), i), slip = tangential(jump_.now(), i) - before;
+    const bool slides_back = dilation_[i] > 0 && slip.dot(before) < 0;
+    if (is_bonded(i) || !slides_back || magnitude<dimension - 1>(slip) < least * jump_.now().lpNorm<Eigen::Infinity>()) continue;
+    if (state(i) == State::open || traction_.accepted()[dimension * i] >= 0) continue;
     kept_[i] = 1;
     ++count;
   }
@@ -222,54 +233,54 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
   if (!assembly.has_row(traction_)) return;
   const int count = mesh_.fracture_cell_count();
   const bool guesses = assembly.wants_derivatives() && !follows_pieces_;
-  Vector residual(2 * count);
+  Vector residual(dimension * count);
   // The blocks have the same pattern in every state, so that the sparsity of the system never changes.
   std::vector<Triplet> by_traction, by_jump;
   for (int i = 0; i < count; ++i) {
     const Trial t = guesses ? trial_of_update(i) : trial(i);
-    const double f_n = traction_.now()[2 * i], f_t = traction_.now()[2 * i + 1];
-    const double c_n = stiffness()[2 * i], c_t = stiffness()[2 * i + 1];
-    const double gap_by_t = -t.slip_sign * dilation_[i];  // d gap / d [u]_t; d gap / d [u]_n is 1
-    double n_fn = 0, n_un = 0, n_ut = 0;                  // derivatives of the normal residual
-    double t_fn = 0, t_ft = 0, t_un = 0, t_ut = 0;        // and of the tangential one
+    const int row = dimension * i;
+    const double f_n = traction_.now()[row], c_n = stiffness()[row], c_t = stiffness()[row + 1];
+    const TangentialVector f_t = tangential(traction_.now(), i);
+    auto own = residual.segment<dimension>(row);
+    Tensor by_f = Tensor::Zero(), by_u = Tensor::Zero();  // derivatives of the residual, the normal row first
     if (is_bonded(i)) {
-      residual[2 * i] = -jump_.now()[2 * i];
-      residual[2 * i + 1] = -jump_.now()[2 * i + 1];
-      n_un = t_ut = -1;
+      own = -jump_.now().segment<dimension>(row);
+      by_u.diagonal().setConstant(-1);
     } else if (t.is_open()) {
-      residual[2 * i] = f_n / c_n;
-      residual[2 * i + 1] = f_t / c_t;
-      n_fn = 1 / c_n;
-      t_ft = 1 / c_t;
+      own << f_n / c_n, f_t / c_t;
+      by_f.diagonal().setConstant(1 / c_t);
+      by_f(0, 0) = 1 / c_n;
     } else {
-      residual[2 * i] = -t.gap;
-      n_un = -1;
-      n_ut = -gap_by_t;
-      if (t.sticks()) {
-        residual[2 * i + 1] = (f_t - t.tangential) / c_t;
-        t_ut = -1;
-      } else {
-        const double direction = t.tangential > 0 ? 1 : -1;
-        residual[2 * i + 1] = (f_t - direction * t.bound) / c_t;
-        const double by_normal = direction * friction_[i] / c_t;
-        t_ft = 1 / c_t;
-        t_fn = by_normal;
-        t_un = by_normal * c_n;
-        t_ut = by_normal * c_n * gap_by_t;
+      constexpr int tangents = dimension - 1;
+      const ReturnedTraction<tangents> returned = return_to_cone<tangents>(t);
+      const auto gap_by_t = -t.slip_direction.transpose() * dilation_[i];  // d gap / d [u]_t; d gap / d [u]_n is 1
+      own << -t.gap, (f_t - returned.tangential) / c_t;
+      by_u(0, 0) = -1;
+      by_u.topRightCorner<1, tangents>() = -gap_by_t;
+      by_u.bottomRightCorner<tangents, tangents>() = -returned.by_trial;
+      auto by_f_t = by_f.bottomRightCorner<tangents, tangents>();
+      by_f_t.setIdentity();
+      by_f_t = (by_f_t - returned.by_trial).eval() / c_t;
+      if (!t.sticks()) {
+        const TangentialVector by_normal = returned.by_bound * friction_[i] / c_t;
+        by_f.bottomLeftCorner<tangents, 1>() = by_normal;
+        by_u.bottomLeftCorner<tangents, 1>() = by_normal * c_n;
+        by_u.bottomRightCorner<tangents, tangents>() += by_normal * c_n * gap_by_t;
       }
     }
-    by_traction.insert(by_traction.end(),
-                       {{2 * i, 2 * i, n_fn}, {2 * i + 1, 2 * i, t_fn}, {2 * i + 1, 2 * i + 1, t_ft}});
-    by_jump.insert(
-        by_jump.end(),
-        {{2 * i, 2 * i, n_un}, {2 * i, 2 * i + 1, n_ut}, {2 * i + 1, 2 * i, t_un}, {2 * i + 1, 2 * i + 1, t_ut}});
+    for (int k = 0; k < dimension; ++k)
+      for (int l = 0; l < dimension; ++l) {
+        if (k > 0 || l == 0) by_traction.emplace_back(row + k, row + l, by_f(k, l));
+        by_jump.emplace_back(row + k, row + l, by_u(k, l));
+      }
   }
   assembly.add(traction_, residual);
   // The residual is compared with the jumps, or, where all cells stick, with the jumps that the tractions would make.
   assembly.compare_with(traction_, traction_.now().cwiseQuotient(stiffness()).lpNorm<Eigen::Infinity>());
   assembly.compare_with(traction_, jump_.now().lpNorm<Eigen::Infinity>());
   if (!assembly.wants_derivatives()) return;
-  SparseMatrix tractions(2 * count, 2 * count), jumps(2 * count, 2 * count);
+  const int rows = dimension * count;
+  SparseMatrix tractions(rows, rows), jumps(rows, rows);
   tractions.setFromTriplets(by_traction.begin(), by_traction.end());
   jumps.setFromTriplets(by_jump.begin(), by_jump.end());
   assembly.derivative(traction_, traction_, std::move(tractions));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
+#include "components/contact/coulomb/return_map.hpp"
 #include "framework/assembly/follows_iterates.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
@@ -21,10 +22,8 @@ struct Options {
   Spec spec();
 };
 
-/// The state of a fracture cell: closed and sticking, closed and slipping, or open.
-enum class State { stick, slip, open };
-
-/// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. With the
+/// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. In space
+/// the tangential part has two components, |·| is its norm and the interval [−b, b] a disk (return_map.hpp). With the
 /// gap h = [u]_n − |[u]_t| tan psi, the slip of the step d = [u]_t − [u]_t,old, and the stiffness c of the walls:
 ///   f_n = min(0, f_n + c_n h)                                                      (Eq. 2 of the paper)
 ///   f_t = projection of f_t + c_t d onto [−b, b],  b = −mu_s min(0, f_n + c_n h)   (Eq. 3 of the paper)
@@ -89,22 +88,23 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
 
  private:
   const Vector& stiffness() const { return is_careful_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
-  struct Trial {
-    double gap, normal, tangential, bound;
-    double slip_sign;  ///< of d gap / d [u]_t
-    bool is_open() const { return normal > 0; }
-    bool sticks() const { return std::abs(tangential) <= bound; }
+  struct Trial : TrialTraction<dimension - 1> {
+    double gap;
+    TangentialVector slip_direction;  ///< unit; d gap / d [u]_t = −tan psi of it
     /// Whether the cell slides towards zero slip.
-    bool slides_back() const { return !is_open() && !sticks() && tangential * slip_sign < 0; }
+    bool slides_back() const { return !is_open() && !sticks() && tangential.dot(slip_direction) < 0; }
   };
   Trial trial(int cell) const;
+  static TangentialVector tangential(const Vector& values, int cell) {
+    return values.segment<dimension - 1>(dimension * cell + 1);
+  }
   /// A number for the state of a cell; when pieces are followed, it also tells the piece of |[u]_t|.
   int piece(int cell) const;
 
   /// What Newton's method has tried in this step for a cell that slides back.
   struct BackSlip {
     enum class Piece { none, before_kink, beyond_kink } taken = Piece::none;  ///< of |[u]_t|, by the last update
-    double direction = 0;                                                     ///< of the slip at that update
+    TangentialVector direction = TangentialVector::Zero();                    ///< of the slip at that update
     bool is_beyond = false;                                                   ///< the solution is not before the kink
   };
   /// The trial state for the update, whose piece may differ from that of the present values.

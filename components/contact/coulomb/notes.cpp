@@ -18,9 +18,9 @@ void Coulomb::note_step(Notes& notes, const StepTime&) const {
     for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
       const double cell = mesh_.fracture_cells[i].length;
       length += cell;
-      jump = std::max(jump, jump_.now().segment<2>(2 * i).norm());
+      jump = std::max(jump, jump_.now().segment<dimension>(dimension * i).norm());
       all_open = all_open && state(i) == State::open;
-      if (traction_.accepted()[2 * i] < 0 && !mesh_.fracture_cells[i].grown) was_in_contact = true;
+      if (traction_.accepted()[dimension * i] < 0 && !mesh_.fracture_cells[i].grown) was_in_contact = true;
     }
     if (jump > small_jump * length)
       notes.add(

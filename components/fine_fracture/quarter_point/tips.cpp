@@ -88,7 +88,7 @@ Point Tips::position(const Tip& tip, const TipPath& path) const {
 }
 
 Point Tips::direction(const Tip& tip) const {
-  const Point& tangent = end_cell(mesh_, tip.end).tangent;
+  const Point& tangent = end_cell(mesh_, tip.end).tangents;
   return tip.end.at_end ? tangent : Point(-tangent);
 }
 

@@ -161,7 +161,9 @@ FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
 FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) const {
   if (options_.transmissivity != "constant") return cubic_law(cell);
   const FractureCell& at = mesh_.fracture_cells[cell];
-  const int end = at.tangent.dot(mesh_.fracture_points[point].position - at.center) < 0 ? 0 : 1;
+  const Point& position = mesh_.fracture_points[point].position;
+  const auto away = [&](int end) { return (mesh_.fracture_points[at.points[end]].position - position).squaredNorm(); };
+  const int end = away(0) < away(1) ? 0 : 1;
   return {transmissivity_of_half_[end][cell] / viscosity_[cell], 0};
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 // Local unknowns of one fracture cell share a key: its centre (to a small part of the fractures' extent), or for blocks
 // without coordinates the number of the entity among blocks of the same length.
-using CellKey = std::array<long long, 3>;
+using CellKey = std::array<long long, 1 + dimension>;
 
 std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const Partition& partition) {
   Point low = Point::Constant(HUGE_VAL), high = Point::Constant(-HUGE_VAL);
@@ -37,7 +37,8 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
       CellKey key{-1, block.entities, entity};
       if (has_places) {
         const Point steps = (block.coordinates[entity] - low) / spacing;
-        key = {0, std::llround(steps.x()), std::llround(steps.y())};
+        key = {0};
+        for (int axis = 0; axis < dimension; ++axis) key[1 + axis] = std::llround(steps[axis]);
       }
       for (int c = 0; c < block.components; ++c) {
         const int place = partition.place_of[block.first + entity * block.components + c];

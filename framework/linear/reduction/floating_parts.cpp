@@ -8,11 +8,12 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/expect_sound.hpp"
+#include "framework/linear/rigid_rotations.hpp"
 
 namespace sprekk {
 namespace {
 
-constexpr int most_modes = 3;
+constexpr int most_modes = dimension + rigid_rotations;
 using Modes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
 using OfMode = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_modes>;
 
@@ -106,14 +107,14 @@ class Parts {
 
   void prepare(Part& part) {
     part.modes = block_.components;
-    const bool can_turn = block_.kind == BlockKind::bulk_elastic && block_.components == 2 &&
+    const bool can_turn = block_.kind == BlockKind::bulk_elastic && block_.components == dimension &&
                           static_cast<int>(block_.coordinates.size()) == block_.entities;
     if (can_turn) {
       for (const int entity : part.entities) part.centre += block_.coordinates[entity] / part.entities.size();
       for (const int entity : part.entities)
         part.radius = std::max(part.radius, (block_.coordinates[entity] - part.centre).norm());
     }
-    if (part.entities.size() > 1 && part.radius > 0) ++part.modes;
+    if (part.entities.size() > 1 && part.radius > 0) part.modes += rigid_rotations;
     part.triangle = Modes::Zero(part.modes, part.modes);
   }
 
@@ -123,8 +124,7 @@ class Parts {
     motion.leftCols(block_.components).setIdentity();
     if (part.modes > block_.components) {
       const Point arm = (block_.coordinates[entity] - part.centre) / part.radius;
-      motion(0, 2) = -arm.y();
-      motion(1, 2) = arm.x();
+      motion.rightCols<rigid_rotations>() = rotated(arm);
     }
     return motion;
   }
@@ -144,8 +144,9 @@ class Parts {
       const int component = (static_cast<int>(entry.col()) - block_.first) % block_.components;
       w[component] += entry.value();
       if (part->modes > block_.components) {
-        const Point& at = block_.coordinates[entity];
-        w[2] += entry.value() * (component == 0 ? part->centre.y() - at.y() : at.x() - part->centre.x()) / part->radius;
+        const auto motions = rotated(block_.coordinates[entity] - part->centre);
+        for (int k = 0; k < rigid_rotations; ++k)
+          w[block_.components + k] += entry.value() * motions(component, k) / part->radius;
       }
       size += std::abs(entry.value());
     }

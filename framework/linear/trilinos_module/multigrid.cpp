@@ -3,6 +3,7 @@
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <stdexcept>
 
+#include "framework/linear/rigid_rotations.hpp"
 #include "framework/linear/trilinos_module/tpetra_conversion.hpp"
 
 namespace sprekk {
@@ -36,16 +37,16 @@ RCP<Coordinates> make_coordinates(const std::vector<int>& entities, const Unknow
   return coordinates;
 }
 
-// Translations of every component, and for displacements in the plane the rotation about the block's centre.
+// Translations of every component, and for displacements the rotations about the block's centre.
 RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, const UnknownBlock& block,
-                                              const RCP<const tpetra::Map>& map, bool has_rotation) {
+                                              const RCP<const tpetra::Map>& map, bool has_rotations) {
   const int translations = block.components;
-  const auto modes = rcp(new tpetra::MultiVector(map, translations + (has_rotation ? 1 : 0)));
+  const auto modes = rcp(new tpetra::MultiVector(map, translations + (has_rotations ? rigid_rotations : 0)));
   for (int c = 0; c < translations; ++c) {
     const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(c);
     for (std::size_t k = 0; k < entities.size(); ++k) data[k * block.components + c] = 1;
   }
-  if (!has_rotation) return modes;
+  if (!has_rotations) return modes;
   Point centre = Point::Zero(), low = block.coordinates.front(), high = low;
   for (const Point& point : block.coordinates) {
     centre += point / block.entities;
@@ -53,11 +54,12 @@ RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, 
     high = high.cwiseMax(point);
   }
   const double extent = std::max((high - low).maxCoeff(), 1e-300);
-  const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(translations);
-  for (std::size_t k = 0; k < entities.size(); ++k) {
-    const Point arm = (block.coordinates[entities[k]] - centre) / extent;
-    data[2 * k] = -arm.y();
-    data[2 * k + 1] = arm.x();
+  for (int rotation = 0; rotation < rigid_rotations; ++rotation) {
+    const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(translations + rotation);
+    for (std::size_t k = 0; k < entities.size(); ++k) {
+      const auto motions = rotated((block.coordinates[entities[k]] - centre) / extent);
+      for (int c = 0; c < dimension; ++c) data[dimension * k + c] = motions(c, rotation);
+    }
   }
   return modes;
 }

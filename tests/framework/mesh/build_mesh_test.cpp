@@ -93,7 +93,7 @@ TEST(BuildMesh, TwoFracturesAndOneWithKinks) {
   EXPECT_EQ(euler_characteristic(mesh), -1);  // two holes
   EXPECT_NEAR(fracture_length(mesh, 0), 4 + std::sqrt(2.0), 1e-14);
   EXPECT_NEAR(fracture_length(mesh, 1), 6, 1e-14);
-  EXPECT_EQ(mesh.fracture_cells[2].tangent, Point(0, 1));
+  EXPECT_EQ(mesh.fracture_cells[2].tangents, Point(0, 1));
   EXPECT_EQ(mesh.fracture_cells[2].normal, Point(1, 0));
   EXPECT_EQ(mesh.fracture_cells[5].normal, Point(0, 1));  // runs along -x: plus is below
 }

@@ -137,8 +137,8 @@ inline void expect_consistent(const Mesh& mesh) {
     const FractureCell& cell = mesh.fracture_cells[i];
     const Point &from = mesh.fracture_points[cell.points[0]].position,
                 &to = mesh.fracture_points[cell.points[1]].position;
-    ASSERT_NEAR((to - from - cell.length * cell.tangent).norm(), 0, 1e-15);
-    ASSERT_NEAR((cell.tangent - Point(-cell.normal.y(), cell.normal.x())).norm(), 0, 1e-15);
+    ASSERT_NEAR((to - from - cell.length * cell.tangents).norm(), 0, 1e-15);
+    ASSERT_NEAR((cell.tangents - Point(-cell.normal.y(), cell.normal.x())).norm(), 0, 1e-15);
     ASSERT_NEAR((cell.center - (from + to) / 2).norm(), 0, 1e-15);
     for (int wall = 0; wall < 2; ++wall) {
       const int face = cell.faces[wall];

@@ -77,7 +77,7 @@ TEST_F(MeshRecord, EveryMemberComesBackToTheBit) {
     EXPECT_EQ(a.center, b.center);
     EXPECT_EQ(a.length, b.length);
     EXPECT_EQ(a.normal, b.normal);
-    EXPECT_EQ(a.tangent, b.tangent);
+    EXPECT_EQ(a.tangents, b.tangents);
   }
   ASSERT_EQ(read.fracture_points.size(), mesh.fracture_points.size());
   for (std::size_t i = 0; i < mesh.fracture_points.size(); ++i) {

@@ -19,7 +19,7 @@ inline Point tip(const Mesh& mesh, int fracture, bool at_end) {
 /// Out of the end, of unit length.
 inline Point direction(const Mesh& mesh, int fracture, bool at_end) {
   const auto& [name, first, count] = mesh.fractures[fracture];
-  return at_end ? mesh.fracture_cells[first + count - 1].tangent : Point(-mesh.fracture_cells[first].tangent);
+  return at_end ? mesh.fracture_cells[first + count - 1].tangents : Point(-mesh.fracture_cells[first].tangents);
 }
 
 inline Point turned(const Point& x, double angle) {
