@@ -25,8 +25,8 @@ class AlongFracture {
  private:
   struct Cell {
     int index;
-    double begin, end;  ///< m
-    bool continues;     ///< whether the next cell has its direction
+    double begin, end;   ///< m
+    bool continues;      ///< whether the next cell has its direction
     FractureCell frame;  ///< the cell, for its normal and tangent
     /// At its beginning and its end, where that is a junction.
     std::array<std::optional<JumpAtJunction>, 2> at_junction;

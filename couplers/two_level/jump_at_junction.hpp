@@ -23,8 +23,8 @@ class JumpAtJunction {
   /// A cell at the junction and the cell behind it, or none where that cell is on another straight piece.
   struct Arm {
     int cell, behind;
-    double share;  ///< distance from the centre to the junction over that to the centre of the cell behind
-    double sign;   ///< of the jump on the way around, counter-clockwise
+    double share;        ///< distance from the centre to the junction over that to the centre of the cell behind
+    double sign;         ///< of the jump on the way around, counter-clockwise
     FractureCell frame;  ///< the cell, for its normal and tangent
   };
   static Point at_end(const Arm& arm, const Vector& jumps);

@@ -136,7 +136,8 @@ class TwoLevel : public Coupler, public TipSurroundings {
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
       const FractureCell& cell = mesh_.fracture_cells[i];
       Point side[2];
-      for (int k = 0; k < 2; ++k) side[k] = displacement_.at<dimension>(mesh_.face_cells[cell.faces[k]][0], cell.center);
+      for (int k = 0; k < 2; ++k)
+        side[k] = displacement_.at<dimension>(mesh_.face_cells[cell.faces[k]][0], cell.center);
       const Point difference = side[1] - side[0];
       jump.segment<dimension>(dimension * i) = cell.to_local(difference);
     }

@@ -5,8 +5,8 @@
 
 namespace sprekk {
 
-/// Independent rotations of a rigid body: one in a plane, three in space. With `dimension` translations these are all of
-/// its motions.
+/// Independent rotations of a rigid body: one in a plane, three in space. With `dimension` translations these are all
+/// of its motions.
 inline constexpr int rigid_rotations = dimension * (dimension - 1) / 2;
 
 /// The displacement of a point by small rotations about the origin, a column each: by a unit angle from one axis

@@ -77,7 +77,8 @@ TEST_P(Holding, StaysAsItIsUnderFriction) {
     const FractureCell& cell = run.mesh().fracture_cells[i];
     const Point traction = stress * cell.normal;
     EXPECT_NEAR(run.field("contact.traction")[2 * i], traction.dot(cell.normal), 1e-12) << cell.center.transpose();
-    EXPECT_NEAR(run.field("contact.traction")[2 * i + 1], traction.dot(cell.tangents), 1e-12) << cell.center.transpose();
+    EXPECT_NEAR(run.field("contact.traction")[2 * i + 1], traction.dot(cell.tangents), 1e-12)
+        << cell.center.transpose();
     for (int k = 0; k < 2; ++k) EXPECT_NEAR(run.field("contact.jump")[2 * i + k], 0, 1e-12) << cell.center.transpose();
   }
 }
@@ -122,7 +123,8 @@ TEST(JunctionWalls, SlideOnAFractureThatOthersTouch) {
     EXPECT_NEAR(run.field("contact.jump")[2 * i], 0, 1e-12) << cell.center.transpose();
     EXPECT_NEAR(run.field("contact.jump")[2 * i + 1], cell.fracture == 0 ? slip : 0, 1e-12) << cell.center.transpose();
     EXPECT_NEAR(run.field("contact.traction")[2 * i], traction.dot(cell.normal), 1e-12) << cell.center.transpose();
-    EXPECT_NEAR(run.field("contact.traction")[2 * i + 1], traction.dot(cell.tangents), 1e-12) << cell.center.transpose();
+    EXPECT_NEAR(run.field("contact.traction")[2 * i + 1], traction.dot(cell.tangents), 1e-12)
+        << cell.center.transpose();
   }
 }
 

@@ -82,8 +82,7 @@ void Coulomb::set_wall_stiffness(const Vector& stiffness) {
   stiffness_of_fractures_ = stiffness;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
-    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *=
-        cell.length / fracture_length_[cell.fracture];
+    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *= cell.length / fracture_length_[cell.fracture];
     constexpr double at_most = 0.5;  // of that along the tangent over the wedge
     const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
     for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_}) {
@@ -201,7 +200,8 @@ int Coulomb::keep_states() {
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const TangentialVector before = tangential(jump_.accepted(), i), slip = tangential(jump_.now(), i) - before;
     const bool slides_back = dilation_[i] > 0 && slip.dot(before) < 0;
-    if (is_bonded(i) || !slides_back || magnitude<dimension - 1>(slip) < least * jump_.now().lpNorm<Eigen::Infinity>()) continue;
+    if (is_bonded(i) || !slides_back || magnitude<dimension - 1>(slip) < least * jump_.now().lpNorm<Eigen::Infinity>())
+      continue;
     if (state(i) == State::open || traction_.accepted()[dimension * i] >= 0) continue;
     kept_[i] = 1;
     ++count;

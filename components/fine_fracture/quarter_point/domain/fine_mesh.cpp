@@ -148,7 +148,8 @@ class Builder {
       const FractureCell& cell = mesh_.fracture_cells[i];
       const double middle = arc + 0.5 * cell.length;
       while (segment + 2 < lengths.size() && middle > lengths[segment + 1]) ++segment;
-      FineMesh::WallEdge edge{c, {}, {}, cell.tangents, cell.normal, arc, arc + cell.length, crack.walls[segment], none};
+      FineMesh::WallEdge edge{c,   {}, {}, cell.tangents, cell.normal, arc, arc + cell.length, crack.walls[segment],
+                              none};
       for (int side = 0; side < 2; ++side) {
         auto [a, b] = mesh_.face_nodes[cell.faces[side]];
         if ((mesh_.nodes[b] - mesh_.nodes[a]).dot(cell.tangents) < 0) std::swap(a, b);
