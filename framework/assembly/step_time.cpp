@@ -22,7 +22,9 @@ double value_in_step(const Data& data, Place place, const StepTime& step) {
 }
 
 Point value_in_step(const VectorData& data, const Place& place, const StepTime& step) {
-  return {value_in_step(data.component[0], place, step), value_in_step(data.component[1], place, step)};
+  Point value;
+  for (int k = 0; k < dimension; ++k) value[k] = value_in_step(data.component[k], place, step);
+  return value;
 }
 
 }  // namespace sprekk
