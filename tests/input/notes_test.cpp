@@ -208,6 +208,69 @@ TEST(Notes, APressureBeyondEveryLoadIsTold) {
   EXPECT_TRUE(run_of("flow.yaml", {}).note("beyond every load").is_null());
 }
 
+/// Rock that conducts 10,000 times better at 30 degrees to the x axis than across; `mirrored`: at -30 degrees.
+std::string anisotropic(bool mirrored = false) {
+  return std::string("components.pore.permeability={xx: 7.50025e-14 m^2, yy: 2.50075e-14 m^2, xy: ") +
+         (mirrored ? "-" : "") + "4.32969e-14 m^2}";
+}
+
+TEST(Notes, APressureBeyondItsSurroundingsIsTold) {
+  // Sides at 0 and a band at 1 MPa that spreads: what is not between them is wrong.
+  const Settings band = {"components.pore.boundary.left.flux=",
+                         "components.pore.boundary.left.pressure=0 MPa",
+                         "components.pore.boundary.right.pressure=0 MPa",
+                         "components.pore.initial_pressure='(abs(y - 0.4) < 0.15 ? 1 : 0) MPa'",
+                         "mesh={size: 0.12 m}",
+                         "time={step: 0.1 s, end: 0.1 s}"};
+  const auto note = [&](const std::string& flux, const Settings& rock) {
+    Settings settings = band;
+    settings.push_back("components.pore.type=matrix_flow/" + flux);
+    settings.insert(settings.end(), rock.begin(), rock.end());
+    return run_of("flow.yaml", settings).note("pressure beyond its surroundings");
+  };
+  for (const bool mirrored : {false, true}) {
+    const Json told = note("mpfa", {anisotropic(mirrored)});
+    ASSERT_FALSE(told.is_null());
+    EXPECT_THAT(told["text"].get<std::string>(), HasSubstr("cells without a source, by up to"));
+    EXPECT_TRUE(note("tpfa", {anisotropic(mirrored)}).is_null());  // which keeps bounds
+  }
+  EXPECT_TRUE(note("mpfa", {}).is_null());
+}
+
+TEST(Notes, FluxesThatAreNotExactAreTold) {
+  // Triangles lose energy whatever the rock is, quadrilaterals in ordinary rock.
+  const auto note = [](const std::string& shape, const Settings& rock) {
+    Settings settings = {"components.pore.type=matrix_flow/mpfa",
+                         "mesh={kind: structured, cells: [4, 4], distortion: 0.4, shape: " + shape + "}"};
+    settings.insert(settings.end(), rock.begin(), rock.end());
+    return run_of("flow.yaml", settings).note("not exact for linear pressures");
+  };
+  for (const bool mirrored : {false, true}) {
+    const Json told = note("quadrilaterals", {anisotropic(mirrored)});
+    ASSERT_FALSE(told.is_null());
+    EXPECT_THAT(told["text"].get<std::string>(), HasSubstr("use triangles"));
+    EXPECT_TRUE(note("triangles", {anisotropic(mirrored)}).is_null());
+  }
+  EXPECT_TRUE(note("quadrilaterals", {}).is_null());
+}
+
+TEST(Notes, ASmallAngleOfTheMeshIsTold) {
+  // Fractures that cross at an angle leave a mesh no larger one there.
+  const auto note = [](const std::string& angle) {
+    return run_of("fractured.yaml",
+                  {"geometry.fractures.other={center: [0.5 m, 0.5 m], length: 0.3 m, angle: " + angle + "}"})
+        .note("small angle of the mesh");
+  };
+  for (const char* angle : {"3 deg", "-3 deg"}) {
+    const Json told = note(angle);
+    ASSERT_FALSE(told.is_null()) << angle;
+    const std::string text = told["text"], before = "the mesh has an angle of ";
+    ASSERT_EQ(text.find(before), 0U) << text;
+    EXPECT_LE(std::stod(text.substr(before.size())), 3) << text;
+  }
+  EXPECT_TRUE(note("30 deg").is_null());
+}
+
 TEST(Notes, APorePressureOfTwiceTheLoadsIsTold) {
   // A side that is held at 1 MPa, the load, or at 2 MPa, a pressure that is given; and a well that brings 1 GPa.
   const std::string well = "components.pore.wells.feed={at: [0.5 m, 0.2 m], rate: ";

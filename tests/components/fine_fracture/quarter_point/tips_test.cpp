@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "framework/assembly/notes.hpp"
@@ -135,6 +136,24 @@ TEST(Tips, AreRuledOutByTheJumpBesideThem) {
     EXPECT_EQ(has_last, 1.15 - part > 0.2) << part;
     EXPECT_EQ(setting.tips.counts().at("tips: ruled out"), int(!has_first) + int(!has_last)) << part;
     EXPECT_LT(load.now, 0.25);  // fine levels without a load have no factors
+  }
+}
+
+TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
+  // Factors, growth, flags (stopped, started, evaluated), an error, a warm start, a load and a path of two points.
+  constexpr int flags[] = {4, 5, 9};
+  for (int set = 0; set < 8; ++set) {
+    Vector first(15), last(11);
+    for (int i = 0; i < first.size(); ++i) first[i] = 1.1 + 0.1 * i;
+    for (int k = 0; k < 3; ++k) first[flags[k]] = (set >> k) & 1;
+    last = -first.head(11);
+    for (int k = 0; k < 3; ++k) last[flags[k]] = 1 - first[flags[k]];
+    Setting setting(0.3);
+    setting.tips.restore({{"tips.main_first", first}, {"tips.main_last", last}});
+    std::map<std::string, Vector> saved;
+    setting.tips.save(saved);
+    EXPECT_EQ(saved.at("tips.main_first"), first) << set;
+    EXPECT_EQ(saved.at("tips.main_last"), last) << set;
   }
 }
 
