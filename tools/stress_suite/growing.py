@@ -6,6 +6,7 @@ from . import physics
 
 HOUR = 3600.0
 SIDE = 2.0
+ITERATED = 1e-8  # of iterated schemes: what residuals may be of their terms
 
 
 def uniform_angle(rng):
@@ -104,7 +105,7 @@ def describe(p):
 def schedule(p):
     all_at_once = "{solve: [pore, rock, conduit, contact]}"
     if p["scheme"] == "iterated":
-        solve = ("{iterate: {until: {relative: 1e-8, at_most: 60}, accelerate: {anderson: 5}, steps: [{solve: [pore, conduit], stabilize: fixed_stress}, "
+        solve = (f"{{iterate: {{until: {{relative: {ITERATED:g}, at_most: 60}}, accelerate: {{anderson: 5}}, steps: [{{solve: [pore, conduit], stabilize: fixed_stress}}, "
                  "{solve: [rock, contact]}]}}")
     elif p["scheme"] == "subcycled":
         solve = f"{{subcycle: {{count: 2, steps: [{all_at_once}]}}}}"
