@@ -38,7 +38,7 @@ ALLOWED_TEXTS = (
     ("framework/schedule/build_schedule.cpp", "a step is a map such as 'solve: [pore, rock]'", "an example of a scene"),
 )
 # Tests of behaviour instead of one file.
-FREE_TESTS = re.compile(r"^tests/(verification|stability)/|/mpi/")
+FREE_TESTS = re.compile(r"^tests/(verification|stability|dimension)/|/mpi/")
 # What a listing of a folder shows at once.
 MOST_FILES = 45
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
