@@ -71,8 +71,8 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
 
 MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const std::vector<PathExtension>& extensions,
                              const StepTime& data, IterationLog log) {
-  const GrowStep& step = *before.growing()[grow_step];
   SPREKK_EXPECT(grow_step < before.growing().size(), grow_step, before.growing().size());
+  const GrowStep& step = *before.growing()[grow_step];
   SPREKK_EXPECT(!extensions.empty());
   CavityOptions cavity = step.cavity();
   cavity.gap_edges = before.scene().mesh.gap_edges;

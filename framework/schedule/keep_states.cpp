@@ -19,6 +19,7 @@ int Newton::keep_states(const StepTime& step, const std::vector<Vector>& start) 
     kept -= released;
     if (tried.converged && kept > 0) continue;
     set(found);
+    iterations = 0;
     break;
   }
   for (Part* part : parts_) part->release_kept();

@@ -123,7 +123,8 @@ Coulomb::Trial Coulomb::trial(int i) const {
 }
 
 void Coulomb::follow_iterate(const std::vector<Field*>& unknowns) {
-  if (follows_pieces_ || std::find(unknowns.begin(), unknowns.end(), &traction_) == unknowns.end()) return;
+  is_solved_for_ = std::find(unknowns.begin(), unknowns.end(), &traction_) != unknowns.end();
+  if (follows_pieces_ || !is_solved_for_) return;
   const std::array<std::uint64_t, 2> values{traction_.version(), jump_.version()};
   if (!back_slip_.empty() && values == followed_) return;  // the same update
   followed_ = values;
@@ -194,7 +195,8 @@ void Coulomb::loosen() {
 }
 
 int Coulomb::keep_states() {
-  constexpr double least = 1e-6;  // of the largest slip: less is no jump
+  constexpr double least = 1e-6;  // of the largest jump: less is round-off
+  if (!is_solved_for_) return 0;
   kept_.assign(mesh_.fracture_cell_count(), 0);
   int count = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
@@ -234,6 +236,7 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
   const int count = mesh_.fracture_cell_count();
   const bool guesses = assembly.wants_derivatives() && !follows_pieces_;
   Vector residual(dimension * count);
+  SPREKK_ASSERT(residual.size() == traction_.size(), residual.size(), traction_.size());
   // The blocks have the same pattern in every state, so that the sparsity of the system never changes.
   std::vector<Triplet> by_traction, by_jump;
   for (int i = 0; i < count; ++i) {

@@ -46,7 +46,10 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
   Coulomb(const ComponentContext& context, const Options& options);
 
   void evaluate_data(const StepTime& step) override;
-  void begin_step(const StepTime&) override { back_slip_.clear(); }
+  void begin_step(const StepTime&) override {
+    back_slip_.clear();
+    kept_.clear();
+  }
   /// Cells that have grown are bonded, [u] = 0, until the equilibrium on the new mesh with bonded cells has been found.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
@@ -119,6 +122,7 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
   std::vector<char> bonded_;                 ///< empty for none
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
+  bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction
   std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in follow_iterate
   bool is_careful_ = false;                  ///< after Newton's method has failed
   bool follows_pieces_ = false;              ///< as they are: no guess of what lies beyond the kink

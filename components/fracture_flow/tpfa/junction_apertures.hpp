@@ -23,7 +23,8 @@ struct ArmAperture {
 /// That would keep fluid out of an arm that is closed for ever. So no opening at a junction is taken for less than a
 /// tenth of the widest one there. Such an arm conducts a thousandth of the widest, whatever it is taken for: flows
 /// through the others do not notice, and the arm itself is off by a half cell, as long as it is closed beside a wide
-/// one.
+/// one. An arm of one cell between two junctions has no half cell left: closed, it conducts a thousandth of the wide
+/// ones all along. A smaller `mesh.fracture_size` seals it.
 ///
 /// `partners`: for each cell the place of the cell on the other side, or -1.
 inline std::vector<ArmAperture> junction_apertures(const std::vector<CellAperture>& cells,
@@ -43,10 +44,11 @@ inline std::vector<ArmAperture> junction_apertures(const std::vector<CellApertur
       arm.by_aperture[i] = half.by_aperture[0];
       arm.by_aperture[partners[i]] = half.by_aperture[1];
     }
-    const double initial = cells[i].aperture - cells[i].opening, least = initial + least_share * cells[widest].opening;
-    if (arm.value < least) {
+    // In iterates all openings may be negative: then the least aperture is the initial one.
+    const double initial = cells[i].aperture - cells[i].opening, share = cells[widest].opening > 0 ? least_share : 0;
+    if (const double least = initial + share * cells[widest].opening; arm.value < least) {
       arm.value = least;
-      arm.by_aperture = least_share * Eigen::VectorXd::Unit(count, widest);
+      arm.by_aperture = share * Eigen::VectorXd::Unit(count, widest);
     }
     arms.push_back(std::move(arm));
   }
