@@ -111,7 +111,8 @@ TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
     for (const Node& part : parts.items) types.insert(part.find("type")->scalar);
     for (const Node::Entry& part : parts.entries) types.insert(part.value.find("type")->scalar);
   }
-  for (const ComponentType& type : Registry::instance().components()) registered.insert(type.type);
+  for (const ComponentType& type : Registry::instance().components())
+    if (!type.type.starts_with("test/")) registered.insert(type.type);  // those are of other tests
   for (const CouplerType& type : Registry::instance().couplers()) registered.insert(type.type);
   EXPECT_EQ(types, registered);
 }
