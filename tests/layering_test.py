@@ -22,10 +22,6 @@ WORDS = (r"pressure|displacement|aperture|permeabilit|porosit|viscosit|friction|
 PHYSICS = re.compile(rf"\w*({WORDS})\w*|\w*(?<![a-z])slip(?![a-z])\w*|\bpore\b", re.IGNORECASE)
 # What texts of the framework may say nevertheless: (file, text that holds the word, why).
 ALLOWED_TEXTS = (
-    ("framework/command_line/command_line.cpp", "Sprekk simulates fractured porous rock: coupled flow, deformation, "
-     "friction and opening of fractures.", "what the program is for"),
-    ("framework/command_line/manual_page.cpp", r".SH NAME\nsprekk \\- coupled simulations of fractured porous rock\n"
-     r".SH SYNOPSIS\n.nf\n", "what the program is for"),
     ("framework/command_line/manual_page.cpp", r"sprekk run first_scene.yaml --set materials.friction=0.9 -o results/rough\n",
      "an example of a call"),
     ("framework/config/dimension.cpp", "pressure", "a name of a unit's dimension"),

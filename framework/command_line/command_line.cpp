@@ -95,9 +95,9 @@ int answer_wrong_input(const InputError& error) {
 
 }  // namespace
 
-int run_command_line(int argc, char** argv) {
+int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files makes writing fail, as a full disk does
-  CLI::App app("Sprekk simulates fractured porous rock: coupled flow, deformation, friction and opening of fractures.");
+  CLI::App app(purpose.description);
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
 
@@ -157,7 +157,7 @@ int run_command_line(int argc, char** argv) {
     if (*list_command) print_list(std::cout);
     if (*explain_command) print_explanation(explained, std::cout);
     if (*schema_command) schema_of == "study" ? print_study_schema(std::cout) : print_schema(std::cout);
-    if (*manual_command) std::cout << manual_page(declared_command(app), build_info().version);
+    if (*manual_command) std::cout << manual_page(declared_command(app), purpose.summary, build_info().version);
     if (*completion_command)
       std::cout << (shell == "zsh" ? zsh_completion(declared_command(app)) : bash_completion(declared_command(app)));
     if (*reference_command) write_reference(reference_folder);

@@ -56,9 +56,9 @@ std::string synopsis(const DeclaredCommand& command) {
 
 }  // namespace
 
-std::string manual_page(const DeclaredCommand& program, const std::string& version) {
+std::string manual_page(const DeclaredCommand& program, const std::string& summary, const std::string& version) {
   std::string page = ".TH SPREKK 1 \"\" \"Sprekk " + plain(version) + "\" \"User Commands\"\n" +
-                     ".SH NAME\nsprekk \\- coupled simulations of fractured porous rock\n.SH SYNOPSIS\n.nf\n";
+                     ".SH NAME\nsprekk \\- " + plain(summary) + "\n.SH SYNOPSIS\n.nf\n";
   for (const DeclaredCommand& command : program.commands) page += synopsis(command);
   page +=
       ".fi\n.SH DESCRIPTION\n" + plain(program.description) +

@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// sprekk.1, in the man macros.
-std::string manual_page(const DeclaredCommand& program, const std::string& version);
+/// sprekk.1, in the man macros. `summary`: what the program is, in a line.
+std::string manual_page(const DeclaredCommand& program, const std::string& summary, const std::string& version);
 
 }  // namespace sprekk

@@ -3,5 +3,8 @@
 
 int main(int argc, char** argv) {
   sprekk::keep_memory();
-  return sprekk::run_command_line(argc, argv);
+  return sprekk::run_command_line(
+      argc, argv,
+      {"coupled simulations of fractured porous rock",
+       "Sprekk simulates fractured porous rock: coupled flow, deformation, friction and opening of fractures."});
 }
