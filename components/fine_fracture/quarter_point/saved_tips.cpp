@@ -1,0 +1,49 @@
+// What checkpoints keep of tips beside fields.
+#include <utility>
+
+#include "components/fine_fracture/quarter_point/tips.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+constexpr int state_size = 11;  ///< without the path
+
+}  // namespace
+
+void Tips::save(std::map<std::string, Vector>& state) const {
+  for (const Tip& tip : tips_) {
+    const State& kept = tip.accepted;
+    Vector values(state_size + 2 * kept.path.added.size());
+    values.head<state_size>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped,
+        kept.has_started, kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated,
+        kept.load;
+    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(state_size + 2 * i) = kept.path.added[i];
+    state[name() + "." + tip.name] = std::move(values);
+  }
+  for (const Joint& joint : joints_) state[name() + "." + joint.name] = Vector::Constant(1, joint.grown);
+}
+
+void Tips::restore(const std::map<std::string, Vector>& state) {
+  for (Tip& tip : tips_) {
+    const auto found = state.find(name() + "." + tip.name);
+    if (found == state.end() || found->second.size() < state_size) continue;
+    const Vector& values = found->second;
+    State kept;
+    kept.sifs = {values[0], values[1], values[2]};
+    kept.grown = values[3];
+    kept.is_stopped = values[4] != 0;
+    kept.has_started = values[5] != 0;
+    kept.sif_error = values[6];
+    kept.warm_start = {values[7], values[8]};
+    kept.is_evaluated = values[9] != 0;
+    kept.load = values[10];
+    for (int i = state_size; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
+    tip.now = tip.accepted = kept;
+  }
+  for (Joint& joint : joints_) {
+    const auto found = state.find(name() + "." + joint.name);
+    if (found != state.end() && found->second.size() == 1) joint.grown = found->second[0];
+  }
+}
+
+}  // namespace sprekk::fine_fracture
