@@ -119,6 +119,8 @@ Coulomb::Trial Coulomb::trial(int i) const {
       !kept_.empty() && kept_[i] ? std::numeric_limits<double>::infinity() : -friction_[i] * std::min(0.0, t.normal);
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
   t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
+  constexpr double round_off = 1e-10;  // of the traction that makes the slip
+  t.least_bound = round_off * c_t * magnitude<dimension - 1>(u_t);
   return t;
 }
 
@@ -173,7 +175,8 @@ bool is_forward(const TangentialVector& vector) { return dimension == 2 && vecto
 int Coulomb::piece(int i) const {
   const Trial t = trial(i);
   const State now = state(i);
-  const int piece = 2 * static_cast<int>(now) + (now == State::slip && is_forward(t.tangential));
+  const bool knows_direction = now == State::slip && friction_[i] > 0;
+  const int piece = 2 * static_cast<int>(now) + (knows_direction && is_forward(t.tangential));
   if (!follows_pieces_) return piece;
   if (is_bonded(i)) return 0;
   const bool has_kink = dilation_[i] > 0 && now != State::open;
@@ -201,7 +204,7 @@ int Coulomb::keep_states() {
   int count = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const TangentialVector before = tangential(jump_.accepted(), i), slip = tangential(jump_.now(), i) - before;
-    const bool slides_back = dilation_[i] > 0 && slip.dot(before) < 0;
+    const bool slides_back = dilation_[i] > 0 && friction_[i] > 0 && slip.dot(before) < 0;
     if (is_bonded(i) || !slides_back || magnitude<dimension - 1>(slip) < least * jump_.now().lpNorm<Eigen::Infinity>())
       continue;
     if (state(i) == State::open || traction_.accepted()[dimension * i] >= 0) continue;

@@ -41,6 +41,8 @@ struct Options {
 /// between sticking and a state where the slip has the wrong direction. The state in balance lies beyond the kink of
 /// |[u]_t| at zero. Therefore a cell for which sliding back has led to slip in the wrong direction takes the
 /// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
+/// Where friction does not hold anything there is nothing to lose, and none of this: the direction in which such a cell
+/// is about to slide at the start of a step, that of f_t = 0, is round-off.
 class Coulomb : public Component, public FractureContact, public FollowsIterates {
  public:
   Coulomb(const ComponentContext& context, const Options& options);
@@ -94,14 +96,18 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
   struct Trial : TrialTraction<dimension - 1> {
     double gap;
     TangentialVector slip_direction;  ///< unit; d gap / d [u]_t = −tan psi of it
-    /// Whether the cell slides towards zero slip.
-    bool slides_back() const { return !is_open() && !sticks() && tangential.dot(slip_direction) < 0; }
+    double least_bound;               ///< friction below it does not hold anything: which way it points is round-off
+    /// Whether the cell slides towards zero slip, against friction.
+    bool slides_back() const {
+      return bound > least_bound && !is_open() && !sticks() && tangential.dot(slip_direction) < 0;
+    }
   };
   Trial trial(int cell) const;
   static TangentialVector tangential(const Vector& values, int cell) {
     return values.segment<dimension - 1>(dimension * cell + 1);
   }
-  /// A number for the state of a cell; when pieces are followed, it also tells the piece of |[u]_t|.
+  /// A number for the state of a cell, and which way it slips, if friction knows; when pieces are followed, it also
+  /// tells the piece of |[u]_t|.
   int piece(int cell) const;
 
   /// What Newton's method has tried in this step for a cell that slides back.

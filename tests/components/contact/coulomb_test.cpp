@@ -194,6 +194,88 @@ TEST(BackSlip, TakesThePieceBeyondTheKink) {
   EXPECT_LT((residual + jacobian * change - contact.residual()).lpNorm<Eigen::Infinity>(), 1e-12);
 }
 
+/// Cells that have slipped by 1, and are about to slide: their traction along the wall is next to nothing.
+class NothingHolds : public ::testing::TestWithParam<Law> {
+ protected:
+  NothingHolds() : mesh_(crossing()), contact_(mesh_, GetParam()) {
+    contact_.law().set_wall_stiffness(Vector::Ones(2 * cells()));
+    contact_.law().look_for_solution(Look::carefully);
+    contact_.law().jump().set_both(slipped(1));
+  }
+  int cells() const { return mesh_.fracture_cell_count(); }
+  Vector slipped(double slip) const {
+    Vector jump(2 * cells());
+    for (int i = 0; i < cells(); ++i) jump.segment<2>(2 * i) << 0.1 * slip, slip;
+    return jump;
+  }
+  /// Under a normal traction that leaves no friction, or for lack of friction under any.
+  Vector held_by(double along) const {
+    Vector traction(2 * cells());
+    for (int i = 0; i < cells(); ++i) traction.segment<2>(2 * i) << (GetParam().friction > 1e-3 ? -1e-13 : -10), along;
+    return traction;
+  }
+  const Mesh mesh_;
+  Contact contact_;
+};
+INSTANTIATE_TEST_SUITE_P(, NothingHolds, ::testing::Values(Law{0, 0.1}, Law{1e-14, 0.1}, Law{0.6, std::atan(0.1)}),
+                         [](const auto& info) { return "of_law_" + std::to_string(info.index); });
+
+// The round-off of a traction that vanishes does not say which way a cell slides, so what it has tried stays true:
+// the derivatives of a cell that slides back are those of its conditions, here and not beyond the kink.
+TEST_P(NothingHolds, RoundOffDoesNotSayWhereACellSlides) {
+  for (const double along : {-1e-12, 1e-12}) {
+    contact_.law().begin_step(Contact::step);
+    contact_.set(held_by(along), slipped(1));
+    contact_.follow();
+    contact_.set(held_by(along), slipped(1.2));
+    contact_.follow();
+    const Vector traction = held_by(0), jump = slipped(0.8);
+    contact_.set(traction, jump);
+    contact_.follow();
+    const Eigen::MatrixXd jacobian = contact_.jacobian();
+    constexpr double change = 1e-4;
+    const int n = 2 * cells();
+    for (int i = 0; i < cells(); ++i)
+      for (const int component : {0, 1}) {
+        const auto residual = [&](double sign) {
+          Vector nearby = jump;
+          nearby[2 * i + component] += sign * change;
+          // Within the state: walls that touch.
+          Vector pressed = traction;
+          pressed[2 * i] -= 1;
+          contact_.set(pressed, nearby);
+          return Vector(contact_.residual());
+        };
+        const Vector difference = (residual(1) - residual(-1)) / (2 * change);
+        EXPECT_NEAR(jacobian(2 * i, n + 2 * i + component), difference[2 * i], 1e-9) << i;
+      }
+  }
+}
+
+// Nor is it a state of its own, nor one to keep: friction that is not there could hold nothing.
+TEST(WithoutFriction, DirectionsAreNoStates) {
+  const Mesh mesh = crossing();
+  Contact contact(mesh, {0, 0.1});
+  const int cells = mesh.fracture_cell_count();
+  contact.law().set_wall_stiffness(Vector::Ones(2 * cells));
+  const Values back(states[4], cells);
+  Vector one = back.traction, other = back.traction;
+  for (int i = 0; i < cells; ++i) {
+    one[2 * i + 1] = i % 2 == 0 ? 1e-12 : -1e-12;
+    other[2 * i + 1] = -1e-12;
+  }
+  contact.law().jump().set_both(back.jump);
+  contact.law().traction().set_both(back.traction);
+  contact.set(one, back.jump);
+  const std::uint64_t state = contact.law().discrete_state();
+  contact.set(other, back.jump);
+  EXPECT_EQ(contact.law().discrete_state(), state);
+  contact.law().jump().set_both(back.jump_before);
+  contact.set(other, back.jump);
+  contact.follow();
+  EXPECT_EQ(contact.law().keep_states(), 0);
+}
+
 // Walls that slide freely while they are open overlap by |slip| tan psi. They are to be taken to slip then; a normal
 // stiffness that is too large for the wedge would have them stick.
 TEST(DilationWedge, WallsThatSlideFreelyAreTakenToSlip) {
