@@ -35,9 +35,18 @@ inline bool is_finite(const SparseMatrix& matrix) {
                      [](double v) { return std::isfinite(v); });
 }
 
+/// Of the larger of two values that ought to be equal: what rounding may leave between them.
+inline constexpr double nearly_equal = 1e-9;
+
+/// Has length one.
+template <class Derived>
+bool is_unit(const Eigen::MatrixBase<Derived>& vector) {
+  return std::abs(vector.norm() - 1) < nearly_equal;
+}
+
 /// Up to a round-off of the largest entry.
 template <class Derived>
-bool is_symmetric(const Eigen::MatrixBase<Derived>& matrix, double tolerance = 1e-9) {
+bool is_symmetric(const Eigen::MatrixBase<Derived>& matrix, double tolerance = nearly_equal) {
   if (matrix.rows() != matrix.cols()) return false;
   if (matrix.size() == 0) return true;
   return (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= tolerance * matrix.cwiseAbs().maxCoeff();

@@ -4,6 +4,13 @@
 
 namespace sprekk::couplers {
 
+namespace {
+
+/// Of the distances of cells: a direction along which they lie within this is one of which they say nothing.
+constexpr double round_off = 1e-12;
+
+}  // namespace
+
 NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from) {
   std::vector<Triplet> cells, faces;
   for (int node = 0; node < mesh.node_count(); ++node) {
@@ -42,8 +49,8 @@ NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from
     Tensor inverse = Tensor::Zero();
     for (int k = 0; k < dimension; ++k) {
       const Point along = directions.eigenvectors().col(k);
-      if (directions.eigenvalues()[k] > 1e-12 * mean.squaredNorm() &&
-          directions.eigenvalues()[k] > 1e-12 * moment.trace())
+      if (directions.eigenvalues()[k] > round_off * mean.squaredNorm() &&
+          directions.eigenvalues()[k] > round_off * moment.trace())
         inverse += along * along.transpose() / directions.eigenvalues()[k];
     }
     const Point slope = inverse * mean;

@@ -5,12 +5,15 @@
 
 namespace sprekk::couplers {
 
+/// 1 − cos of a bend that ends a straight piece (1e-4 rad): rounding of tangents leaves less.
+inline constexpr double least_bend = 1e-8;
+
 /// Whether a cell and the next one, cell + 1, are on one straight piece of a fracture.
 inline bool is_straight_on(const Mesh& mesh, int cell) {
   if (cell < 0 || cell + 1 >= mesh.fracture_cell_count()) return false;
   const FractureCell &here = mesh.fracture_cells[cell], &next = mesh.fracture_cells[cell + 1];
   return here.fracture == next.fracture && mesh.fracture_points[here.points[1]].kind != FracturePoint::Kind::junction &&
-         here.tangents.dot(next.tangents) > 1 - 1e-8;
+         here.tangents.dot(next.tangents) > 1 - least_bend;
 }
 
 }  // namespace sprekk::couplers

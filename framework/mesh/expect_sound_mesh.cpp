@@ -8,8 +8,6 @@ namespace sprekk {
 
 namespace {
 
-constexpr double nearly = 1e-9;  ///< of a length: what round-off may leave
-
 void expect_sound_lists(const Mesh& mesh) {
   const auto nodes = static_cast<std::size_t>(mesh.node_count()), cells = static_cast<std::size_t>(mesh.cell_count());
   const auto faces = static_cast<std::size_t>(mesh.face_count());
@@ -51,7 +49,7 @@ void expect_sound_face(const Mesh& mesh, int face) {
   SPREKK_ASSERT(second == none || is_index(second, mesh.cell_count()), face, second);
   SPREKK_ASSERT(first != second, face, first);
   SPREKK_ASSERT(mesh.face_length[face] > 0, face, mesh.face_length[face]);
-  SPREKK_ASSERT(std::abs(mesh.face_normal[face].norm() - 1) < nearly, face, mesh.face_normal[face].norm());
+  SPREKK_ASSERT(std::abs(mesh.face_normal[face].norm() - 1) < nearly_equal, face, mesh.face_normal[face].norm());
   const double outwards = mesh.face_normal[face].dot(mesh.face_center[face] - mesh.cell_center[first]);
   SPREKK_ASSERT(outwards > 0, face, first, outwards);
   // Inside, on the outer boundary, or a wall: one of three.
@@ -68,13 +66,13 @@ void expect_sound_fracture_cell(const Mesh& mesh, int i) {
   SPREKK_ASSERT(are_indices(cell.points, static_cast<long>(mesh.fracture_points.size())), i);
   SPREKK_ASSERT(are_indices(cell.faces, mesh.face_count()), i);
   SPREKK_ASSERT(cell.length > 0, i, cell.length);
-  SPREKK_ASSERT(std::abs(cell.normal.norm() - 1) < nearly, i, cell.normal.norm());
+  SPREKK_ASSERT(std::abs(cell.normal.norm() - 1) < nearly_equal, i, cell.normal.norm());
   const Point turned(-cell.normal.y(), cell.normal.x());
-  SPREKK_ASSERT((cell.tangents - turned).norm() < nearly, i);
+  SPREKK_ASSERT((cell.tangents - turned).norm() < nearly_equal, i);
   for (const int face : cell.faces) {
     SPREKK_ASSERT(mesh.face_fracture_cell[face] == i, i, face, mesh.face_fracture_cell[face]);
-    SPREKK_ASSERT(std::abs(mesh.face_length[face] - cell.length) <= nearly * cell.length, i, face, cell.length);
-    SPREKK_ASSERT((mesh.face_center[face] - cell.center).norm() <= nearly * (cell.length + cell.center.norm()), i,
+    SPREKK_ASSERT(std::abs(mesh.face_length[face] - cell.length) <= nearly_equal * cell.length, i, face, cell.length);
+    SPREKK_ASSERT((mesh.face_center[face] - cell.center).norm() <= nearly_equal * (cell.length + cell.center.norm()), i,
                   face);
   }
   // The normal points from the plus to the minus side: out of the cell on the plus side.

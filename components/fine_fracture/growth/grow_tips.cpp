@@ -53,7 +53,7 @@ class Growth {
     for (int i = 0; i < count(); ++i) {
       SPREKK_EXPECT(tips_[i].toughness > 0, i, tips_[i].toughness);
       SPREKK_EXPECT(tips_[i].youngs_prime > 0, i, tips_[i].youngs_prime);
-      SPREKK_EXPECT(std::abs(tips_[i].direction.norm() - 1) < 1e-9, i, tips_[i].direction.norm());
+      SPREKK_EXPECT(is_unit(tips_[i].direction), i, tips_[i].direction.norm());
       State& state = states_[i];
       const std::vector<Point>& added = tips_[i].path.added;
       state.end = added.empty() ? tips_[i].tip : added.back();

@@ -31,6 +31,9 @@ constexpr double far_below = 0.9;
 /// How often one increment is evaluated in all, over how often it is with one length.
 constexpr int lengths_tried = 4;
 
+/// Of a length or an angle: what sums of increments differ by rounding.
+constexpr double rounding = 1e-12;
+
 }  // namespace
 
 IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start, double toughness, double full_length,
@@ -141,10 +144,10 @@ double IncrementSearch::excess(double k_eq) const {
 }
 
 double IncrementSearch::estimated_slope(double angle) const {
-  constexpr double step = 1e-3;
+  constexpr double step = 1e-3;  // rad: rounding over it and the third derivative times its square are below 1e-6
   const double change =
       phase_of(after_kink(start_, angle + step, length_)) - phase_of(after_kink(start_, angle - step, length_));
-  constexpr double least = 0.1;
+  constexpr double least = 0.1;  // a flatter slope makes no useful step
   return std::max(least, std::remainder(change, 2 * std::numbers::pi) / (2 * step));
 }
 
@@ -162,14 +165,15 @@ double IncrementSearch::root_of_phi() {
   if (directions_.size() > 1) {
     const Direction& before = directions_[directions_.size() - 2];
     const double secant = (last.phi - before.phi) / (last.angle - before.angle);
-    constexpr double flattest = 0.02, steepest = 100;  // slopes that are believed
+    constexpr double flattest = 0.02, steepest = 100;     // slopes that are believed
+    constexpr double least_ratio = 0.1, most_ratio = 20;  // of slopes, measured over estimated, that are remembered
     if (secant > flattest && secant < steepest) {
       slope = secant;
       if (std::max(std::abs(last.phi), std::abs(before.phi)) < nearly_right)
-        warm_start_.stiffness_ratio = std::clamp(secant / estimated_slope(last.angle), 0.1, 20.0);
+        warm_start_.stiffness_ratio = std::clamp(secant / estimated_slope(last.angle), least_ratio, most_ratio);
     }
   }
-  constexpr double longest_step = 0.5;  // as long as the root is not between two angles
+  constexpr double longest_step = 0.5;  // rad, as long as the root is not between two angles
   double root = clamp_turn(last.angle - std::clamp(last.phi / slope, -longest_step, longest_step));
   double low = -options_.largest_turn, high = options_.largest_turn;
   for (const Direction& tried : directions_) {
@@ -182,8 +186,8 @@ double IncrementSearch::root_of_phi() {
 
 void IncrementSearch::learn(const Sifs& end) {
   SPREKK_EXPECT(is_finite(end), end.k1, end.k2, end.t_stress);
-  SPREKK_ASSERT(length_ > 0 && length_ <= full_length_ * (1 + 1e-12), length_, full_length_);
-  SPREKK_ASSERT(std::abs(angle_) <= options_.largest_turn * (1 + 1e-12), angle_, options_.largest_turn);
+  SPREKK_ASSERT(length_ > 0 && length_ <= full_length_ * (1 + rounding), length_, full_length_);
+  SPREKK_ASSERT(std::abs(angle_) <= options_.largest_turn * (1 + rounding), angle_, options_.largest_turn);
   if (phase_ == Phase::as_it_is) {
     is_settled_ = true;
     return;
@@ -265,8 +269,8 @@ double IncrementSearch::next_length(const std::optional<Length>& third) const {
                                  third->length * a * b / ((c - a) * (c - b));
     if (through_three > shorter_.length && through_three < longer_->length) next = through_three;
   }
-  const double margin = 2e-3 * width;
-  return std::clamp(next, shorter_.length + margin, longer_->length - margin);
+  constexpr double margin = 2e-3;  // of the bracket: a length at one of its ends would not narrow it
+  return std::clamp(next, shorter_.length + margin * width, longer_->length - margin * width);
 }
 
 /// No increment that is too long is known yet.
@@ -280,7 +284,7 @@ double IncrementSearch::longer_length() const {
 
 void IncrementSearch::change_length(double excess_here) {
   const Length here = {length_, excess_here, angle_};
-  if (here.excess > 0 && length_ <= shortest_length() * (1 + 1e-12)) {
+  if (here.excess > 0 && length_ <= shortest_length() * (1 + rounding)) {
     warm_start_.release = (here.excess - excess(equivalent_sif(start_))) / length_;
     return stay();
   }
@@ -312,7 +316,7 @@ bool IncrementSearch::has_closed(double excess_here) const {
 
 void IncrementSearch::shorten(double by) {
   SPREKK_EXPECT(by > 0 && by < 1, by);
-  if (length_ <= shortest_length() * (1 + 1e-12))
+  if (length_ <= shortest_length() * (1 + rounding))
     return fix_direction("no direction makes K_II vanish, of the shortest increment neither");
   ceiling_ = length_;
   longer_.reset();
@@ -357,7 +361,8 @@ void IncrementSearch::fix_direction(const std::string& why) {
       std::min_element(directions_.begin(), directions_.end(),
                        [](const Direction& a, const Direction& b) { return std::abs(a.phi) < std::abs(b.phi); });
   // Nearly symmetric is better than explicit, which is unstable.
-  if (best != directions_.end() && std::abs(std::tan(best->phi)) <= 10 * options_.direction_tolerance &&
+  constexpr double good_enough = 10;  // tolerances
+  if (best != directions_.end() && std::abs(std::tan(best->phi)) <= good_enough * options_.direction_tolerance &&
       std::cos(best->phi) > 0) {
     angle_ = best->angle;
     add_note(why + ": the best direction was taken");

@@ -85,7 +85,8 @@ double odd(const std::array<double, n>& coefficients, double m) {
 double bisect(const Sifs& sifs, double length, double near, double far) {
   SPREKK_EXPECT(std::abs(far) > std::abs(near), near, far);
   const double sign = std::copysign(1.0, after_kink(sifs, near, length).k2);
-  for (int i = 0; i < 60; ++i) {
+  constexpr int halvings = 60;  // more than a double tells apart
+  for (int i = 0; i < halvings; ++i) {
     const double middle = (near + far) / 2;
     (sign * after_kink(sifs, middle, length).k2 > 0 ? near : far) = middle;
   }
@@ -112,7 +113,7 @@ double local_symmetry_angle(const Sifs& sifs, double length, double limit) {
   SPREKK_EXPECT(is_finite(sifs), sifs.k1, sifs.k2, sifs.t_stress);
   SPREKK_EXPECT(limit > 0 && limit <= pi, limit);
   if (sifs.k2 == 0) return 0;
-  constexpr int steps = 32;
+  constexpr int steps = 32;  // parts of the limit in which the first change of sign is looked for
   const double step = -std::copysign(limit / steps, sifs.k2);
   for (int i = 1; i <= steps; ++i)
     if (after_kink(sifs, i * step, length).k2 * sifs.k2 <= 0) return bisect(sifs, length, (i - 1) * step, i * step);

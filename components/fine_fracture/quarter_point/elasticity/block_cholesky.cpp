@@ -64,7 +64,7 @@ void BlockCholesky::factorize(const BlockMatrix& matrix) {
       while (length > 0) reached[--top] = way[--length];
     }
     const Block diagonal = row[k];
-    SPREKK_EXPECT(std::abs(diagonal(0, 1) - diagonal(1, 0)) <= 1e-9 * diagonal.norm(), k, diagonal(0, 1),
+    SPREKK_EXPECT(std::abs(diagonal(0, 1) - diagonal(1, 0)) <= nearly_equal * diagonal.norm(), k, diagonal(0, 1),
                   diagonal(1, 0));
     SPREKK_EXPECT(diagonal.allFinite(), k);
     Block pivot = diagonal;

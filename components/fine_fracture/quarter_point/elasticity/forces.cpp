@@ -31,7 +31,7 @@ void add_outline_tractions(const FineGeometry& geometry, const FineMesh& mesh, c
 
 void add_wall_tractions(const FineMesh& mesh, const FineLoads& loads, Vector& f) {
   for (const FineMesh::WallEdge& edge : mesh.wall_edges) {
-    SPREKK_EXPECT(std::abs(edge.normal.norm() - 1) < 1e-9, edge.normal.norm());
+    SPREKK_EXPECT(is_unit(edge.normal), edge.normal.norm());
     if (edge.walls != CrackPath::Walls::traction) continue;
     for (const LinePoint& place : wall_rule(mesh, edge, edge_points)) {
       const EdgePoint p = edge_point(mesh, edge.nodes[0], place.t);

@@ -16,7 +16,7 @@ constexpr double domain_in_radii = 4, share_of_room = 0.75;
 
 void correlate(const FineMesh::Tip& tip, const Elasticity& rock, const Vector& displacement, TipIntensities& result) {
   SPREKK_EXPECT(tip.room.radius > 0, tip.room.radius);
-  SPREKK_EXPECT(std::abs(tip.room.direction.norm() - 1) < 1e-9, tip.room.direction.norm());
+  SPREKK_EXPECT(is_unit(tip.room.direction), tip.room.direction.norm());
   const Point& x1 = tip.room.direction;
   const Point x2(-x1.y(), x1.x());
   std::array<Point, 2> opening;  // (normal, tangential) at a quarter of the radius, and at the radius

@@ -53,7 +53,7 @@ InteractionIntegrals::InteractionIntegrals(const FineMesh& mesh, const Elasticit
       of_displacement_(Rows<Eigen::Dynamic>::Zero(sums, 2 * mesh.node_count())) {
   const Point& x1 = tip.room.direction;
   frame_ << x1.x(), -x1.y(), x1.y(), x1.x();
-  SPREKK_EXPECT(std::abs(x1.norm() - 1) < 1e-9, x1.norm());
+  SPREKK_EXPECT(is_unit(x1), x1.norm());
   SPREKK_EXPECT(radii[0] > tip.room.radius && radii[1] > tip.room.radius, radii[0], radii[1], tip.room.radius);
   SPREKK_EXPECT(radii[0] >= radii[1], radii[0], radii[1]);
   for (const FineMesh::WallEdge& edge : mesh.wall_edges)

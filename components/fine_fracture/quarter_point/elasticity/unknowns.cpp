@@ -65,7 +65,8 @@ void Unknowns::tie_walls(const FineMesh& mesh) {
     if (edge.walls != CrackPath::Walls::jump) continue;
     for (int k = 0; k < 3; ++k) {
       const int plus = edge.nodes[0][k], minus = edge.nodes[1][k];
-      SPREKK_ASSERT((mesh.nodes[plus] - mesh.nodes[minus]).norm() <= 1e-9 * (1 + mesh.nodes[plus].norm()), plus, minus);
+      SPREKK_ASSERT((mesh.nodes[plus] - mesh.nodes[minus]).norm() <= nearly_equal * (1 + mesh.nodes[plus].norm()), plus,
+                    minus);
       if (trees.of(plus) == trees.of(minus) || (is_prescribed_[plus] && is_prescribed_[minus])) continue;
       trees.join(plus, minus);
       for (const int node : {plus, minus}) branches_at[node].push_back(static_cast<int>(branches.size()));
