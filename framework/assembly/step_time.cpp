@@ -13,7 +13,8 @@ double value_in_step(const Data& data, Place place, const StepTime& step) {
   SPREKK_ASSERT(std::is_sorted(data.switch_times().begin(), data.switch_times().end()));
   const std::vector<double>& jumps = data.switch_times();
   // The end of a step and a jump at that time may differ by round-off.
-  const double tolerance = 1e-9 * step.dt;
+  constexpr double rounding = 1e-9;  // of a step: times are sums of steps
+  const double tolerance = rounding * step.dt;
   const auto jump = std::lower_bound(jumps.begin(), jumps.end(), step.end - tolerance);
   const bool jumps_at_end = jump != jumps.end() && *jump <= step.end + tolerance;
   place.t =

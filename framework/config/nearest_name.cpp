@@ -62,7 +62,8 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
     }
   }
   // A third of the letters may be wrong, at most three: in shorter words everything resembles everything.
-  const int tolerated = std::min(3, static_cast<int>(std::max(word.size(), nearest.size())) / 3);
+  constexpr int most_slips = 3, letters_for_one = 3;
+  const int tolerated = std::min(most_slips, static_cast<int>(std::max(word.size(), nearest.size())) / letters_for_one);
   if (!nearest.empty() && nearest_distance <= tolerated) return nearest;
   return word.size() >= 3 ? only_name_that_begins_with(lower_word, names) : "";
 }

@@ -12,6 +12,7 @@ namespace sprekk {
 namespace {
 
 constexpr std::size_t longest_unit = 80;
+constexpr double greatest_power = 12;
 
 struct NamedUnit {
   const char* name;
@@ -175,7 +176,7 @@ class UnitParser {
     double value = 0;
     const char* end_of_text = text_.data() + text_.size();
     const auto [end, error] = std::from_chars(text_.data() + position_, end_of_text, value, std::chars_format::fixed);
-    if (error != std::errc{} || !(std::abs(value) <= 12)) fail("a power must be a number from -12 to 12");
+    if (error != std::errc{} || !(std::abs(value) <= greatest_power)) fail("a power must be a number from -12 to 12");
     position_ = static_cast<std::size_t>(end - text_.data());
     return value;
   }

@@ -9,7 +9,8 @@
 namespace sprekk {
 namespace {
 
-const double straight = std::cos(10 * std::numbers::pi / 180);
+constexpr double largest_bend = 10;  ///< degrees: behind a sharper one the field of an end does not go on
+const double straight = std::cos(largest_bend * std::numbers::pi / 180);
 
 }  // namespace
 

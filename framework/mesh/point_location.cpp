@@ -34,7 +34,8 @@ PointLocation::PointLocation(const Mesh& mesh) : mesh_(&mesh) {
   const Point size = whole.high - whole.low;
   SPREKK_EXPECT(size.allFinite() && size.minCoeff() > 0, size.x(), size.y());
   low_ = whole.low;
-  slack_ = 1e-10 * size.norm();
+  constexpr double slack = 1e-10;  // of the extent: round-off of coordinates
+  slack_ = slack * size.norm();
   // Four buckets for a cell of mean area: where a mesh is graded most points are asked for among its small cells.
   width_ = 0.5 * std::sqrt(size.x() * size.y() / std::max(1, mesh.cell_count()));
   for (int axis = 0; axis < 2; ++axis) counts_[axis] = 1 + static_cast<int>(size[axis] / width_);

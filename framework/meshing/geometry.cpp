@@ -202,11 +202,12 @@ void validate_options(const MeshOptions& options) {
     throw InputError(options.origin, "mesh gap_edges is " + number(options.gap_edges), "it must be 0 or more",
                      "0 leaves narrow gaps alone");
   }
-  if (!(options.growth > 0 && options.growth <= 2)) {
+  constexpr double steepest = 2, most_distorted = 0.4;  // beyond, cells are bad, or may turn over
+  if (!(options.growth > 0 && options.growth <= steepest)) {
     throw InputError(options.origin, "mesh growth is " + number(options.growth),
                      "it must be greater than 0 and at most 2", "0.3 is usual");
   }
-  if (!(options.distortion >= 0 && options.distortion <= 0.4)) {
+  if (!(options.distortion >= 0 && options.distortion <= most_distorted)) {
     throw InputError(options.origin, "mesh distortion is " + number(options.distortion), "it must be from 0 to 0.4");
   }
   if (std::min(options.cells[0], options.cells[1]) < 0) {
@@ -245,10 +246,14 @@ void validate_cell_count(const Geometry& geometry, const MeshOptions& options) {
 }  // namespace
 
 double far_size(const Geometry& geometry, const MeshOptions& options) {
-  return options.size.value_or(geometry.box.size().maxCoeff() / 50);
+  constexpr double cells_across = 50;  // of the longer side: where a scene says nothing about sizes
+  return options.size.value_or(geometry.box.size().maxCoeff() / cells_across);
 }
 
-double point_tolerance(const Box& box) { return 1e-9 * box.size().norm(); }
+double point_tolerance(const Box& box) {
+  constexpr double same_point = 1e-9;  // of the diagonal: round-off of coordinates
+  return same_point * box.size().norm();
+}
 
 void validate_geometry(const Geometry& geometry, const MeshOptions& options) {
   validate_options(options);

@@ -31,6 +31,8 @@ Kind kind_of(int type) {
   }
 }
 
+constexpr int most_tags = 100'000;  // of an element: more is a file that is damaged
+
 /// Whether it is a line with more than two nodes.
 bool is_curved_line(int type) { return type == 8 || (type >= 26 && type <= 28); }
 
@@ -292,7 +294,7 @@ class Parser {
 
   int tag_count(std::size_t place) {
     const int count = cursor_.integer("the number of tags");
-    if (count < 0 || count > 100'000) cursor_.fail_at(place, "an element has " + std::to_string(count) + " tags");
+    if (count < 0 || count > most_tags) cursor_.fail_at(place, "an element has " + std::to_string(count) + " tags");
     return count;
   }
 

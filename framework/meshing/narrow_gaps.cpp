@@ -132,7 +132,10 @@ class Search {
       wanted = std::max(wanted, wanted_here);
       widest = std::max(widest, here);
     }
-    if (gap >= wanted + 0.25 * limits_.slope * length) return;
+    // Between its ends and middle, where they are asked for, sizes fall by the slope times a quarter of the length at
+    // most.
+    constexpr double farthest = 0.25;
+    if (gap >= wanted + farthest * limits_.slope * length) return;
     const bool is_even = widest <= std::max(evenness * gap, limits_.least);
     if (is_even && is_narrow && shortest_way >= least_detour * gap) {
       keep_({part, gap});

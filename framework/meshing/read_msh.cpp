@@ -115,7 +115,8 @@ class Reader {
     }
     const double extent = (high - low).norm();
     if (extent < smallest_extent) throw InputError("all nodes are at one place (their distance is below 1e-12 m)");
-    if (height > 1e-9 * extent) throw InputError("the mesh leaves the x-y plane");
+    constexpr double flat = 1e-9;  // of the extent: round-off of coordinates
+    if (height > flat * extent) throw InputError("the mesh leaves the x-y plane");
   }
 
   int node(const MshFile::Element& element, int k) const {

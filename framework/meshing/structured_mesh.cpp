@@ -35,7 +35,8 @@ struct Grid {
 /// The nodes along a segment, or nothing when it leaves the edges of the grid.
 std::optional<std::vector<int>> follow(const Grid& grid, const Segment& segment) {
   const Point width = grid.box.size().cwiseQuotient(Point(grid.cells[0], grid.cells[1]));
-  const double tolerance = 1e-6 * width.minCoeff();
+  constexpr double same_place = 1e-6;  // of a cell: a fracture is moved by less onto the edges of the grid
+  const double tolerance = same_place * width.minCoeff();
   const auto is_at = [&](int i, int j, const Point& x) { return (grid.position(i, j) - x).norm() < tolerance; };
 
   const Point start = (segment.from - grid.box.low).cwiseQuotient(width);
@@ -82,9 +83,9 @@ Grid choose_grid(const Geometry& geometry, const MeshOptions& options) {
   Grid grid{geometry.box, options.cells, options.shape == MeshOptions::Shape::triangles, 0};
   for (int axis = 0; axis < 2; ++axis) {
     if (grid.cells[axis] > 0) continue;
-    // The subtraction forgives rounding in quotients that are meant to be whole.
+    constexpr double rounding = 1e-9;  // of quotients that are meant to be whole
     grid.cells[axis] =
-        std::max(1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - 1e-9)));
+        std::max(1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - rounding)));
   }
   const int astray = first_astray(grid, geometry);
   if (astray == none) return grid;

@@ -54,7 +54,7 @@ struct Frame {
 /// folds triangles along a line that is oblique where the box is over 30,000 edges wide (measured: from 1e-9 at 5e4,
 /// from 1e-10 at 3e5): the move has to be small against the square of an edge over the box.
 double random_factor(const Geometry& geometry, const SizeField& sizes, const Arrangement& arrangement) {
-  constexpr double standard = 1e-9, least = 1e-14;
+  constexpr double standard = 1e-9, least = 1e-14, of_square = 0.1;
   double edge = sizes.smallest();
   for (const auto& chain : arrangement.chains) {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
@@ -62,7 +62,7 @@ double random_factor(const Geometry& geometry, const SizeField& sizes, const Arr
     }
   }
   const double share = edge / geometry.box.size().maxCoeff();
-  return std::clamp(0.1 * share * share, least, standard);
+  return std::clamp(of_square * share * share, least, standard);
 }
 
 /// The lines between neighbouring points of an arrangement, as gmsh shall see them, and what it finds along them.

@@ -41,7 +41,8 @@ void block_signals() {
 
 std::string duration_text(double seconds) {
   if (!std::isfinite(seconds)) return "?";
-  if (seconds < 59.95) return fmt::format("{:.3g} s", seconds);  // from there on three digits say 60
+  constexpr double a_minute = 59.95;  // from there on three digits say 60
+  if (seconds < a_minute) return fmt::format("{:.3g} s", seconds);
   constexpr double year = 365.25 * 86400;
   if (seconds > 10 * year) return fmt::format("{:.3g} years", seconds / year);
   const auto whole = std::llround(seconds);

@@ -16,6 +16,14 @@ using Reason = ExtensionError::Reason;
 
 /// A path approaches a segment if its distance falls below this part of that of its beginning.
 constexpr double approach = 0.9;
+/// Parallel lines, ends of segments and angles of 90 degrees: what rounding leaves of a length or a cosine.
+constexpr double rounding = 1e-12;
+/// Sine of the angle between lines whose crossing is lost to rounding.
+constexpr double parallel = 1e-14;
+/// Of an edge: a shorter segment of a path has no direction.
+constexpr double shortest = 1e-6;
+/// Of the least gap: a tip looks that much farther ahead than what its last increment may have.
+constexpr double room_ahead = 1.5;
 /// Parts of one and the same path may be as near to each other as this part of the way between them along the path.
 constexpr double self_gap = 0.25;
 
@@ -108,7 +116,7 @@ bool leads_away(const Segment& step, const Point& beginning, const Segment& line
 class Check {
  public:
   Check(const Mesh& mesh, const std::vector<PathExtension>& extensions, double size)
-      : mesh_(mesh), size_(size), touch_(1e-12 * extent(mesh)), extensions_(extensions) {}
+      : mesh_(mesh), size_(size), touch_(rounding * extent(mesh)), extensions_(extensions) {}
 
   std::vector<PathExtension> run() {
     for (index_ = 0; index_ < static_cast<int>(extensions_.size()); ++index_) {
@@ -160,10 +168,10 @@ class Check {
     Point from = end.position, before = end.before;
     for (const Point& to : points) {
       if (!to.allFinite()) refuse(Reason::no_path, from, "gets a point that is no number", "after this one");
-      if ((to - from).norm() <= std::max(touch_, 1e-6 * size_)) {
+      if ((to - from).norm() <= std::max(touch_, shortest * size_)) {
         refuse(Reason::no_path, from, "gets a segment without length", "two points of the path are one");
       }
-      if ((to - from).dot(from - before) < -1e-12 * (to - from).norm() * (from - before).norm()) {
+      if ((to - from).dot(from - before) < -rounding * (to - from).norm() * (from - before).norm()) {
         refuse(Reason::turns_back, from, "turns back", "by more than 90 degrees");
       }
       before = from;
@@ -369,7 +377,8 @@ bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, cons
                     double size) {
   const Segment step{from, to};
   const auto is_near = [&](const Segment& other) {
-    return distance(step, other) < std::min(1.5 * least_gap * size, (1 + approach) / 2 * distance(beginning, other));
+    return distance(step, other) <
+           std::min(room_ahead * least_gap * size, (1 + approach) / 2 * distance(beginning, other));
   };
   for (int face = 0; face < mesh.face_count(); ++face)
     if (mesh.face_side[face] != none && is_near(segment_of_face(mesh, face)) &&
@@ -390,13 +399,13 @@ FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point&
     const Point v = s.to - s.from, w = s.from - from;
     const double determinant = cross(u, v), length = v.norm();
     double t;
-    if (std::abs(determinant) > 1e-14 * length) {
+    if (std::abs(determinant) > parallel * length) {
       t = cross(w, v) / determinant;
       const double along = cross(w, u) / determinant;
-      if (along < -1e-12 || along > 1 + 1e-12) return;
+      if (along < -rounding || along > 1 + rounding) return;
     } else {
       // Parallel: met at its nearer end when it lies ahead on the same line.
-      if (std::abs(cross(w, u)) > 1e-12 * length) return;
+      if (std::abs(cross(w, u)) > rounding * length) return;
       t = std::min(w.dot(u), (w + v).dot(u));
     }
     if (t < 0 || t >= free.length) return;

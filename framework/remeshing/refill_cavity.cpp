@@ -130,7 +130,8 @@ class Refilling {
 
   static bool are_in_line(const OuterEdge& a, const OuterEdge& b, const std::vector<Point>& nodes) {
     const Point u = nodes[a.nodes.back()] - nodes[a.nodes.front()], v = nodes[b.nodes.back()] - nodes[b.nodes.front()];
-    return a.side == b.side && a.region == b.region && std::abs(cross(u, v)) <= 1e-14 * u.norm() * v.norm();
+    constexpr double straight = 1e-14;  // rad: edges of a straight side bend by rounding only
+    return a.side == b.side && a.region == b.region && std::abs(cross(u, v)) <= straight * u.norm() * v.norm();
   }
 
   void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, double size_factor,

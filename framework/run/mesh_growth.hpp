@@ -41,8 +41,9 @@ class MeshGrowth {
   IterationLog log_;
   Observer changed_;
   std::string reason_;
+  static constexpr double above_all_triangles = 1.1;  ///< rad; their smallest angle is 60 degrees at most
   long changes_ = 0;
-  double smallest_angle_ = 1.1;
+  double smallest_angle_ = above_all_triangles;
   int passes_ = 0;
 };
 

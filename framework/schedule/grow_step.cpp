@@ -69,6 +69,11 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
       settle_(settle_options(options, *growing_), context),
       smallest_step_(options.cut * context.standard_step) {}
 
+bool GrowStep::may_shrink(const StepTime& step) const {
+  constexpr double rounding = 1e-9;  // of the smallest step
+  return step.dt > smallest_step_ * (1 + rounding);
+}
+
 StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) {
   SPREKK_EXPECT(std::isfinite(before) && std::isfinite(now), before, now);
   SPREKK_ASSERT(smallest_step_ > 0, smallest_step_);

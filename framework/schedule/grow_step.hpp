@@ -52,7 +52,7 @@ class GrowStep : public ScheduleStep {
  private:
   /// Refuses a step, and asks for one at whose end the load is just above 1.
   StepStatus refused(const std::string& reason, const StepTime& step, double before, double now);
-  bool may_shrink(const StepTime& step) const { return step.dt > smallest_step_ * (1 + 1e-9); }
+  bool may_shrink(const StepTime& step) const;
 
   GrowOptions options_;
   Growing* growing_;

@@ -46,7 +46,8 @@ Delaunay::Delaunay()
 int Delaunay::find(const Point& x) const {
   // From triangle to triangle towards x: without fixed edges no triangle is met twice.
   int t = last_;
-  for (std::size_t steps = 0; steps <= 4 * triangles_.size(); ++steps) {
+  constexpr std::size_t most_a_triangle = 4;  // fixed edges may lead around
+  for (std::size_t steps = 0; steps <= most_a_triangle * triangles_.size(); ++steps) {
     int towards = none;
     for (int k = 0; k < 3 && towards == none; ++k) {
       const auto& corners = triangles_[t].corners;
@@ -214,7 +215,9 @@ void Delaunay::fix(int from, int to, Edge kind) {
       k = side < 0 ? corner_of(t, opposite) : corner_of(t, right);
     }
   }
-  const std::size_t most_tries = 1000 + 100 * crossed.size();
+  // One that is there needs a few flips for each edge in its way.
+  constexpr std::size_t at_least = 1000, for_an_edge = 100;
+  const std::size_t most_tries = at_least + for_an_edge * crossed.size();
   for (std::size_t tries = 0; !crossed.empty(); ++tries) {
     if (tries > most_tries) throw std::runtime_error(in_the_way);
     const auto [a, b] = crossed.front();

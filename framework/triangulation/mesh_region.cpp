@@ -22,13 +22,15 @@ std::vector<Point> division(const Point& from, const Point& to, const std::funct
   const Point along = (to - from) / length;
   // Small steps, since sizes may differ by orders of magnitude: how many edges fit between the beginning and each.
   constexpr double step_per_size = 0.25;
+  constexpr double smallest_step = 1e-9;  // of the line
+  constexpr double nearly_all = 0.999;    // of what is left: the rest would be a step of rounding
   std::vector<double> places{0}, edges{0};
   while (places.back() < length) {
     const double left = length - places.back();
     double step = step_per_size * size(from + places.back() * along);
-    if (!(step > 1e-9 * length))
+    if (!(step > smallest_step * length))
       throw std::runtime_error("the size wanted along a line is not positive, or a billionth of it");
-    if (step > 0.999 * left) step = left;
+    if (step > nearly_all * left) step = left;
     edges.push_back(edges.back() + step / size(from + (places.back() + 0.5 * step) * along));
     places.push_back(step == left ? length : places.back() + step);
   }

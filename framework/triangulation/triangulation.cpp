@@ -121,7 +121,8 @@ class Round {
   bool move(int point, const std::vector<int>& triangles) {
     double best = worst_around(triangles, -std::numeric_limits<double>::infinity());
     // Nothing is gained around a point that has good triangles already.
-    if (best > 50 * std::numbers::pi / 180) return false;
+    constexpr double good_enough = 50;  // degrees, of the 60 that are the most
+    if (best > good_enough * std::numbers::pi / 180) return false;
     const Point start = t_.points[point];
     Point best_place = start, mean = Point::Zero();
     double reach = std::numeric_limits<double>::infinity();
@@ -140,9 +141,10 @@ class Round {
     const double before = best;
     attempt(mean);
     attempt(0.5 * (mean + start));
-    for (double step = 0.25 * reach; step > 0.01 * reach; step *= 0.5) {
+    constexpr double first = 0.25, last = 0.01;  // of the shortest edge there
+    for (double step = first * reach; step > last * reach; step *= 0.5) {
       const Point center = best_place;
-      constexpr double h = 0.7071067811865476;
+      constexpr double h = 0.7071067811865476;  // 1/sqrt(2)
       for (const Point& way : {Point(1, 0), Point(h, h), Point(0, 1), Point(-h, h), Point(-1, 0), Point(-h, -h),
                                Point(0, -1), Point(h, -h)}) {
         attempt(center + step * way);

@@ -124,7 +124,8 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   const Point center = position(tip, {});
   FineMeshOptions mesh;
   mesh.tip_size = options_.mesh_ratio * tip.coarse_size;
-  mesh.far_size = std::max(mesh.tip_size, options_.size / 10);
+  constexpr double edges_across = 10;  // of the domain, away from the fractures; the estimated error refines them
+  mesh.far_size = std::max(mesh.tip_size, options_.size / edges_across);
   mesh.sectors = options_.sectors;
   const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
   FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls);
@@ -237,8 +238,9 @@ void Tips::set_factors(Tip& tip, const Sifs& sifs) const {
 
 bool Tips::is_near(const Tip& tip, const Tip& other) const {
   // The effect of an increment decreases with the square of its length over the distance.
+  constexpr double far = 10;  // increments
   return tip.end.fracture == other.end.fracture ||
-         (position(tip, tip.now.path) - position(other, other.now.path)).norm() < 10 * options_.growth.increment;
+         (position(tip, tip.now.path) - position(other, other.now.path)).norm() < far * options_.growth.increment;
 }
 
 double Tips::free_way(const Tip& tip, const TipPath& path, const Point& to) const {
@@ -336,7 +338,8 @@ std::vector<Point> Tips::coarse_path(const Tip& tip, const TipPath& path) const 
 CavityOptions Tips::cavity() const {
   double size = 0;
   for (const Tip& tip : tips_) size = std::max(size, tip.coarse_size);
-  return {options_.cavity * size, size, 0.3};
+  constexpr double growth = 0.3;  // of edges, m per m, as `mesh.growth` is without a value
+  return {options_.cavity * size, size, growth};
 }
 
 void Tips::accepted() {

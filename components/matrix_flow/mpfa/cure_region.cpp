@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 
@@ -9,6 +10,13 @@ namespace sprekk::matrix_flow {
 namespace {
 
 constexpr double round_off = 1e-12;
+/// Of the largest singular value: less is no bend of pressures but round-off.
+constexpr double bends = 1e-9;
+/// Continuity points on faces, from their middle to the node, in the order of their errors.
+constexpr std::array other_points = {0.15, 0.0, 1.0 / 3, 0.5};
+/// Factors of what is not linear, and shares of the symmetric method, from the least change to the largest.
+constexpr std::array dampings = {1.0, 2.0, 4.0, 8.0, 16.0};
+constexpr std::array shares = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0};
 
 /// Scales a quadratic form so that its diagonal is 1.
 Eigen::VectorXd scale_of(const Eigen::MatrixXd& form) {
@@ -76,7 +84,7 @@ LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const Interactio
                                     const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
   const std::vector<double> points = towards_node_;
   // Continuity points on walls and sides are not free: both halves of such a face have the same point.
-  for (const double other : {0.15, 0.0, 1.0 / 3, 0.5}) {
+  for (const double other : other_points) {
     for (int f = 0; f < subfaces_; ++f)
       if (region.is_inner(f)) towards_node_[f] = other;
     find_arms(mesh, node, region);
@@ -95,7 +103,7 @@ LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const Interactio
   // The part of the pressures that is not linear: orthogonal to all pressures without kinks, in units of equal energy.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(kinks * scale.asDiagonal(), Eigen::ComputeFullV);
   const auto& size = svd.singularValues();
-  const Eigen::MatrixXd turned = svd.matrixV().leftCols((size.array() > 1e-9 * size[0]).count());
+  const Eigen::MatrixXd turned = svd.matrixV().leftCols((size.array() > bends * size[0]).count());
   const Eigen::MatrixXd bent = scale.asDiagonal() * turned * turned.transpose() * scale.cwiseInverse().asDiagonal();
   const auto map = [this](const std::vector<double>& values) {
     return Eigen::Map<const Matrix>(values.data(), subfaces_, columns_);
@@ -106,11 +114,11 @@ LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const Interactio
     return loses_energy(region, conditions);
   };
   const Eigen::MatrixXd straight = Eigen::MatrixXd::Identity(columns_, columns_) - bent;
-  for (const double damping : {1.0, 2.0, 4.0, 8.0, 16.0})
+  for (const double damping : dampings)
     if (take(map(exact_pressures) * straight + damping * map(symmetric_pressures) * bent,
              map(exact_fluxes) * straight + damping * map(symmetric_fluxes) * bent))
       return Cure::damping;
-  for (const double share : {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0})
+  for (const double share : shares)
     if (take((1 - share) * map(exact_pressures) + share * map(symmetric_pressures),
              (1 - share) * map(exact_fluxes) + share * map(symmetric_fluxes)))
       return Cure::blend;

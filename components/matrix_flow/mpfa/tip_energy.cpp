@@ -1,6 +1,7 @@
 #include "components/matrix_flow/mpfa/tip_energy.hpp"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <map>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
@@ -11,6 +12,10 @@ namespace sprekk::matrix_flow {
 namespace {
 
 constexpr double round_off = 1e-11;
+/// For the root of an entry without any power.
+constexpr double above_zero = 1e-300;
+/// What is tried of the tip's part of the fluxes: the most that gains no energy is taken.
+constexpr std::array parts = {1.0, 0.75, 0.5, 0.25};
 
 /// The power that is lost in all regions of a tip, as a form of the pressures of cells and of what flows through walls.
 class Power {
@@ -45,7 +50,7 @@ class Power {
   }
 
   bool is_lost_with(double part) const {
-    const Eigen::VectorXd scale = linear_.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::VectorXd scale = linear_.diagonal().cwiseAbs().cwiseMax(above_zero).cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd whole = linear_ + part * added_;
     Eigen::MatrixXd form = scale.asDiagonal() * (0.5 * (whole + whole.transpose())) * scale.asDiagonal();
     form.diagonal().array() += round_off * size();
@@ -82,7 +87,7 @@ double lossy_part(const TipFlow& flow, const Mesh& mesh, const std::vector<int>&
     local.solve(mesh, node, region, mobility, conditions);
     power.add(region, local, TipCorrection(flow, mesh, region, local, node, mobility, conditions));
   }
-  for (const double part : {1.0, 0.75, 0.5, 0.25})
+  for (const double part : parts)
     if (power.is_lost_with(part)) return part;
   return 0;
 }

@@ -18,8 +18,9 @@ constexpr double largest_share = 20;
 }  // namespace
 
 bool is_isotropic(const Tensor& mobility) {
+  constexpr double rounding = 1e-9;
   const Tensor deviator = mobility - 0.5 * mobility.trace() * Tensor::Identity();
-  return mobility.trace() > 0 && deviator.lpNorm<Eigen::Infinity>() <= 1e-9 * mobility.trace();
+  return mobility.trace() > 0 && deviator.lpNorm<Eigen::Infinity>() <= rounding * mobility.trace();
 }
 
 bool resembles(const Tensor& mobility, const Tensor& other) {

@@ -24,6 +24,14 @@ constexpr double vague = 0.1, certain = 0.5;
 /// a half errors change little (docs/numerics/poromechanics.md); far below, rotations are hardly coupled.
 constexpr double rotation_strength = 0.25;
 
+/// Smallest pivot, of a row, below which a stiff subcell among very soft ones turns freely (media that differ by 1e6),
+/// and how strongly it is then coupled to the rotation of the soft ones, of what subcells alike are: they hardly
+/// resist.
+constexpr double turns_freely = 1e-6, held_by_soft = 0.1;
+
+/// Smallest pivot, of a row, of a local problem that is solvable: less is round-off.
+constexpr double singular = 1e-12;
+
 /// target += factor * source, both of `count` values.
 inline void add_scaled(double* target, double factor, const double* source, int count) {
   for (int j = 0; j < count; ++j) target[j] += factor * source[j];
@@ -93,14 +101,14 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
   }
   const auto smallest_pivot = [&] { return eliminate(system_.data(), 2 * subfaces_, width_); };
   double pivot = smallest_pivot();
-  if (pivot < 1e-6) {
+  if (pivot < turns_freely) {
     // A stiff subcell among very soft ones can turn freely, since the soft ones exert small forces only: it is coupled
     // to their rotation a little.
-    find_jumps(region, stiffness, 0.1);
+    find_jumps(region, stiffness, held_by_soft);
     assemble(region, conditions);
     pivot = smallest_pivot();
   }
-  if (pivot < 1e-12)
+  if (pivot < singular)
     throw std::runtime_error("MPSA: singular local problem at a node of cell " +
                              std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
   find_gradients(region);

@@ -24,13 +24,15 @@ Complex amplitude(int term) { return term % 2 == 0 ? Complex(0.5, 0) : Complex(0
 }  // namespace
 
 bool is_isotropic(const Stiffness& c) {
-  const double near = 1e-9 * c(0, 0);
+  constexpr double rounding = 1e-9;
+  const double near = rounding * c(0, 0);
   return std::abs(c(0, 0) - c(1, 1)) < near && std::abs(c(0, 2)) < near && std::abs(c(1, 2)) < near &&
          std::abs(c(0, 0) - c(0, 1) - 2 * c(2, 2)) < near;
 }
 
 bool resembles(const Stiffness& rock, const Stiffness& other) {
-  return (rock - other).lpNorm<Eigen::Infinity>() <= 0.2 * other.lpNorm<Eigen::Infinity>();
+  constexpr double alike = 0.2;
+  return (rock - other).lpNorm<Eigen::Infinity>() <= alike * other.lpNorm<Eigen::Infinity>();
 }
 
 std::optional<TipField> TipField::find(const Mesh& mesh, int tip, std::span<const int> cells,

@@ -16,12 +16,13 @@ void VolumeExchange::assign(const Mesh& mesh, const InteractionRegion& region, c
 
   root_.resize(count);
   slope_.resize(count, 2);
+  constexpr double most = 0.25;  // where subcells are equal, more could let volume overshoot
   for (int i = 0; i < count; ++i) {
     const auto [first, second] = region.neighbours[subfaces[i]];
     const Subcell &one = region.subcells[first], &other = region.subcells[second];
     const double moduli[2] = {p_wave_modulus(stiffness[one.cell]), p_wave_modulus(stiffness[other.cell])};
     const double least = std::min(one.area / moduli[0], other.area / moduli[1]);
-    root_[i] = std::sqrt(0.25 * least * std::min(moduli[0], moduli[1]) / modulus(dilation[subfaces[i]]));
+    root_[i] = std::sqrt(most * least * std::min(moduli[0], moduli[1]) / modulus(dilation[subfaces[i]]));
     slope_.row(i) = root_[i] * (mesh.cell_center[one.cell] - mesh.cell_center[other.cell]).transpose();
   }
   // Unit columns that span what slopes of q make.
@@ -30,7 +31,8 @@ void VolumeExchange::assign(const Mesh& mesh, const InteractionRegion& region, c
   slope_.col(0) /= longest;
   for (int again = 0; again < 2; ++again) slope_.col(1) -= slope_.col(0).dot(slope_.col(1)) * slope_.col(0);
   const double rest = slope_.col(1).norm();
-  if (rest > 1e-8 * longest)
+  constexpr double on_a_line = 1e-8;  // what the second subtraction leaves of columns that are parallel: round-off
+  if (rest > on_a_line * longest)
     slope_.col(1) /= rest;
   else
     slope_.col(1).setZero();  // all centres on a line

@@ -247,7 +247,8 @@ LinearReport MumpsSolver::factor_values() {
   mumps_->data.cntl[2] = system_.sums.empty() ? by_default : zero_alone;
   const int spare = mumps_->icntl(14);
   // Pivoting may need more room than the analysis foresaw (-9: the main array, -8, -17, -20: buffers).
-  for (int attempt = 0; attempt < 6; ++attempt) {
+  constexpr int most_attempts = 6;  // 32 times the room in the end
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
     mumps_->run(factorize);
     const int status = mumps_->status();
     if (status != -9 && status != -8 && status != -17 && status != -20) break;

@@ -79,7 +79,8 @@ LinearReport BelosSolver::factor(const LinearSystem& system) {
     const auto precondition = [&preconditioner = *data_->preconditioner](const Vector& r, Vector& z) {
       preconditioner.apply(r, z);
     };
-    data_->gmres = trilinos().gmres(scaled.matrix, system.rows, precondition, std::min(100, max_iterations_));
+    constexpr int most_vectors = 100;  // that are kept until a restart: each costs a product with all before it
+    data_->gmres = trilinos().gmres(scaled.matrix, system.rows, precondition, std::min(most_vectors, max_iterations_));
     last_report_ = LinearReport::success();
   } catch (const std::exception& error) {
     last_report_ = LinearReport::failure(std::string("the preconditioner could not be set up: ") + error.what());

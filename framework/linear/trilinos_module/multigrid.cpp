@@ -53,7 +53,8 @@ RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, 
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  const double extent = std::max((high - low).maxCoeff(), 1e-300);
+  constexpr double above_zero = 1e-300;  // m, for a block of one place
+  const double extent = std::max((high - low).maxCoeff(), above_zero);
   for (int rotation = 0; rotation < rigid_rotations; ++rotation) {
     const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(translations + rotation);
     for (std::size_t k = 0; k < entities.size(); ++k) {
@@ -68,10 +69,12 @@ RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, 
 // solver, is wrong on more than one.
 void set_levels(ParameterList& list, int unknowns, bool has_coordinates, bool is_parallel) {
   constexpr int rows_per_process = 3000;
-  const int coarsest = std::min(1500, unknowns / 4);
+  // The coarsest level is factorized; on several processes one of few unknowns is smoothed instead.
+  constexpr int most_coarse = 1500, coarsening = 4, least_coarse = 50;
+  const int coarsest = std::min(most_coarse, unknowns / coarsening);
   list.set("coarse: max size", coarsest);
   if (!is_parallel) return;
-  if (!has_coordinates || coarsest < 50) {
+  if (!has_coordinates || coarsest < least_coarse) {
     list.set("coarse: type", "RELAXATION");
     ParameterList& relaxation = list.sublist("coarse: params");
     relaxation.set("relaxation: type", "Symmetric Gauss-Seidel");

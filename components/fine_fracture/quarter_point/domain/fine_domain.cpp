@@ -9,6 +9,12 @@
 
 namespace sprekk::fine_fracture {
 
+namespace {
+constexpr double least_bend = 1e-10;  ///< 1 − cos of it, 1e-5 rad: rounding of directions leaves less
+constexpr double same_place = 1e-10;  ///< of the rock's extent: ends of fractures that meet
+constexpr double rounding = 1e-9;     ///< of a domain, or of a segment: what lies in it by less does not
+}  // namespace
+
 FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last) {
   FracturePath path;
   const Fracture& cells = mesh.fractures[fracture];
@@ -18,7 +24,7 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
     if (n >= 2) {
       // A point on the way straight on replaces the one before.
       const Point a = path.points[n - 1] - path.points[n - 2], b = x - path.points[n - 1];
-      if (a.dot(b) > (1 - 1e-10) * a.norm() * b.norm() && !is_kept.back()) {
+      if (a.dot(b) > (1 - least_bend) * a.norm() * b.norm() && !is_kept.back()) {
         path.points.pop_back();
         path.arc.pop_back();
         is_kept.pop_back();
@@ -100,7 +106,7 @@ std::pair<double, double> clipped(const Rectangle& box, const Point& from, const
 
 /// Moves a point onto the outline to the last digit.
 Point snapped(const Rectangle& box, Point x) {
-  const double near = 1e-9 * (box.high - box.low).maxCoeff();
+  const double near = rounding * (box.high - box.low).maxCoeff();
   for (int k = 0; k < dimension; ++k) {
     if (std::abs(x[k] - box.low[k]) < near) x[k] = box.low[k];
     if (std::abs(x[k] - box.high[k]) < near) x[k] = box.high[k];
@@ -129,7 +135,7 @@ double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vect
         strip.high[1 - k] = box.high[1 - k];
         const Point &a = path.points[i], &b = path.points[i + 1];
         const auto [first, last] = clipped(strip, a, b);
-        if (last - first <= 1e-9) continue;
+        if (last - first <= rounding) continue;
         const double from = a[k] + first * (b[k] - a[k]), to = a[k] + last * (b[k] - a[k]);
         const auto farthest = [&](double side) { return std::max(std::abs(from - side), std::abs(to - side)); };
         if (box.low[k] > rock.low[k]) gap = std::min(gap, farthest(box.low[k]));
@@ -171,11 +177,13 @@ std::vector<FracturePath> joined(std::vector<FracturePath> paths, double toleran
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separate_paths, const TipEnd& tip,
                        const Point& center, double size, double gap, CrackPath::Walls coarse_walls) {
   const Rectangle rock = bounds(mesh);
-  const std::vector<FracturePath> paths = joined(separate_paths, 1e-10 * (rock.high - rock.low).maxCoeff());
+  const std::vector<FracturePath> paths = joined(separate_paths, same_place * (rock.high - rock.low).maxCoeff());
   Rectangle box;
   double widest = -1;
   constexpr double more = 1 + 1e-9;  // by more than rounding, so that domains that are images of one another stay so
-  for (double factor = 1; factor < 1.5 && widest * more < gap; factor += 0.02) {
+  // A domain is made larger by small steps until no side is near to a fracture.
+  constexpr double largest = 1.5, step = 0.02;
+  for (double factor = 1; factor < largest && widest * more < gap; factor += step) {
     const Point half = Point::Constant(0.5 * factor * size);
     const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
     const double found = smallest_gap(larger, rock, paths);
@@ -191,7 +199,7 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
       const Point &a = path.points[i], &b = path.points[i + 1];
       const auto [first, last] = clipped(box, a, b);
-      if (last - first <= 1e-9) {
+      if (last - first <= rounding) {
         is_open = false;
         continue;
       }

@@ -31,6 +31,9 @@ inline double outline_extent(const std::vector<Point>& outline) {
 }
 
 /// Points nearer than this are one point, m.
-inline double outline_tolerance(const std::vector<Point>& outline) { return 1e-9 * outline_extent(outline); }
+inline double outline_tolerance(const std::vector<Point>& outline) {
+  constexpr double same_place = 1e-9;  // of the extent: round-off of coordinates
+  return same_place * outline_extent(outline);
+}
 
 }  // namespace sprekk::fine_fracture

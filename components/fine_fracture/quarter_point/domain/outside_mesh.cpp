@@ -103,8 +103,9 @@ class Draughtsman {
   }
 
   bool is_in_rosette(int crack, const Point& x) const {
+    constexpr double rounding = 1e-6;  // of the radius: points of its circle are in, the next ones an element away
     for (const TipRoom& room : rooms_) {
-      if (room.crack == crack && (x - room.position).norm() <= room.radius * (1 + 1e-6)) return true;
+      if (room.crack == crack && (x - room.position).norm() <= room.radius * (1 + rounding)) return true;
     }
     return false;
   }

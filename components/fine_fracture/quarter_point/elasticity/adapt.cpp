@@ -21,7 +21,8 @@ class WantedSizes {
       const Point a = mesh_->nodes[nodes[1]] - mesh_->nodes[nodes[0]],
                   b = mesh_->nodes[nodes[2]] - mesh_->nodes[nodes[0]];
       const double edge = std::sqrt(2 * std::abs(a.x() * b.y() - a.y() * b.x()) / std::sqrt(3.0));
-      const double excess = allowed / std::max(estimate.elements[e], 1e-300);
+      constexpr double above_zero = 1e-300;
+      const double excess = allowed / std::max(estimate.elements[e], above_zero);
       // The error of a quadratic element goes with the third power of its size where the stress is smooth.
       constexpr double smallest = 0.3, smallest_of_tip = 0.4;  // in one round
       const double shrink = std::clamp(std::cbrt(excess), smallest, 1.0);

@@ -1,0 +1,370 @@
+#!/usr/bin/env python3
+"""Every threshold of the sources has a name, and a row in docs/numerics/tolerances.md that tells its value, and that breaking
+this is noticed.
+
+A number counts as a threshold where it has a decimal point or a power of ten and is none of the few of NO_THRESHOLDS, and, where
+it is whole, from SMALLEST_WHOLE on in a comparison, a minimum, a maximum or a clamp. It has a name where it defines a constant or
+is the default of a parameter or member. Without arguments: checks the tree this file is in, then itself on planted violations.
+Exit code 1 if anything is wrong.
+"""
+
+import math
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+FOLDERS = ("framework", "components", "couplers")
+PAGE = "docs/numerics/tolerances.md"
+# Numbers of closed forms: halves, and counts.
+NO_THRESHOLDS = {-1.0, 0.0, 0.5, 1.0, 2.0, 100.0}
+SMALLEST_WHOLE = 10
+# Where numbers are data or a drawing's form: (file or folder, why).
+EXEMPT = (
+    ("framework/picture/", "how a drawing looks"),
+    ("framework/report/", "how a page looks"),
+    ("framework/command_line/", "how texts and the memory are arranged"),
+    ("framework/config/explain.cpp", "how a text looks"),
+    ("framework/config/input_error.cpp", "how a text looks"),
+    ("framework/config/unit.cpp", "units"),
+    ("framework/output/hdf5_file.cpp", "a file's format"),
+    ("framework/output/progress.cpp", "how a text looks"),
+    ("components/fine_fracture/growth/kink.cpp", "coefficients of a published fit (Amestoy and Leblond 1992)"),
+    ("components/fine_fracture/quarter_point/elasticity/quadrature.cpp", "points and weights of quadratures"),
+)
+# Single numbers and constants that decide nothing: (file, name or number as it stands there, why).
+EXEMPT_ONES = (
+    ("framework/config/dimension.cpp", "27", "a count"),
+    ("framework/config/expression.cpp", "1.0137", "the size of a made-up unit, such as no two products of powers are equal"),
+    ("framework/config/expression.cpp", "1.0171", "another one"),
+    ("framework/config/expression.cpp", "1.0193", "another one"),
+    ("framework/config/expression.cpp", "1.0229", "another one"),
+    ("framework/config/expression.cpp", "1.0271", "another one"),
+    ("framework/linear/direct/mumps_solver.cpp", "its_own_choice", "an option of MUMPS"),
+    ("framework/linear/direct/near_singular.cpp", "0x1p-52", "random numbers from whole ones"),
+    ("framework/linear/iterative/belos_solver.hpp", "smallest_size", "beginning of a search for the least"),
+    ("framework/meshing/distort_mesh.cpp", "4294967296.0", "2^32, the range of the random numbers"),
+    ("framework/meshing/gmsh_module/gmsh_model.cpp", "1e-9", "gmsh's own defaults, which a model before may have changed"),
+    ("framework/meshing/gmsh_module/gmsh_module.hpp", "random_factor", "gmsh's own default"),
+    ("framework/meshing/gmsh_module/gmsh_module.cpp", "three_node_triangle", "gmsh's number of a type"),
+    ("framework/meshing/msh_file.cpp", "26", "gmsh's number of a type"),
+    ("framework/meshing/msh_file.cpp", "28", "gmsh's number of a type"),
+    ("framework/meshing/size_field.cpp", "3.0", "the area of an equilateral triangle"),
+    ("framework/meshing/unstructured_mesh.cpp", "box_segments", "sides of a rectangle"),
+    ("framework/output/checkpoint.cpp", "format_version", "a file's format"),
+    ("framework/output/output_folder.cpp", "128", "the first byte that is no ASCII character"),
+    ("framework/remeshing/overlap.cpp", "most_corners", "corners of two quadrilaterals and of what they share"),
+    ("framework/schedule/path_search.cpp", "golden_ratio", "a number of mathematics"),
+    ("framework/study/comparison.cpp", "plots_by_default", "how a page looks"),
+    ("framework/study/study.cpp", "128", "the first byte that is no ASCII character"),
+    ("framework/triangulation/delaunay.hpp", "outer_points", "corners of a square"),
+    ("framework/triangulation/smooth_triangles.cpp", "of_equal_sides", "2 sqrt(3), of an equilateral triangle"),
+    ("framework/triangulation/triangulation.cpp", "h", "1/sqrt(2)"),
+    ("components/fine_fracture/growth/grow_tips.cpp", "1e3", "m to mm in a text"),
+    ("components/fine_fracture/growth/mixed_mode.cpp", "1.5", "the stress field at a tip"),
+    ("components/fine_fracture/growth/mixed_mode.cpp", "8.0", "the direction of its largest tension in closed form"),
+    ("components/fine_fracture/quarter_point/domain/fine_mesh.cpp", "right_angle", "a number of mathematics"),
+    ("components/fine_fracture/quarter_point/elasticity/adapt.cpp", "3.0", "the area of an equilateral triangle"),
+    ("components/fine_fracture/quarter_point/elasticity/auxiliary_field.cpp", "0.75", "derivatives of a complex potential"),
+    ("components/fine_fracture/quarter_point/elasticity/error_estimate.cpp", "degree", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/error_estimate.cpp", "along_rays", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/error_estimate.cpp", "across", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/forces.cpp", "edge_points", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/forces.cpp", "degree", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/forces.cpp", "along_rays", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/forces.cpp", "across", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/interaction_integral.cpp", "along_rays", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/interaction_integral.cpp", "across", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/interaction_integral.cpp", "degree", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/interaction_integral.cpp", "points", "a quadrature"),
+    ("components/fine_fracture/quarter_point/elasticity/interaction_integral.hpp", "domains", "a count"),
+    ("components/fine_fracture/quarter_point/elasticity/interaction_integral.hpp", "fields", "a count"),
+    ("components/fine_fracture/quarter_point/elasticity/stiffness_factors.cpp", "12", "two components of six nodes"),
+    ("components/fine_fracture/quarter_point/growth_ends.cpp", "1e3", "m to mm in a text"),
+    ("components/fine_fracture/quarter_point/saved_tips.cpp", "state_size", "a count"),
+    ("components/fracture_flow/tpfa/mean_along.cpp", "place", "points of a quadrature"),
+    ("components/fracture_flow/tpfa/mean_along.cpp", "weight", "its weights"),
+    ("components/fracture_flow/tpfa/mean_along.cpp", "0.75", "a substitution in it"),
+    ("components/fracture_flow/tpfa/mean_along.hpp", "count", "a quadrature"),
+    ("components/matrix_flow/mpfa/tip_flow.cpp", "linear_terms", "a count"),
+    ("components/poromechanics/mpsa/tip_field.cpp", "1.5", "the power of a term of the field at a tip"),
+    ("components/poromechanics/mpsa/tip_field.cpp", "linear_terms", "a count"),
+    ("components/poromechanics/mpsa/tip_field.cpp", "place", "points of a quadrature"),
+    ("components/poromechanics/mpsa/tip_field.cpp", "weight", "its weights"),
+    ("components/poromechanics/mpsa/tip_field.hpp", "terms", "a count"),
+)
+
+# Comments and texts; apostrophes within numbers are no texts.
+NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|R"\(.*?\)"|"(?:\\.|[^"\\\n])*"|(?<![0-9])\'(?:\\.|[^\'\\])\'', re.DOTALL)
+NUMBER = re.compile(r"(?<![\w.'])(?:0x1p[-+]?\d+|\d[\d']*\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w.])")
+RANGE = re.compile(r"\.range\s*=\s*(?:\{[^}]*\}|[\w:]+\([^()]*\))")
+TYPE = r"(?:double|int|long|unsigned|hsize_t|auto|std::size_t|std::array(?:<[^=;]*?>)?)"
+CONSTANT = re.compile(rf"\bconstexpr\s+(?:{TYPE}\s+(?P<list>\w+(?:\[\])?\s*(?:=|\{{)[^;]*)|\w+\s+(?P<array>\w+\[\]\s*=[^;]*));")
+MEMBER = re.compile(r"^[ \t]*(?:std::optional<double>|double|int|long|std::size_t)\s+(?P<list>\w+\s*=\s*[^;()]*);", re.MULTILINE)
+ARGUMENT = re.compile(r"[(,]\s*(?:double|int|long|std::size_t)\s+(?P<list>\w+\s*=\s*[^,();]*)(?=[,)])")
+COMPARED = re.compile(r"(?<= [<>] )(\d[\d']*)(?![\w.'])|(?<= [<>]= )(\d[\d']*)(?![\w.'])|(?<![\w.'])(\d[\d']*)(?= [<>]=? )"
+                      r"|\b(?:min|max|clamp)\((?:[^()]|\([^()]*\))*?(?<=[(, ])(\d[\d']*)(?=[,)])")
+
+
+def blank(match):
+    """As long, with the same line breaks."""
+    return re.sub(r"[^\n]", " ", match.group())
+
+
+def code_of(text):
+    code = NO_CODE.sub(lambda match: blank(match) if match.group()[0] in "/'" else '"' + blank(match)[2:] + '"', text)
+    code = re.sub(r"^\s*#.*$", blank, code, flags=re.MULTILINE)
+    return RANGE.sub(blank, code)
+
+
+def split(text):
+    """At commas outside of brackets."""
+    parts, depth, start = [], 0, 0
+    for i, character in enumerate(text):
+        depth += (character in "([{") - (character in ")]}")
+        if character == "," and depth == 0:
+            parts.append(text[start:i])
+            start = i + 1
+    return [part.strip() for part in (*parts, text[start:])]
+
+
+NAMES = {"pi": math.pi, "sqrt2": math.sqrt(2), "sqrt3": math.sqrt(3)}
+
+
+def value_of(expression):
+    """Of a C++ expression of numbers: a number, or None."""
+    if re.fullmatch(r"0x1p[-+]?\d+", expression.strip()):
+        return float.fromhex(expression.strip())
+    text = re.sub(r"\bstd::numbers::(\w+)", r"\1", expression.strip().replace("'", ""))
+    text = re.sub(r"std::numeric_limits<double>::epsilon\(\)", repr(sys.float_info.epsilon), text)
+    text = re.sub(r"std::size_t\{(\d+)\}|hsize_t\{(\d+)\}", lambda match: match.group(1) or match.group(2), text)
+    text = re.sub(r"(?<=\d)[UL]+\b", "", text)
+    if not re.fullmatch(r"[-+*/().\deE\s<]*", re.sub(r"\b(pi|sqrt2|sqrt3)\b", "", text)):
+        return None
+    try:
+        # A quotient of whole numbers is whole.
+        if re.fullmatch(r"\s*\d+\s*/\s*\d+\s*", text):
+            text = text.replace("/", "//")
+        return float(eval(text, {"__builtins__": {}}, NAMES))  # figures and signs alone, as matched above
+    except (SyntaxError, ValueError, TypeError, ZeroDivisionError):
+        return None
+
+
+def numbers_of(expression):
+    """The values of a constant: of a list each."""
+    if not expression.strip().startswith("{"):
+        return [value_of(expression)]
+    return [value_of(part) for part in re.sub(r"[{}]", "", expression).split(",")]
+
+
+def is_exempt(path, name=None):
+    return any(path.startswith(start) for start, _ in EXEMPT) or any(
+        path == file and name == other for file, other, _ in EXEMPT_ONES)
+
+
+def declarations(path, code):
+    """(name, expression, start, end, kind) of constants, and of members, arguments and variables with a default."""
+    for kind in (CONSTANT, MEMBER, ARGUMENT):
+        for match in kind.finditer(code):
+            for part in split(match.groupdict().get("array") or match.group("list")):
+                declared = re.match(r"(\w+)(?:\[\])?\s*(?:=\s*)?(.*)", part, re.DOTALL)
+                if declared:
+                    yield declared.group(1), declared.group(2), match.start(), match.end(), kind
+
+
+def is_threshold(expression):
+    """Whether a constant is defined by numbers that may be thresholds: not by other constants, and not 0, 1 or −1."""
+    literals = [value_of(literal) for literal in NUMBER.findall(expression)]
+    is_derived = re.search(r"[a-z_]\w*", re.sub(r"\bstd::size_t\b|std::numbers::\w+|std::numeric_limits<double>::epsilon|[\d.]e[-+]?\d|0x1p|hsize_t", "", expression))
+    return any(literal not in (NO_THRESHOLDS if is_derived else (0, 1)) for literal in literals)
+
+
+def raw_numbers(path, code):
+    """(line, number) of thresholds without a name."""
+    # A variable in a function is no name for a threshold, a member in a header is.
+    named = [(start, end) for _, _, start, end, kind in declarations(path, code) if kind is CONSTANT or path.endswith(".hpp")]
+
+    def has_name(at):
+        return any(start <= at < end for start, end in named)
+
+    for match in NUMBER.finditer(code):
+        literal = match.group()
+        if re.search(r"[.ep]", literal, re.IGNORECASE) and value_of(literal) not in NO_THRESHOLDS and not has_name(match.start()):
+            yield code.count("\n", 0, match.start()) + 1, literal
+    for match in COMPARED.finditer(code):
+        literal = next(group for group in match.groups() if group)
+        if int(literal.replace("'", "")) >= SMALLEST_WHOLE and not has_name(match.start()):
+            yield code.count("\n", 0, match.start()) + 1, literal
+
+
+def parameters(root, folder):
+    """What sections of scenes name in the files of a folder: the reference tells their values."""
+    text = "".join(file.read_text(encoding="utf-8") for file in sorted((root / folder).glob("*.?pp")))
+    return set(re.findall(r'\(\s*"\w+",\s*(?:\w+\.)*(\w+)\b', text))
+
+
+def numbers_of_cell(cell):
+    """Values of the page: "1e-9, 15°, 1/4 and 64 ε". Units are after a space and do not count, degrees become radians."""
+    values = []
+    for part in re.split(r", |; | and ", cell.replace("−", "-").replace("·", "*")):
+        part = re.sub(r"(?<=\d),(?=\d{3})", "", part.strip())
+        match = re.match(r"(?P<base>[-+]?[\d.]+(?:e[-+]?\d+)?)(?:/(?P<over>\d+)|\^(?P<power>-?\d+))?", part)
+        if not match:
+            values.append(None)
+            continue
+        rest = part[match.end():].strip()
+        unit = sys.float_info.epsilon if rest.startswith("ε") else math.pi / 180 if rest.startswith("°") else 1
+        values.append(float(match["base"]) ** int(match["power"] or 1) / int(match["over"] or 1) * unit)
+    return values
+
+
+ROW = re.compile(r"^\|(.*)\|\s*$", re.MULTILINE)
+ANSWERS = ("no", "refused", "tolerance", "yes")
+
+
+class Row:
+    """One of the page: the values that it gives constants of files."""
+
+    def __init__(self, line, cells, files):
+        self.line = line
+        names, values, places, _, _, self.answer, self.checked = cells
+        self.names = re.findall(r"`(\w+)`", names)
+        self.values = numbers_of_cell(values)
+        self.places = re.findall(r"`([\w./*]+)`", places)
+        self.files = [[file for file in files if ("/" + file).endswith("/" + place)] for place in self.places]
+
+    def problems(self, root):
+        if not self.names:
+            yield "names nothing"
+        if (len(self.names) > 1 and len(self.values) not in (1, len(self.names))) or None in self.values:
+            yield f"has {len(self.names)} names and the values {self.values}"
+        for place, found in zip(self.places, self.files):
+            if len(found) != 1:
+                yield f"names {place}, which is {len(found)} files (say more of its path)"
+        if not self.places:
+            yield "names no file"
+        if not self.answer.startswith(ANSWERS):
+            yield f"says '{self.answer}' of the answer ({', '.join(ANSWERS)})"
+        if self.answer.startswith(("yes", "tolerance")) and not self.checked:
+            yield "is one on which the answer depends and names no test, parameter or experiment"
+        for test in re.findall(r"`(tests/[\w./]+)`", self.checked):
+            if not (root / test).exists():
+                yield f"names {test}, which is no file"
+
+    def values_of(self, file, name):
+        if [file] not in self.files:
+            return []
+        if len(self.names) == 1:  # maybe of a list
+            return self.values if name in self.names else []
+        values = self.values if len(self.values) == len(self.names) else self.values * len(self.names)
+        return [value for other, value in zip(self.names, values) if other == name]
+
+
+def rows_of(text, files):
+    for match in ROW.finditer(text):
+        cells = [cell.strip() for cell in match.group(1).split("|")]
+        if len(cells) == 7 and cells[0] != "name" and set(cells[0]) != {"-"}:
+            yield Row(text.count("\n", 0, match.start()) + 1, cells, files)
+
+
+def are_same(a, b):
+    return a is not None and b is not None and math.isclose(a, b, rel_tol=1e-9)
+
+
+def violations(root):
+    found = []
+    files = sorted(file.relative_to(root).as_posix() for top in FOLDERS for file in (root / top).rglob("*.?pp"))
+    rows = list(rows_of((root / PAGE).read_text(encoding="utf-8"), files))
+    for row in rows:
+        found += [f"{PAGE}:{row.line} {problem}" for problem in row.problems(root)]
+    used = set()
+    exempt = set()
+    keys_of = {}
+    for path in files:
+        code = code_of((root / path).read_text(encoding="utf-8"))
+        exempt.update((path, name) for name, *_ in declarations(path, code))
+        exempt.update((path, literal) for literal in NUMBER.findall(code))
+        for line, literal in raw_numbers(path, code):
+            if not is_exempt(path, literal):
+                found.append(f"{path}:{line} has the number {literal} without a name (give it one, and a row in {PAGE})")
+        for name, expression, start, _, kind in declarations(path, code):
+            line = code.count("\n", 0, start) + 1
+            listed = [(row, value) for row in rows for value in row.values_of(path, name)]
+            used.update((row.line, name) for row, _ in listed)
+            if not is_threshold(expression):
+                continue
+            for value in numbers_of(expression):
+                if listed and value is not None and not any(are_same(value, other) for _, other in listed):
+                    found.append(f"{path}:{line} {name} is {value:g}; {PAGE}:{listed[0][0].line} says "
+                                 f"{', '.join(f'{other:g}' for _, other in listed if other is not None)}")
+            if listed or is_exempt(path, name) or (kind is not CONSTANT and not path.endswith(".hpp")):
+                continue
+            folder = path.rpartition("/")[0]
+            if kind is CONSTANT or name not in keys_of.setdefault(folder, parameters(root, folder)):
+                found.append(f"{path}:{line} {name} = {expression.strip()} has no row in {PAGE}")
+    for row in rows:
+        found += [f"{PAGE}:{row.line} names {name}, which its files do not have" for name in row.names
+                  if (row.line, name) not in used]
+    return found + [f"tests/thresholds_test.py exempts {name} of {file}, which is not there" for file, name, _ in EXEMPT_ONES
+                    if root == Path(__file__).resolve().parent.parent and (file, name) not in exempt]
+
+
+# (file, content, a part of the message that must appear, or None where nothing is wrong)
+PLANTED = (
+    ("framework/a/a.cpp", "bool f(double x) { return x < 1e-7; }\n", "framework/a/a.cpp:1 has the number 1e-7 without a name"),
+    ("framework/a/a.cpp", "\n// 1e-7\ndouble f(double x) { return std::max(x, 0.3); }\n", "framework/a/a.cpp:3 has the number 0.3"),
+    ("framework/a/a.cpp", "double f(double x) {\n  const double least = 1e-7 * x;\n  return least;\n}\n", "the number 1e-7"),
+    ("framework/a/a.cpp", "bool f(int n) { return n > 40; }\n", "framework/a/a.cpp:1 has the number 40"),
+    ("framework/a/a.cpp", "int f(int n) { return std::min(n, 1'000); }\n", "has the number 1'000"),
+    ("framework/a/a.cpp", "constexpr double far = 1e9;\n", "framework/a/a.cpp:1 far = 1e9 has no row"),
+    ("framework/a/a.cpp", "constexpr double small = 1e-7, far = 1e9;\n", "far = 1e9 has no row"),
+    ("framework/a/a.cpp", "constexpr double angle = 20 * std::numbers::pi / 180;\n", "angle = 20 * std::numbers::pi / 180 has no row"),
+    ("framework/a/a.cpp", "constexpr std::array parts = {0.3, 0.6};\n", "parts = {0.3, 0.6} has no row"),
+    ("framework/a/a.cpp", "constexpr double small = 1e-8;\n", "small is 1e-08; docs/numerics/tolerances.md:3 says 1e-07"),
+    ("framework/a/a.cpp", "constexpr double small = 1e-7;\nint f() {\n  constexpr double small = 1e-6;\n}\n",
+     "framework/a/a.cpp:3 small is 1e-06"),
+    ("framework/a/a.cpp", "constexpr double other = 2;\n", "docs/numerics/tolerances.md:3 names small, which its files do not have"),
+    ("framework/a/a.hpp", "struct Options {\n  double least = 0.2;\n};\n", "framework/a/a.hpp:2 least = 0.2 has no row"),
+    ("framework/a/a.hpp", "void f(double least = 0.2);\n", "framework/a/a.hpp:1 least = 0.2 has no row"),
+    (PAGE, "| `small` | 1e-7 | `gone.cpp` | a | b | no | |\n", "tolerances.md:1 names gone.cpp, which is 0 files"),
+    (PAGE, "| `small` | 1e-7 | `a.cpp` | a | b | perhaps | |\n", "says 'perhaps' of the answer"),
+    (PAGE, "| `small` | 1e-7 | `a.cpp` | a | b | yes | |\n", "names no test, parameter or experiment"),
+    (PAGE, "| `small` | 1e-7 | `a.cpp` | a | b | yes | `tests/gone_test.cpp` |\n", "names tests/gone_test.cpp, which is no file"),
+    (PAGE, "| `small` | tiny | `a.cpp` | a | b | no | |\n", "has 1 names and the values [None]"),
+    ("framework/a/b.cpp", "const char* text = \"x < 1e-7\";  // x > 40\ntemplate <class T> void g(std::array<T, 64> x);\n", None),
+    ("framework/a/b.cpp", "double f(double a, double b) { return 0.5 * (a + b) - 2.0 * 1.0; }\n", None),
+    ("framework/a/b.hpp", 'struct Options {\n  double least = 0.2;\n};\n// spec.quantity("least", least, {});\n', None),
+    ("framework/a/b.cpp", "spec.quantity(x, {.range = between(0.1, 1.55), .doc = \"\"});\n", None),
+)
+CLEAN = {
+    PAGE: "| name | value | file | what it decides | why this value | answer | test or parameter |\n|---|---|---|---|---|---|---|\n"
+          "| `small` | 1e-7 | `a.cpp` | a | b | no | |\n",
+    "framework/a/a.cpp": "constexpr double small = 1e-7;\n",
+}
+
+
+def self_test():
+    """What is wrong with the checker itself."""
+    for path, text, message in PLANTED:
+        with tempfile.TemporaryDirectory() as folder:
+            for file, content in {**CLEAN, path: text}.items():
+                (Path(folder) / file).parent.mkdir(parents=True, exist_ok=True)
+                (Path(folder) / file).write_text(content, encoding="utf-8")
+            found = violations(Path(folder))
+            if message is None:
+                yield from (f"self-test: accused without reason: {violation}" for violation in found)
+            elif not any(message in violation for violation in found):
+                yield f"self-test: not noticed: {message} (but {found})"
+
+
+def main():
+    root = Path(__file__).resolve().parent.parent
+    found = violations(root) + list(self_test())
+    for violation in found:
+        print(violation)
+    print(f"{len(PLANTED)} planted cases, {len(found)} problems")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
