@@ -12,7 +12,6 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-constexpr double small_strain = 1e-2;
 constexpr double softest_rock = 1e3;  // Pa; a scene with less is one without units, in which a strain has no size
 
 }  // namespace
@@ -79,14 +78,14 @@ void Rock::note_step(Notes& notes, const StepTime&) const {
     largest = strain;
     place = f;
   }
-  if (largest <= small_strain) return;
+  if (largest <= options_.large_strain) return;
   for (const Stiffness& stiffness : stiffness_.of_cells()) softest = std::min(softest, stiffness(2, 2));
   if (softest < softest_rock) return;
   notes.add(
       name() + " large strain",
-      fmt::format("the displacement of '{}' changes by {:.3g} of the distance at {} (strains over 0.01 are large: "
+      fmt::format("the displacement of '{}' changes by {:.3g} of the distance at {} (strains over {:.3g} are large: "
                   "the rock is taken to be linear, and its shape to stay) look at loads and stiffness",
-                  name(), largest, to_text(mesh_.face_center[place])),
+                  name(), largest, to_text(mesh_.face_center[place]), options_.large_strain),
       largest);
 }
 

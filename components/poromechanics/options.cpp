@@ -122,6 +122,10 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
       {.unit = "Pa",
        .doc = "Total stress at the initial pressure; tension positive. Where it is not at rest it loads the rock.",
        .fixed = "displacements are counted from the state in which it holds"});
+  spec.quantity("large_strain", large_strain,
+                {.range = positive(),
+                 .doc = "Strain from where on a note says that it is large: the rock is taken to be linear, and its "
+                        "shape to stay."});
   static SideCondition example;
   spec.named_sections(
       "boundary", side_spec(example),

@@ -45,6 +45,7 @@ struct Options {
   VectorData body_force;             ///< N/m^3
   TensorData initial_stress;         ///< Pa
   std::map<std::string, SideCondition> boundary;
+  double large_strain = 0.01;  ///< from where on a note says that the theory of small strains ends
   /// `type`, `doc`: of the component with its discretization.
   Spec spec(const std::string& type, const std::string& doc);
 };

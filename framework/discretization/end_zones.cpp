@@ -16,12 +16,6 @@ namespace {
 /// Largest ratio of a node's distance from the line of the end to that from the end for a fracture that keeps its line.
 constexpr double off_line = 1e-3;
 
-/// Half of the width of a zone along the fracture, in lengths of the cell at the end.
-constexpr double half_width = 8;
-
-/// Of the way, where the correction fades out; and where the zone of the fracture's other end goes on.
-constexpr double fading_part = 0.1, joining_part = 0.01;
-
 /// Falls smoothly from 1 at 1 - width to 0 at 1.
 double fading(double part, double width) {
   const double s = std::clamp((1 - part) / width, 0.0, 1.0);
@@ -64,14 +58,16 @@ struct Reached {
 };
 
 /// The nodes of a zone that ends half of the way to an obstacle, reached along nodes where the field goes on.
-std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Obstacle& obstacle) {
-  const double radius = 0.5 * obstacle.distance, width = obstacle.is_other_tip ? joining_part : fading_part;
+std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Obstacle& obstacle, const ZoneLimits& limits) {
+  const double radius = 0.5 * obstacle.distance;
+  const double width = obstacle.is_other_tip ? limits.joining_part : limits.fading_part;
   const EndFrame frame(mesh, end);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
   const auto weight = [&](int node) {
     const Point local = frame.axes().transpose() * (mesh.nodes[node] - mesh.nodes[end]);
     const double from_fracture = local.x() < 0 ? std::abs(local.y()) : local.norm();
-    return fading(local.norm() / radius, width) * fading(from_fracture / (half_width * frame.size()), fading_part);
+    return fading(local.norm() / radius, width) *
+           fading(from_fracture / (limits.half_width * frame.size()), limits.fading_part);
   };
   std::vector<Reached> reached{{end, 1}};
   std::set<int> seen{end};
@@ -92,15 +88,15 @@ std::vector<int> cells_next_to(const Mesh& mesh, int end) {
 
 }  // namespace
 
-EndZones end_zones(const Mesh& mesh) {
-  EndZones zones{ends_nearby(mesh), std::vector<double>(mesh.node_count(), 0), {}};
+EndZones end_zones(const Mesh& mesh, const ZoneLimits& limits) {
+  EndZones zones{ends_nearby(mesh, limits.near), std::vector<double>(mesh.node_count(), 0), {}};
   const std::vector<int> outer = outer_nodes(mesh);
   for (int node = 0; node < mesh.node_count(); ++node)
     if (zones.end[node] != none) zones.weight[node] = 1;
   for (int end = 0; end < mesh.node_count(); ++end) {
     if (!is_fracture_end(mesh, end)) continue;
     zones.cells[end] = cells_next_to(mesh, end);
-    for (const auto& [node, weight] : nodes_of_zone(mesh, end, nearest_obstacle(mesh, end, outer))) {
+    for (const auto& [node, weight] : nodes_of_zone(mesh, end, nearest_obstacle(mesh, end, outer), limits)) {
       if (zones.end[node] != none) continue;
       zones.end[node] = end;
       SPREKK_ASSERT(weight > 0 && weight <= 1, node, weight);

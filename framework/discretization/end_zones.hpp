@@ -5,9 +5,18 @@
 #include <map>
 #include <vector>
 
+#include "framework/discretization/ends_nearby.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk {
+
+/// How far zones reach. Only tests take other values, to see how much answers depend on them.
+struct ZoneLimits {
+  EndLimits near = {};
+  double half_width = 8;       ///< of a zone along the fracture, in lengths of the cell at the end
+  double fading_part = 0.1;    ///< of the way, where the correction fades out
+  double joining_part = 0.01;  ///< the same where the zone of the fracture's other end goes on
+};
 
 /// For every node an end (a node, see ends_nearby) or none, and how much of its field counts there: 1 near the end, and
 /// less from there on, smoothly down to 0. A field that ended abruptly would leave an error at its end which does not
@@ -24,6 +33,6 @@ struct EndZones {
   std::map<int, std::vector<int>> cells;  ///< for each end: the cells at it and at the nodes next to it, ascending
 };
 
-EndZones end_zones(const Mesh& mesh);
+EndZones end_zones(const Mesh& mesh, const ZoneLimits& limits = {});
 
 }  // namespace sprekk

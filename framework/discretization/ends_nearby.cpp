@@ -7,17 +7,9 @@
 #include "framework/invariants.hpp"
 
 namespace sprekk {
-namespace {
 
-/// Number of edges from the end to where linear functions suffice: their error falls with the square of the distance.
-constexpr int layers = 3;
-/// Halfway between two ends both fields are as strong, and a symmetric mesh must have a symmetric result: neither end
-/// is taken.
-constexpr double clearly = 0.9;
-
-}  // namespace
-
-std::vector<int> ends_nearby(const Mesh& mesh) {
+std::vector<int> ends_nearby(const Mesh& mesh, const EndLimits& limits) {
+  SPREKK_EXPECT(limits.layers > 0 && limits.clearly > 0 && limits.clearly < 1, limits.layers, limits.clearly);
   constexpr double far = std::numeric_limits<double>::infinity();
   struct Nearest {
     int end = none;
@@ -26,7 +18,7 @@ std::vector<int> ends_nearby(const Mesh& mesh) {
   std::vector<Nearest> nearest(mesh.node_count());
   for (int end = 0; end < mesh.node_count(); ++end) {
     if (!is_fracture_end(mesh, end)) continue;
-    for (const int node : nodes_around_end(mesh, end, layers)) {
+    for (const int node : nodes_around_end(mesh, end, limits.layers)) {
       Nearest& at = nearest[node];
       const double distance = (mesh.nodes[node] - mesh.nodes[end]).norm();
       at.next = std::min(at.next, std::max(at.distance, distance));
@@ -34,7 +26,7 @@ std::vector<int> ends_nearby(const Mesh& mesh) {
     }
   }
   std::vector<int> nearby;
-  for (const Nearest& at : nearest) nearby.push_back(at.distance < clearly * at.next ? at.end : none);
+  for (const Nearest& at : nearest) nearby.push_back(at.distance < limits.clearly * at.next ? at.end : none);
   SPREKK_ASSERT(static_cast<int>(nearby.size()) == mesh.node_count(), nearby.size(), mesh.node_count());
   return nearby;
 }

@@ -290,6 +290,18 @@ TEST(Notes, LargeStrainsAreTold) {
       run_of("rock.yaml", {"components.rock.boundary.top.normal_stress=-100 MPa"}).note("large strain").is_null());
 }
 
+TEST(Notes, AScenesOwnBoundForStrainsIsTaken) {
+  // 0.0094 under 100 MPa and 0.0188 under 200 MPa, as above.
+  const auto note = [](const std::string& load, const std::string& bound) {
+    return run_of("rock.yaml",
+                  {"components.rock.boundary.top.normal_stress=" + load, "components.rock.large_strain=" + bound})
+        .note("large strain");
+  };
+  EXPECT_TRUE(note("-200 MPa", "0.019").is_null());
+  EXPECT_THAT(note("-200 MPa", "0.018")["text"].get<std::string>(), HasSubstr("strains over 0.018 are large"));
+  EXPECT_FALSE(note("-100 MPa", "0.9 %").is_null());
+}
+
 /// A fracture of 0.4 m in rock that nothing else loads, blown up to `pressure` from inside.
 Settings blown_up(const std::string& pressure) {
   return {"components.conduit.injection=", "components.conduit.initial_pressure=" + pressure,
@@ -305,6 +317,10 @@ TEST(Notes, LargeJumpsAreTold) {
   ASSERT_FALSE(large.note("large jump").is_null());
   EXPECT_THAT(large.note("large jump")["text"].get<std::string>(), HasSubstr("fracture 'crack'"));
   EXPECT_FALSE(large.note("large strain").is_null());
+  // 15 mm in an infinite rock, 0.0375 of the length.
+  Settings own = blown_up("200 MPa");
+  own.push_back("components.contact.large_jump=0.2");
+  EXPECT_TRUE(run_of("fractured.yaml", own).note("large jump").is_null());
 }
 
 TEST(Notes, AFractureThatHasOpenedAltogetherIsTold) {

@@ -30,6 +30,10 @@ Spec Options::spec() {
              .source = "psi below Eq. 2",
              .material = true,
              .in_time = true});
+  spec.quantity("large_jump", large_jump,
+                {.range = positive(),
+                 .doc = "Jump over the length of its fracture from where on a note says that it is large: the places "
+                        "and the shapes of fractures are taken to stay."});
   return spec;
 }
 

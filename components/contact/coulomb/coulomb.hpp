@@ -19,6 +19,8 @@ namespace sprekk::contact {
 struct Options {
   Data friction;        ///< mu_s
   Data dilation_angle;  ///< psi, rad
+  /// Jump over the length of its fracture from where on a note says that it is large.
+  double large_jump = 0.01;
   Spec spec();
 };
 

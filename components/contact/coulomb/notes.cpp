@@ -5,12 +5,6 @@
 
 namespace sprekk::contact {
 
-namespace {
-
-constexpr double small_jump = 1e-2;  // of the length of the fracture
-
-}  // namespace
-
 void Coulomb::note_step(Notes& notes, const StepTime&) const {
   for (const Fracture& fracture : mesh_.fractures) {
     double length = 0, jump = 0;
@@ -22,13 +16,13 @@ void Coulomb::note_step(Notes& notes, const StepTime&) const {
       all_open = all_open && state(i) == State::open;
       if (traction_.accepted()[dimension * i] < 0 && !mesh_.fracture_cells[i].grown) was_in_contact = true;
     }
-    if (jump > small_jump * length)
+    if (jump > options_.large_jump * length)
       notes.add(
           name() + " large jump of " + fracture.name,
           fmt::format("the walls of fracture '{}' are {:.3g} m apart from where they were, {:.2g} of its length of "
-                      "{:.3g} m (over 0.01 is large: its place and its shape are taken to stay) look at loads, "
+                      "{:.3g} m (over {:.3g} is large: its place and its shape are taken to stay) look at loads, "
                       "stiffness and what holds the rock",
-                      fracture.name, jump, jump / length, length),
+                      fracture.name, jump, jump / length, length, options_.large_jump),
           jump);
     // A cell that has been open all the time is meant to be open; cells that have grown start closed.
     if (all_open && was_in_contact)

@@ -44,6 +44,10 @@ Spec TipsOptions::spec() {
                 {.range = positive(),
                  .doc = "The coarse mesh changes within this many of its edge lengths around a path it takes over.",
                  .source = "sec. 4.1"});
+  spec.quantity("cavity_growth", cavity_growth,
+                {.range = {.low = 0, .high = 2, .low_allowed = false},
+                 .doc = "By how many m the length of new coarse edges grows per m of distance from the path, where the "
+                        "rest of the mesh lets it; see `mesh.growth`."});
   spec.quantity("skip_below", skip_below,
                 {.range = between(0, 1),
                  .doc = "The fine level of a tip is not solved while twice the K_eq that the jump behind it stands for "

@@ -338,8 +338,7 @@ std::vector<Point> Tips::coarse_path(const Tip& tip, const TipPath& path) const 
 CavityOptions Tips::cavity() const {
   double size = 0;
   for (const Tip& tip : tips_) size = std::max(size, tip.coarse_size);
-  constexpr double growth = 0.3;  // of edges, m per m, as `mesh.growth` is without a value
-  return {options_.cavity * size, size, growth};
+  return {options_.cavity * size, size, options_.cavity_growth};
 }
 
 void Tips::accepted() {

@@ -24,7 +24,8 @@ struct TipsOptions {
   std::optional<double> toughness;  ///< Pa m^0.5
   std::string factors = "interaction_integral";
   std::string meeting = "join";
-  double cavity = 4;  ///< radius in coarse mesh sizes
+  double cavity = 4;           ///< radius in coarse mesh sizes
+  double cavity_growth = 0.3;  ///< of edges in it, m per m
   double skip_below = 0.5;
   GrowthOptions growth;
   Spec spec();

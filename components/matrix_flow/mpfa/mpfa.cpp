@@ -24,11 +24,11 @@ class TipFlows {
   /// `is_wanted`: of nodes; the flows of the others need not be right.
   template <class IsWanted>
   TipFlows(const Mesh& mesh, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions,
-           const IsWanted& is_wanted)
+           const IsWanted& is_wanted, const MpfaLimits& limits)
       : of_node_(mesh.node_count()) {
-    const std::vector<int> tips = ends_nearby(mesh);
+    const std::vector<int> tips = ends_nearby(mesh, limits.near);
     for (const auto& [tip, cells] : cells_around_tips(mesh, tips))
-      if (const auto flow = TipFlow::find(mesh, tip, cells, mobility)) flows_.emplace(tip, *flow);
+      if (const auto flow = TipFlow::find(mesh, tip, cells, mobility, limits)) flows_.emplace(tip, *flow);
     for (int node = 0; node < mesh.node_count(); ++node) {
       const auto found = flows_.find(tips[node]);
       if (found == flows_.end()) continue;
@@ -144,6 +144,11 @@ class ChangeColumns {
 
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
                               const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
+  return discretize_mpfa_with({}, mesh, mobility, conditions, nodes);
+}
+
+FluxOperators discretize_mpfa_with(const MpfaLimits& limits, const Mesh& mesh, const std::vector<Tensor>& mobility,
+                                   const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
   check_conditions(mesh, mobility, conditions, nodes);
   SPREKK_EXPECT(static_cast<int>(mobility.size()) == mesh.cell_count(), mobility.size(), mesh.cell_count());
   SPREKK_EXPECT(static_cast<int>(conditions.size()) == mesh.face_count(), conditions.size(), mesh.face_count());
@@ -153,7 +158,7 @@ FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   const Adjacency all = contributing_nodes(mesh.face_nodes, [&](int, int node) { return is_wanted(node); });
   const Adjacency outer = contributing_nodes(
       mesh.face_nodes, [&](int face, int node) { return mesh.face_cells[face][1] == none && is_wanted(node); });
-  const TipFlows flows(mesh, mobility, conditions, is_wanted);
+  const TipFlows flows(mesh, mobility, conditions, is_wanted, limits);
   const Adjacency node_cells = flows.cells_of_nodes(mesh);
   const Adjacency outer_faces = outer_faces_of_nodes(mesh);
   const NodeStencil face_cells(all, node_cells), face_outer(all, outer_faces);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/matrix_flow/flux_operators.hpp"
+#include "components/matrix_flow/mpfa/limits.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -16,5 +17,9 @@ namespace sprekk::matrix_flow {
 /// Exact for linear pressures on any mesh; the mobility may be discontinuous and anisotropic.
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
                               const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
+
+/// With other limits than the usual ones.
+FluxOperators discretize_mpfa_with(const MpfaLimits& limits, const Mesh& mesh, const std::vector<Tensor>& mobility,
+                                   const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 
 }  // namespace sprekk::matrix_flow

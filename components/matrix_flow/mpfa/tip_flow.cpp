@@ -8,12 +8,6 @@ namespace sprekk::matrix_flow {
 namespace {
 
 constexpr int linear_terms = 3, terms = linear_terms + 2;
-/// Least ratio of the fit's smallest singular value to its largest; below, the modes are too similar to linear
-/// pressures.
-constexpr double well_posed = 1e-6;
-/// Largest amount of a mode (times the root of the edge length) for cell pressures that differ by 1: 5 to 8 on good
-/// meshes.
-constexpr double largest_share = 20;
 
 }  // namespace
 
@@ -43,7 +37,7 @@ std::map<int, std::vector<int>> cells_around_tips(const Mesh& mesh, const std::v
 }
 
 std::optional<TipFlow> TipFlow::find(const Mesh& mesh, int tip, const std::vector<int>& cells,
-                                     const std::vector<Tensor>& mobility) {
+                                     const std::vector<Tensor>& mobility, const MpfaLimits& limits) {
   if (static_cast<int>(cells.size()) <= terms) return std::nullopt;
   const auto at_tip = mesh.node_cells[tip];
   Tensor mean = Tensor::Zero();
@@ -52,14 +46,14 @@ std::optional<TipFlow> TipFlow::find(const Mesh& mesh, int tip, const std::vecto
     if (!resembles(mobility[cell], mean)) return std::nullopt;
   if (!is_isotropic(mean)) return std::nullopt;
   TipFlow flow(mesh, tip, cells, mean);
-  if (!flow.fit(mesh)) return std::nullopt;
+  if (!flow.fit(mesh, limits)) return std::nullopt;
   return flow;
 }
 
 TipFlow::TipFlow(const Mesh& mesh, int tip, const std::vector<int>& cells, const Tensor& mobility)
     : frame_(mesh, tip), mobility_(mobility), cells_(cells) {}
 
-bool TipFlow::fit(const Mesh& mesh) {
+bool TipFlow::fit(const Mesh& mesh, const MpfaLimits& limits) {
   const int count = static_cast<int>(cells_.size());
   const double size = frame_.size();
   Eigen::MatrixXd basis(count, terms);
@@ -68,10 +62,10 @@ bool TipFlow::fit(const Mesh& mesh) {
     basis.row(k) << 1, local.x(), local.y(), pressure(x, frame_.side_of_cell(mesh, cells_[k])) / std::sqrt(size);
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  if (svd.singularValues()[terms - 1] < well_posed * svd.singularValues()[0]) return false;
+  if (svd.singularValues()[terms - 1] < limits.well_posed * svd.singularValues()[0]) return false;
   const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd::Identity(count, count));
   share_ = inverse.bottomRows<2>() / std::sqrt(size);
-  return share_.cwiseAbs().rowwise().sum().maxCoeff() * std::sqrt(size) <= largest_share;
+  return share_.cwiseAbs().rowwise().sum().maxCoeff() * std::sqrt(size) <= limits.largest_share;
 }
 
 TipFlow::Modes TipFlow::pressure(const Point& x, int side) const {

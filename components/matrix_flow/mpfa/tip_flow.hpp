@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/matrix_flow/flux_operators.hpp"
+#include "components/matrix_flow/mpfa/limits.hpp"
 #include "framework/discretization/end_frame.hpp"
 #include "framework/mesh/adjacency.hpp"
 
@@ -27,7 +28,7 @@ class TipFlow {
   /// around (resembles), and the fit has enough cells to tell the modes from linear pressures. `cells`: the cells of
   /// the fit (cells_around_tips).
   static std::optional<TipFlow> find(const Mesh& mesh, int tip, const std::vector<int>& cells,
-                                     const std::vector<Tensor>& mobility);
+                                     const std::vector<Tensor>& mobility, const MpfaLimits& limits = {});
 
   const EndFrame& frame() const { return frame_; }
   Modes pressure(const Point& x, int side) const;  ///< Pa, for amounts of 1 Pa/m^0.5
@@ -43,7 +44,7 @@ class TipFlow {
 
  private:
   TipFlow(const Mesh& mesh, int tip, const std::vector<int>& cells, const Tensor& mobility);
-  bool fit(const Mesh& mesh);
+  bool fit(const Mesh& mesh, const MpfaLimits& limits);
 
   EndFrame frame_;
   Tensor mobility_;

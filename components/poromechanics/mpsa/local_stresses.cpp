@@ -16,19 +16,6 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-/// How well the conditions on the two faces of a single subcell determine a component of its gradient, as the sine of
-/// an angle: below the first value the conditions are not used for it, above the second they alone are.
-constexpr double vague = 0.1, certain = 0.5;
-
-/// The strength of the coupling between rotations of neighbours, relative to their shear modulus. Between an eighth and
-/// a half errors change little (docs/numerics/poromechanics.md); far below, rotations are hardly coupled.
-constexpr double rotation_strength = 0.25;
-
-/// Smallest pivot, of a row, below which a stiff subcell among very soft ones turns freely (media that differ by 1e6),
-/// and how strongly it is then coupled to the rotation of the soft ones, of what subcells alike are: they hardly
-/// resist.
-constexpr double turns_freely = 1e-6, held_by_soft = 0.1;
-
 /// Smallest pivot, of a row, of a local problem that is solvable: less is round-off.
 constexpr double singular = 1e-12;
 
@@ -101,10 +88,10 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
   }
   const auto smallest_pivot = [&] { return eliminate(system_.data(), 2 * subfaces_, width_); };
   double pivot = smallest_pivot();
-  if (pivot < turns_freely) {
+  if (pivot < limits_.turns_freely) {
     // A stiff subcell among very soft ones can turn freely, since the soft ones exert small forces only: it is coupled
     // to their rotation a little.
-    find_jumps(region, stiffness, held_by_soft);
+    find_jumps(region, stiffness, limits_.held_by_soft);
     assemble(region, conditions);
     pivot = smallest_pivot();
   }
@@ -144,7 +131,7 @@ void LocalStresses::find_jumps(const InteractionRegion& region, const std::vecto
     const double both = 2 * strengths[0] * strengths[1] / (strengths[0] + strengths[1]);
     SPREKK_ASSERT(both > 0, one.cell, other.cell, both);
     for (int side = 0; side < 2; ++side)
-      jump_[f].strength[side] = rotation_strength * std::max(both, least_strength * strengths[side]);
+      jump_[f].strength[side] = limits_.rotation_strength * std::max(both, least_strength * strengths[side]);
   }
 }
 
@@ -272,7 +259,7 @@ void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& regi
     Eigen::VectorXd weight = Eigen::VectorXd::Zero(forces.size());
     for (int i = 0; i < weight.size(); ++i) {
       const double sine = svd.singularValues()[i];
-      const double part = std::clamp((sine - vague) / (certain - vague), 0.0, 1.0);
+      const double part = std::clamp((sine - limits_.vague) / (limits_.certain - limits_.vague), 0.0, 1.0);
       if (part < 1) {
         open.push_back(i);
         weight[i] = std::sqrt(part / (1 - part));
@@ -346,7 +333,7 @@ void LocalStresses::add_jump(const InteractionRegion& region, int subface, const
 
 void LocalStresses::exchange_volumes(const Mesh& mesh, const InteractionRegion& region,
                                      const std::vector<Stiffness>& stiffness) {
-  exchange_.assign(mesh, region, stiffness, dilation_);
+  exchange_.assign(mesh, region, stiffness, dilation_, limits_.exchange);
   const int count = static_cast<int>(exchange_.subfaces.size());
   jumps_.assign(count * columns_, 0);
   for (int i = 0; i < count; ++i) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "components/poromechanics/mpsa/limits.hpp"
 #include "components/poromechanics/mpsa/volume_exchange.hpp"
 #include "components/poromechanics/mpsa/weak_symmetry.hpp"
 #include "components/poromechanics/stress_operators.hpp"
@@ -47,6 +48,8 @@ Adjacency local_cells(const Mesh& mesh, const EndZones& zones);
 /// zero.
 class LocalStresses {
  public:
+  explicit LocalStresses(const MpsaLimits& limits = {}) : limits_(limits) {}
+
   /// Throws std::runtime_error if the local system is singular for another reason.
   void solve(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
              const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions);
@@ -85,6 +88,7 @@ class LocalStresses {
 
   int column(int subcell) const { return column_[subcell]; }
 
+  MpsaLimits limits_;
   int subcells_ = 0, cells_ = 0, subfaces_ = 0, columns_ = 0, width_ = 0;
   std::vector<int> column_;             ///< of the subcells: places of their cells among the local ones
   std::vector<GradientMap> stress_;     ///< of the subcells

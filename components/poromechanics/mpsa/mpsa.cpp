@@ -87,15 +87,15 @@ struct Coefficients {
 /// The fields of all tips, for the nodes near them.
 class TipFields {
  public:
-  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const EndZones& zones)
-      : mesh_(mesh), stiffness_(stiffness), zones_(zones) {}
+  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const EndZones& zones, double well_posed)
+      : mesh_(mesh), stiffness_(stiffness), zones_(zones), well_posed_(well_posed) {}
 
   /// Null where there is none, or the rock is not like the tip's.
   const TipField* at(int node) {
     const int tip = zones_.end[node];
     if (tip == none) return nullptr;
     const auto [found, is_new] = fields_.try_emplace(tip);
-    if (is_new) found->second = TipField::find(mesh_, tip, zones_.cells.at(tip), stiffness_);
+    if (is_new) found->second = TipField::find(mesh_, tip, zones_.cells.at(tip), stiffness_, well_posed_);
     if (!found->second) return nullptr;
     for (const int cell : mesh_.node_cells[node])
       if (!resembles(stiffness_[cell], found->second->rock())) return nullptr;
@@ -106,17 +106,19 @@ class TipFields {
   const Mesh& mesh_;
   const std::vector<Stiffness>& stiffness_;
   const EndZones& zones_;
+  double well_posed_;
   std::map<int, std::optional<TipField>> fields_;
 };
 
 }  // namespace
 
 StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
-                                const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes) {
+                                const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes,
+                                const MpsaLimits& limits) {
   check_arguments(mesh, stiffness, conditions, nodes);
   const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
   const auto any = [&](int, int node) { return is_wanted(node); };
-  const EndZones zones = end_zones(mesh);
+  const EndZones zones = end_zones(mesh, limits.zones);
   const Adjacency node_cells = local_cells(mesh, zones), valued_faces = faces_with_values(mesh, conditions);
   Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, valued_faces, 2);
   Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), node_cells, valued_faces, 1);
@@ -127,8 +129,8 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
       node_cells, valued_faces, 2);
 
   InteractionRegion region;
-  LocalStresses local;
-  TipFields fields(mesh, stiffness, zones);
+  LocalStresses local(limits);
+  TipFields fields(mesh, stiffness, zones, limits.well_posed);
   std::vector<Triplet> moments;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;

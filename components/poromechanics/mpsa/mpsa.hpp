@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "components/poromechanics/mpsa/limits.hpp"
 #include "components/poromechanics/stiffness.hpp"
 #include "components/poromechanics/stress_operators.hpp"
 #include "framework/mesh/mesh.hpp"
@@ -16,6 +17,7 @@ namespace sprekk::poromechanics {
 /// Throws std::invalid_argument for arguments that do not fit the mesh and std::runtime_error for a stiffness that is
 /// not positive definite.
 StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
-                                const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes = {});
+                                const std::vector<FaceConditions>& conditions, const std::vector<char>& nodes = {},
+                                const MpsaLimits& limits = {});
 
 }  // namespace sprekk::poromechanics

@@ -13,9 +13,6 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr int linear_terms = 6;
-/// Least ratio of the fit's smallest singular value to its largest; below, the modes are too similar to linear
-/// displacements.
-constexpr double well_posed = 1e-3;
 
 double order(int term) { return term < 2 ? 0.5 : 1.5; }
 /// a of phi = a z^o.
@@ -36,7 +33,7 @@ bool resembles(const Stiffness& rock, const Stiffness& other) {
 }
 
 std::optional<TipField> TipField::find(const Mesh& mesh, int tip, std::span<const int> cells,
-                                       const std::vector<Stiffness>& stiffness) {
+                                       const std::vector<Stiffness>& stiffness, double well_posed) {
   const auto at_tip = mesh.node_cells[tip];
   Stiffness rock = Stiffness::Zero();
   for (const int cell : at_tip) rock += stiffness[cell] / static_cast<double>(at_tip.size());
@@ -47,7 +44,7 @@ std::optional<TipField> TipField::find(const Mesh& mesh, int tip, std::span<cons
   std::ranges::copy_if(cells, std::back_inserter(alike), [&](int cell) { return resembles(stiffness[cell], rock); });
   TipField field(mesh, tip, std::move(alike), rock);
   for (const int count : {terms, terms / 2})
-    if (field.fit(mesh, count)) return field;
+    if (field.fit(mesh, count, well_posed)) return field;
   return std::nullopt;
 }
 
@@ -59,7 +56,7 @@ TipField::TipField(const Mesh& mesh, int tip, std::vector<int> cells, const Stif
       poisson_(0.5 * rock(0, 1) / (rock(0, 1) + rock(2, 2))),
       frame_(mesh, tip) {}
 
-bool TipField::fit(const Mesh& mesh, int count_of_terms) {
+bool TipField::fit(const Mesh& mesh, int count_of_terms, double well_posed) {
   const int count = static_cast<int>(cells_.size()), all = linear_terms + count_of_terms;
   if (2 * count < all + 2) return false;
   const double size = frame_.size();

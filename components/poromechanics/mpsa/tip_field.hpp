@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "components/poromechanics/mpsa/limits.hpp"
 #include "components/poromechanics/stiffness.hpp"
 #include "framework/discretization/end_frame.hpp"
 
@@ -34,7 +35,8 @@ class TipField {
   /// the tip is isotropic and nearly the same all around (resembles), and there are enough cells to tell the modes from
   /// linear displacements. If the cells determine only the modes of order r^(1/2), the others are taken to be zero.
   static std::optional<TipField> find(const Mesh& mesh, int tip, std::span<const int> cells,
-                                      const std::vector<Stiffness>& stiffness);
+                                      const std::vector<Stiffness>& stiffness,
+                                      double well_posed = MpsaLimits().well_posed);
 
   const EndFrame& frame() const { return frame_; }
   /// The displacement, m.
@@ -54,7 +56,7 @@ class TipField {
 
  private:
   TipField(const Mesh& mesh, int tip, std::vector<int> cells, const Stiffness& rock);
-  bool fit(const Mesh& mesh, int count_of_terms);
+  bool fit(const Mesh& mesh, int count_of_terms, double well_posed);
 
   int tip_;
   std::vector<int> cells_;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk::poromechanics {
 
 void VolumeExchange::assign(const Mesh& mesh, const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
-                            const std::vector<GradientJump>& dilation) {
+                            const std::vector<GradientJump>& dilation, double most) {
+  SPREKK_EXPECT(most >= 0, most);
   subfaces.clear();
   for (int f = 0; f < region.subface_count(); ++f)
     if (region.is_inner(f)) subfaces.push_back(f);
@@ -16,7 +19,6 @@ void VolumeExchange::assign(const Mesh& mesh, const InteractionRegion& region, c
 
   root_.resize(count);
   slope_.resize(count, 2);
-  constexpr double most = 0.25;  // where subcells are equal, more could let volume overshoot
   for (int i = 0; i < count; ++i) {
     const auto [first, second] = region.neighbours[subfaces[i]];
     const Subcell &one = region.subcells[first], &other = region.subcells[second];

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "components/poromechanics/mpsa/limits.hpp"
 #include "components/poromechanics/mpsa/weak_symmetry.hpp"
 #include "framework/discretization/interaction_region.hpp"
 
@@ -29,8 +30,9 @@ class VolumeExchange {
   std::vector<int> subfaces;  ///< the inner ones; none where there are less than three, which tell no more than a slope
   Eigen::MatrixXd volume;     ///< E, m^2/Pa
 
+  /// `most`: the quarter in c.
   void assign(const Mesh& mesh, const InteractionRegion& region, const std::vector<Stiffness>& stiffness,
-              const std::vector<GradientJump>& dilation);
+              const std::vector<GradientJump>& dilation, double most = MpsaLimits().exchange);
   /// The mean M, Pa: times the jump of dilation it gives y, which has −s_1 + s_2 in it.
   static double modulus(const GradientJump& dilation) { return -1 / dilation.of_stress; }
 

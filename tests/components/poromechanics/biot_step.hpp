@@ -20,6 +20,7 @@ struct BiotStep {
   std::vector<matrix_flow::FlowCondition> flow_conditions;
   std::vector<std::array<poromechanics::MechanicalCondition, 2>> mechanical_conditions;
   double alpha = 1, storage = 0, time_step = 1;
+  poromechanics::MpsaLimits mechanical_limits = {};
   Vector flow_boundary, flow_change, mechanical_boundary;  ///< as the operators take them
   Vector force, source;  ///< on every cell, integrated: body force (N/m) and fluid volume (m^2)
   Vector old_fluid;      ///< alpha div u + S p before the step, integrated over every cell (m^2)
@@ -41,6 +42,7 @@ struct BiotStep {
 
 struct BiotState {
   Vector displacement, pressure, fluxes, forces;
+  Vector walls;  ///< displacement of faces with one cell (m)
   Vector fluid;  ///< alpha div u + S p, integrated over every cell (m^2)
 };
 
@@ -49,7 +51,8 @@ class BiotSystem {
  public:
   explicit BiotSystem(const BiotStep& step)
       : flow_(matrix_flow::discretize_mpfa(step.mesh, step.mobility, step.flow_conditions)),
-        stress_(poromechanics::discretize_mpsa(step.mesh, step.stiffness, step.mechanical_conditions)),
+        stress_(poromechanics::discretize_mpsa(step.mesh, step.stiffness, step.mechanical_conditions, {},
+                                               step.mechanical_limits)),
         force_sum_(divergence(step.mesh, 2)),
         flux_sum_(divergence(step.mesh, 1)) {
     const int cells = step.mesh.cell_count();
@@ -81,11 +84,13 @@ class BiotSystem {
     right.tail(cells) = step.source + step.old_fluid - step.alpha * stress_.volume_boundary * step.mechanical_boundary -
                         step.time_step * (flux_sum_ * flow_of_sides(step));
     const Vector solution = solver_.solve(right);
-    BiotState state{solution.head(2 * cells), solution.tail(cells), {}, {}, {}};
+    BiotState state{solution.head(2 * cells), solution.tail(cells), {}, {}, {}, {}};
     const Vector s = step.alpha * state.pressure;
     state.fluxes = flow_.flux_cell * state.pressure + flow_of_sides(step);
     state.forces = stress_.force_displacement * state.displacement + stress_.force_stress * s +
                    stress_.force_boundary * step.mechanical_boundary;
+    state.walls = stress_.trace_displacement * state.displacement + stress_.trace_stress * s +
+                  stress_.trace_boundary * step.mechanical_boundary;
     state.fluid = step.alpha * (stress_.volume_displacement * state.displacement + stress_.volume_stress * s +
                                 stress_.volume_boundary * step.mechanical_boundary);
     for (int c = 0; c < cells; ++c) state.fluid[c] += step.storage * step.mesh.cell_area[c] * state.pressure[c];

@@ -10,10 +10,6 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-/// The domain reaches this many rosette radii from the tip if there is room. It keeps away from kinks, other cracks and
-/// from walls of another kind, where prescribed jumps begin: stresses are singular there too.
-constexpr double domain_in_radii = 4, share_of_room = 0.75;
-
 void correlate(const FineMesh::Tip& tip, const Elasticity& rock, const Vector& displacement, TipIntensities& result) {
   SPREKK_EXPECT(tip.room.radius > 0, tip.room.radius);
   SPREKK_EXPECT(is_unit(tip.room.direction), tip.room.direction.norm());
@@ -36,18 +32,21 @@ bool has_jump_at(const FineMesh& mesh, const FineMesh::Tip& tip) {
   });
 }
 
-double domain_radius(const TipRoom& room) {
+/// The domain keeps away from kinks, other cracks and from walls of another kind, where prescribed jumps begin:
+/// stresses are singular there too.
+double domain_radius(const TipRoom& room, const IntegralLimits& limits) {
   SPREKK_EXPECT(room.radius > 0 && room.clearance > 0, room.radius, room.clearance);
-  return std::min(domain_in_radii * room.radius,
-                  std::max(2 * room.radius, share_of_room * std::min(room.same_walls, room.clearance)));
+  return std::min(limits.domain_in_radii * room.radius,
+                  std::max(2 * room.radius, limits.share_of_room * std::min(room.same_walls, room.clearance)));
 }
 
 }  // namespace
 
-TipEvaluation::TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip)
+TipEvaluation::TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip,
+                             const IntegralLimits& limits)
     : tip_(tip),
       rock_(rock),
-      domain_radius_(domain_radius(tip.room)),
+      domain_radius_(domain_radius(tip.room, limits)),
       has_jump_(has_jump_at(mesh, tip)),
       integrals_(mesh, rock, tip, {domain_radius_, 0.5 * (domain_radius_ + tip.room.radius)}) {}
 

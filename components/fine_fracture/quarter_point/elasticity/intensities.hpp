@@ -39,11 +39,18 @@ struct TipPlace {
   bool is_last;
 };
 
+/// Where interaction integrals are taken. Only tests take other values, to see how much factors depend on them.
+struct IntegralLimits {
+  double domain_in_radii = 4;   ///< how far the domain reaches if there is room, in radii of the rosette
+  double share_of_room = 0.75;  ///< of the way to kinks, other cracks and walls of another kind, at most
+};
+
 /// Finds the factors at one tip, in any solution on its mesh.
 class TipEvaluation {
  public:
   /// Keeps references to the mesh and to its tip.
-  TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip);
+  TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip,
+                const IntegralLimits& limits = {});
   /// The places at which the stress offset is needed.
   const std::vector<Point>& offset_places() const { return integrals_.offset_places(); }
   /// The factors in a solution. `loads`: those of the solution; `offsets`: a column (xx, yy, xy) for each of

@@ -26,6 +26,23 @@ TEST(Griffith, InteractionIntegralIsWithinATenthOfAPercentAtThePapersResolution)
   }
 }
 
+/// The integrals do not depend on their domain by more than the mesh makes of them.
+TEST(Griffith, IntensitiesHardlyDependOnTheDomainOfTheIntegral) {
+  const Griffith exact = paper_crack(1e6, 0.7e6, -3e6);
+  const FineModel model(paper_box(), paper_mesh(), table_1_rock);
+  const FineLoads loads = exact_outline(exact);
+  const FineSolution solution = model.solve(loads);
+  for (const double radii : {2.5, 3.0, 4.0, 6.0})
+    for (const double share : {0.5, 0.75, 0.95}) {
+      const IntegralLimits limits{radii, share};
+      for (const FineMesh::Tip& tip : solution.mesh->tips) {
+        const TipEvaluation evaluation(*solution.mesh, table_1_rock, tip, limits);
+        const TipIntensities found = evaluation.of(loads, Eigen::Matrix3Xd(3, 0), solution.displacement);
+        EXPECT_LT(relative_error(found.K, exact.K(), "K"), 5e-4) << radii << " radii, share " << share;
+      }
+    }
+}
+
 TEST(Griffith, FramesOfBothTipsFollowAnyDirection) {
   const Griffith exact = paper_crack(1e6, 0.7e6, -3e6);
   for (const double angle : {0.4, 1.9, -2.6}) {

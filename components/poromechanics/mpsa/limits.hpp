@@ -1,0 +1,28 @@
+// Numbers on which the discretization of the stress depends.
+#pragma once
+
+#include "framework/discretization/end_zones.hpp"
+
+namespace sprekk::poromechanics {
+
+/// Only tests take other values, to see how much answers depend on them (docs/numerics/tolerances.md).
+struct MpsaLimits {
+  /// The strength of the coupling between rotations of neighbours, relative to their shear modulus. Between an eighth
+  /// and a half errors change little (docs/numerics/poromechanics.md); far below, rotations are hardly coupled.
+  double rotation_strength = 0.25;
+  /// How well the conditions on the two faces of a single subcell determine a component of its gradient, as the sine of
+  /// an angle: below the first value the conditions are not used for it, above the second they alone are.
+  double vague = 0.1, certain = 0.5;
+  /// Smallest pivot, of a row, below which a stiff subcell among very soft ones turns freely (media that differ by
+  /// 1e6), and how strongly it is then coupled to the rotation of the soft ones, of what subcells alike are: they
+  /// hardly resist.
+  double turns_freely = 1e-6, held_by_soft = 0.1;
+  /// Of the smaller A/M (see VolumeExchange): where subcells are equal, more could let volume overshoot.
+  double exchange = 0.25;
+  /// Least ratio of the smallest singular value of the fit of a tip's field to the largest; below, the modes are too
+  /// similar to linear displacements.
+  double well_posed = 1e-3;
+  ZoneLimits zones = {};
+};
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,121 @@
+// Goal: what the discretization of the flux takes for near the end of a fracture, and for a good fit there, may be
+// otherwise, by factors of two and more, and adds no larger errors than those of the mesh. Reference: flow around a
+// fracture of half length 1, p = Re(w), w = amount sqrt(z^2 - 1), with constant pressure along it (real amount) or
+// without flow through it (imaginary).
+#include "components/matrix_flow/mpfa/limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/SparseLU>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <vector>
+
+#include "components/matrix_flow/mpfa/mpfa.hpp"
+#include "tests/components/meshes.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+using Complex = std::complex<double>;
+
+struct Flow {
+  double angle;
+  Complex amount;
+
+  Complex potential(const Point& x) const {
+    const Complex z = Complex(x[0], x[1]) * std::polar(1.0, -angle);
+    return amount * std::sqrt(z - 1.0) * std::sqrt(z + 1.0);
+  }
+  double pressure(const Point& x) const { return potential(x).real(); }
+  /// Out of the first cell of a face, for a mobility of 1: the difference of the stream function, whose cut is along
+  /// the fracture.
+  double flux(const Mesh& mesh, int face) const {
+    const Point inside = 1e-13 * mesh.face_normal[face];
+    const Point a = mesh.nodes[mesh.face_nodes[face][0]] - inside, b = mesh.nodes[mesh.face_nodes[face][1]] - inside;
+    const double to_right = -(potential(b).imag() - potential(a).imag());
+    const Point along = b - a;
+    return Point(along.y(), -along.x()).dot(mesh.face_normal[face]) > 0 ? to_right : -to_right;
+  }
+};
+
+/// The root mean square error of the pressure at the walls of the fracture, in a box with pressures from about −2 to 2.
+double error_of_walls(const Mesh& mesh, const Flow& flow, const MpfaLimits& limits) {
+  std::vector<FlowCondition> conditions(mesh.face_count(), FlowCondition::none);
+  Vector given = Vector::Zero(mesh.face_count()), change = given;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!test::is_outer(mesh, f)) continue;
+    const bool is_wall = test::is_wall(mesh, f);
+    conditions[f] = is_wall ? FlowCondition::flux : FlowCondition::pressure;
+    given[f] = is_wall ? flow.flux(mesh, f) : flow.pressure(mesh.face_center[f]);
+    if (is_wall) continue;
+    const auto& ends = mesh.face_nodes[f];
+    change[f] = flow.pressure(mesh.nodes[ends[1]]) - flow.pressure(mesh.nodes[ends[0]]);
+  }
+  const FluxOperators operators =
+      discretize_mpfa_with(limits, mesh, std::vector<Tensor>(mesh.cell_count(), Tensor::Identity()), conditions);
+  const SparseMatrix sums = test::divergence(mesh, 1);
+  const Eigen::SparseMatrix<double> matrix = sums * operators.flux_cell;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(matrix);
+  EXPECT_EQ(solver.info(), Eigen::Success);
+  const Vector p = solver.solve(Vector(-sums * (operators.flux_boundary * given + operators.flux_change * change)));
+  const Vector trace = operators.trace_cell * p + operators.trace_boundary * given + operators.trace_change * change;
+  double error = 0, length = 0;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!test::is_wall(mesh, f)) continue;
+    const double exact = flow.pressure(mesh.face_center[f] - 1e-13 * mesh.face_normal[f]);
+    error += mesh.face_length[f] * std::pow(trace[f] - exact, 2);
+    length += mesh.face_length[f];
+  }
+  return std::sqrt(error / length);
+}
+
+TEST(MpfaLimits, PressuresAtAFractureHardlyDependOnThem) {
+  struct Case {
+    const char* name;
+    std::function<void(MpfaLimits&)> change;
+  };
+  const std::vector<Case> cases = {
+      {"two layers", [](MpfaLimits& l) { l.near.layers = 2; }},
+      {"four layers", [](MpfaLimits& l) { l.near.layers = 4; }},
+      {"nearer to one end", [](MpfaLimits& l) { l.near.clearly = 0.75; }},
+      {"as near to both ends", [](MpfaLimits& l) { l.near.clearly = 0.99; }},
+      {"fits that are worse", [](MpfaLimits& l) { l.well_posed /= 100; }},
+      {"fits that are better", [](MpfaLimits& l) { l.well_posed *= 100; }},
+      {"smaller shares", [](MpfaLimits& l) { l.largest_share /= 2; }},
+      {"larger shares", [](MpfaLimits& l) { l.largest_share *= 2; }},
+  };
+  struct Setting {
+    double angle, size, bound;
+  };
+  // No change adds more than the mesh has by itself. With few cells the surroundings of both ends meet within some
+  // edges.
+  for (const auto& [angle, size, bound] : {Setting{0.3, 0.5, 0.04}, Setting{1.2, 0.5, 0.04}, Setting{0.3, 0.2, 0.012},
+                                           Setting{1.2, 0.2, 0.012}, Setting{0.3, 0.07, 0.006}})
+    for (const Complex& amount : {Complex(1, 0), Complex(0, 1)}) {
+      Geometry geometry = test::box(4, 4);
+      geometry.box.low = Point(-2, -2);
+      geometry.box.high = Point(2, 2);
+      FractureGeometry fracture;
+      fracture.name = "fracture";
+      const Point end(std::cos(angle), std::sin(angle));
+      fracture.points = {-end, end};
+      geometry.fractures = {fracture};
+      MeshOptions options = test::unstructured(0.5, 0.2);
+      options.fracture_size = size;
+      const Mesh mesh = generate_mesh(geometry, options);
+      const Flow flow{angle, amount};
+      const double usual = error_of_walls(mesh, flow, {});
+      EXPECT_LT(usual, bound) << "angle " << angle << ", size " << size;
+      for (const auto& [name, change] : cases) {
+        MpfaLimits limits;
+        change(limits);
+        const double e = error_of_walls(mesh, flow, limits);
+        EXPECT_LT(e, 2 * usual) << name << ", angle " << angle << ", size " << size << ", amount " << amount;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace sprekk::matrix_flow

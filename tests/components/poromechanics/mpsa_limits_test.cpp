@@ -1,0 +1,162 @@
+// Goal: what the discretization of the stress takes for near or strong may be otherwise, by factors of two and more,
+// and adds no larger errors than those of the mesh. References: a crack in an infinite plate, and a rigid disc in one,
+// by Muskhelishvili's potentials. Where crack and disc are turned, meshes are others.
+#include "components/poromechanics/mpsa/limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "tests/components/poromechanics/biot_step.hpp"
+#include "tests/components/poromechanics/crack.hpp"
+
+namespace sprekk::poromechanics {
+namespace {
+
+using Change = std::function<void(MpsaLimits&)>;
+
+struct Case {
+  const char* name;
+  Change change;
+};
+
+MpsaLimits changed(const Change& change) {
+  MpsaLimits limits;
+  change(limits);
+  return limits;
+}
+
+/// The L2 error of the displacement of a crack's walls, relative.
+double error_of_walls(const Mesh& mesh, double angle, const MpsaLimits& limits) {
+  const double lambda = 0.5;
+  const test::Crack crack{angle, lambda};
+  test::BiotStep step(mesh);
+  step.time_step = 0;
+  step.alpha = 0;
+  step.storage = 1;
+  step.mechanical_limits = limits;
+  step.stiffness.assign(mesh.cell_count(), isotropic_stiffness(lambda, test::shear));
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!test::is_outer(mesh, f)) continue;
+    step.flow_conditions[f] = matrix_flow::FlowCondition::flux;
+    const bool is_wall = test::is_wall(mesh, f);
+    const auto condition = is_wall ? MechanicalCondition::traction : MechanicalCondition::displacement;
+    step.mechanical_conditions[f] = {condition, condition};
+    step.mechanical_boundary.segment<2>(2 * f) =
+        is_wall ? crack.wall_force(test::face_vector(mesh, f)) : test::mean_displacement(mesh, f, crack);
+  }
+  const Vector walls = test::BiotSystem(step).solve(step).walls;
+  double error = 0, norm = 0;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!test::is_wall(mesh, f)) continue;
+    // A little inside the rock: the potentials have their cut along the crack.
+    const Point exact = crack.displacement(mesh.face_center[f] - 1e-12 * mesh.face_normal[f]);
+    error += mesh.face_length[f] * (walls.segment<2>(2 * f) - exact).squaredNorm();
+    norm += mesh.face_length[f] * exact.squaredNorm();
+  }
+  return std::sqrt(error / norm);
+}
+
+TEST(MpsaLimits, WallsOfACrackHardlyDependOnThem) {
+  const std::vector<Case> cases = {
+      {"two layers", [](MpsaLimits& l) { l.zones.near.layers = 2; }},
+      {"four layers", [](MpsaLimits& l) { l.zones.near.layers = 4; }},
+      {"nearer to one end", [](MpsaLimits& l) { l.zones.near.clearly = 0.75; }},
+      {"as near to both ends", [](MpsaLimits& l) { l.zones.near.clearly = 0.99; }},
+      {"narrow zones", [](MpsaLimits& l) { l.zones.half_width /= 2; }},
+      {"wide zones", [](MpsaLimits& l) { l.zones.half_width *= 2; }},
+      {"sharp ends of zones", [](MpsaLimits& l) { l.zones.fading_part /= 3; }},
+      {"smooth ends of zones", [](MpsaLimits& l) { l.zones.fading_part *= 3; }},
+      {"sharp meeting of zones", [](MpsaLimits& l) { l.zones.joining_part /= 10; }},
+      {"smooth meeting of zones", [](MpsaLimits& l) { l.zones.joining_part *= 10; }},
+      {"fits that are worse", [](MpsaLimits& l) { l.well_posed /= 10; }},
+      {"fits that are better", [](MpsaLimits& l) { l.well_posed *= 10; }},
+      {"loose rotations", [](MpsaLimits& l) { l.rotation_strength /= 2; }},
+      {"stiff rotations", [](MpsaLimits& l) { l.rotation_strength *= 2; }},
+  };
+  // No change adds more than the mesh has by itself. Few cells, where the zones of both ends meet within some edges,
+  // and many, where zones are narrower than long.
+  struct Setting {
+    double angle, size, bound;
+  };
+  for (const auto& [angle, size, bound] :
+       {Setting{0.3, 0.5, 0.06}, Setting{1.2, 0.5, 0.06}, Setting{0.3, 0.2, 0.015}, Setting{1.2, 0.06, 0.015}}) {
+    MeshOptions options = test::unstructured(2.2);
+    options.fracture_size = size;
+    options.growth = 0.5;
+    const Mesh mesh = test::around_crack(angle, options);
+    const double usual = error_of_walls(mesh, angle, {});
+    EXPECT_LT(usual, bound) << "angle " << angle << ", size " << size;
+    for (const auto& [name, change] : cases) {
+      const double e = error_of_walls(mesh, angle, changed(change));
+      EXPECT_LT(e, 2 * usual) << name << ", angle " << angle << ", size " << size;
+    }
+  }
+}
+
+/// A rigid disc that is bonded to rock under pure shear, from 2 G u = kappa phi − z conj(phi') − conj(psi) = 0 at its
+/// edge: phi = a/z, psi = −z + a R^2/z^3, a = −R^2/kappa. For G = 1/2, and unit shear.
+struct Disc {
+  static constexpr double radius = 1, lambda = 0.5, shear = 0.5;
+
+  Point displacement(const Point& x) const {
+    using test::Complex;
+    const Complex z(x[0], x[1]);
+    if (std::abs(z) <= radius) return Point::Zero();
+    const double kappa = 3 - 2 * lambda / (lambda + shear), a = -radius * radius / kappa;
+    const Complex u = kappa * a / z + z * std::conj(a / (z * z)) - std::conj(-z + a * radius * radius / (z * z * z));
+    return {u.real(), u.imag()};
+  }
+};
+
+/// The L2 error of displacements, relative, with cells as stiff as `contrast` in the disc.
+double error_of_disc(const Mesh& mesh, double contrast, const MpsaLimits& limits) {
+  const Disc disc;
+  test::BiotStep step(mesh);
+  step.time_step = 0;
+  step.alpha = 0;
+  step.storage = 1;
+  step.mechanical_limits = limits;
+  step.stiffness.assign(mesh.cell_count(), isotropic_stiffness(Disc::lambda, Disc::shear));
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    if (mesh.cell_center[c].norm() < Disc::radius) step.stiffness[c] *= contrast;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!test::is_outer(mesh, f)) continue;
+    step.flow_conditions[f] = matrix_flow::FlowCondition::flux;
+    step.mechanical_conditions[f] = {MechanicalCondition::displacement, MechanicalCondition::displacement};
+    step.mechanical_boundary.segment<2>(2 * f) = disc.displacement(mesh.face_center[f]);
+  }
+  const Vector u = test::BiotSystem(step).solve(step).displacement;
+  double error = 0, norm = 0;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const Point exact = disc.displacement(mesh.cell_center[c]);
+    error += mesh.cell_area[c] * (u.segment<2>(2 * c) - exact).squaredNorm();
+    norm += mesh.cell_area[c] * exact.squaredNorm();
+  }
+  return std::sqrt(error / norm);
+}
+
+TEST(MpsaLimits, AStiffDiscInSoftRockHardlyDependsOnThem) {
+  Geometry geometry = test::box(4, 4);
+  geometry.box.low = Point(-2, -2);
+  geometry.box.high = Point(2, 2);
+  const Mesh mesh = generate_mesh(geometry, test::unstructured(0.15, 0.2));
+  for (const double contrast : {1e7, 1e12}) {
+    const double usual = error_of_disc(mesh, contrast, {});
+    EXPECT_LT(usual, 0.1) << contrast;
+    for (const double factor : {0.1, 0.3, 3.0, 10.0}) {
+      MpsaLimits held, turns;
+      held.held_by_soft *= factor;
+      turns.turns_freely *= factor * factor;
+      const double a = error_of_disc(mesh, contrast, held), b = error_of_disc(mesh, contrast, turns);
+      EXPECT_LT(a, 1.1 * usual) << contrast << ", held " << factor;
+      EXPECT_LT(b, 1.1 * usual) << contrast << ", turns " << factor;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sprekk::poromechanics
