@@ -139,6 +139,13 @@ TEST(Tips, AreRuledOutByTheJumpBesideThem) {
   }
 }
 
+TEST(Tips, AskForEdgesThatGrowAsTheSceneSays) {
+  EXPECT_EQ(Setting(0.3).tips.cavity().growth, 0.3);
+  TipsOptions options = Setting::options();
+  options.cavity_growth = 0.7;
+  EXPECT_EQ(Setting(0.3, false, options).tips.cavity().growth, 0.7);
+}
+
 TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
   // Factors, growth, flags (stopped, started, evaluated), an error, a warm start, a load and a path of two points.
   constexpr int flags[] = {4, 5, 9};
