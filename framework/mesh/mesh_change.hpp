@@ -8,6 +8,13 @@
 
 namespace sprekk {
 
+/// A part of a fracture cell that has been replaced, by the way along the fracture.
+struct ReplacedPart {
+  int cell;      ///< the new fracture cell in whose place the part is
+  int old_cell;  ///< the fracture cell that is no more
+  double share;  ///< of the old cell's length, above 0; all parts of an old cell add up to 1
+};
+
 /// Maps the entities of a new mesh to those of the old mesh; `none` stands for new entities.
 struct MeshChange {
   /// Per new cell: the old cell with the same corners in the same order, so that local face k is the same one, too.
@@ -15,6 +22,7 @@ struct MeshChange {
   /// Per new face: the old face with the same end points (and on a wall: on the same side of the same fracture cell).
   std::vector<int> face;
   std::vector<int> fracture_cell;   ///< per new fracture cell: the same old cell; none where the fracture has grown
+                                    ///< or cells have been replaced
   std::vector<int> fracture_point;  ///< per new fracture point: the same old point
   /// New cells x old cells: the area of their intersection, m^2; for kept cells their area on the one entry. Rows sum
   /// to the new cells' areas, columns to the old cells' (to rounding). Eq. 17 of the paper divides the rows by their
@@ -22,6 +30,8 @@ struct MeshChange {
   SparseMatrix overlap;
   std::vector<int> new_cells;      ///< those with cell[i] == none, ascending
   std::vector<int> removed_cells;  ///< the old cells that no longer exist, ascending
+  /// Where fracture cells have been replaced by others, along the way from the last point that was kept.
+  std::vector<ReplacedPart> replaced_parts;
 };
 
 /// The change that keeps every cell, face, fracture cell and fracture point; its overlap is empty.

@@ -9,9 +9,12 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/remeshing/healed_mesh.hpp"
 #include "framework/remeshing/overlap.hpp"
 #include "framework/remeshing/path_nodes.hpp"
 #include "framework/remeshing/refill_cavity.hpp"
+#include "framework/remeshing/replaced_parts.hpp"
+#include "framework/remeshing/same_fracture_points.hpp"
 
 namespace sprekk {
 namespace {
@@ -20,9 +23,11 @@ std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)
 
 class Growth {
  public:
-  Growth(const Mesh& mesh, const std::vector<PathExtension>& extensions, const CavityOptions& options)
+  Growth(const Mesh& mesh, const std::vector<PathExtension>& extensions, const std::vector<std::vector<Segment>>& scars,
+         const CavityOptions& options)
       : mesh_(mesh),
         options_(options),
+        scars_(scars),
         extensions_(check_extensions(mesh, extensions, options.size)),
         raw_(to_raw_mesh(mesh, &merged_)),
         path_nodes_(place_path_nodes(mesh, raw_, merged_, extensions_, options.size, options.gap_edges)) {
@@ -35,7 +40,7 @@ class Growth {
   }
 
   GrownMesh run() {
-    const Refill refill = refill_cavities(mesh_, raw_, merged_, path_nodes_, paths_, options_);
+    const Refill refill = refill_cavities(mesh_, raw_, merged_, path_nodes_, paths_, scars_, options_);
     SPREKK_ASSERT(static_cast<int>(refill.is_removed.size()) == mesh_.cell_count(), refill.is_removed.size());
     SPREKK_ASSERT(refill.smallest_angle > 0, refill.smallest_angle);
     GrownMesh grown;
@@ -157,11 +162,11 @@ class Growth {
   void map_fractures(GrownMesh& grown) const {
     auto& [mesh, change, angle, extension_cells] = grown;
     change.fracture_cell.assign(mesh.fracture_cell_count(), none);
-    change.fracture_point.assign(mesh.fracture_points.size(), none);
     std::vector<int> grown_before(mesh_.fractures.size(), 0);  // at the first point
     extension_cells.resize(extensions_.size());
     for (std::size_t e = 0; e < extensions_.size(); ++e) {
-      const auto& [fracture, at_end, points] = extensions_[e];
+      const int fracture = extensions_[e].fracture;
+      const bool at_end = extensions_[e].at_end;
       const int count = static_cast<int>(paths_[e].size()), first = mesh.fractures[fracture].first_cell;
       if (!at_end) grown_before[fracture] = count;
       const int start = at_end ? first + mesh.fractures[fracture].cell_count - count : first + count - 1;
@@ -169,30 +174,11 @@ class Growth {
     }
     for (std::size_t f = 0; f < mesh_.fractures.size(); ++f) {
       for (int i = 0; i < mesh_.fractures[f].cell_count; ++i) {
-        const int now = mesh.fractures[f].first_cell + grown_before[f] + i, then = mesh_.fractures[f].first_cell + i;
-        change.fracture_cell[now] = then;
-        for (const int end : {0, 1}) {
-          change.fracture_point[mesh.fracture_cells[now].points[end]] = mesh_.fracture_cells[then].points[end];
-        }
+        const int now = mesh.fractures[f].first_cell + grown_before[f] + i;
+        change.fracture_cell[now] = mesh_.fractures[f].first_cell + i;
       }
     }
-    if (!mesh.junctions.empty()) map_junctions(mesh, change);
-  }
-
-  /// A point of a junction is an old one if its cells met before.
-  void map_junctions(const Mesh& mesh, MeshChange& change) const {
-    std::map<std::array<int, 2>, int> old_point;  // by the old cells
-    for (std::size_t point = 0; point < mesh_.fracture_points.size(); ++point) {
-      const auto& cells = mesh_.fracture_points[point].cells;
-      if (cells.size() == 2) old_point[{cells[0], cells[1]}] = static_cast<int>(point);
-    }
-    for (const Junction& junction : mesh.junctions) {
-      for (const int point : junction.points) {
-        const auto& cells = mesh.fracture_points[point].cells;
-        const auto found = old_point.find({change.fracture_cell[cells[0]], change.fracture_cell[cells[1]]});
-        change.fracture_point[point] = found == old_point.end() ? none : found->second;
-      }
-    }
+    change.fracture_point = same_fracture_points(mesh_, mesh, change.fracture_cell);
   }
 
   void map_faces(const RawMesh& raw, GrownMesh& grown) const {
@@ -227,6 +213,7 @@ class Growth {
 
   const Mesh& mesh_;
   const CavityOptions options_;
+  const std::vector<std::vector<Segment>>& scars_;
   const std::vector<PathExtension> extensions_;
   std::vector<int> merged_;
   const RawMesh raw_;
@@ -235,6 +222,20 @@ class Growth {
   std::vector<Triplet> overlaps_;            ///< of new cells with removed ones
   std::vector<int> holder_;                  ///< per new cell, in their order: the removed cell that holds its centre
 };
+
+/// What a mesh with extensions, made from a healed mesh, is to the mesh before that was healed.
+void relate_to_given(const Mesh& given, const HealedMesh& healed, GrownMesh& grown) {
+  const auto through = [](const std::vector<int>& origin, std::vector<int>& entities) {
+    for (int& entity : entities)
+      if (entity != none) entity = origin[entity];
+  };
+  MeshChange& change = grown.change;
+  through(healed.face, change.face);
+  through(healed.fracture_cell, change.fracture_cell);
+  through(healed.fracture_point, change.fracture_point);
+  for (std::size_t e = 0; e < healed.replaced.size(); ++e)
+    add_replaced_parts(given, healed.replaced[e], grown.mesh, grown.extension_cells[e], change);
+}
 
 }  // namespace
 
@@ -246,7 +247,14 @@ GrownMesh extend_fractures(const Mesh& mesh, const std::vector<PathExtension>& e
     }
   }
   if (!(options.gap_edges >= 0)) throw std::invalid_argument("extend_fractures: gap_edges must not be negative");
-  return Growth(mesh, extensions, options).run();
+  if (std::ranges::none_of(extensions, [](const PathExtension& extension) { return extension.replaced != 0; }))
+    return Growth(mesh, extensions, {}, options).run();
+  const HealedMesh healed = heal_ends(mesh, extensions);
+  std::vector<PathExtension> from_anchors = extensions;
+  for (PathExtension& extension : from_anchors) extension.replaced = 0;
+  GrownMesh grown = Growth(healed.mesh, from_anchors, healed.scars, options).run();
+  relate_to_given(mesh, healed, grown);
+  return grown;
 }
 
 }  // namespace sprekk

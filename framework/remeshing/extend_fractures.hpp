@@ -26,14 +26,16 @@ struct GrownMesh {
   Mesh mesh;
   MeshChange change;
   double smallest_angle;  ///< rad, of the new cells
-  /// Per extension: its fracture cells, from the old tip on.
+  /// Per extension: its fracture cells, from the old tip (or the anchor of what is replaced) on.
   std::vector<std::vector<int>> extension_cells;
 };
 
-/// Extends fractures. Each given segment becomes one or more fracture cells of about `size`, shorter in narrow gaps.
-/// Existing fracture cells, interfaces between regions and the outer boundary stay; edges of the outer boundary may be
-/// divided near a path. Cells outside of the cavity keep their corners. They keep their numbers, too, unless there are
-/// fewer cells than before: then the last cells move to the lowest free numbers. New cells are triangles, also where
+/// Extends fractures. Each given segment becomes one or more fracture cells of about `size`, shorter in narrow gaps, or
+/// exactly one (PathExtension::whole_segments). Cells that an extension replaces close first; those around them are
+/// made anew together with those around the new path, so that every cell that is kept has kept its faces. Existing
+/// fracture cells, interfaces between regions and the outer boundary stay; edges of the outer boundary may be divided
+/// near a path. Cells outside of the cavity keep their corners. They keep their numbers, too, unless there are fewer
+/// cells than before: then the last cells move to the lowest free numbers. New cells are triangles, also where
 /// quadrilaterals were. An end within a hundredth of `size` of the outer boundary is moved onto it and becomes
 /// on_boundary. An end as near to a fracture point of another fracture joins that fracture in a junction. When an angle
 /// is below 25 degrees, further cavities are tried and the best is taken. Throws ExtensionError, before any work, for

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "framework/mesh/planar.hpp"
+#include "framework/remeshing/healed_mesh.hpp"
 
 namespace sprekk {
 namespace {
@@ -120,7 +121,8 @@ class Check {
 
   std::vector<PathExtension> run() {
     for (index_ = 0; index_ < static_cast<int>(extensions_.size()); ++index_) {
-      auto& [fracture, at_end, points] = extensions_[index_];
+      const int fracture = extensions_[index_].fracture;
+      std::vector<Point>& points = extensions_[index_].points;
       if (fracture < 0 || fracture >= static_cast<int>(mesh_.fractures.size())) {
         throw std::invalid_argument("extension of fracture " + std::to_string(fracture) + ", which does not exist");
       }
@@ -148,25 +150,25 @@ class Check {
   }
 
   void check_end() const {
-    const auto& [fracture, at_end, points] = extensions_[index_];
-    const OwnEnd end = own_end(mesh_, fracture, at_end);
+    const PathExtension& own = extensions_[index_];
+    const OwnEnd end = own_end(mesh_, own.fracture, own.at_end);
     if (end.kind != FracturePoint::Kind::tip) {
       refuse(Reason::no_tip, end.position, "already ends",
              end.kind == FracturePoint::Kind::junction ? "at another fracture" : "on the outer boundary");
     }
     for (int i = 0; i < index_; ++i) {
-      if (extensions_[i].fracture == fracture && extensions_[i].at_end == at_end) {
+      if (extensions_[i].fracture == own.fracture && extensions_[i].at_end == own.at_end) {
         refuse(Reason::no_tip, end.position, "is extended twice", "an end grows along one path at a time");
       }
     }
   }
 
   void check_form() const {
-    const auto& [fracture, at_end, points] = extensions_[index_];
-    const OwnEnd end = own_end(mesh_, fracture, at_end);
-    if (points.empty()) refuse(Reason::no_path, end.position, "gets no new point", "the path is empty");
+    const PathExtension& own = extensions_[index_];
+    const OwnEnd end = own_end(mesh_, own.fracture, own.at_end);
+    if (own.points.empty()) refuse(Reason::no_path, end.position, "gets no new point", "the path is empty");
     Point from = end.position, before = end.before;
-    for (const Point& to : points) {
+    for (const Point& to : own.points) {
       if (!to.allFinite()) refuse(Reason::no_path, from, "gets a point that is no number", "after this one");
       if ((to - from).norm() <= std::max(touch_, shortest * size_)) {
         refuse(Reason::no_path, from, "gets a segment without length", "two points of the path are one");
@@ -231,10 +233,10 @@ class Check {
   }
 
   std::vector<Segment> path() const {
-    const auto& [fracture, at_end, points] = extensions_[index_];
+    const PathExtension& own = extensions_[index_];
     std::vector<Segment> segments;
-    Point from = own_end(mesh_, fracture, at_end).position;
-    for (const Point& to : points) {
+    Point from = own_end(mesh_, own.fracture, own.at_end).position;
+    for (const Point& to : own.points) {
       segments.push_back({from, to});
       from = to;
     }
@@ -305,7 +307,7 @@ class Check {
   std::string name_of(int fracture) const { return "fracture '" + mesh_.fractures[fracture].name + "'"; }
 
   void check_fractures() {
-    const auto& [fracture, at_end, points] = extensions_[index_];
+    const PathExtension& own = extensions_[index_];
     const auto& segments = paths_[index_];
     const Point tip = segments.front().from;
     double way_ahead = 0;
@@ -315,12 +317,12 @@ class Check {
         double way_behind = 0;
         for (int n = 0; n < count; ++n) {
           // From the end that grows backwards, so that the way along the fracture adds up.
-          const int cell = at_end ? first + count - 1 - n : first + n;
+          const int cell = own.at_end ? first + count - 1 - n : first + n;
           const Segment other = segment_of(mesh_, cell);
           const bool is_ending = is_joined_[f] && i + 1 == segments.size();
           if (is_ending) {
             if (!is_joint(segments[i], other, name_of(f))) note(i, other, 0, Reason::crosses_fracture, name_of(f));
-          } else if (f != fracture) {
+          } else if (f != own.fracture) {
             if (distance(segments[i], other) < allowed(distance(tip, other)) &&
                 leads_away(segments[i], tip, straight_part(mesh_, cell)))
               continue;
@@ -370,7 +372,9 @@ class Check {
 
 std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                             double size) {
-  return Check(mesh, extensions, size).run();
+  if (std::ranges::none_of(extensions, [](const PathExtension& extension) { return extension.replaced != 0; }))
+    return Check(mesh, extensions, size).run();
+  return Check(heal_ends(mesh, extensions).mesh, extensions, size).run();
 }
 
 bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, const Point& from, const Point& to,

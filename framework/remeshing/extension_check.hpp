@@ -1,44 +1,12 @@
 // Checks of the paths along which fractures are to grow.
 #pragma once
 
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "framework/mesh/mesh.hpp"
+#include "framework/remeshing/path_extension.hpp"
 
 namespace sprekk {
-
-/// New segments at an end of a fracture.
-struct PathExtension {
-  int fracture;               ///< index into Mesh::fractures
-  bool at_end;                ///< at the last (true) or the first point of the polyline
-  std::vector<Point> points;  ///< m, from the old tip (exclusive) on
-};
-
-/// A path that a fracture cannot take: what, where and why, so that its growth can be stopped.
-class ExtensionError : public std::runtime_error {
- public:
-  /// Why the path is refused.
-  enum class Reason {
-    no_tip,            ///< the end lies on the outer boundary or on another fracture already, or grows twice
-    no_path,           ///< no points, points that are not finite, or segments without length
-    turns_back,        ///< turns by more than 90 degrees
-    leaves_mesh,       ///< crosses the outer boundary
-    crosses_fracture,  ///< crosses or touches a fracture (another, itself, an extension) other than at a fracture point
-    too_near           ///< passes a fracture or the outer boundary at less than least_gap sizes
-  };
-  ExtensionError(Reason reason, int extension, const Point& where, const std::string& what)
-      : std::runtime_error(what), reason_(reason), extension_(extension), where_(where) {}
-  Reason reason() const { return reason_; }
-  int extension() const { return extension_; }  ///< index into the list that was given
-  const Point& where() const { return where_; }
-
- private:
-  Reason reason_;
-  int extension_;
-  Point where_;
-};
 
 /// The least distance between a path and anything else, in edge lengths.
 inline constexpr double least_gap = 0.5;
@@ -52,8 +20,8 @@ inline constexpr double least_incidence = 0.2617993877991494;
 
 /// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). A fracture or
 /// boundary that is nearer to the old tip than the least gap may be passed at nine tenths of the tip's distance, and
-/// left at 15 degrees or more. Returns the extensions; ends near the outer boundary, or near a fracture point of
-/// another fracture inside of the rock, are moved onto it.
+/// left at 15 degrees or more. Cells that are replaced count as healed (heal_ends). Returns the extensions; ends near
+/// the outer boundary, or near a fracture point of another fracture inside of the rock, are moved onto it.
 std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                             double size);
 

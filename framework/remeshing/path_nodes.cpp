@@ -31,7 +31,7 @@ class Placement {
   }
 
   PathNodes run(const RawMesh& raw, const std::vector<PathExtension>& extensions) {
-    for (const auto& [fracture, at_end, points] : extensions) {
+    for (const auto& [fracture, at_end, points, replaced, whole_segments] : extensions) {
       const auto& chain = raw.fractures[fracture].nodes;
       SPREKK_EXPECT(is_index(fracture, static_cast<long>(raw.fractures.size())), fracture);
       SPREKK_EXPECT(!points.empty(), fracture);
@@ -44,7 +44,7 @@ class Placement {
         cross_interfaces(path);
       }
       if (gap_edges_ > 0) find_narrow_places(path, fracture);
-      result_.paths.push_back(divide(path));
+      result_.paths.push_back(whole_segments ? path : divide(path));
     }
     return std::move(result_);
   }

@@ -27,13 +27,13 @@ struct PathNodes {
 /// A path and an interface between regions that are nearer to each other than this, in edge lengths, meet in a node.
 inline constexpr double interface_snap = 0.1;
 
-/// Divides paths into edges of about `size` (m), each segment into one or more. Where the outer boundary or another
-/// fracture is nearer than `gap_edges` times `size`, edges are shorter, to fit into the gap, but no shorter than the
-/// cells of the other fracture, which stay. Where a path crosses an interface between regions, both get a node. A path
-/// bends by up to interface_snap to pass through a node of an interface, and a point of the path that near to an
-/// interface moves onto it; interfaces stay as they are. An end on the outer boundary becomes a node of the boundary;
-/// an end at a point of another fracture is that fracture's node. `merged` is that of to_raw_mesh. The extensions must
-/// have passed check_extensions.
+/// Divides paths into edges of about `size` (m), each segment into one or more (whole_segments: into one). Where the
+/// outer boundary or another fracture is nearer than `gap_edges` times `size`, edges are shorter, to fit into the gap,
+/// but no shorter than the cells of the other fracture, which stay. Where a path crosses an interface between regions,
+/// both get a node. A path bends by up to interface_snap to pass through a node of an interface, and a point of the
+/// path that near to an interface moves onto it; interfaces stay as they are. An end on the outer boundary becomes a
+/// node of the boundary; an end at a point of another fracture is that fracture's node. `merged` is that of
+/// to_raw_mesh. The extensions must have passed check_extensions.
 PathNodes place_path_nodes(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
                            const std::vector<PathExtension>& extensions, double size, double gap_edges);
 

@@ -38,8 +38,18 @@ bool is_better(const Refill& one, const Refill& other) {
 class Refilling {
  public:
   Refilling(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged, const PathNodes& path_nodes,
-            const std::vector<std::vector<Segment>>& paths, const CavityOptions& options)
-      : mesh_(mesh), raw_(raw), merged_(merged), path_nodes_(path_nodes), paths_(paths), options_(options) {}
+            const std::vector<std::vector<Segment>>& paths, const std::vector<std::vector<Segment>>& scars,
+            const CavityOptions& options)
+      : mesh_(mesh),
+        raw_(raw),
+        merged_(merged),
+        path_nodes_(path_nodes),
+        paths_(paths),
+        centre_lines_(paths),
+        options_(options) {
+    for (const auto& scar : scars)
+      if (!scar.empty()) centre_lines_.push_back(scar);
+  }
 
   Refill best() const {
     Refill best;
@@ -65,8 +75,9 @@ class Refilling {
   Refill refill(const Attempt& attempt) const {
     Refill refill;
     refill.nodes = path_nodes_.nodes;
-    refill.is_removed = choose_cavity(mesh_, merged_, paths_,
-                                      std::vector<double>(paths_.size(), attempt.radius_factor * options_.radius));
+    refill.is_removed =
+        choose_cavity(mesh_, merged_, centre_lines_,
+                      std::vector<double>(centre_lines_.size(), attempt.radius_factor * options_.radius));
     const std::vector<int> part = connected_parts(mesh_, refill.is_removed);
     std::vector<std::vector<int>> cells;
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
@@ -279,6 +290,7 @@ class Refilling {
   const std::vector<int>& merged_;
   const PathNodes& path_nodes_;
   const std::vector<std::vector<Segment>>& paths_;  ///< the edges along each path
+  std::vector<std::vector<Segment>> centre_lines_;  ///< paths and scars
   const CavityOptions& options_;
 };
 
@@ -286,8 +298,8 @@ class Refilling {
 
 Refill refill_cavities(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
                        const PathNodes& path_nodes, const std::vector<std::vector<Segment>>& segments,
-                       const CavityOptions& options) {
-  return Refilling(mesh, raw, merged, path_nodes, segments, options).best();
+                       const std::vector<std::vector<Segment>>& scars, const CavityOptions& options) {
+  return Refilling(mesh, raw, merged, path_nodes, segments, scars, options).best();
 }
 
 }  // namespace sprekk

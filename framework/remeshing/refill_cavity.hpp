@@ -25,9 +25,10 @@ struct Refill {
 
 /// Fills the cavities around placed paths. Tries several methods and sizes of cavities until the angles are good, and
 /// returns the best result. `raw` and `merged` describe the mesh with closed walls (to_raw_mesh), `segments` are the
-/// edges of each placed path. Throws std::runtime_error when all of them fail.
+/// edges of each placed path, and cells around the `scars` (paths that have closed) are removed as well. Throws
+/// std::runtime_error when all of them fail.
 Refill refill_cavities(const Mesh& mesh, const RawMesh& raw, const std::vector<int>& merged,
                        const PathNodes& path_nodes, const std::vector<std::vector<Segment>>& segments,
-                       const CavityOptions& options);
+                       const std::vector<std::vector<Segment>>& scars, const CavityOptions& options);
 
 }  // namespace sprekk

@@ -31,6 +31,14 @@ inline PathExtension straight(const Mesh& mesh, int fracture, bool at_end, doubl
   return {fracture, at_end, {tip(mesh, fracture, at_end) + length * turned(direction(mesh, fracture, at_end), angle)}};
 }
 
+/// Marks cells that have grown, as a run does after each change.
+inline void mark_grown(const Mesh& old, GrownMesh& grown) {
+  for (int i = 0; i < grown.mesh.fracture_cell_count(); ++i) {
+    const int origin = grown.change.fracture_cell[i];
+    grown.mesh.fracture_cells[i].grown = origin == none || old.fracture_cells[origin].grown;
+  }
+}
+
 /// Everything that mesh_change.hpp promises, and that build_mesh promises of the new mesh.
 inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
   const auto& [mesh, change, smallest, extension_cells] = grown;
@@ -65,6 +73,8 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
     ASSERT_EQ(mesh.cell_nodes[c].size(), old.cell_nodes[from].size());
     for (int k = 0; k < mesh.cell_nodes[c].size(); ++k)
       ASSERT_EQ(mesh.nodes[mesh.cell_nodes[c][k]], old.nodes[old.cell_nodes[from][k]]);
+    for (int k = 0; k < mesh.cell_faces[c].size(); ++k)
+      ASSERT_EQ(change.face[mesh.cell_faces[c][k]], old.cell_faces[from][k]);
   }
   for (int c = 0; c < old.cell_count(); ++c) {
     ASSERT_LE(kept[c], 1);
@@ -110,7 +120,16 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
     }
   }
 
-  // Fractures: all old cells are there, in their order, and the new ones lie at the ends.
+  // Fractures: all old cells are there, in their order, but for those replaced at the ends, and the new ones lie there.
+  std::map<int, double> shares;  // by replaced cell
+  for (const ReplacedPart& part : change.replaced_parts) {
+    ASSERT_GT(part.share, 0);
+    ASSERT_EQ(change.fracture_cell[part.cell], none);
+    ASSERT_EQ(mesh.fracture_cells[part.cell].fracture, old.fracture_cells[part.old_cell].fracture);
+    shares[part.old_cell] += part.share;
+  }
+  for (const auto& [cell, share] : shares) ASSERT_NEAR(share, 1, 1e-14);
+  const int replaced_count = static_cast<int>(shares.size());
   ASSERT_EQ(mesh.fractures.size(), old.fractures.size());
   ASSERT_EQ(change.fracture_cell.size(), mesh.fracture_cells.size());
   ASSERT_EQ(change.fracture_point.size(), mesh.fracture_points.size());
@@ -134,8 +153,10 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
         joined_tips += is_joined ? 1 : 0;
       }
     }
-    ASSERT_EQ(from.size(), static_cast<std::size_t>(old.fractures[f].cell_count));
-    for (int i = 0; i < old.fractures[f].cell_count; ++i) ASSERT_EQ(from[i], old.fractures[f].first_cell + i);
+    std::vector<int> expected;
+    for (int i = 0; i < old.fractures[f].cell_count; ++i)
+      if (!shares.contains(old.fractures[f].first_cell + i)) expected.push_back(old.fractures[f].first_cell + i);
+    ASSERT_EQ(from, expected);
   }
   int with_old_place = 0;
   for (std::size_t p = 0; p < mesh.fracture_points.size(); ++p) {
@@ -143,13 +164,13 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
     ++with_old_place;
     ASSERT_EQ(mesh.fracture_points[p].position, old.fracture_points[change.fracture_point[p]].position);
   }
-  ASSERT_EQ(with_old_place + joined_tips, static_cast<int>(old.fracture_points.size()));
+  ASSERT_EQ(with_old_place + joined_tips + replaced_count, static_cast<int>(old.fracture_points.size()));
   int grown_cells = 0;
   for (const auto& cells : extension_cells) {
     for (const int cell : cells) ASSERT_EQ(change.fracture_cell[cell], none);
     grown_cells += static_cast<int>(cells.size());
   }
-  ASSERT_EQ(grown_cells, mesh.fracture_cell_count() - old.fracture_cell_count());
+  ASSERT_EQ(grown_cells, mesh.fracture_cell_count() - old.fracture_cell_count() + replaced_count);
 
   // Interfaces between regions are where they were.
   std::map<std::pair<int, int>, double> interface_length;
@@ -176,6 +197,38 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
     return count;
   };
   ASSERT_LE(single(mesh), single(old));
+}
+
+/// extend_fractures, with all that must hold of its result.
+inline GrownMesh extended(const Mesh& mesh, const std::vector<PathExtension>& extensions,
+                          const CavityOptions& options) {
+  GrownMesh grown = extend_fractures(mesh, extensions, options);
+  mark_grown(mesh, grown);
+  expect_sound(mesh, grown);
+  return grown;
+}
+
+/// The fracture point before the last `replaced` cells at an end.
+inline Point anchor(const Mesh& mesh, int fracture, bool at_end, int replaced) {
+  const auto& [name, first, count] = mesh.fractures[fracture];
+  const FractureCell& cell = mesh.fracture_cells[at_end ? first + count - 1 - replaced : first + replaced];
+  return mesh.fracture_points[cell.points[at_end ? 1 : 0]].position;
+}
+
+/// Replaces the last cells by one in the direction of the old end as seen from the anchor: longer by `more` (m) and
+/// turned.
+inline PathExtension replacing(const Mesh& mesh, int fracture, bool at_end, int replaced, double more,
+                               double angle = 0) {
+  const Point from = anchor(mesh, fracture, at_end, replaced), to = tip(mesh, fracture, at_end);
+  const Point along = replaced > 0 ? Point((to - from).normalized()) : direction(mesh, fracture, at_end);
+  double length = more;
+  const auto& [name, first, count] = mesh.fractures[fracture];
+  for (int n = 0; n < replaced; ++n) length += mesh.fracture_cells[at_end ? first + count - 1 - n : first + n].length;
+  return {.fracture = fracture,
+          .at_end = at_end,
+          .points = {from + length * turned(along, angle)},
+          .replaced = replaced,
+          .whole_segments = true};
 }
 
 }  // namespace sprekk::test
