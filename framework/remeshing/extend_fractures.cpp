@@ -119,15 +119,10 @@ class Growth {
     return raw;
   }
 
-  static Corners corners(const std::vector<Point>& nodes, const Ring& cell) {
-    if (cell.size() == 3) return {nodes[cell[0]], nodes[cell[1]], nodes[cell[2]]};
-    return {nodes[cell[0]], nodes[cell[1]], nodes[cell[2]], nodes[cell[3]]};
-  }
-
   void measure_overlap(const Refill& refill, const MeshChange& change) {
     std::vector<Corners> made, removed;
-    for (const auto& triangle : refill.triangles) made.push_back(corners(refill.nodes, Ring(triangle)));
-    for (const int cell : change.removed_cells) removed.push_back(corners(raw_.nodes, raw_.cells[cell]));
+    for (const auto& triangle : refill.triangles) made.push_back(corners_of(refill.nodes, Ring(triangle)));
+    for (const int cell : change.removed_cells) removed.push_back(corners_of(raw_.nodes, raw_.cells[cell]));
     holder_.assign(made.size(), none);
     std::vector<double> depth(made.size(), -std::numeric_limits<double>::infinity());
     for_each_overlap(made, removed, [&](int i, int j, double area) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "framework/mesh/ring.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {
@@ -27,6 +28,11 @@ class Corners {
   std::array<Point, 4> points_;
   int size_;
 };
+
+inline Corners corners_of(const std::vector<Point>& nodes, const Ring& cell) {
+  if (cell.size() == 3) return {nodes[cell[0]], nodes[cell[1]], nodes[cell[2]]};
+  return {nodes[cell[0]], nodes[cell[1]], nodes[cell[2]], nodes[cell[3]]};
+}
 
 /// The area of the intersection of two cells, m^2; exact up to rounding relative to the smaller of them, wherever
 /// they lie.
