@@ -9,7 +9,7 @@
 #include "framework/remeshing/healed_mesh.hpp"
 #include "framework/remeshing/overlap.hpp"
 #include "framework/remeshing/replaced_parts.hpp"
-#include "framework/remeshing/spread_displacement.hpp"
+#include "framework/remeshing/spread_motion.hpp"
 
 namespace sprekk {
 namespace {
@@ -39,7 +39,8 @@ class Motion {
         if (by.norm() > contact * size_) return false;
       } else {
         if (checked.points[i] != extension.points[i]) return false;  // onto the boundary or another fracture
-        displaced_.push_back({node, by});
+        moved_.push_back({node, by});
+        targets_.push_back(checked.points[i]);
         is_at_rest_[node] = false;
       }
     }
@@ -48,9 +49,10 @@ class Motion {
 
   /// The raw mesh with moved nodes, if its cells are good; and their smallest angle.
   std::optional<RawMesh> moved(double& smallest) const {
-    const std::vector<Point> displacement = spread_displacement(raw_.nodes, edges(), is_at_rest_, displaced_);
+    const std::vector<Point> motion = spread_motion(raw_.nodes, edges(), is_at_rest_, moved_);
     RawMesh raw = raw_;
-    for (std::size_t node = 0; node < raw.nodes.size(); ++node) raw.nodes[node] += displacement[node];
+    for (std::size_t node = 0; node < raw.nodes.size(); ++node) raw.nodes[node] += motion[node];
+    for (std::size_t i = 0; i < moved_.size(); ++i) raw.nodes[moved_[i].node] = targets_[i];  // to the bit
     smallest = std::numeric_limits<double>::infinity();
     for (const int cell : grown_.change.new_cells) {
       const Ring& corners = raw.cells[cell];
@@ -76,6 +78,11 @@ class Motion {
       const bool is_interface = other != none && mesh.cell_region[one] != mesh.cell_region[other];
       if (mesh.face_side[face] == none && !is_interface) continue;
       for (const int node : mesh.face_nodes[face]) is_bound_[merged_[node]] = true;
+    }
+    for (const FractureCell& cell : mesh.fracture_cells) {
+      const auto [plus, minus] = cell.faces;
+      if (mesh.cell_region[mesh.face_cells[plus][0]] == mesh.cell_region[mesh.face_cells[minus][0]]) continue;
+      for (const int node : mesh.face_nodes[plus]) is_bound_[merged_[node]] = true;
     }
     std::vector<bool> is_on_fracture(raw_.nodes.size(), false);
     for (const auto& [name, chain] : raw_.fractures) {
@@ -104,7 +111,8 @@ class Motion {
   const RawMesh raw_;
   std::vector<bool> is_bound_;
   std::vector<bool> is_at_rest_;
-  std::vector<DisplacedNode> displaced_;
+  std::vector<MovedNode> moved_;
+  std::vector<Point> targets_;  ///< of moved_
 };
 
 bool have_same_numbers(const Mesh& one, const Mesh& other) {

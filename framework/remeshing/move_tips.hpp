@@ -11,7 +11,7 @@
 namespace sprekk {
 
 /// The mesh `grown`, which extend_fractures made from `before` with the same fractures, ends and replaced cells, with
-/// other points of the paths. All topology and all numbers stay. Nodes of the cavity move along (spread_displacement);
+/// other points of the paths. All topology and all numbers stay. Nodes of the cavity move along (spread_motion);
 /// at rest are the rim of the cavity, the outer boundary, interfaces between regions, and all other fracture points.
 /// Positions, and overlaps with the cells of `before`, are continuous functions of the points; those that `grown` was
 /// made with give `grown` again.

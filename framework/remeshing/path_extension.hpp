@@ -17,8 +17,8 @@ struct PathExtension {
   /// So many fracture cells at this end, counted from the tip, are given up: the rock closes there, and the path begins
   /// at the fracture point before them, the anchor. They must be grown cells, and the path as long as they are.
   int replaced = 0;
-  /// Each segment becomes one fracture cell, however long it is; more only where it crosses an interface between
-  /// regions.
+  /// Each segment becomes one fracture cell, however long it is; more only where it crosses or follows an interface
+  /// between regions.
   bool whole_segments = false;
 };
 

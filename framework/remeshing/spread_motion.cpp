@@ -1,4 +1,4 @@
-#include "framework/remeshing/spread_displacement.hpp"
+#include "framework/remeshing/spread_motion.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -9,14 +9,13 @@
 
 namespace sprekk {
 
-std::vector<Point> spread_displacement(const std::vector<Point>& nodes, const std::vector<std::array<int, 2>>& edges,
-                                       const std::vector<bool>& is_at_rest,
-                                       const std::vector<DisplacedNode>& displaced) {
+std::vector<Point> spread_motion(const std::vector<Point>& nodes, const std::vector<std::array<int, 2>>& edges,
+                                 const std::vector<bool>& is_at_rest, const std::vector<MovedNode>& moved) {
   SPREKK_EXPECT(is_at_rest.size() == nodes.size(), is_at_rest.size(), nodes.size());
-  std::vector<Point> displacement(nodes.size(), Point::Zero());
+  std::vector<Point> motion(nodes.size(), Point::Zero());
   std::vector<bool> is_given = is_at_rest;
-  for (const auto& [node, by] : displaced) {
-    displacement[node] = by;
+  for (const auto& [node, by] : moved) {
+    motion[node] = by;
     is_given[node] = true;
   }
   constexpr int given = -1;
@@ -24,11 +23,11 @@ std::vector<Point> spread_displacement(const std::vector<Point>& nodes, const st
   int count = 0;
   for (std::size_t node = 0; node < nodes.size(); ++node)
     if (!is_given[node]) unknown[node] = count++;
-  if (count == 0 || displaced.empty()) return displacement;
+  if (count == 0 || moved.empty()) return motion;
 
-  const auto distance_to_displaced = [&](const Point& x) {
+  const auto distance_to_moved = [&](const Point& x) {
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& [node, by] : displaced) least = std::min(least, (x - nodes[node]).norm());
+    for (const auto& [node, by] : moved) least = std::min(least, (x - nodes[node]).norm());
     return least;
   };
   using Matrix = Eigen::SparseMatrix<double>;
@@ -36,14 +35,14 @@ std::vector<Point> spread_displacement(const std::vector<Point>& nodes, const st
   Eigen::Matrix<double, Eigen::Dynamic, dimension> loads = decltype(loads)::Zero(count, dimension);
   for (const auto& [a, b] : edges) {
     if (unknown[a] == given && unknown[b] == given) continue;
-    const double weight = 1 / distance_to_displaced(0.5 * (nodes[a] + nodes[b]));
+    const double weight = 1 / distance_to_moved(0.5 * (nodes[a] + nodes[b]));
     for (const auto& [one, other] : {std::array{a, b}, std::array{b, a}}) {
       if (unknown[one] == given) continue;
       entries.emplace_back(unknown[one], unknown[one], weight);
       if (unknown[other] != given) {
         entries.emplace_back(unknown[one], unknown[other], -weight);
       } else {
-        loads.row(unknown[one]) += weight * displacement[other].transpose();
+        loads.row(unknown[one]) += weight * motion[other].transpose();
       }
     }
   }
@@ -53,8 +52,8 @@ std::vector<Point> spread_displacement(const std::vector<Point>& nodes, const st
   if (factors.info() != Eigen::Success) throw std::runtime_error("nodes that are not connected to any that is at rest");
   const decltype(loads) solution = factors.solve(loads);
   for (std::size_t node = 0; node < nodes.size(); ++node)
-    if (unknown[node] != given) displacement[node] = solution.row(unknown[node]).transpose();
-  return displacement;
+    if (unknown[node] != given) motion[node] = solution.row(unknown[node]).transpose();
+  return motion;
 }
 
 }  // namespace sprekk
