@@ -60,6 +60,32 @@ TEST(ReplacedCells, BecomeALittleLongerEachTime) {
   EXPECT_GE(smallest, 20 * degree);
 }
 
+TEST(ReplacedCells, StayPointSymmetric) {
+  // A fracture in the middle of a square, both ends alike: the mesh is its own image by half a turn after each change.
+  Geometry geometry = box(0, 2, 0, 2);
+  geometry.fractures = {fracture("main", {{0.8, 0.8}, {1.2, 1.2}})};
+  Mesh mesh = generate_mesh(geometry, {.kind = MeshOptions::Kind::structured, .cells = {40, 40}});
+  const auto most_apart = [&] {
+    double most = 0;
+    for (const Point& x : mesh.nodes) {
+      double least = 1;
+      for (const Point& y : mesh.nodes) least = std::min(least, (x + y - Point(2, 2)).norm());
+      most = std::max(most, least);
+    }
+    return most;
+  };
+  ASSERT_LT(most_apart(), 1e-9);
+  for (int step = 0; step < 12; ++step) {
+    const int replaced = step % 4 == 0 ? 0 : 1;
+    const double more = (replaced == 0 ? 0.5 : 0.17) * size, turn = step == 0 ? 0.6 : 0.03;
+    mesh = extended(mesh,
+                    {replacing(mesh, 0, true, replaced, more, turn), replacing(mesh, 0, false, replaced, more, turn)},
+                    usual)
+               .mesh;
+    ASSERT_LT(most_apart(), 1e-9) << step;
+  }
+}
+
 TEST(ReplacedCells, ShareOutTheOldLength) {
   for (const bool at_end : {true, false}) {
     Mesh mesh = one_fracture();
