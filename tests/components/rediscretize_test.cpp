@@ -11,6 +11,7 @@
 #include "components/poromechanics/mpsa/mpsa.hpp"
 #include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
+#include "framework/remeshing/move_tips.hpp"
 #include "tests/components/meshes.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"
 
@@ -144,6 +145,28 @@ TEST(Rediscretize, GivesTheBitsOfAWholeDiscretizationAfterEachOfManyChanges) {
     }
     EXPECT_GT(kept / 8, 0.3);
     EXPECT_GT(kept_flux / 8, 0.3);
+  }
+}
+
+TEST(Rediscretize, GivesTheSameBitsWhereCellsAreReplacedAndTipsMove) {
+  constexpr CavityOptions cavity{0.05, 0.02, 0.3};
+  for (const bool is_even : {true, false}) {
+    Rock rock(fractured_square(), is_even);
+    for (int event = 0; event < 5; ++event) {
+      // The last cell becomes longer and turns, then the mesh made for this is moved.
+      const int replaced = event == 0 || event == 3 ? 0 : event == 4 ? 2 : 1;
+      std::vector<PathExtension> path{replacing(rock.mesh, 0, true, replaced, replaced == 0 ? 0.015 : 0.005, 0.1)};
+      const GrownMesh grown = extended(rock.mesh, path, cavity);
+      path[0].points[0] += Point(0.003, -0.002);
+      std::optional<GrownMesh> moved = move_tips(rock.mesh, grown, path, cavity);
+      ASSERT_TRUE(moved) << event;
+      mark_grown(rock.mesh, *moved);
+      const Rock made(grown.mesh, is_even);
+      expect_the_same_bits(rock, made, grown.change);
+      Rock after(std::move(moved->mesh), is_even);
+      expect_the_same_bits(rock, after, moved->change);
+      rock = std::move(after);
+    }
   }
 }
 
