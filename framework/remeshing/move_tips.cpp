@@ -28,12 +28,10 @@ class Motion {
 
   /// Whether the points of an extension can be where they are wanted.
   bool place(int index, const PathExtension& extension, const PathExtension& checked) {
-    const std::vector<int>& cells = grown_.extension_cells[index];
-    if (cells.size() != extension.points.size()) return false;
-    const std::vector<int>& chain = raw_.fractures[extension.fracture].nodes;
-    const int first = grown_.mesh.fractures[extension.fracture].first_cell;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const int node = chain[cells[i] - first + (extension.at_end ? 1 : 0)];
+    const std::vector<int> nodes = nodes_of_points(index, extension);
+    if (nodes.size() != extension.points.size()) return false;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const int node = nodes[i];
       const Point by = checked.points[i] - raw_.nodes[node];
       if (is_bound_[node]) {
         if (by.norm() > contact * size_) return false;
@@ -65,6 +63,18 @@ class Motion {
   }
 
  private:
+  /// The nodes of a path at its points. Further ones, where whole segments cross interfaces, stay.
+  std::vector<int> nodes_of_points(int index, const PathExtension& extension) const {
+    const std::vector<int>& chain = raw_.fractures[extension.fracture].nodes;
+    const int first = grown_.mesh.fractures[extension.fracture].first_cell;
+    std::vector<int> nodes;
+    for (const int cell : grown_.extension_cells[index])
+      nodes.push_back(chain[cell - first + (extension.at_end ? 1 : 0)]);
+    if (extension.whole_segments && nodes.size() > extension.points.size())
+      std::erase_if(nodes, [&](int node) { return is_bound_[node]; });
+    return nodes;
+  }
+
   /// Nodes of fractures are at rest unless a path moves them; bound ones stay in any case.
   void lay_to_rest() {
     const Mesh& mesh = grown_.mesh;
