@@ -260,7 +260,7 @@ TEST(MoveTips, HowFar) {
 
 TEST(MoveTips, RandomNetworks) {
   int changes = 0, moves = 0;
-  for (int network = 0; network < 4; ++network) {
+  for (int network = 0; network < 3; ++network) {
     std::mt19937 random(network);
     const auto uniform = [&](double low, double high) {
       return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
@@ -272,7 +272,7 @@ TEST(MoveTips, RandomNetworks) {
       fractures.push_back(fracture("f" + std::to_string(i), {middle - half, middle + half}));
     }
     std::vector<RegionGeometry> regions;
-    if (network == 3) regions.push_back(region("hard", {{0.2, 0.5}, {1.8, 0.55}, {1.8, 0.7}, {0.2, 0.65}}));
+    if (network == 2) regions.push_back(region("hard", {{0.2, 0.5}, {1.8, 0.55}, {1.8, 0.7}, {0.2, 0.65}}));
     Mesh mesh = with_fractures(fractures, regions);
     for (int change = 0; change < 6; ++change) {
       std::vector<PathExtension> extensions;
@@ -294,7 +294,7 @@ TEST(MoveTips, RandomNetworks) {
             extension.points[0] += size * uniform(0.02, 0.3) *
                                    turned(direction(grown.mesh, extension.fracture, extension.at_end), uniform(-1, 1));
           auto result = move_tips(mesh, grown, extensions, usual);
-          EXPECT_TRUE(result || network == 3) << network << ' ' << change;  // there, an interface is near
+          EXPECT_TRUE(result || network == 2) << network << ' ' << change;  // there, an interface is near
           if (result) {
             ++moves;
             expect_same_but_moved(mesh, grown, *result);
@@ -310,8 +310,8 @@ TEST(MoveTips, RandomNetworks) {
       }
     }
   }
-  EXPECT_GE(changes, 20);
-  EXPECT_GE(moves, 15);
+  EXPECT_GE(changes, 15);
+  EXPECT_GE(moves, 12);
 }
 
 }  // namespace

@@ -63,9 +63,10 @@ TEST(ReplacedCells, BecomeALittleLongerEachTime) {
 
 TEST(ReplacedCells, StayPointSymmetric) {
   // A fracture in the middle of a square, both ends alike: the mesh is its own image by half a turn after each change.
+  // The cavities around the tips are apart, so that each is filled for itself.
   Geometry geometry = box(0, 2, 0, 2);
-  geometry.fractures = {fracture("main", {{0.8, 0.8}, {1.2, 1.2}})};
-  Mesh mesh = generate_mesh(geometry, {.kind = MeshOptions::Kind::structured, .cells = {40, 40}});
+  geometry.fractures = {fracture("main", {{0.5, 0.5}, {1.5, 1.5}})};
+  Mesh mesh = generate_mesh(geometry, {.kind = MeshOptions::Kind::structured, .cells = {20, 20}});
   const auto most_apart = [&] {
     double most = 0;
     for (const Point& x : mesh.nodes) {
@@ -76,7 +77,7 @@ TEST(ReplacedCells, StayPointSymmetric) {
     return most;
   };
   ASSERT_LT(most_apart(), 1e-9);
-  for (int step = 0; step < 12; ++step) {
+  for (int step = 0; step < 8; ++step) {
     const int replaced = step % 4 == 0 ? 0 : 1;
     const double more = (replaced == 0 ? 0.5 : 0.17) * size, turn = step == 0 ? 0.6 : 0.03;
     std::vector<PathExtension> paths{replacing(mesh, 0, true, replaced, more, turn),
@@ -192,9 +193,9 @@ TEST(ReplacedCells, BesideAnInterfaceAndAFracture) {
   mesh = extended(mesh, {replacing(mesh, 0, true, 0, size, 0.1)}, usual).mesh;
   // Up to the interface and through it, beside the other fracture.
   double smallest = 10;
-  for (int step = 0; step < 16; ++step) {
+  for (int step = 0; step < 10; ++step) {
     const int replaced = step % 4 == 3 ? 0 : 1;
-    const GrownMesh grown = extended(mesh, {replacing(mesh, 0, true, replaced, 0.25 * size, -0.05)}, usual);
+    const GrownMesh grown = extended(mesh, {replacing(mesh, 0, true, replaced, 0.4 * size, -0.05)}, usual);
     smallest = std::min(smallest, grown.smallest_angle);
     mesh = grown.mesh;
   }
@@ -205,7 +206,7 @@ TEST(ReplacedCells, BesideAnInterfaceAndAFracture) {
 TEST(ReplacedCells, RandomNetworks) {
   int changes = 0, refused = 0;
   double smallest = 10;
-  for (int network = 0; network < 6; ++network) {
+  for (int network = 0; network < 4; ++network) {
     std::mt19937 random(network);
     const auto uniform = [&](double low, double high) {
       return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
@@ -252,7 +253,7 @@ TEST(ReplacedCells, RandomNetworks) {
       }
     }
   }
-  EXPECT_GE(changes, 40);
+  EXPECT_GE(changes, 28);
   EXPECT_LT(refused, 60);
   EXPECT_GE(smallest, 15 * degree);  // measured: 26.0
 }
