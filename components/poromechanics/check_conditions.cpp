@@ -1,7 +1,12 @@
 #include "components/poromechanics/check_conditions.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+
+#include "framework/mesh/planar.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
@@ -10,6 +15,15 @@ void check_sides(const Options& options, const Mesh& mesh) {
   for (const auto& [side, condition] : options.boundary)
     if (std::find(mesh.side_names.begin(), mesh.side_names.end(), side) == mesh.side_names.end())
       throw unknown_name(condition.origin, "side of the boundary", side, mesh.side_names);
+}
+
+/// "x", "y", or the components of a unit vector.
+std::string direction_text(Point direction) {
+  constexpr double nearly = 1 - 1e-9;
+  for (int k = 0; k < 2; ++k)
+    if (std::abs(direction[k]) > nearly) return std::string(1, "xy"[k]);
+  if (direction.x() < 0) direction = -direction;
+  return fmt::format("({:.3g}, {:.3g})", direction.x(), direction.y());
 }
 
 void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
@@ -23,18 +37,23 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
     const SideCondition* condition = condition_of(options, mesh, f);
     if (!condition) continue;
     const Point arm = (mesh.face_center[f] - middle) / size;
-    const Eigen::Vector3d motion[2] = {{1, 0, -arm[1]}, {0, 1, arm[0]}};
-    for (int k = 0; k < 2; ++k)
-      if (condition->displacement_of(k)) resistance += motion[k] * motion[k].transpose();
+    const Tensor axes = axes_of(condition->axes(), mesh.face_normal[f]);
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector3d motion(axes(0, k), axes(1, k), cross(arm, axes.col(k)));
+      if (condition->displacement_of(k)) resistance += motion * motion.transpose();
+    }
   }
   const std::string add =
-      "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to 'boundary:'";
-  for (int k = 0; k < 2; ++k)
-    if (resistance(k, k) == 0)
-      throw InputError(where, std::string("nothing holds the rock along ") + "xy"[k],
-                       std::string("no side has a displacement in ") + "xy"[k] + ", so that it may move freely", add);
-  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(resistance).eigenvalues();
+      "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to 'boundary:', or "
+      "'displacement_normal: 0 m' to two sides that are not parallel";
   constexpr double round_off = 1e-10;
+  const Eigen::SelfAdjointEigenSolver<Tensor> shifts(Tensor(resistance.topLeftCorner<2, 2>()));
+  if (shifts.eigenvalues()[0] <= round_off * shifts.eigenvalues()[1]) {
+    const std::string free = direction_text(shifts.eigenvectors().col(0));
+    throw InputError(where, "nothing holds the rock along " + free,
+                     "no side has a displacement in " + free + ", so that it may move freely", add);
+  }
+  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(resistance).eigenvalues();
   if (eigenvalues[0] <= round_off * eigenvalues[2])
     throw InputError(where, "nothing keeps the rock from turning",
                      "the displacements of its sides allow a small rotation about a point", add);

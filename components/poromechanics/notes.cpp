@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "components/poromechanics/check_conditions.hpp"
 #include "components/poromechanics/rock.hpp"
@@ -17,20 +18,30 @@ constexpr double softest_rock = 1e3;  // Pa; a scene with less is one without un
 }  // namespace
 
 void Rock::note_input(Notes& notes) const {
-  // The part of a prescribed force in a direction whose displacement is prescribed.
+  // The part of a prescribed stress in a direction (x, y) whose displacement is prescribed.
   struct Share {
     double length = 0, all = 0;
   };
-  std::map<std::string, std::array<Share, 2>> overridden;
+  struct Stress {
+    const char* name;
+    std::optional<Data> SideCondition::*data;
+    int axis;  // of the face
+  };
+  constexpr Stress stresses[] = {{"normal_stress", &SideCondition::normal_stress, 0},
+                                 {"shear_stress", &SideCondition::shear_stress, 1}};
+  std::map<std::pair<std::string, std::string>, std::array<Share, 2>> overridden;  // of a side, by a stress
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const SideCondition* condition = condition_of(options_, mesh_, f);
-    if (!condition) continue;
-    for (int k = 0; k < 2; ++k) {
-      Share& share = overridden[mesh_.side_names[mesh_.face_side[f]]][k];
-      share.all += mesh_.face_length[f];
-      if (condition->displacement_of(k) && condition->normal_stress && !condition->normal_stress->is_zero())
-        share.length += mesh_.face_length[f] * std::abs(mesh_.face_normal[f][k]);
-    }
+    if (!condition || condition->axes() == ConditionAxes::of_face) continue;
+    const Tensor axes = axes_of(ConditionAxes::of_face, mesh_.face_normal[f]);
+    for (const Stress& stress : stresses)
+      for (int k = 0; k < 2; ++k) {
+        Share& share = overridden[{mesh_.side_names[mesh_.face_side[f]], stress.name}][k];
+        const std::optional<Data>& data = condition->*stress.data;
+        share.all += mesh_.face_length[f];
+        if (condition->displacement_of(k) && data && !data->is_zero())
+          share.length += mesh_.face_length[f] * std::abs(axes(k, stress.axis));
+      }
   }
   const auto note = [&](const std::string& what, const Origin& where, const std::string& text) {
     notes.add(name() + "." + what + " without effect", where.text() + ": " + text);
@@ -39,12 +50,14 @@ void Rock::note_input(Notes& notes) const {
   for (const auto& [side, condition] : options_.boundary)
     for (int k = 0; k < 2; ++k) {
       const std::string direction(1, "xy"[k]);
-      const Share& share = overridden[side][k];
-      if (share.length > square * share.all)
-        note("boundary." + side + ".normal_stress." + direction, condition.origin,
-             fmt::format("the {} component of 'normal_stress' on side '{}' has no effect (the displacement in {} is "
-                         "prescribed there, which decides) remove one of the two",
-                         direction, side, direction));
+      for (const Stress& stress : stresses) {
+        const Share& share = overridden[{side, stress.name}][k];
+        if (share.length > square * share.all)
+          note("boundary." + side + "." + stress.name + "." + direction, condition.origin,
+               fmt::format("the {} component of '{}' on side '{}' has no effect (the displacement in {} is "
+                           "prescribed there, which decides) remove one of the two",
+                           direction, stress.name, side, direction));
+      }
       if (condition.traction && condition.displacement_of(k) && !condition.traction->component[k].is_zero())
         note("boundary." + side + ".traction." + direction, condition.origin,
              fmt::format("the {} component of 'traction' on side '{}' has no effect (the displacement in {} is "
@@ -93,7 +106,8 @@ double Rock::largest_load() const {
   double largest = 0;
   const double unknown = std::numeric_limits<double>::infinity();
   for (int f = 0; f < mesh_.face_count(); ++f) {
-    const Point initial = initial_forces_.segment<2>(2 * f);
+    const Point initial =
+        axes_of(conditions_[f].axes, mesh_.face_normal[f]).transpose() * Point(initial_forces_.segment<2>(2 * f));
     Point total = boundary_values_.segment<2>(2 * f) + initial;
     for (int k = 0; k < 2; ++k) {
       if (conditions_[f][k] != MechanicalCondition::displacement) continue;

@@ -1,10 +1,17 @@
 #include "components/poromechanics/options.hpp"
 
+#include <algorithm>
+
 namespace sprekk::poromechanics {
+
+ConditionAxes SideCondition::axes() const {
+  return displacement_of_face[0] || displacement_of_face[1] ? ConditionAxes::of_face : ConditionAxes::of_space;
+}
 
 const Data* SideCondition::displacement_of(int direction) const {
   if (displacement) return &displacement->component[direction];
-  return displacement_along[direction] ? &*displacement_along[direction] : nullptr;
+  const auto& given = axes() == ConditionAxes::of_face ? displacement_of_face : displacement_along;
+  return given[direction] ? &*given[direction] : nullptr;
 }
 
 Point SideCondition::traction_in(const StepTime& step, const Place& place, const Point& normal) const {
@@ -13,16 +20,30 @@ Point SideCondition::traction_in(const StepTime& step, const Place& place, const
   for (int k = 0; k < 2; ++k)
     if (traction_along[k]) total[k] += value_in_step(*traction_along[k], place, step);
   if (normal_stress) total += value_in_step(*normal_stress, place, step) * normal;
+  if (shear_stress) total += value_in_step(*shear_stress, place, step) * axes_of(ConditionAxes::of_face, normal).col(1);
   return total;
 }
 
 bool SideCondition::depends_on_time() const {
-  bool depends = (displacement && displacement->depends_on_time()) || (traction && traction->depends_on_time()) ||
-                 (normal_stress && normal_stress->depends_on_time());
-  for (int k = 0; k < 2; ++k)
-    depends = depends || (displacement_along[k] && displacement_along[k]->depends_on_time()) ||
-              (traction_along[k] && traction_along[k]->depends_on_time());
-  return depends;
+  const std::vector<const Data*> given = data();
+  return std::any_of(given.begin(), given.end(), [](const Data* one) { return one->depends_on_time(); });
+}
+
+std::vector<const Data*> SideCondition::data() const {
+  std::vector<const Data*> given;
+  const auto add = [&](const std::optional<Data>& data) {
+    if (data) given.push_back(&*data);
+  };
+  add(normal_stress);
+  add(shear_stress);
+  for (int k = 0; k < 2; ++k) {
+    add(displacement_along[k]);
+    add(displacement_of_face[k]);
+    add(traction_along[k]);
+    if (displacement) given.push_back(&displacement->component[k]);
+    if (traction) given.push_back(&traction->component[k]);
+  }
+  return given;
 }
 
 namespace {
@@ -34,6 +55,19 @@ void refuse_both(const Node& node, const char* one, const char* other) {
                      "remove one of them");
 }
 
+/// Conditions along x and y beside displacements along the normal and the tangent.
+void refuse_two_frames(const Node& node) {
+  for (const char* of_face : {"displacement_normal", "displacement_tangential"})
+    for (const char* of_space :
+         {"displacement", "displacement_x", "displacement_y", "traction", "traction_x", "traction_y"})
+      if (node.find(of_face) && node.find(of_space))
+        throw InputError(node.origin, "contradictory boundary condition at '" + node.path + "'",
+                         std::string("'") + of_face + "' is along the normal or the tangent of the side, and '" +
+                             of_space + "' along x and y",
+                         "use one frame: 'displacement_normal', 'displacement_tangential', 'normal_stress' and "
+                         "'shear_stress', or conditions in x and y");
+}
+
 Spec side_spec(SideCondition& side) {
   Spec spec("boundary condition of mechanics",
             "Per direction a displacement or a total traction; a direction without either is free of traction.");
@@ -43,6 +77,12 @@ Spec side_spec(SideCondition& side) {
             {.unit = "m", .doc = "Displacement in x; 0 is a roller.", .in_time = true});
   spec.data("displacement_y", side.displacement_along[1],
             {.unit = "m", .doc = "Displacement in y; 0 is a roller.", .in_time = true});
+  spec.data("displacement_normal", side.displacement_of_face[0],
+            {.unit = "m",
+             .doc = "Displacement along the outward normal of a side of any direction; 0 is a roller.",
+             .in_time = true});
+  spec.data("displacement_tangential", side.displacement_of_face[1],
+            {.unit = "m", .doc = "Displacement along the side, positive with the rock on the left.", .in_time = true});
   spec.vector("traction", side.traction,
               {.unit = "Pa", .doc = "Total traction sigma·n, n out of the rock.", .in_time = true});
   spec.data("traction_x", side.traction_along[0], {.unit = "Pa", .doc = "Total traction in x.", .in_time = true});
@@ -51,6 +91,9 @@ Spec side_spec(SideCondition& side) {
             {.unit = "Pa",
              .doc = "Total traction along the outward normal; tension is positive, a load is negative.",
              .in_time = true});
+  spec.data(
+      "shear_stress", side.shear_stress,
+      {.unit = "Pa", .doc = "Total traction along the side, positive with the rock on the left.", .in_time = true});
   spec.check([](const Node& node) {
     refuse_both(node, "displacement", "displacement_x");
     refuse_both(node, "displacement", "displacement_y");
@@ -58,6 +101,10 @@ Spec side_spec(SideCondition& side) {
     refuse_both(node, "displacement", "traction_x");
     refuse_both(node, "displacement", "traction_y");
     refuse_both(node, "displacement", "normal_stress");
+    refuse_both(node, "displacement", "shear_stress");
+    refuse_two_frames(node);
+    refuse_both(node, "displacement_normal", "normal_stress");
+    refuse_both(node, "displacement_tangential", "shear_stress");
     refuse_both(node, "displacement_x", "traction_x");
     refuse_both(node, "displacement_y", "traction_y");
     refuse_both(node, "traction", "traction_x");

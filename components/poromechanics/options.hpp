@@ -5,27 +5,35 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "components/poromechanics/face_conditions.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/config/spec.hpp"
 
 namespace sprekk::poromechanics {
 
 /// The condition on one side: a displacement or a traction in each direction; a direction without either is free of
-/// traction. A normal stress acts in addition to tractions.
+/// traction. Normal and shear stress act in addition to tractions. Displacements are either along x and y or along the
+/// normal and the tangent of each face (ConditionAxes).
 struct SideCondition {
   Origin origin;
-  std::optional<VectorData> displacement;                 ///< m
-  std::array<std::optional<Data>, 2> displacement_along;  ///< m; displacement_x, displacement_y
-  std::optional<VectorData> traction;                     ///< Pa
-  std::array<std::optional<Data>, 2> traction_along;      ///< Pa
-  std::optional<Data> normal_stress;                      ///< Pa, tension positive
+  std::optional<VectorData> displacement;                   ///< m
+  std::array<std::optional<Data>, 2> displacement_along;    ///< m; displacement_x, displacement_y
+  std::array<std::optional<Data>, 2> displacement_of_face;  ///< m; displacement_normal, displacement_tangential
+  std::optional<VectorData> traction;                       ///< Pa
+  std::array<std::optional<Data>, 2> traction_along;        ///< Pa
+  std::optional<Data> normal_stress;                        ///< Pa, tension positive
+  std::optional<Data> shear_stress;                         ///< Pa, along the tangent
 
-  /// The displacement of a direction (0: x, 1: y), if it is prescribed.
+  ConditionAxes axes() const;
+  /// The displacement of a direction of axes(), if it is prescribed.
   const Data* displacement_of(int direction) const;
   /// The total traction during a step on a face with this outward unit normal (Pa).
   Point traction_in(const StepTime& step, const Place& place, const Point& normal) const;
   bool depends_on_time() const;
+  /// All that is given.
+  std::vector<const Data*> data() const;
 };
 
 /// Plane-strain stiffness of an anisotropic rock, Pa.

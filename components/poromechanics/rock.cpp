@@ -90,7 +90,7 @@ void Rock::map_walls() {
 }
 
 void Rock::find_conditions() {
-  conditions_.assign(mesh_.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
+  conditions_.assign(mesh_.face_count(), {});
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) {
       if (!initial_load(f).isZero(0)) conditions_[f] = {MechanicalCondition::load, MechanicalCondition::load};
@@ -99,6 +99,7 @@ void Rock::find_conditions() {
     conditions_[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
     const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
+    conditions_[f].axes = condition->axes();
     for (int k = 0; k < 2; ++k)
       if (condition->displacement_of(k)) conditions_[f][k] = MechanicalCondition::displacement;
   }
@@ -230,13 +231,13 @@ void Rock::evaluate_data(const StepTime& step) {
     const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
     const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
-    const Point traction = condition->traction_in(step, place, mesh_.face_normal[f]);
-    for (int k = 0; k < 2; ++k) {
+    boundary_values_.segment<2>(2 * f) += length * condition->traction_in(step, place, mesh_.face_normal[f]);
+    if (condition->axes() == ConditionAxes::of_face)
+      boundary_values_.segment<2>(2 * f) =
+          axes_of(condition->axes(), mesh_.face_normal[f]).transpose() * Point(boundary_values_.segment<2>(2 * f));
+    for (int k = 0; k < 2; ++k)
       if (const Data* displacement = condition->displacement_of(k))
         boundary_values_[2 * f + k] = value_in_step(*displacement, place, step);
-      else
-        boundary_values_[2 * f + k] += length * traction[k];
-    }
   }
   body_forces_ = Vector::Zero(2 * mesh_.cell_count());
   const bool vary = options_.body_force.depends_on_space() || options_.rock_density.depends_on_space() ||
@@ -341,20 +342,9 @@ std::vector<double> Rock::switch_times() const {
   for (const VectorData* vector : {&options_.body_force, &options_.gravity})
     for (const Data& component : vector->component) data.push_back(&component);
   data.push_back(&options_.rock_density);
-  std::vector<double> times = merged_switch_times(data);
-  const auto append = [&](const std::optional<Data>& data) {
-    if (data) times.insert(times.end(), data->switch_times().begin(), data->switch_times().end());
-  };
-  for (const auto& [side, condition] : options_.boundary) {
-    append(condition.normal_stress);
-    for (int k = 0; k < 2; ++k) {
-      append(condition.displacement_along[k]);
-      append(condition.traction_along[k]);
-      if (condition.displacement) append(condition.displacement->component[k]);
-      if (condition.traction) append(condition.traction->component[k]);
-    }
-  }
-  return times;
+  for (const auto& [side, condition] : options_.boundary)
+    for (const Data* given : condition.data()) data.push_back(given);
+  return merged_switch_times(data);
 }
 
 void Rock::output(std::vector<OutputField>& fields) const {

@@ -1,27 +1,21 @@
 // Linear operators of the stress of the rock, whichever discretization made them.
 #pragma once
 
-#include <array>
-
+#include "components/poromechanics/face_conditions.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk::poromechanics {
 
-/// What is prescribed in one direction of a face. Walls are `traction`; `load` applies to both directions of a face
-/// with two cells.
-enum class MechanicalCondition { none, displacement, traction, load };
-/// Of both directions (x, y).
-using FaceConditions = std::array<MechanicalCondition, 2>;
-
 /// Forces, traces and volume changes as linear functions of
 /// - displacements u (x, y of every cell, m),
 /// - isotropic stresses s (one for each cell, Pa; sigma = C : grad u − s I, so s is the Biot coefficient times p), and
-/// - boundary values b (x, y of every face). On `displacement` directions b is the displacement of the face centre (m);
+/// - boundary values b (two for every face, in the directions of its FaceConditions). On `displacement` directions b is
+/// the displacement of the face centre (m);
 ///   on `traction` directions the force on the face, i.e. the traction sigma·n integrated over it (N/m), n out of the
 ///   rock; on `load` directions the total load on both cells of the face, the sum of their sigma·n, n out of each
 ///   (N/m). Other values of b are ignored.
 ///
-/// Direction c of face f has the index 2 f + c.
+/// Direction c of face f has the index 2 f + c. Forces, displacements and traces have the directions x and y.
 /// - Force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m):
 ///   force_displacement u + force_stress s + force_boundary b.
 /// - Displacement at the centre of boundary and wall faces (m):

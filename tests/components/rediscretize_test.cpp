@@ -87,6 +87,9 @@ struct Rock {
                          : MechanicalCondition::traction;
       };
       stress_conditions.push_back({along(is_left), along(is_left || mesh.face_center[f].y() < 1e-9)});
+      if (!is_inner && mesh.face_center[f].y() > 1 - 1e-9)
+        stress_conditions.back() = {MechanicalCondition::displacement, MechanicalCondition::traction,
+                                    poromechanics::ConditionAxes::of_face};
     }
   }
   matrix_flow::FlowInputs flow() const { return {mesh, mobility, flow_conditions}; }
@@ -261,6 +264,14 @@ TEST(Rediscretize, NoticesAnyInputThatDiffers) {
     }
   EXPECT_GT(regions(held)[0], 0);
   EXPECT_GT(regions(held)[1], 0);
+  Rock turned = before;
+  for (int f = 0; f < before.mesh.face_count(); ++f)
+    if (turned.stress_conditions[f].axes == poromechanics::ConditionAxes::of_face) {
+      turned.stress_conditions[f].axes = poromechanics::ConditionAxes::of_space;
+      break;
+    }
+  EXPECT_GT(regions(turned)[0], 0);
+  EXPECT_EQ(regions(turned)[1], 0);
 
   // Geometry, one number after the other.
   const std::vector<std::function<void(Mesh&)>> shifts = {

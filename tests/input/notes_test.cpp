@@ -89,6 +89,11 @@ INSTANTIATE_TEST_SUITE_P(
               {"components.rock.boundary.right={displacement_x: 0 m, traction: [1 MPa, 0]}"},
               "the x component of 'traction' on side 'right' has no effect"},
         Input{"rock.yaml", {"components.rock.boundary.right={displacement_x: 0 m, traction: [0, 1 MPa]}"}, ""},
+        Input{"rock.yaml",
+              {"components.rock.boundary.right={displacement_y: 0 m, shear_stress: 1 MPa}"},
+              "the y component of 'shear_stress' on side 'right' has no effect"},
+        Input{"rock.yaml", {"components.rock.boundary.right={displacement_x: 0 m, shear_stress: 1 MPa}"}, ""},
+        Input{"rock.yaml", {"components.rock.boundary.right={displacement_normal: 0 m, shear_stress: 1 MPa}"}, ""},
         Input{"rock.yaml", {"components.rock.gravity=[0, -9.81 m/s^2]"}, "gravity has no effect on 'rock'"},
         Input{
             "rock.yaml", {"components.rock.gravity=[0, -9.81 m/s^2]", "components.rock.rock_density=2500 kg/m^3"}, ""},

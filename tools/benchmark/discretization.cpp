@@ -35,7 +35,7 @@ void time_mesh(double size) {
   const double meshing = seconds([&] { mesh = square(size); });
   std::vector<matrix_flow::FlowCondition> flow(mesh.face_count(), matrix_flow::FlowCondition::none);
   using Mechanical = poromechanics::MechanicalCondition;
-  std::vector<std::array<Mechanical, 2>> mechanics(mesh.face_count(), {Mechanical::none, Mechanical::none});
+  std::vector<poromechanics::FaceConditions> mechanics(mesh.face_count());
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (mesh.face_cells[f][1] != none) continue;
     flow[f] = matrix_flow::FlowCondition::flux;

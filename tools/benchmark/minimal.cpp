@@ -79,8 +79,7 @@ struct Mechanics {
 
   explicit Mechanics(const Mesh& mesh) {
     using poromechanics::MechanicalCondition;
-    std::vector<std::array<MechanicalCondition, 2>> conditions(mesh.face_count(),
-                                                               {MechanicalCondition::none, MechanicalCondition::none});
+    std::vector<poromechanics::FaceConditions> conditions(mesh.face_count());
     Vector values = Vector::Zero(2 * mesh.face_count());
     for (int f = 0; f < mesh.face_count(); ++f) {
       if (mesh.face_cells[f][1] != none) continue;

@@ -79,11 +79,14 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
   SPREKK_ASSERT(are_indices(column_, cells_), cells_);
   find_jumps(region, stiffness, 0);
 
+  find_axes(mesh, region, conditions);
+
   assemble(region, conditions);
   if (subcells_ == 1) {
     solve_single(mesh, region, cells, stiffness, conditions);
     find_gradients(region);
     find_forces(region, stiffness);
+    prescribe_forces(region, conditions);
     return;
   }
   const auto smallest_pivot = [&] { return eliminate(system_.data(), 2 * subfaces_, width_); };
@@ -100,6 +103,7 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
                              std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
   find_gradients(region);
   find_forces(region, stiffness);
+  prescribe_forces(region, conditions);
   exchange_volumes(mesh, region, stiffness);
 }
 
@@ -132,6 +136,27 @@ void LocalStresses::find_jumps(const InteractionRegion& region, const std::vecto
     SPREKK_ASSERT(both > 0, one.cell, other.cell, both);
     for (int side = 0; side < 2; ++side)
       jump_[f].strength[side] = limits_.rotation_strength * std::max(both, least_strength * strengths[side]);
+  }
+}
+
+void LocalStresses::find_axes(const Mesh& mesh, const InteractionRegion& region,
+                              const std::vector<FaceConditions>& conditions) {
+  axes_.resize(subfaces_);
+  for (int f = 0; f < subfaces_; ++f)
+    axes_[f] = axes_of(conditions[region.faces[f]].axes, mesh.face_normal[region.faces[f]]);
+}
+
+int LocalStresses::row_of(int subface, int direction) const {
+  const bool are_swapped = std::abs(axes_[subface](0, 0)) < std::abs(axes_[subface](1, 0));
+  return 2 * subface + (are_swapped ? 1 - direction : direction);
+}
+
+void LocalStresses::turn_balance(int subface) {
+  double *x = system_.data() + 2 * subface * width_, *y = x + width_;
+  double* along[2] = {system_.data() + row_of(subface, 0) * width_, system_.data() + row_of(subface, 1) * width_};
+  for (int j = 0; j < width_; ++j) {
+    const Point balance = axes_[subface].transpose() * Point(x[j], y[j]);
+    for (int c = 0; c < 2; ++c) along[c][j] = balance[c];
   }
 }
 
@@ -179,12 +204,15 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
   }
   for (int f = 0; f < subfaces_; ++f) {
     if (load_column_[f] == none) continue;
+    const FaceConditions& given = conditions[region.faces[f]];
+    if (given.axes != ConditionAxes::of_space) turn_balance(f);
     for (int c = 0; c < 2; ++c) {
-      double* row = system_.data() + (2 * f + c) * width_;
+      double* row = system_.data() + row_of(f, c) * width_;
       const int b_column = u_columns + load_column_[f] + c;
-      if (conditions[region.faces[f]][c] == MechanicalCondition::displacement) {
+      if (given[c] == MechanicalCondition::displacement) {
         std::fill_n(row, width_, 0.0);
-        row[2 * f + c] = row[b_column] = 1;
+        for (int e = 0; e < 2; ++e) row[2 * f + e] = axes_[f](e, c);
+        row[b_column] = 1;
       } else {
         row[b_column] += 0.5;
       }
@@ -240,8 +268,10 @@ void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& regi
   // the stress along them, and the error of the normal of a curved side is larger than that. The remaining components
   // continue the displacement of the cells across to their centres, by least squares.
   std::vector<int> held, forces;
-  for (int i = 0; i < 4; ++i)
-    (conditions[region.faces[i / 2]][i % 2] == MechanicalCondition::displacement ? held : forces).push_back(i);
+  for (int i = 0; i < 4; ++i) {
+    const int c = row_of(i / 2, 0) == i ? 0 : 1;
+    (conditions[region.faces[i / 2]][c] == MechanicalCondition::displacement ? held : forces).push_back(i);
+  }
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(4, columns_);
   Eigen::MatrixXd free = Eigen::MatrixXd::Identity(4, 4);
   if (!held.empty()) {
@@ -373,6 +403,22 @@ void LocalStresses::find_forces(const InteractionRegion& region, const std::vect
       force[stress_column() + column(k)] -= half_face[c];
       // That of the first side, which bears with the second what loads the face.
       if (side == 1 && load_column_[f] != none) force[load_column_[f] + c] += 0.5;
+    }
+  }
+}
+
+void LocalStresses::prescribe_forces(const InteractionRegion& region, const std::vector<FaceConditions>& conditions) {
+  for (int f = 0; f < subfaces_; ++f) {
+    const FaceConditions& given = conditions[region.faces[f]];
+    if (given.axes == ConditionAxes::of_space) continue;
+    double *x = forces_.data() + 2 * f * columns_, *y = x + columns_;
+    for (int j = 0; j < columns_; ++j) {
+      Point along = axes_[f].transpose() * Point(x[j], y[j]);
+      for (int c = 0; c < 2; ++c)
+        if (given[c] == MechanicalCondition::traction) along[c] = j == load_column_[f] + c ? 0.5 : 0;
+      const Point force = axes_[f] * along;
+      x[j] = force[0];
+      y[j] = force[1];
     }
   }
 }

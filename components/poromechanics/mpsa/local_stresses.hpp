@@ -25,7 +25,7 @@ Adjacency local_cells(const Mesh& mesh, const EndZones& zones);
 /// subcell. Displacements agree at the continuity points; forces, (C : grad u − s I) times the normal, agree on the
 /// subfaces, or differ by the load on the face. Coefficients are with respect to, in this order: the displacements of
 /// the local cells (x, y each), their isotropic stresses s, and the boundary values of the subfaces with one cell or a
-/// load (x, y each; for whole faces).
+/// load (two each, in the directions of their conditions; for whole faces).
 ///
 /// With a symmetric stress alone, the rotations of subcells are not determined well. They are coupled by an energy
 /// ½ strength rho^2 for each inner subface. rho (see RotationJump) is the jump of the rotation, without the jump that
@@ -72,11 +72,19 @@ class LocalStresses {
 
  private:
   void find_jumps(const InteractionRegion& region, const std::vector<Stiffness>& stiffness, double least_strength);
+  void find_axes(const Mesh& mesh, const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
+  /// The row of the system for a direction of the conditions on a subface: that of x or y, whichever is nearer. So no
+  /// diagonal is small, and rows are exchanged for the rock's sake only (see eliminate).
+  int row_of(int subface, int direction) const;
+  /// Turns the balance of a subface from x and y into the directions of its conditions.
+  void turn_balance(int subface);
   void assemble(const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
   void solve_single(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
                     const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions);
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
+  /// What is prescribed along axes of a face's own holds, whatever the local problem makes of it.
+  void prescribe_forces(const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
   void exchange_volumes(const Mesh& mesh, const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
 
   /// Adds factor times the jump across an inner subface to a row of coefficients. After find_gradients.
@@ -96,6 +104,7 @@ class LocalStresses {
   std::vector<GradientJump> dilation_;  ///< likewise
   VolumeExchange exchange_;
   std::vector<int> load_column_;           ///< of the subfaces: place of their boundary values, or none
+  std::vector<Tensor> axes_;               ///< of the subfaces: the directions of their conditions, in columns
   std::vector<double> system_;             ///< the rows of [A B], then of [I A^-1 B]
   std::vector<double> gradients_;          ///< four rows a subcell
   std::vector<double> turns_;              ///< rho of the subfaces

@@ -32,12 +32,14 @@ void check_arguments(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
     const bool is_loaded = has_load(conditions[face]);
     if (is_loaded && conditions[face][0] != conditions[face][1])
       throw std::invalid_argument("MPSA: face " + std::to_string(face) + " is loaded in one direction only");
-    for (const MechanicalCondition condition : conditions[face])
+    for (const MechanicalCondition condition : conditions[face].along)
       if ((condition == MechanicalCondition::none || is_loaded) != (mesh.face_cells[face][1] != none))
         throw std::invalid_argument("MPSA: face " + std::to_string(face) +
                                     (condition == MechanicalCondition::none ? " has one cell and lacks a condition"
                                      : is_loaded                            ? " has one cell and a load"
                                                                             : " has two cells and a condition"));
+    if (mesh.face_cells[face][1] != none && conditions[face].axes != ConditionAxes::of_space)
+      throw std::invalid_argument("MPSA: face " + std::to_string(face) + " has two cells and axes of its own");
   }
 }
 
@@ -151,8 +153,9 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
       const int face = region.faces[f];
       force.find_slots(face, node);
       for (int c = 0; c < 2; ++c) {
-        // What is prescribed holds to the last digit, whatever the local problem makes of it.
-        if (conditions[face][c] == MechanicalCondition::traction)
+        // What is prescribed holds to the last digit, whatever the local problem makes of it; along other axes the
+        // local problem has seen to it.
+        if (conditions[face][c] == MechanicalCondition::traction && conditions[face].axes == ConditionAxes::of_space)
           force.add_boundary(face, c, valued_index, 0.5);
         else
           force.add(face, c, local.force(f, c), local, 1);

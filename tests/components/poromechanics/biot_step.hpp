@@ -18,7 +18,7 @@ struct BiotStep {
   std::vector<Tensor> mobility;
   std::vector<poromechanics::Stiffness> stiffness;
   std::vector<matrix_flow::FlowCondition> flow_conditions;
-  std::vector<std::array<poromechanics::MechanicalCondition, 2>> mechanical_conditions;
+  std::vector<poromechanics::FaceConditions> mechanical_conditions;
   double alpha = 1, storage = 0, time_step = 1;
   poromechanics::MpsaLimits mechanical_limits = {};
   Vector flow_boundary, flow_change, mechanical_boundary;  ///< as the operators take them
@@ -30,8 +30,7 @@ struct BiotStep {
         mobility(m.cell_count(), Tensor::Identity()),
         stiffness(m.cell_count(), poromechanics::isotropic_stiffness(1, 1)),
         flow_conditions(m.face_count(), matrix_flow::FlowCondition::none),
-        mechanical_conditions(m.face_count(),
-                              {poromechanics::MechanicalCondition::none, poromechanics::MechanicalCondition::none}),
+        mechanical_conditions(m.face_count()),
         flow_boundary(Vector::Zero(m.face_count())),
         flow_change(Vector::Zero(m.face_count())),
         mechanical_boundary(Vector::Zero(2 * m.face_count())),

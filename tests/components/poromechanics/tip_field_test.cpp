@@ -17,7 +17,7 @@ namespace sprekk::poromechanics {
 namespace {
 
 using Complex = std::complex<double>;
-using Conditions = std::vector<std::array<MechanicalCondition, 2>>;
+using Conditions = std::vector<FaceConditions>;
 
 constexpr double lambda = 3, shear = 2;
 
@@ -82,7 +82,7 @@ TipCase at_end_of(const std::vector<Point>& points) {
   const std::vector<int> tips = ends_nearby(tip.mesh);
   for (int n = 0; n < tip.mesh.node_count(); ++n)
     if (tips[n] == tip.node && tip.node != none) tip.nearby.push_back(n);
-  tip.conditions.assign(tip.mesh.face_count(), {MechanicalCondition::none, MechanicalCondition::none});
+  tip.conditions.assign(tip.mesh.face_count(), {});
   for (int f = 0; f < tip.mesh.face_count(); ++f)
     if (test::is_outer(tip.mesh, f)) tip.conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
   return tip;

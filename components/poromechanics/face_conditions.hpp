@@ -1,0 +1,35 @@
+// What is prescribed on a face, and in which directions.
+#pragma once
+
+#include <array>
+
+#include "framework/types.hpp"
+
+namespace sprekk::poromechanics {
+
+/// What is prescribed in one direction of a face. Walls are `traction`; `load` applies to both directions of a face
+/// with two cells.
+enum class MechanicalCondition { none, displacement, traction, load };
+
+/// The directions of the conditions on a face: x and y, or those of the face itself, its normal out of the rock and its
+/// tangent (see axes_of).
+enum class ConditionAxes { of_space, of_face };
+
+/// What is prescribed in each direction of a face.
+struct FaceConditions {
+  std::array<MechanicalCondition, dimension> along{};
+  ConditionAxes axes = ConditionAxes::of_space;
+
+  MechanicalCondition& operator[](int direction) { return along[direction]; }
+  MechanicalCondition operator[](int direction) const { return along[direction]; }
+  bool operator==(const FaceConditions&) const = default;
+};
+
+/// The unit vectors of the directions, a column each. Those of a face are its normal and the tangent (-n_y, n_x), which
+/// has the rock on its left, as the frame of a fracture cell has.
+inline Tensor axes_of(ConditionAxes axes, const Point& normal) {
+  if (axes == ConditionAxes::of_space) return Tensor::Identity();
+  return (Tensor() << normal.x(), -normal.y(), normal.y(), normal.x()).finished();
+}
+
+}  // namespace sprekk::poromechanics
