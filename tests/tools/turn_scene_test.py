@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""turn_scene_test.py SPREKK: turned scenes of tools/turn_scene have the answers of the scene before anything grows."""
+
+import importlib.machinery
+import importlib.util
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = sys.argv.pop(1)
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools"))
+import results  # noqa: E402
+
+loader = importlib.machinery.SourceFileLoader("turn_scene", str(ROOT / "tools/turn_scene"))
+turn_scene = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+loader.exec_module(turn_scene)
+
+WINGS = ROOT / "configs/paper/wing_cracks.yaml"
+# Slip begins within these steps; K_eq is 0.94 of the toughness at their end.
+BEFORE_GROWTH = ["time.end=0.05 h", "time.step=0.01 h", "output.every=1 h"]
+
+
+def run(folder, *files, settings=()):
+    command = [PROGRAM, "run", "-q", *map(str, files), "-o", str(folder)]
+    for setting in settings:
+        command += ["--set", setting]
+    subprocess.run(command, check=True, capture_output=True, timeout=100)
+    return results.read_table(folder / "history.csv")
+
+
+def along_box(table, turn):
+    """Displacements of probes in the axes of the box."""
+    for name in [name for name in table if name.endswith(".x[m]")]:
+        other = name.replace(".x[", ".y[")
+        table[name], table[other] = turn.T @ np.array([table[name], table[other]])
+    return table
+
+
+def difference(one, other, name):
+    return np.nanmax(np.abs(one[name] - other[name])) / np.nanmax(np.abs(one[name]))
+
+
+class Turned(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def turned_run(self, name, angle, shift=(0.013, -0.009), settings=()):
+        file, motion = turn_scene.turn(WINGS, self.folder / name, angle, shift, settings, PROGRAM)
+        return along_box(run(self.folder / (name + "_results"), WINGS, file, settings=BEFORE_GROWTH), motion.turn)
+
+    def test_the_same_mesh_gives_the_same_answers(self):
+        straight = run(self.folder / "straight", WINGS, settings=BEFORE_GROWTH)
+        self.assertEqual(len(straight["time[s]"]), 5)
+        self.assertGreater(abs(straight["slip.t[m]"][-1]), 1e-6)
+        for angle in (30, 77, -90):
+            turned = self.turned_run(f"by{angle}", angle)
+            for name in ("fracture_pressure[Pa]", "p_C[Pa]", "slip.n[m]", "slip.t[m]", "traction.n[Pa]", "traction.t[Pa]",
+                         "u_D.x[m]", "u_D.y[m]", "fluid_stored[m^2]", "contact.cells_slip[1]"):
+                found = difference(straight, turned, name)
+                print(f"{angle} degrees, {name}: {found:.1e}")
+                self.assertLess(found, 1e-8, name)
+            # The meshes of the fine level are made in the new place.
+            for tip in ("main_first", "main_last"):
+                for mode in ("K_eq", "K_II", "K_I"):
+                    name = f"tips.{tip}.{mode}[Pa*m^0.5]"
+                    found = np.nanmax(np.abs(straight[name] - turned[name])) / np.nanmax(straight[f"tips.{tip}.K_eq[Pa*m^0.5]"])
+                    print(f"{angle} degrees, {name}: {found:.1e} of K_eq")
+                    self.assertLess(found, 2e-3, name)
+
+    def test_conditions_in_the_frame_of_each_side(self):
+        self.assertEqual(turn_scene.along_side("left", {"displacement": "[1 mm, -2 mm]"}),
+                         {"displacement": None, "displacement_normal": "-1.0 mm", "displacement_tangential": "2.0 mm"})
+        self.assertEqual(turn_scene.along_side("top", {"displacement_x": "1 mm", "traction_y": "-3 MPa"}),
+                         {"displacement_x": None, "displacement_tangential": "-1.0 mm", "traction_y": None,
+                          "normal_stress": "-3.0 MPa"})
+        self.assertEqual(turn_scene.along_side("bottom", {"traction": "[1 Pa, 2 Pa]"}),
+                         {"traction": None, "shear_stress": "1.0 Pa", "normal_stress": "-2.0 Pa"})
+        self.assertEqual(turn_scene.along_side("right", {"normal_stress": "-1 Pa"}), {})
+
+    def test_stress_turns_with_the_box(self):
+        scene = self.folder / "scene.yaml"
+        scene.write_text("""
+geometry: {box: {x: [0 m, 1 m], y: [0 m, 2 m]}}
+mesh: {kind: structured, cells: [3, 4]}
+components:
+  rock: {type: poromechanics/mpsa, young_modulus: 10 GPa, poisson_ratio: 0.25, initial_stress: {xx: -3 MPa, yy: -1 MPa, xy: 1 MPa},
+         body_force: [2e6 N/m^3, 0 N/m^3], boundary: {left: {displacement: [0 m, 1 mm]}, right: {traction: [-3 MPa, 1 MPa]},
+         top: {traction_x: 1 MPa, displacement_y: 1 mm}, bottom: {displacement_x: 2 mm, traction_y: 1 MPa}}}
+schedule: [{solve: rock}]
+time: {end: 1 h, step: 1 h}
+output: {probes: {u: {of: rock.displacement, at: [0.9 m, 1.7 m]}}}
+""", encoding="utf-8")
+        straight = run(self.folder / "straight", scene)
+        for angle in (30, 200):
+            file, motion = turn_scene.turn(scene, self.folder / str(angle), angle, (1, 2), (), PROGRAM)
+            turned = along_box(run(self.folder / f"{angle}_results", scene, file), motion.turn)
+            for name in ("u.x[m]", "u.y[m]"):
+                self.assertLess(difference(straight, turned, name), 1e-10)
+
+    def test_what_cannot_be_turned_is_refused(self):
+        for setting, reason in (("components.rock.boundary.left.displacement_x=(1e-3*t/h) m", "no number"),
+                                ("materials.permeability={xx: 1e-20 m^2, yy: 2e-20 m^2}", "a tensor")):
+            with self.subTest(setting), self.assertRaisesRegex(SystemExit, reason):
+                turn_scene.turn(WINGS, self.folder, settings=[setting], program=PROGRAM)
+
+
+unittest.main()
