@@ -30,7 +30,9 @@ def run(folder, *files, settings=()):
     command = [PROGRAM, "run", "-q", *map(str, files), "-o", str(folder)]
     for setting in settings:
         command += ["--set", setting]
-    subprocess.run(command, check=True, capture_output=True, timeout=100)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
     return results.read_table(folder / "history.csv")
 
 

@@ -90,6 +90,20 @@ TEST_P(TurnedBox, UniformStressBetweenRollersAndALoad) {
   }
 }
 
+/// Rollers on two sides that are not parallel hold the rock.
+TEST_P(TurnedBox, UniformStressHeldByTwoRollers) {
+  for (const Mesh& mesh : boxes()) {
+    SceneRun run = box_of_rock(file(mesh),
+                               "{left: {displacement_normal: 0 m}, bottom: {displacement_normal: 0 m}, right: "
+                               "{normal_stress: -4 MPa}, top: {normal_stress: -10 MPa}}");
+    ASSERT_TRUE(run.step());
+    // Of stresses (a, b): strain a = ((1 − nu) a − nu b) / 2G.
+    const double along = ((1 - poisson) * -4e6 - poisson * -10e6) / (2 * shear_modulus);
+    const double across = ((1 - poisson) * -10e6 - poisson * -4e6) / (2 * shear_modulus);
+    expect_uniform(run, in_space(Point(along, across).asDiagonal()), corner);
+  }
+}
+
 /// Simple shear. The tangent has the rock on its left: it turns the other way in a mirrored box.
 TEST_P(TurnedBox, UniformShear) {
   const double slope = 1e-3, shear = shear_modulus * slope, sign = is_mirrored ? -1 : 1;
