@@ -4,12 +4,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
+
+/// Of squares of components of unit vectors, and of eigenvalues that are sums of such.
+constexpr double round_off = 1e-10;
 
 void check_sides(const Options& options, const Mesh& mesh) {
   for (const auto& [side, condition] : options.boundary)
@@ -19,9 +21,8 @@ void check_sides(const Options& options, const Mesh& mesh) {
 
 /// "x", "y", or the components of a unit vector.
 std::string direction_text(Point direction) {
-  constexpr double nearly = 1 - 1e-9;
   for (int k = 0; k < 2; ++k)
-    if (std::abs(direction[k]) > nearly) return std::string(1, "xy"[k]);
+    if (direction[1 - k] * direction[1 - k] <= round_off) return std::string(1, "xy"[k]);
   if (direction.x() < 0) direction = -direction;
   return fmt::format("({:.3g}, {:.3g})", direction.x(), direction.y());
 }
@@ -46,7 +47,6 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
   const std::string add =
       "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to 'boundary:', or "
       "'displacement_normal: 0 m' to two sides that are not parallel";
-  constexpr double round_off = 1e-10;
   const Eigen::SelfAdjointEigenSolver<Tensor> shifts(Tensor(resistance.topLeftCorner<2, 2>()));
   if (shifts.eigenvalues()[0] <= round_off * shifts.eigenvalues()[1]) {
     const std::string free = direction_text(shifts.eigenvectors().col(0));
