@@ -42,6 +42,29 @@ class SealedWings(unittest.TestCase):
             for value, expected in zip((f11, -f12, f21, -f22), factors):
                 self.assertAlmostEqual(value, expected, delta=1e-3, msg=f"{angle} {found}")
 
+    def test_dry_wings(self):
+        # Wings along the only stress, -1, of a fracture at 45 degrees with the friction 0.3, no fluid: K_I/sqrt(pi b), by others.
+        # K_I = K_IC at p = 0 if K_IC is what p = 0 gives.
+        friction, toughness = sealed_wings.FRICTION, sealed_wings.TOUGHNESS
+        try:
+            sealed_wings.FRICTION = 0.3
+            for share, known in ((0.01, 0.30466), (0.1, 0.24689), (1, 0.13885)):
+                wings = sealed_wings.Wings(45, stress=(-1, 0), dilation=0)
+                end = wings.kink + share * sealed_wings.HALF
+
+                def gap(exponent):
+                    sealed_wings.TOUGHNESS = wings.solve(end, sealed_wings.HALF * 10**exponent).opening_factor[0]
+                    return wings.solve(end, sealed_wings.HALF * 10**exponent)
+
+                low, high = -4.0, -1.0
+                while high - low > 0.05:
+                    middle = (low + high) / 2
+                    low, high = (middle, high) if gap(middle).edge > 0 else (low, middle)
+                found = gap(low).opening_factor[0] / np.sqrt(np.pi * sealed_wings.HALF)
+                self.assertAlmostEqual(found, known, delta=1e-4)
+        finally:
+            sealed_wings.FRICTION, sealed_wings.TOUGHNESS = friction, toughness
+
     def test_onset(self):
         pressure, turn = sealed_wings.scene("45").onset()
         # 5 MPa - 0.5 (15 MPa - p) = 0.601 MPa m^0.5/sqrt(pi b) (1 + 0.5 tan psi); docs/numerics/growth.md
