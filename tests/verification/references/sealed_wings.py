@@ -291,8 +291,8 @@ class State:
 
 SCENES = {  # name: angle of the fracture, of the stresses, dilation angle; increments
     "45": (45, 0, 1, (10e-3, 5e-3, 2.5e-3)),
-    "30": (30, 0, 1, (10e-3, 5e-3)),
-    "60": (60, 0, 1, (10e-3, 5e-3)),
+    "30": (30, 0, 1, (10e-3, 5e-3, 2.5e-3)),
+    "60": (60, 0, 1, (10e-3, 5e-3, 2.5e-3)),
     "rotated": (75, 30, 1, (10e-3,)),
     "dilation 5": (45, 0, 5, (10e-3, 5e-3)),
     "limit": (45, 0, 1, (0,))}
