@@ -171,7 +171,8 @@ class WallExchange : public Coupler {
             .role = Role::derived(),
             .unit = "m^2",
             .doc = doc,
-            .accepted_with = with.name()};
+            .accepted_with = with.name(),
+            .is_amount = true};
   }
 
   const Mesh& mesh_;

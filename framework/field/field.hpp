@@ -29,8 +29,9 @@ struct FieldSpec {
   /// Of a derived field that keeps the cumulative balance of another (what has been stored, what has flowed out): that
   /// field's full name. Both are accepted together, also after a substep.
   std::string accepted_with = "";
-  /// For fields on cells: whether the value is an amount in the cell (m^2 of fluid), and not a density or a mean. When
-  /// the mesh changes, amounts are divided by area, and all other values are averaged (Eq. 17 of the paper).
+  /// For fields on cells, fracture cells and walls: whether the value is an amount in the entity (m^2 of fluid), and
+  /// not a density or a mean. When the mesh changes, amounts are divided by measure, and all other values are averaged
+  /// (Eq. 17 of the paper).
   bool is_amount = false;
   std::string full_name() const { return owner + "." + name; }
 };

@@ -14,6 +14,15 @@ std::vector<int> itself(std::size_t count) {
 
 }  // namespace
 
+Vector covered_parts(const MeshChange& change, const Mesh& after) {
+  Vector parts = Vector::Ones(after.fracture_cell_count());
+  for (int i = 0; i < after.fracture_cell_count(); ++i)
+    if (change.fracture_cell[i] == none) parts[i] = 0;
+  for (const ReplacedPart& part : change.replaced_parts)
+    parts[part.cell] += part.length / after.fracture_cells[part.cell].length;
+  return parts;
+}
+
 MeshChange no_change(const Mesh& mesh) {
   MeshChange change;
   change.cell = itself(mesh.cell_count());

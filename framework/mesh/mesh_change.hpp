@@ -10,9 +10,10 @@ namespace sprekk {
 
 /// A part of a fracture cell that has been replaced, by the way along the fracture.
 struct ReplacedPart {
-  int cell;      ///< the new fracture cell in whose place the part is
-  int old_cell;  ///< the fracture cell that is no more
-  double share;  ///< of the old cell's length, above 0; all parts of an old cell add up to 1
+  int cell;       ///< the new fracture cell in whose place the part is
+  int old_cell;   ///< the fracture cell that is no more
+  double share;   ///< of the old cell's length, above 0; all parts of an old cell add up to 1
+  double length;  ///< m, of the part
 };
 
 /// Maps the entities of a new mesh to those of the old mesh; `none` stands for new entities.
@@ -33,6 +34,9 @@ struct MeshChange {
   /// Where fracture cells have been replaced by others, along the way from the last point that was kept.
   std::vector<ReplacedPart> replaced_parts;
 };
+
+/// Per new fracture cell: the part of its length that replaced cells covered: 1 for kept cells, 0 where rock parts.
+Vector covered_parts(const MeshChange& change, const Mesh& after);
 
 /// The change that keeps every cell, face, fracture cell and fracture point; its overlap is empty.
 MeshChange no_change(const Mesh& mesh);

@@ -16,13 +16,13 @@ void add_replaced_parts(const Mesh& old, const std::vector<int>& replaced, const
     while (next + 1 < path.size() && end_of_path_cell < way + (left - round_off) * length) {
       const double share = (end_of_path_cell - way) / length;
       if (share > round_off) {
-        change.replaced_parts.push_back({path[next], old_cell, share});
+        change.replaced_parts.push_back({path[next], old_cell, share, share * length});
         left -= share;
         way = end_of_path_cell;
       }
       end_of_path_cell += mesh.fracture_cells[path[++next]].length;
     }
-    change.replaced_parts.push_back({path[next], old_cell, left});
+    change.replaced_parts.push_back({path[next], old_cell, left, left * length});
     way += left * length;
   }
 }

@@ -17,10 +17,11 @@ void Effort::retire(const Model& model) {
   }
 }
 
-void Effort::mesh_changed(const Model& before, const Model& after) {
-  retire(before);
+void Effort::retired(const Model& model, const Model* settled) {
+  retire(model);
+  if (!settled) return;
   LinearCounts settling;
-  after.schedule().add_counts(settling);
+  settled->schedule().add_counts(settling);
   settling_seconds_ += settling.seconds();
 }
 

@@ -14,9 +14,9 @@ class Effort {
  public:
   void attempted(const StepStatus& status) { iterations_ += status.iterations; }
   void rejected() { ++rejected_; }
-  /// A change of the mesh has replaced `before`, whose counts are final; `after` has solved for nothing but its
-  /// settling.
-  void mesh_changed(const Model& before, const Model& after);
+  /// A model is not used any more: its counts are final. `settled`: its successor, which has solved for nothing but its
+  /// settling on a changed mesh, or null where there is none.
+  void retired(const Model& model, const Model* settled);
 
   /// Adds all counts to the record, and to the profile the times of the models' work. These times lie inside of "steps"
   /// and of "change of mesh", and are subtracted there. `last`: the model at the end. To be called once.

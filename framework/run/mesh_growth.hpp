@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "framework/scene/model.hpp"
@@ -16,33 +17,47 @@ class MeshGrowth {
   /// Whether the mesh has changed, or could not be changed (see reason).
   enum class Outcome { nothing, changed, failed };
 
-  using Observer = std::function<void(const Model& before, const Model& after)>;
+  /// `retired`: a model that is not used any more; `settled`: its successor, which has solved for nothing but its
+  /// settling, or null where there is none.
+  using Observer = std::function<void(const Model& retired, const Model* settled)>;
 
-  /// `model` is replaced whenever its mesh grows; `changed` is called before, with both models. `model` and
-  /// `controller` must outlive this object.
-  MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log = {}, Observer changed = {});
+  /// `model` is replaced whenever its mesh grows; `retire` is called before. `model` and `controller` must outlive this
+  /// object.
+  MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log = {}, Observer retire = {});
 
   /// To be called after a step that has converged, before it is accepted. `changed`: the step is to be repeated on the
   /// new mesh (GrowStep::repeats_step).
   Outcome before_acceptance();
+  /// To be called after a step has been solved without growth, where growth belongs to the step (GrowStep::
+  /// grows_within_step): finds the advance of the tips in the state at the end of the step. The model then is at the
+  /// end of the step on the mesh with this advance; otherwise, or where nothing grows, it is as it was. Returns the
+  /// status of the step.
+  StepStatus find_front(const StepTime& step, const StepStatus& without_growth);
   /// To be called after a step that has been accepted. The mesh takes growth over, and steps are held small until the
   /// state has settled.
   Outcome after_acceptance();
 
   const std::string& reason() const { return reason_; }  ///< of a failure
   long changes() const { return changes_; }
+  long trials() const { return trials_; }                    ///< evaluations of a step with an advance
   double smallest_angle() const { return smallest_angle_; }  ///< rad, of all cells that were made for growth
 
  private:
   Outcome take_over(std::size_t grow_step);
+  struct TrialMesh {
+    std::vector<PathExtension> paths;
+    GrownMesh mesh;
+  };
+  GrownMesh trial_mesh(std::optional<TrialMesh>& made, std::size_t grow_step, const std::vector<PathExtension>& paths);
+  StepStatus search_front(std::size_t grow_step, FrontSearch& search, const StepTime& step);
 
   std::unique_ptr<Model>& model_;
   StepController& controller_;
   IterationLog log_;
-  Observer changed_;
+  Observer retire_;
   std::string reason_;
   static constexpr double above_all_triangles = 1.1;  ///< rad; their smallest angle is 60 degrees at most
-  long changes_ = 0;
+  long changes_ = 0, trials_ = 0;
   double smallest_angle_ = above_all_triangles;
   int passes_ = 0;
 };

@@ -72,6 +72,7 @@ void RunRecorder::end(ExitCode code, const std::string& reason, const Scene& sce
 void RunRecorder::add(const MeshGrowth& growth) {
   if (growth.changes() == 0) return;
   record_.counters["changes of the mesh"] = growth.changes();
+  if (growth.trials() > 0) record_.counters["trials of growth"] = growth.trials();
   record_.results["grown_cells_smallest_angle[rad]"] = growth.smallest_angle();
 }
 

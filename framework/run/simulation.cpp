@@ -98,7 +98,7 @@ Simulation::Simulation(const Scene& scene, const RunOptions& options)
       state_(first_state(scene, make_model(scene, restart_, log(), progress_), output_times_)),
       early_end_(scene, state_.model->quantities()),
       growth_(state_.model, state_.controller, log(),
-              [this](const Model& before, const Model& after) { effort_.mesh_changed(before, after); }),
+              [this](const Model& model, const Model* settled) { effort_.retired(model, settled); }),
       attempts_(state_, growth_, effort_, profile_, progress_) {
   recorder_.set_up_ends();
   if (!restart_) return;

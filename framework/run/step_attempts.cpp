@@ -36,6 +36,7 @@ std::optional<StepAttempts::Outcome> StepAttempts::attempt(bool may_be_interrupt
     std::optional<interruption::Allowed> allowed;
     if (may_be_interrupted) allowed.emplace();
     status_ = state_.model->attempt(step_);
+    if (status_.converged) status_ = growth_.find_front(step_, status_);
     return std::nullopt;
   } catch (const DataError& error) {
     return give_up(name() + " has no data: " + error.what());

@@ -1,5 +1,6 @@
 #include "framework/scene/change_mesh.hpp"
 
+#include <map>
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
@@ -43,6 +44,21 @@ void copy_kept(const Field& old, const std::vector<int>& origin, int parts, Vect
     if (origin[i] != none) values.segment(i * width, width) = old.accepted().segment(origin[i] * width, width);
 }
 
+/// New entities on fractures that cover old ones: the sums of shares of amounts, and means of densities over what is
+/// covered.
+void share_replaced(const Field& old, const MeshChange& change, int parts, Vector& values) {
+  const int width = parts * old.spec().components;
+  std::map<int, double> covered;  // m, by new cell
+  for (const ReplacedPart& part : change.replaced_parts) {
+    if (covered.emplace(part.cell, 0).second) values.segment(part.cell * width, width).setZero();
+    covered[part.cell] += part.length;
+    values.segment(part.cell * width, width) +=
+        (old.spec().is_amount ? part.share : part.length) * old.accepted().segment(part.old_cell * width, width);
+  }
+  if (old.spec().is_amount) return;
+  for (const auto& [cell, length] : covered) values.segment(cell * width, width) /= length;
+}
+
 }  // namespace
 
 void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, FieldStore& after) {
@@ -55,9 +71,11 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
         break;
       case Location::fracture_cell:
         copy_kept(old, change.fracture_cell, 1, values);
+        share_replaced(old, change, 1, values);
         break;
       case Location::wall:
         copy_kept(old, change.fracture_cell, 2, values);
+        share_replaced(old, change, 2, values);
         break;
       case Location::fracture_point:
         copy_kept(old, change.fracture_point, 1, values);
@@ -69,14 +87,20 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
   }
 }
 
-MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const std::vector<PathExtension>& extensions,
-                             const StepTime& data, IterationLog log) {
+CavityOptions cavity_of(const Model& before, std::size_t grow_step) {
   SPREKK_EXPECT(grow_step < before.growing().size(), grow_step, before.growing().size());
-  const GrowStep& step = *before.growing()[grow_step];
-  SPREKK_EXPECT(!extensions.empty());
-  CavityOptions cavity = step.cavity();
+  CavityOptions cavity = before.growing()[grow_step]->cavity();
   cavity.gap_edges = before.scene().mesh.gap_edges;
-  GrownMesh grown = extend_fractures(before.mesh(), extensions, cavity);
+  return cavity;
+}
+
+GrownMesh grow_mesh(const Model& before, std::size_t grow_step, const std::vector<PathExtension>& extensions) {
+  SPREKK_EXPECT(!extensions.empty());
+  return extend_fractures(before.mesh(), extensions, cavity_of(before, grow_step));
+}
+
+MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMesh grown, const StepTime& data,
+                             IterationLog log) {
   partition(grown.mesh, parallel::size());
   for (std::size_t i = 0; i < grown.mesh.fracture_cells.size(); ++i) {
     const int origin = grown.change.fracture_cell[i];

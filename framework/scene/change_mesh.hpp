@@ -10,8 +10,9 @@ namespace sprekk {
 
 /// Transfers the accepted values of all fields to the new mesh. Values on kept cells and on fractures stay to the bit.
 /// A new cell gets the area-weighted mean of the old cells that it overlaps (Eq. 17 of the paper), or, for amounts, the
-/// sum of its shares, so that totals stay. New fracture cells keep the initial values of their components. Throws
-/// std::logic_error for fields on faces and nodes, which have no mapping.
+/// sum of its shares, so that totals stay. The same holds for new fracture cells that cover old ones which were given
+/// up (means are over the part that is covered); other new fracture cells keep the initial values of their components.
+/// Throws std::logic_error for fields on faces and nodes, which have no mapping.
 void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, FieldStore& after);
 
 /// The model on the new mesh, and how its equilibrium was found.
@@ -21,10 +22,15 @@ struct MeshChangeResult {
   StepStatus settling;           ///< of the solve for equilibrium on the new mesh
 };
 
-/// Builds the model on the mesh with the extensions of a step (an index into Model::growing), carries the
-/// accepted state over and settles it (GrowStep::settle, with data as in the step `data`), so that the change of the
-/// mesh alone changes no pressure.
-MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, const std::vector<PathExtension>& extensions,
-                             const StepTime& data, IterationLog log = {});
+/// The mesh of a model with the extensions of a step (an index into Model::growing).
+GrownMesh grow_mesh(const Model& before, std::size_t grow_step, const std::vector<PathExtension>& extensions);
+
+/// How the mesh changes around the paths of a step.
+CavityOptions cavity_of(const Model& before, std::size_t grow_step);
+
+/// Builds the model on a mesh that has grown from its own, carries the accepted state over and settles it
+/// (GrowStep::settle, with data as in the step `data`), so that the change of the mesh alone changes no pressure.
+MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMesh grown, const StepTime& data,
+                             IterationLog log = {});
 
 }  // namespace sprekk

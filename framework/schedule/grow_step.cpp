@@ -19,10 +19,14 @@ Spec GrowOptions::spec() {
              {.doc = "The components whose unknowns are put into equilibrium on the new mesh, everything else held: "
                      "those that determine the deformation.",
               .required = true});
-  spec.choice("update", update,
-              {{"after_step", "the step is accepted, and the mesh grows between it and the next"},
-               {"repeat_step", "the step is repeated on the mesh that has grown, until nothing grows any more"}},
-              {.doc = "When the mesh takes over what has grown."});
+  spec.choice(
+      "update", update,
+      {{"within_step",
+        "the advance of the tips is found together with the state at the end of the step; new, for fractures that do "
+        "not meet"},
+       {"after_step", "the step is accepted, and the mesh grows between it and the next"},
+       {"repeat_step", "the step is repeated on the mesh that has grown, until nothing grows any more"}},
+      {.doc = "When the mesh takes over what has grown."});
   spec.integer("passes", passes,
                {.range = between(1, 1000), .doc = "Of repeat_step: how often one step is repeated at most."});
   spec.quantity("cut", cut,
@@ -67,7 +71,9 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
     : options_(options),
       growing_(find_growing(options, context)),
       settle_(settle_options(options, *growing_), context),
-      smallest_step_(options.cut * context.standard_step) {}
+      smallest_step_(options.cut * context.standard_step) {
+  if (grows_within_step()) growing_->grow_within_steps();
+}
 
 bool GrowStep::may_shrink(const StepTime& step) const {
   constexpr double rounding = 1e-9;  // of the smallest step
@@ -109,7 +115,7 @@ StepStatus GrowStep::run(const StepTime& step) {
   // Growth that does not arrest begins as soon as the load is reached, so smaller steps have nothing to resolve.
   if (!growth.arrested && load_.now > most && may_shrink(step))
     return refused("tips grow further than the mesh can follow in one step", step, load_.accepted, load_.now);
-  extensions_ = std::move(growth.extensions);
+  if (!grows_within_step()) extensions_ = std::move(growth.extensions);
   return {true, "", 0};
 }
 

@@ -39,6 +39,9 @@ class GrowStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override { settle_.add_counts(counts); }
 
   const GrowOptions& options() const { return options_; }
+  bool grows_within_step() const { return options_.update == "within_step"; }
+  Growing& component() const { return *growing_; }
+  bool may_shrink(const StepTime& step) const;
   bool repeats_step() const { return options_.update == "repeat_step"; }
   const std::vector<PathExtension>& extensions() const { return extensions_; }
   CavityOptions cavity() const { return growing_->cavity(); }
@@ -52,8 +55,6 @@ class GrowStep : public ScheduleStep {
  private:
   /// Refuses a step, and asks for one at whose end the load is just above 1.
   StepStatus refused(const std::string& reason, const StepTime& step, double before, double now);
-  bool may_shrink(const StepTime& step) const;
-
   GrowOptions options_;
   Growing* growing_;
   SolveStep settle_;

@@ -1,12 +1,37 @@
 // The interface of a component with fractures that can grow, for `grow` steps.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "framework/assembly/step_time.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
 
 namespace sprekk {
+
+class Growing;
+
+/// The search for the advance of all tips in one time step, so that the condition of growth holds in the state at the
+/// end of the step, on the mesh that has the advance. Usage: build the trial mesh with paths(), run the step on it, and
+/// let the search learn from it, until the advance is found or refused.
+class FrontSearch {
+ public:
+  virtual ~FrontSearch() = default;
+  /// again: another trial is needed; found: the last trial is the step; refused: the step is too long, or no advance
+  /// was found.
+  enum class Verdict { again, found, refused };
+
+  /// The paths of the next trial, from the mesh at the start of the step; empty where nothing grows.
+  virtual const std::vector<PathExtension>& paths() const = 0;
+  /// `trial`: the same component after the step on the mesh with these paths. After `found` it is the one to go on
+  /// with.
+  virtual Verdict learn(Growing& trial, const StepTime& step) = 0;
+  /// The mesh cannot take a path, an index into paths(): its tip stops for good. The next trial is without it.
+  virtual void give_up(int path, const std::string& why) = 0;
+  virtual std::string reason() const = 0;  ///< why the step was refused
+  virtual double retry_dt() const = 0;     ///< s, of the step to try instead; 0: no suggestion
+};
 
 /// What a component with fractures that can grow offers to the schedule: the load of its tips, and growth.
 class Growing {
@@ -31,6 +56,13 @@ class Growing {
   /// Lets the tips grow until they arrest, or until the mesh must take their paths over. The component keeps a path
   /// that is too short for the mesh; such a path counts from the next step on, if this one is accepted.
   virtual Growth grow(const StepTime& step) = 0;
+  /// To be called once, where growth is to be found within steps (search_front) as far as the mesh can follow it.
+  virtual void grow_within_steps() = 0;
+  /// The search for growth within a step that has been solved without growth (examine() has been called), or none when
+  /// no tip is to grow. The search remembers what it needs of the present state; it must not outlive this component.
+  /// Where the step may not become shorter, growth that is too far or not found to the last digit is taken, with a
+  /// note.
+  virtual std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) = 0;
   /// How the mesh changes around a path that it takes over.
   virtual CavityOptions cavity() const = 0;
   /// Whether the systems that settle a state after growth may be so nearly singular that a solver which is quick for

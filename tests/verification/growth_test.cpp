@@ -166,7 +166,7 @@ void extend(const Model& model, const Point& by, double time, MeshChangeResult& 
   const Mesh& mesh = model.mesh();
   const int last = mesh.fractures[0].cell_count - 1;
   const Point tip = mesh.fracture_points[mesh.fracture_cells[last].points[1]].position;
-  changed = change_mesh(model, 0, {{0, true, {tip + by}}}, {-3600, 3600, time});
+  changed = change_mesh(model, 0, grow_mesh(model, 0, {{0, true, {tip + by}}}), {-3600, 3600, time});
   ASSERT_TRUE(changed.settling.converged) << changed.settling.reason;
   ASSERT_EQ(changed.model->mesh().fractures[0].cell_count, last + 2);
 }
@@ -260,7 +260,7 @@ TEST(WingCracks, APathIsKeptUntilTheMeshHasTakenItOver) {
   };
   const std::vector<PathExtension> extensions = model.growing()[0]->extensions();
   const double time = controller.time();
-  const MeshChangeResult changed = change_mesh(model, 0, extensions, {time - 3600, 3600, time});
+  const MeshChangeResult changed = change_mesh(model, 0, grow_mesh(model, 0, extensions), {time - 3600, 3600, time});
   Model restarted(model.scene(), model.mesh());
   const auto nothing_grown = restarted.extra_state();
   restarted.restore_extra_state(model.extra_state());

@@ -102,11 +102,22 @@ void Coulomb::set_wall_stiffness(const Vector& stiffness) {
 void Coulomb::carry_over(const Part&, const MeshChange& change) {
   SPREKK_EXPECT(static_cast<int>(change.fracture_cell.size()) == mesh_.fracture_cell_count(),
                 change.fracture_cell.size());
+  const Vector covered = covered_parts(change, mesh_);
   bonded_.resize(change.fracture_cell.size());
-  for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = change.fracture_cell[i] == none;
+  Vector jump = jump_.accepted();
+  for (std::size_t i = 0; i < bonded_.size(); ++i) {
+    bonded_[i] = change.fracture_cell[i] == none;
+    // A jump on a part of the cell is spread over its length: the volume stays.
+    if (bonded_[i]) jump.segment<dimension>(dimension * i) *= covered[i];
+  }
+  bonded_jump_ = jump;
+  jump_.set_both(std::move(jump));
 }
 
-void Coulomb::settled(const MeshChange&) { bonded_.clear(); }
+void Coulomb::settled(const MeshChange&) {
+  bonded_.clear();
+  bonded_jump_.resize(0);
+}
 
 Coulomb::Trial Coulomb::trial(int i) const {
   SPREKK_EXPECT(is_index(i, mesh_.fracture_cell_count()), i, mesh_.fracture_cell_count());
@@ -254,7 +265,7 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
     auto own = residual.segment<dimension>(row);
     Tensor by_f = Tensor::Zero(), by_u = Tensor::Zero();  // derivatives of the residual, the normal row first
     if (is_bonded(i)) {
-      own = -jump_.now().segment<dimension>(row);
+      own = bonded_jump_.segment<dimension>(row) - jump_.now().segment<dimension>(row);
       by_u.diagonal().setConstant(-1);
     } else if (t.is_open()) {
       own << f_n / c_n, f_t / c_t;

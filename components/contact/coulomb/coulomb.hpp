@@ -55,6 +55,7 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
     kept_.clear();
   }
   /// Cells that have grown are bonded, [u] = 0, until the equilibrium on the new mesh with bonded cells has been found.
+  /// Cells that cover given-up ones are held meanwhile at the jump of these, with the same volume.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
   void follow_iterate(const std::vector<Field*>& unknowns) override;
@@ -128,6 +129,7 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
   Property friction_, dilation_angle_;       ///< mu_s, psi
   Vector dilation_;                          ///< tan psi
   std::vector<char> bonded_;                 ///< empty for none
+  Vector bonded_jump_;                       ///< m, of all cells; empty where none is bonded
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
   bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction

@@ -6,7 +6,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int state_size = 11;  ///< without the path
+constexpr int state_size = 13;  ///< without the path
 
 }  // namespace
 
@@ -16,10 +16,11 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     Vector values(state_size + 2 * kept.path.added.size());
     values.head<state_size>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped,
         kept.has_started, kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated,
-        kept.load;
+        kept.load, kept.is_extendable, kept.speed;
     for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(state_size + 2 * i) = kept.path.added[i];
     state[name() + "." + tip.name] = std::move(values);
   }
+  state[name() + ".slopes"] = Eigen::Map<const Vector>(slopes_.data(), slopes_.size());
   for (const Joint& joint : joints_) state[name() + "." + joint.name] = Vector::Constant(1, joint.grown);
 }
 
@@ -37,8 +38,14 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.warm_start = {values[7], values[8]};
     kept.is_evaluated = values[9] != 0;
     kept.load = values[10];
+    kept.is_extendable = values[11] != 0;
+    kept.speed = values[12];
     for (int i = state_size; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
+  }
+  if (const auto found = state.find(name() + ".slopes"); found != state.end()) {
+    const auto size = static_cast<Eigen::Index>(tips_.size());
+    if (found->second.size() == size * size) slopes_ = found->second.reshaped(size, size);
   }
   for (Joint& joint : joints_) {
     const auto found = state.find(name() + "." + joint.name);

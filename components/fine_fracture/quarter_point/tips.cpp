@@ -57,6 +57,19 @@ double new_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change)
   return length;
 }
 
+/// The length of the fracture's cells at this end that were given up for new ones, m.
+double given_up_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change) {
+  const Fracture& cells = mesh.fractures[end.fracture];
+  double length = 0;
+  for (int i = 0; i < cells.cell_count; ++i) {
+    const int cell = cells.first_cell + (end.at_end ? cells.cell_count - 1 - i : i);
+    if (change.fracture_cell[cell] != none) break;
+    for (const ReplacedPart& part : change.replaced_parts)
+      if (part.cell == cell) length += part.length;
+  }
+  return length;
+}
+
 double length_of(const Point& from, const TipPath& path) {
   double length = 0;
   Point last = from;
@@ -81,6 +94,8 @@ Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     tips_.push_back(std::move(tip));
   }
 }
+
+const FractureCell& Tips::last_cell(const TipEnd& end) const { return end_cell(mesh_, end); }
 
 Point Tips::position(const Tip& tip, const TipPath& path) const {
   if (!path.added.empty()) return path.added.back();
@@ -128,7 +143,8 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   mesh.far_size = std::max(mesh.tip_size, options_.size / edges_across);
   mesh.sectors = options_.sectors;
   const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
-  FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls);
+  FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls,
+                                  tip.pattern ? &tip.pattern->geometry.outline : nullptr);
   const LameParameters lame = surroundings_->stiffness(center);
   const Elasticity rock{lame.lambda, lame.shear};
   if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
@@ -143,7 +159,10 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
       solves_ += adapted.meshes;
       return noted(tip, adapted.solution);
     }
-    tip.model.emplace(tip.domain.geometry, mesh, rock, TipPlace{tip.domain.crack, tip.domain.is_last}, profile_);
+    const bool keeps_pattern = is_followed(tip);
+    tip.model.emplace(tip.domain.geometry, mesh, rock, TipPlace{tip.domain.crack, tip.domain.is_last}, profile_,
+                      keeps_pattern ? &tip.pattern : nullptr);
+    tip.has_pattern = keeps_pattern;
     ++meshes_;
   } else {
     tip.domain = std::move(domain);
@@ -192,8 +211,9 @@ double Tips::estimated_load(const Tip& tip) const {
   return shear_to_equivalent * estimate / *options_.toughness;
 }
 
-Growing::Load Tips::examine(const StepTime&) {
+Growing::Load Tips::examine(const StepTime& step) {
   surroundings_->update();
+  for (Tip& tip : tips_) tip.now.speed = tip.now.advance / step.dt;
   notes_.clear();
   constexpr double safety = 2;  // of the estimate
   const bool may_rule_out = options_.toughness && options_.skip_below > 0;
@@ -220,6 +240,7 @@ Growing::Load Tips::examine(const StepTime&) {
       tip.answered_for = surroundings_->version();
     }
     // At the end of an increment the load is 1 to within a tolerance, and the tip should not grow again for that.
+    if (is_followed(tip)) continue;
     const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
     loads.now = std::max(loads.now, tip.now.load / (1 + rest));
     loads.accepted = std::max(loads.accepted, tip.accepted.load / (1 + rest));
@@ -254,11 +275,19 @@ double Tips::longest_path(const Tip& tip) const {
   return std::max(surroundings_->propagation_threshold() * tip.coarse_size, options_.growth.increment);
 }
 
+bool Tips::is_long_enough(const Tip& tip, const TipPath& path) const {
+  // Whole increments may fall short of the threshold by what their last one was shortened.
+  constexpr double nearly = 0.95;
+  return length_of(position(tip, {}), path) >= nearly * surroundings_->propagation_threshold() * tip.coarse_size;
+}
+
 Growing::Growth Tips::grow(const StepTime&) {
   std::vector<GrowingTip> growing;
   for (const Tip& tip : tips_) {
     const LameParameters lame = surroundings_->stiffness(position(tip, {}));
-    growing.push_back({position(tip, {}), direction(tip), *options_.toughness,
+    // A tip that the mesh follows has its own search; here it stays.
+    const double toughness = is_followed(tip) ? std::numeric_limits<double>::max() : *options_.toughness;
+    growing.push_back({position(tip, {}), direction(tip), toughness,
                        Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path, tip.now.warm_start});
   }
   GrowthOptions growth = options_.growth;
@@ -277,6 +306,7 @@ Growing::Growth Tips::grow(const StepTime&) {
   std::vector<std::size_t> blocked, ended, met;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
+    if (is_followed(tip)) continue;
     tip.now.has_started = tip.now.has_started || tip.now.load >= 1;
     const TipOutcome& outcome = outcomes[i];
     increments_ += outcome.increments;
@@ -291,10 +321,7 @@ Growing::Growth Tips::grow(const StepTime&) {
     if (outcome.blocked && options_.meeting == "join") blocked.push_back(i);
     if (outcome.increments == 0) continue;
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
-    const double length = length_of(position(tip, {}), tip.now.path);
-    // Whole increments may fall short of the threshold by what their last one was shortened.
-    constexpr double nearly = 0.95;
-    if (length < nearly * surroundings_->propagation_threshold() * tip.coarse_size) continue;
+    if (!is_long_enough(tip, tip.now.path)) continue;
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
   }
   stop_refused(extensions, outcomes);
@@ -342,7 +369,18 @@ CavityOptions Tips::cavity() const {
 }
 
 void Tips::accepted() {
-  for (Tip& tip : tips_) tip.accepted = tip.now;
+  for (Tip& tip : tips_) {
+    tip.accepted = tip.now;
+    tip.now.advance = tip.accepted.advance = 0;
+    // The next step starts with a triangulation that follows from the geometry alone, as after a restart.
+    if (tip.has_pattern) {
+      tip.model.reset();
+      tip.answer.reset();
+      tip.answered_for = 0;
+      tip.pattern.reset();
+      tip.has_pattern = false;
+    }
+  }
 }
 
 void Tips::rewound() {
@@ -360,10 +398,13 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
     for (const Tip& same : old.tips_) {
       if (!is_same(same.end, tip.end)) continue;
       tip.now = same.now;
+      tip.pattern = same.pattern;
       // Only now: if the path were dropped when it is passed on, a mesh that cannot take it would lose it.
-      const double taken = new_length(mesh_, tip.end, change);
+      const double taken = new_length(mesh_, tip.end, change) - given_up_length(mesh_, tip.end, change);
       if (taken > 0) {
         tip.now.grown += taken;
+        tip.now.advance = taken;
+        tip.now.is_extendable = grows_within_steps_;
         tip.now.path.added.clear();
       }
       tip.accepted = tip.now;

@@ -54,11 +54,14 @@ class Tips : public Component, public FractureTips, public Growing {
 
   Load examine(const StepTime& step) override;
   Growth grow(const StepTime& step) override;
+  void grow_within_steps() override { grows_within_steps_ = true; }
+  std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) override;
   CavityOptions cavity() const override;
   /// The rock alone, with cells held closed, cost UMFPACK the digits that MUMPS keeps.
   bool settling_costs_digits() const override { return true; }
 
  private:
+  friend class TipsFront;  // it sets the state of the tips of trial models
   /// The state of a tip that a step may change and a rewind restores.
   struct State {
     TipPath path;               ///< not yet known to the coarse level
@@ -69,7 +72,11 @@ class Tips : public Component, public FractureTips, public Growing {
     double grown = 0;           ///< m, passed to the coarse level
     bool has_started = false;   ///< whether the tip has begun to grow: its onset is over
     WarmStart warm_start;       ///< with its last increment
-    bool is_stopped = false;    ///< for good, at or before another fracture, or before the boundary
+    bool is_extendable =
+        false;                ///< whether the last cell of the fracture is the last segment, which growth may replace
+    double advance = 0;       ///< m, by which the tip has grown in the step
+    double speed = 0;         ///< m/s, of growth in the last step
+    bool is_stopped = false;  ///< for good, at or before another fracture, or before the boundary
   };
   struct Tip {
     TipEnd end;
@@ -88,6 +95,9 @@ class Tips : public Component, public FractureTips, public Growing {
     FineDomain domain;
     std::optional<Answer> answer;
     std::uint64_t answered_for = 0;
+    /// The triangulation of the trials within a step: it moves along, so that factors depend smoothly on the advance.
+    std::shared_ptr<const Triangulated> pattern;
+    bool has_pattern = false;  ///< whether `model` was made with it
   };
 
   /// An end of a fracture at another fracture; it may have been a tip.
@@ -98,6 +108,7 @@ class Tips : public Component, public FractureTips, public Growing {
   };
 
   void report_end(const std::string& name, const State& state, double length, std::vector<Quantity>& quantities) const;
+  const FractureCell& last_cell(const TipEnd& end) const;
   Point position(const Tip& tip, const TipPath& path) const;
   Point direction(const Tip& tip) const;
   std::vector<FracturePath> paths_with(const std::vector<TipPath>& added) const;
@@ -115,6 +126,12 @@ class Tips : public Component, public FractureTips, public Growing {
   void note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined);
   /// Stops tips whose path the mesh cannot take: they stay for good where they were at the start of the step.
   void stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes);
+  /// Whether the path of a tip is so long that the mesh follows it.
+  bool is_long_enough(const Tip& tip, const TipPath& path) const;
+  /// Whether the mesh follows the tip within steps: its growth is not found by the fine level alone.
+  bool is_followed(const Tip& tip) const {
+    return grows_within_steps_ && (tip.now.is_extendable || is_long_enough(tip, tip.now.path));
+  }
   /// The longest path that a tip may have in the fine level alone, m.
   double longest_path(const Tip& tip) const;
   /// Whether an increment of the other tip affects this tip at once; farther increments do so from the next step on.
@@ -137,6 +154,8 @@ class Tips : public Component, public FractureTips, public Growing {
   TipSurroundings* surroundings_ = nullptr;
   std::vector<Tip> tips_;
   std::vector<Joint> joints_;
+  bool grows_within_steps_ = false;
+  Eigen::MatrixXd slopes_;  ///< of the loads by the lengths of the tips, as the last search has learnt them, 1/m
   struct EndNote {
     std::string topic, text;
     double measure;  ///< of how bad it is

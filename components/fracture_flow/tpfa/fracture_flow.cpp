@@ -38,7 +38,8 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                              .role = Role::derived(),
                                              .unit = "m^2",
                                              .doc = "Fluid stored, injected, and flowed out through the outer boundary",
-                                             .accepted_with = pressure_.name()})) {
+                                             .accepted_with = pressure_.name(),
+                                             .is_amount = true})) {
   if (mesh_.fracture_cell_count() == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
@@ -71,7 +72,9 @@ std::vector<const Data*> FractureFlow::properties() const {
 }
 
 void FractureFlow::carry_over(const Part&, const MeshChange& change) {
-  const auto is_new = [&](int cell) { return change.fracture_cell[cell] == none; };
+  // A cell that covers a given-up one has its pressure, and its fluid is spread over the new length.
+  const Vector covered = covered_parts(change, mesh_);
+  const auto is_new = [&](int cell) { return covered[cell] == 0; };
   Vector pressure = pressure_.now(), aperture = aperture_.accepted();
   std::vector<char> known(pressure.size());
   for (int i = 0; i < pressure.size(); ++i) known[i] = !is_new(i);
@@ -89,9 +92,9 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
           }
     }
   }
-  if (options_.grown_fluid == "drawn")
-    for (int i = 0; i < aperture.size(); ++i)
-      if (is_new(i)) aperture[i] = 0;
+  const double filled = options_.grown_fluid == "drawn" ? 0 : options_.grown_aperture;
+  for (int i = 0; i < aperture.size(); ++i)
+    if (covered[i] < 1) aperture[i] = covered[i] * aperture[i] + (1 - covered[i]) * filled;
   pressure_.set_both(std::move(pressure));
   aperture_.set_accepted(std::move(aperture));
 }

@@ -27,6 +27,8 @@ class Tips : public Still, public Growing {
     ++grown;
     return growth;
   }
+  void grow_within_steps() override {}
+  std::unique_ptr<FrontSearch> search_front(const StepTime&, bool) override { return nullptr; }
   CavityOptions cavity() const override { return {.radius = 0.3, .size = 0.1, .growth = 0.4}; }
 
   Load load;

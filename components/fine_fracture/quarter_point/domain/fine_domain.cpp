@@ -175,15 +175,17 @@ std::vector<FracturePath> joined(std::vector<FracturePath> paths, double toleran
 }  // namespace
 
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separate_paths, const TipEnd& tip,
-                       const Point& center, double size, double gap, CrackPath::Walls coarse_walls) {
+                       const Point& center, double size, double gap, CrackPath::Walls coarse_walls,
+                       const std::vector<Point>* outline) {
   const Rectangle rock = bounds(mesh);
   const std::vector<FracturePath> paths = joined(separate_paths, same_place * (rock.high - rock.low).maxCoeff());
   Rectangle box;
   double widest = -1;
   constexpr double more = 1 + 1e-9;  // by more than rounding, so that domains that are images of one another stay so
+  if (outline) box = {(*outline)[0], (*outline)[2]};
   // A domain is made larger by small steps until no side is near to a fracture.
   constexpr double largest = 1.5, step = 0.02;
-  for (double factor = 1; factor < largest && widest * more < gap; factor += step) {
+  for (double factor = 1; !outline && factor < largest && widest * more < gap; factor += step) {
     const Point half = Point::Constant(0.5 * factor * size);
     const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
     const double found = smallest_gap(larger, rock, paths);

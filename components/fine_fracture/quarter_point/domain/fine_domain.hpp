@@ -41,9 +41,10 @@ struct FineDomain {
 /// The domain of a fine level: a square of side `size` (m) around `center`, clipped by the box of the rock, with all
 /// paths in it. The outline keeps the distance `gap` (m) from tips, kinks, junctions and segments along a side: if
 /// necessary the square is larger, by less than 1.5 times; where no such square keeps the distance, the one with the
-/// largest distance is taken. `coarse_walls`: how the walls of the coarse level are loaded; walls of added paths have
-/// tractions.
+/// largest distance is taken. `outline`: if given, the one of an earlier domain, which is kept. `coarse_walls`: how the
+/// walls of the coarse level are loaded; walls of added paths have tractions.
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
-                       double size, double gap, CrackPath::Walls coarse_walls);
+                       double size, double gap, CrackPath::Walls coarse_walls,
+                       const std::vector<Point>* outline = nullptr);
 
 }  // namespace sprekk::fine_fracture

@@ -184,15 +184,21 @@ class Builder {
 
 }  // namespace
 
-FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options) {
+FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options,
+                        std::shared_ptr<const Triangulated>* pattern) {
   validate(geometry);
   validate(options);
   const std::vector<TipRoom> rooms = tip_rooms(geometry, options.tip_size);
+  if (pattern && *pattern) {
+    const std::optional<OutsideMesh> moved = moved_mesh(**pattern, geometry, rooms);
+    if (moved) return Builder(geometry, rooms, options.sectors, build_mesh(moved->raw)).take();
+  }
   const SizeField sizes(geometry, rooms, options);
   OutsideMesh outside =
       mesh_outside(geometry, rooms, options.sectors, [&sizes](const Point& x) { return sizes.at(x); });
   add_rosettes(rooms, outside);
   const Mesh mesh = build_mesh(outside.raw);
+  if (pattern) *pattern = std::make_shared<const Triangulated>(Triangulated{geometry, rooms, std::move(outside)});
   return Builder(geometry, rooms, options.sectors, mesh).take();
 }
 

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "components/fine_fracture/quarter_point/domain/geometry.hpp"
+#include "components/fine_fracture/quarter_point/domain/moved_mesh.hpp"
 #include "components/fine_fracture/quarter_point/domain/room.hpp"
 
 namespace sprekk::fine_fracture {
@@ -70,7 +72,9 @@ struct FineMesh {
 };
 
 /// Makes the mesh of a fine level. Throws std::invalid_argument for a geometry or options that are not valid, and
-/// std::runtime_error where the mesh cannot follow the lines of the geometry.
-FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options);
+/// std::runtime_error where the mesh cannot follow the lines of the geometry. `pattern`: if not null, a triangulation
+/// that is moved to this geometry where that is possible; otherwise it becomes the one that is made.
+FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options,
+                        std::shared_ptr<const Triangulated>* pattern = nullptr);
 
 }  // namespace sprekk::fine_fracture

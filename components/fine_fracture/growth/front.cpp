@@ -1,0 +1,271 @@
+#include "components/fine_fracture/growth/front.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/fine_fracture/growth/kink.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk::fine_fracture {
+
+namespace {
+
+constexpr double turn_slope = 0.5;  ///< d(K_II/K_I)/d angle of a short kink (Cotterell and Rice 1980)
+constexpr double least_turn_slope = 0.3, steepest_turn_slope = 20;
+constexpr double first_slope = -0.3;     ///< of ln K_eq over one increment, as long as none is known
+constexpr double shared_slope = -0.2;    ///< the same by the growth of another tip
+constexpr double first_part = 0.25;      ///< of an increment: the first trial of a tip without a known speed
+constexpr double largest_turn = 0.3;     ///< rad, between two trials
+constexpr double largest_factor = 3;     ///< between lengths of a new segment in two trials
+constexpr double largest_advance = 0.6;  ///< of an increment, between two trials
+constexpr int halvings = 40;             ///< of the range of a first length
+constexpr double nearby = 1.01;          ///< of a length: for the slope of the expansion of a kink
+constexpr double at_limit = 1e-9;        ///< of a length that is at its limit, but for rounding
+constexpr double no_motion = 1e-300;     ///< no division by zero
+
+double log_load(const FrontState& state) {
+  constexpr double least = 1e-3;
+  return std::log(std::max(least, state.load));
+}
+
+double shear(const FrontState& state) { return std::atan2(state.sifs.k2, state.sifs.k1); }
+
+}  // namespace
+
+Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_growth, const FrontOptions& options,
+             double dt, const Eigen::MatrixXd& slopes)
+    : tips_(std::move(tips)),
+      options_(options),
+      dt_(dt),
+      grows_(tips_.size(), 0),
+      is_stopped_(tips_.size(), 0),
+      length_(tips_.size(), 0),
+      angle_(tips_.size(), 0),
+      last_(without_growth) {
+  SPREKK_EXPECT(without_growth.size() == tips_.size(), without_growth.size(), tips_.size());
+  SPREKK_EXPECT(options_.increment > 0 && options_.shortest > 0, options_.increment, options_.shortest);
+  for (int i = 0; i < count(); ++i) {
+    length_[i] = tips_[i].covered;
+    angle_[i] = tips_[i].angle;
+  }
+  make_jacobian(slopes);
+  for (int i = 0; i < count(); ++i)
+    if (tips_[i].first_length > 0 || (without_growth[i].is_evaluated && without_growth[i].load > 1))
+      begin(i, without_growth[i]);
+  if (!any_grows()) verdict_ = Verdict::found;
+  for (int i = 0; i < count(); ++i) {
+    const Sifs& sifs = without_growth[i].sifs;
+    if (!grows_[i] || !(sifs.k1 > 0)) continue;
+    const double slope =
+        turn_slope - 2 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length_[i]) / sifs.k1;
+    jacobian_(2 * i + 1, 2 * i + 1) = std::clamp(slope, least_turn_slope, steepest_turn_slope);
+  }
+  // Where segments go on, the state without growth is the first trial.
+  for (int i = 0; i < count(); ++i)
+    if (grows_[i] && is_new(i)) return;
+  const std::vector<double> lengths = length_, angles = angle_;
+  for (int i = 0; i < count(); ++i) length_[i] = tips_[i].covered, angle_[i] = tips_[i].angle;
+  before_place_ = place();
+  before_residual_ = residual(without_growth);
+  length_ = lengths;
+  angle_ = angles;
+}
+
+bool Front::any_grows() const {
+  return std::any_of(grows_.begin(), grows_.end(), [](char grows) { return grows != 0; });
+}
+
+void Front::stop(int tip) {
+  SPREKK_EXPECT(is_index(tip, count()), tip);
+  is_stopped_[tip] = 1;
+  grows_[tip] = 0;
+  length_[tip] = tips_[tip].covered;
+  angle_[tip] = tips_[tip].angle;
+  before_place_.resize(0);
+}
+
+/// The first trial of a tip: from its speed, or else from the expansion of a short kink.
+void Front::begin(int i, const FrontState& state) {
+  grows_[i] = 1;
+  FrontTip& tip = tips_[i];
+  const double half = 0.5 * options_.increment;
+  if (tip.first_length > 0) {
+    length_[i] = tip.first_length;
+    angle_[i] = tip.first_angle;
+    return;
+  }
+  if (!is_new(i)) {
+    const double expected = tip.speed > 0 ? tip.speed * dt_ : first_part * options_.increment;
+    length_[i] = std::min(tip.longest, tip.covered + std::min(expected, options_.increment));
+    return;
+  }
+  // The longest kink at whose end K_eq has not come down to the toughness, as long as the loads stay.
+  double low = options_.shortest, high = std::min(tip.longest, tip.speed > 0 ? options_.increment : half);
+  const auto end_of = [&](double s) { return after_kink(state.sifs, local_symmetry_angle(state.sifs, s), s); };
+  const auto is_short = [&](double s) { return equivalent_sif(end_of(s)) > tip.toughness; };
+  if (tip.speed > 0) {
+    low = std::clamp(tip.speed * dt_, low, high);
+  } else if (is_short(high)) {
+    low = high;
+  } else if (is_short(low)) {
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = std::sqrt(low * high);
+      (is_short(middle) ? low : high) = middle;
+    }
+  }
+  length_[i] = low;
+  angle_[i] = tip.angle + local_symmetry_angle(state.sifs, low);
+  const double near = nearby * low;
+  const double slope = std::log(equivalent_sif(end_of(near)) / equivalent_sif(end_of(low))) / (near - low);
+  if (std::isfinite(slope)) jacobian_(2 * i, 2 * i) = std::min(slope * options_.increment, first_slope);
+}
+
+void Front::make_jacobian(const Eigen::MatrixXd& slopes) {
+  jacobian_ = Eigen::MatrixXd::Zero(2 * count(), 2 * count());
+  for (int i = 0; i < count(); ++i) {
+    for (int j = 0; j < count(); ++j) {
+      const bool is_known = slopes.rows() == count() && slopes(i, j) != 0;
+      jacobian_(2 * i, 2 * j) = is_known ? slopes(i, j) * options_.increment
+                                : i == j ? first_slope + shared_slope
+                                         : shared_slope;
+    }
+    jacobian_(2 * i + 1, 2 * i + 1) = turn_slope;
+  }
+}
+
+Eigen::MatrixXd Front::slopes() const {
+  Eigen::MatrixXd slopes(count(), count());
+  for (int i = 0; i < count(); ++i)
+    for (int j = 0; j < count(); ++j) slopes(i, j) = jacobian_(2 * i, 2 * j) / options_.increment;
+  return slopes;
+}
+
+Eigen::VectorXd Front::residual(const std::vector<FrontState>& states) const {
+  Eigen::VectorXd values(2 * count());
+  for (int i = 0; i < count(); ++i) {
+    values[2 * i] = log_load(states[i]);
+    values[2 * i + 1] = states[i].is_evaluated && grows_[i] ? shear(states[i]) : 0;
+  }
+  return values;
+}
+
+Eigen::VectorXd Front::place() const {
+  Eigen::VectorXd values(2 * count());
+  for (int i = 0; i < count(); ++i) {
+    values[2 * i] = length_[i] / options_.increment;
+    values[2 * i + 1] = angle_[i];
+  }
+  return values;
+}
+
+/// Broyden's update in the unknowns that were changed.
+void Front::update_jacobian(const Eigen::VectorXd& residual) {
+  if (before_place_.size() == 0) return;
+  const Eigen::VectorXd moved = place() - before_place_, change = residual - before_residual_;
+  const double square = moved.squaredNorm();
+  if (square == 0) return;
+  jacobian_ += (change - jacobian_ * moved) * moved.transpose() / square;
+}
+
+void Front::learn(const std::vector<FrontState>& states) {
+  SPREKK_EXPECT(verdict_ == Verdict::again);
+  SPREKK_EXPECT(static_cast<int>(states.size()) == count(), states.size(), count());
+  ++trials_;
+  const Eigen::VectorXd found = residual(states);
+  update_jacobian(found);
+  last_ = states;
+  worst_ = 0;
+  bool is_met = true;
+  for (int i = 0; i < count(); ++i) {
+    const double load = found[2 * i];
+    if (!grows_[i]) {
+      if (!is_stopped_[i] && states[i].is_evaluated && load > options_.load_tolerance) is_met = false;
+      continue;
+    }
+    const bool is_shortest = is_new(i) && length_[i] <= options_.shortest * (1 + at_limit);
+    const bool is_done = std::abs(load) <= options_.load_tolerance || (is_shortest && load < 0);
+    worst_ = std::max(worst_, is_shortest && load < 0 ? 0.0 : std::abs(load));
+    if (!is_done || std::abs(found[2 * i + 1]) > options_.direction_tolerance) is_met = false;
+  }
+  if (is_met) {
+    verdict_ = Verdict::found;
+    return;
+  }
+  if (trials_ >= options_.most_trials) {
+    verdict_ = Verdict::failed;
+    reason_ = "the advance of the tips was not found";
+    return;
+  }
+  step(found);
+}
+
+/// Newton's step with Broyden's matrix. A tip that would move back to where it was at the start of the step stays
+/// there.
+void Front::step(const Eigen::VectorXd& residual) {
+  for (int i = 0; i < count(); ++i)
+    if (!grows_[i] && !is_stopped_[i] && last_[i].is_evaluated && residual[2 * i] > options_.load_tolerance) {
+      before_place_.resize(0);
+      begin(i, last_[i]);
+      return;  // one trial with the new set before anything is concluded
+    }
+  const Eigen::VectorXd from = place();
+  std::vector<int> free;
+  for (int i = 0; i < count(); ++i)
+    if (grows_[i]) free.insert(free.end(), {2 * i, 2 * i + 1});
+  const int size = static_cast<int>(free.size());
+  Eigen::MatrixXd matrix(size, size);
+  Eigen::VectorXd right(size);
+  for (int a = 0; a < size; ++a) {
+    right[a] = -residual[free[a]];
+    for (int b = 0; b < size; ++b) matrix(a, b) = jacobian_(free[a], free[b]);
+  }
+  Eigen::VectorXd move = matrix.fullPivLu().solve(right);
+  double part = 1;
+  for (int a = 0; a < size; a += 2) {
+    const int i = free[a] / 2;
+    if (!std::isfinite(move[a]) || !std::isfinite(move[a + 1]))
+      move[a] = residual[free[a]] > 0 ? 0.5 : -0.5, move[a + 1] = 0;
+    part = std::min(part, largest_advance / std::max(no_motion, std::abs(move[a])));
+    part = std::min(part, largest_turn / std::max(no_motion, std::abs(move[a + 1])));
+    if (is_new(i)) {
+      const double factor = 1 + move[a] * options_.increment / length_[i];
+      if (factor > largest_factor) part = std::min(part, (largest_factor - 1) / (factor - 1));
+      if (factor < 1 / largest_factor) part = std::min(part, (1 - 1 / largest_factor) / (1 - factor));
+    }
+  }
+  before_place_ = from;
+  before_residual_ = residual;
+  bool is_stuck = true;
+  for (int a = 0; a < size; a += 2) {
+    const int i = free[a] / 2;
+    const double wanted = length_[i] + part * move[a] * options_.increment;
+    angle_[i] += part * move[a + 1];
+    if (is_new(i)) {
+      length_[i] = std::max(options_.shortest, wanted);
+    } else if (wanted <= tips_[i].covered) {
+      // Back at the start of the step: the tip rests.
+      length_[i] = tips_[i].covered;
+      angle_[i] = tips_[i].angle;
+      grows_[i] = 0;
+    } else {
+      length_[i] = wanted;
+    }
+    if (length_[i] > tips_[i].longest) {
+      if (residual[2 * i] > 0 && from[2 * i] * options_.increment >= tips_[i].longest * (1 - at_limit)) {
+        verdict_ = Verdict::too_far;
+        reason_ = "a tip grows further than its longest advance in one step";
+        return;
+      }
+      length_[i] = tips_[i].longest;
+    }
+    is_stuck = false;
+  }
+  if (is_stuck) {
+    verdict_ = Verdict::failed;
+    reason_ = "no tip is left that may grow";
+  }
+}
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,97 @@
+// The search for the advance of all tips in one time step, whatever computes their stress intensity factors.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "components/fine_fracture/growth/mixed_mode.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// A tip at the start of a step. Its last segment begins at the anchor. It is straight, and as long as it has not
+/// reached its full length, growth makes it longer and may turn it.
+struct FrontTip {
+  Point anchor = Point::Zero();  ///< m
+  double covered = 0;            ///< m, length of the segment at the start of the step; 0 where a new one begins
+  double angle = 0;              ///< rad, of the segment from the x axis; of the direction ahead where a new one begins
+  double toughness = 0;          ///< K_IC, Pa sqrt(m)
+  double longest = 0;            ///< m, most that the segment may become in this step
+  double speed = 0;              ///< m/s, of the last step; 0 where the tip did not grow
+  /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
+  double first_length = 0, first_angle = 0;
+};
+
+/// What is known of the tips after a trial step: the factors in the frame of the last segment.
+struct FrontState {
+  Sifs sifs;
+  double load = 0;           ///< K_eq over K_IC; all that counts for a tip that does not grow
+  bool is_evaluated = true;  ///< whether the factors are known; otherwise the load is an estimate that rules growth out
+};
+
+/// Tolerances and limits of the search.
+struct FrontOptions {
+  double load_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)| of growing tips
+  double direction_tolerance = 1e-6;  ///< |K_II/K_I| of growing tips
+  double increment = 0;               ///< m, the scale of advances
+  double shortest = 0;                ///< m, of a new segment
+  int most_trials = 20;
+};
+
+/// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
+///   K_eq = K_IC and K_II = 0 at tips that grow,    K_eq <= K_IC at tips that do not,
+/// by Broyden's method (Math. Comput. 19 (1965) 577) for the tips that grow; which do is decided anew after each trial.
+/// Of several solutions it seeks the one next to the start of the step.
+///
+///   Front front(…, states of the trial without growth, …);
+///   while (front.verdict() == again) front.learn(states of the trial with lengths(), angles());
+class Front {
+ public:
+  /// What follows from the last trial: another one, the end, or why there is none.
+  enum class Verdict { again, found, too_far, failed };
+  /// `slopes`: d ln K_eq/d length between tips, 1/m, of an earlier step, or an empty matrix.
+  Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_growth, const FrontOptions& options,
+        double dt, const Eigen::MatrixXd& slopes = {});
+
+  /// Whether the tip has an advance in the trial.
+  bool grows(int tip) const { return grows_[tip]; }
+  double length(int tip) const { return length_[tip]; }  ///< m, of the last segment, covered part included
+  double angle(int tip) const { return angle_[tip]; }    ///< rad, from the x axis
+  bool any_grows() const;
+
+  /// The tip stays where it was at the start of the step, whatever its load.
+  void stop(int tip);
+  void learn(const std::vector<FrontState>& states);
+  Verdict verdict() const { return verdict_; }
+  int trials() const { return trials_; }
+  double worst() const { return worst_; }  ///< the largest |ln(K_eq/K_IC)| of growing tips in the last trial
+  const std::string& reason() const { return reason_; }
+  /// d ln K_eq/d length between tips, 1/m, as it was learnt; for the next step.
+  Eigen::MatrixXd slopes() const;
+
+ private:
+  int count() const { return static_cast<int>(tips_.size()); }
+  bool is_new(int tip) const { return tips_[tip].covered == 0; }
+  void begin(int tip, const FrontState& state);
+  void make_jacobian(const Eigen::MatrixXd& slopes);
+  Eigen::VectorXd residual(const std::vector<FrontState>& states) const;
+  Eigen::VectorXd place() const;
+  void update_jacobian(const Eigen::VectorXd& residual);
+  void step(const Eigen::VectorXd& residual);
+
+  std::vector<FrontTip> tips_;
+  FrontOptions options_;
+  double dt_;
+  std::vector<char> grows_, is_stopped_;
+  std::vector<double> length_, angle_;
+  std::vector<FrontState> last_;
+  Eigen::MatrixXd jacobian_;  ///< of (ln(K_eq/K_IC), K_II/K_I) by (length/increment, angle), per tip
+  Eigen::VectorXd before_place_, before_residual_;
+  Verdict verdict_ = Verdict::again;
+  int trials_ = 0;
+  double worst_ = 0;
+  std::string reason_;
+};
+
+}  // namespace sprekk::fine_fracture

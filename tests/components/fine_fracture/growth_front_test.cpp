@@ -1,0 +1,123 @@
+// The search for the advance of tips in one step, with factors in closed form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "components/fine_fracture/growth/front.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+/// Tips with K_eq = K_IC exp(rise - own (s_i - c_i) - shared sum_j (s_j - c_j)), whose right direction turns with their
+/// length. K_eq does not depend on the direction.
+struct ClosedForm {
+  std::vector<double> rise;
+  std::vector<FrontTip> tips;
+  double own = 20, shared = 30;  ///< 1/m
+  double turn = 8;               ///< rad/m
+
+  std::vector<FrontState> states(const std::vector<double>& lengths, const std::vector<double>& angles) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < tips.size(); ++i) sum += lengths[i] - tips[i].covered;
+    std::vector<FrontState> states;
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      const double added = lengths[i] - tips[i].covered, wrong = angles[i] - tips[i].angle - turn * added;
+      FrontState state;
+      state.load = std::exp(rise[i] - own * added - shared * sum);
+      const double k = tips[i].toughness * state.load;
+      state.sifs = {k * std::cos(0.7 * wrong), k * std::sin(0.7 * wrong), -1e6};
+      states.push_back(state);
+    }
+    return states;
+  }
+  std::vector<FrontState> without_growth() const {
+    std::vector<double> lengths, angles;
+    for (const FrontTip& tip : tips) lengths.push_back(tip.covered), angles.push_back(tip.angle);
+    return states(lengths, angles);
+  }
+  Front solved(const FrontOptions& options) const {
+    Front front(tips, without_growth(), options, 3600);
+    while (front.verdict() == Front::Verdict::again) {
+      std::vector<double> lengths, angles;
+      for (int i = 0; i < static_cast<int>(tips.size()); ++i) {
+        lengths.push_back(front.length(i));
+        angles.push_back(front.angle(i));
+      }
+      front.learn(states(lengths, angles));
+    }
+    return front;
+  }
+};
+
+FrontOptions options() {
+  FrontOptions options;
+  options.increment = 0.01;
+  options.shortest = 1e-4;
+  return options;
+}
+
+FrontTip tip(double angle) {
+  FrontTip tip;
+  tip.covered = 0.008;
+  tip.angle = angle;
+  tip.toughness = 7e5;
+  tip.longest = tip.covered + 0.015;
+  return tip;
+}
+
+TEST(Front, FindsTheLengthAndTheDirectionOfOneTip) {
+  const Front front = ClosedForm{{0.3}, {tip(0.4)}}.solved(options());
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(front.length(0), 0.008 + 0.3 / 50, 1e-8);
+  EXPECT_NEAR(front.angle(0), 0.4 + 8 * 0.3 / 50, 1e-4);
+  EXPECT_LE(front.trials(), 8);
+}
+
+TEST(Front, FindsTipsThatShareTheirFluid) {
+  const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
+  const Front front = form.solved(options());
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  const double sum = 0.63 / (form.own + 2 * form.shared);
+  EXPECT_NEAR(front.length(0) - 0.008, (0.3 - form.shared * sum) / form.own, 2e-8);
+  EXPECT_NEAR(front.length(1) - 0.008, (0.33 - form.shared * sum) / form.own, 2e-8);
+}
+
+/// The second tip would have to become shorter: it rests, and the first one takes all the fluid.
+TEST(Front, LetsATipRestThatTheOtherUnloads) {
+  const ClosedForm form{{0.3, 0.05}, {tip(0.4), tip(-2.0)}};
+  const Front front = form.solved(options());
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(front.length(0) - 0.008, 0.3 / (form.own + form.shared), 2e-8);
+  EXPECT_EQ(front.length(1), 0.008);
+  EXPECT_FALSE(front.grows(1));
+}
+
+TEST(Front, NothingGrowsBelowTheToughness) {
+  const Front front = ClosedForm{{-0.01, -0.2}, {tip(0.4), tip(-2.0)}}.solved(options());
+  EXPECT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_EQ(front.trials(), 0);
+  EXPECT_FALSE(front.any_grows());
+}
+
+TEST(Front, DependsSmoothlyOnTheLoad) {
+  const auto length = [](double rise) {
+    return ClosedForm{{rise, 0.33}, {tip(0.4), tip(-2.0)}}.solved(options()).length(0);
+  };
+  const double slope = (1 - 30 / 80.0) / 20;
+  EXPECT_NEAR(length(0.3 + 1e-5) - length(0.3), slope * 1e-5, 2e-8);
+}
+
+TEST(Front, TellsAdvanceThatIsTooFar) {
+  EXPECT_EQ((ClosedForm{{3}, {tip(0.4)}}.solved(options()).verdict()), Front::Verdict::too_far);
+}
+
+TEST(Front, AStoppedTipStays) {
+  const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
+  Front front(form.tips, form.without_growth(), options(), 3600);
+  front.stop(1);
+  EXPECT_FALSE(front.grows(1));
+  EXPECT_EQ(front.length(1), 0.008);
+}
+
+}  // namespace
+}  // namespace sprekk::fine_fracture
