@@ -28,11 +28,10 @@ Mesh one_fracture() { return with_fractures({fracture("main", {{0.9, 0.9}, {1.1,
 /// The shares of replaced cells by their distance from the end, of the new cells by that along the extension.
 std::map<std::pair<int, int>, double> parts(const GrownMesh& grown, const std::vector<int>& replaced) {
   std::map<std::pair<int, int>, double> parts;
-  for (const auto& [cell, old_cell, share] : grown.change.replaced_parts) {
-    const auto& path = grown.extension_cells[0];
-    parts[{std::ranges::find(path, cell) - path.begin(), std::ranges::find(replaced, old_cell) - replaced.begin()}] =
-        share;
-  }
+  const auto& path = grown.extension_cells[0];
+  for (const ReplacedPart& part : grown.change.replaced_parts)
+    parts[{std::ranges::find(path, part.cell) - path.begin(),
+           std::ranges::find(replaced, part.old_cell) - replaced.begin()}] = part.share;
   return parts;
 }
 
