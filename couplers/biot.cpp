@@ -92,7 +92,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
     Vector change = rock_.volume_change().constant - counted_volume_.accepted();
     for (const LinearExpression::Term& term : rock_.volume_change().terms)
       change += assembly.product(term.matrix, *term.field);
-    fluid.turn_over(alpha_.values().cwiseProduct(change));
+    fluid.add_turnover(alpha_.values().cwiseProduct(change));
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime&) override {
@@ -118,10 +118,10 @@ class Biot : public Coupler, public StabilizesPreconditioner {
     double difference = 0, area = 0;
     for (int c = 0; c < mesh_.cell_count(); ++c) {
       difference += alpha_[c] * (volume[c] - counted_volume_.accepted()[c]);
-      if (change.cell[c] == none) area += alpha_[c] * mesh_.cell_area[c];
+      if (change.cell[c] == none) area += alpha_[c] * mesh_.cell_measure[c];
     }
     for (int c = 0; c < mesh_.cell_count(); ++c)
-      if (change.cell[c] == none && area > 0) volume[c] -= difference / area * mesh_.cell_area[c];
+      if (change.cell[c] == none && area > 0) volume[c] -= difference / area * mesh_.cell_measure[c];
     counted_volume_.set_both(std::move(volume));
   }
 
@@ -155,7 +155,8 @@ class Biot : public Coupler, public StabilizesPreconditioner {
     SPREKK_ASSERT(rock_.bulk_modulus().values().minCoeff() > 0, rock_.bulk_modulus().values().minCoeff());
     Vector diagonal(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c)
-      diagonal[c] = options_.fixed_stress_factor * alpha_[c] * alpha_[c] / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
+      diagonal[c] =
+          options_.fixed_stress_factor * alpha_[c] * alpha_[c] / rock_.bulk_modulus()[c] * mesh_.cell_measure[c];
     const auto [place, fresh] = stabilization.try_emplace(&fluid_.pressure(), diagonal);
     if (!fresh) place->second += diagonal;
   }
@@ -189,7 +190,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
                                      "the grains would have a negative compressibility, (alpha - phi)/K",
                                      "raise biot_coefficient, or give 'storage' to the flow in the matrix")
                               .what());
-        grain_capacity_[c] = (alpha_[c] - (*porosity)[c]) / rock_.bulk_modulus()[c] * mesh_.cell_area[c];
+        grain_capacity_[c] = (alpha_[c] - (*porosity)[c]) / rock_.bulk_modulus()[c] * mesh_.cell_measure[c];
       }
     has_grains_ = !grain_capacity_.isZero(0);
     grains_ = Operator(diagonal_matrix(grain_capacity_));

@@ -46,7 +46,7 @@ class WallExchange : public Coupler {
     std::vector<Triplet> entries, sums, counts;
     for (int w = 0; w < mesh_.wall_count(); ++w) {
       entries.emplace_back(w, w / 2, 1.0);
-      sums.emplace_back(w / 2, w, mesh_.fracture_cells[w / 2].length);
+      sums.emplace_back(w / 2, w, mesh_.fracture_cells[w / 2].measure);
       counts.emplace_back(w / 2, w, 1.0);
     }
     to_walls_.resize(mesh_.wall_count(), mesh_.fracture_cell_count());
@@ -126,7 +126,7 @@ class WallExchange : public Coupler {
     if (has(walls_.wall_flux())) {
       Vector exchanged = exchanged_.accepted();
       for (int w = 0; w < mesh_.wall_count(); ++w)
-        exchanged[w] += step.dt * mesh_.fracture_cells[w / 2].length * walls_.wall_flux().now()[w];
+        exchanged[w] += step.dt * mesh_.fracture_cells[w / 2].measure * walls_.wall_flux().now()[w];
       exchanged_.set(std::move(exchanged));
     }
     if (has(fracture_.pressure())) counted_.set(exchanged_.now());
@@ -144,7 +144,7 @@ class WallExchange : public Coupler {
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     for (const Component* rock : components) {
       const auto* walls = dynamic_cast<const MatrixWalls*>(rock);
-      if (!walls || !walls->lets_fluid_through()) continue;
+      if (!walls || !walls->is_permeable()) continue;
       for (const Component* fracture : components) {
         if (!dynamic_cast<const FractureFluid*>(fracture)) continue;
         const std::string both = rock->name() + " and " + fracture->name();

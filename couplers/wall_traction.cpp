@@ -124,9 +124,10 @@ class WallTraction : public Coupler {
     double mean[dimension] = {};
     const int cells = mesh_.fracture_cell_count();
     for (int i = 0; i < dimension * cells; ++i)
-      mean[i % dimension] += std::abs(compliance[i]) / mesh_.fracture_cells[i / dimension].length / cells;
+      mean[i % dimension] += std::abs(compliance[i]) / mesh_.fracture_cells[i / dimension].measure / cells;
     for (int i = 0; i < dimension * cells; ++i)
-      compliance[i] = std::max(compliance[i], least * mean[i % dimension] * mesh_.fracture_cells[i / dimension].length);
+      compliance[i] =
+          std::max(compliance[i], least * mean[i % dimension] * mesh_.fracture_cells[i / dimension].measure);
     return compliance;
   }
 

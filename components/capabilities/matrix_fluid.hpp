@@ -33,7 +33,7 @@ class MatrixWalls {
   /// Input: lambda of Eq. 9 of the paper for each wall, m/s, the flux from the fracture into the matrix.
   virtual Field& wall_flux() = 0;
   /// Whether fluid can flow in the matrix.
-  virtual bool lets_fluid_through() const = 0;
+  virtual bool is_permeable() const = 0;
   /// tr p, the pressure at each wall, Pa.
   virtual const LinearExpression& wall_pressure() const = 0;
 };

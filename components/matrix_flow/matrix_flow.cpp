@@ -231,7 +231,7 @@ void MatrixFlow::use_operators() {
   // The flux out of the rock through a wall is −lambda times its length.
   std::vector<Triplet> entries;
   for (int w = 0; w < mesh_.wall_count(); ++w)
-    entries.emplace_back(mesh_.wall_face(w), w, -mesh_.face_length[mesh_.wall_face(w)]);
+    entries.emplace_back(mesh_.wall_face(w), w, -mesh_.face_measure[mesh_.wall_face(w)]);
   SparseMatrix boundary_of_wall_flux(mesh_.face_count(), mesh_.wall_count());
   boundary_of_wall_flux.setFromTriplets(entries.begin(), entries.end());
   flux_of_wall_flux_ = operators_.flux_boundary * boundary_of_wall_flux;
@@ -251,7 +251,7 @@ void MatrixFlow::use_storage() {
   capacity_version_ = storage_.version();
   SPREKK_ASSERT(storage_.values().size() == mesh_.cell_count(), storage_.values().size(), mesh_.cell_count());
   SPREKK_ASSERT(storage_.values().size() == 0 || storage_.values().minCoeff() >= 0, storage_.values().minCoeff());
-  capacity_ = storage_.values().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_area.data(), mesh_.cell_count()));
+  capacity_ = storage_.values().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()));
   capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
 }
 
@@ -302,7 +302,7 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
     } else if (side.pressure) {
       boundary_values_[f] = value_in_step(*side.pressure, place, step);
     }
-    if (side.flux) boundary_values_[f] = value_in_step(*side.flux, place, step) * mesh_.face_length[f];
+    if (side.flux) boundary_values_[f] = value_in_step(*side.flux, place, step) * mesh_.face_measure[f];
   }
 }
 
@@ -326,7 +326,7 @@ void MatrixFlow::evaluate_sources(const StepTime& step) {
       const auto density = [&](const Point& at) {
         return value_in_step(options_.source, {at, mesh_.cell_region[c], 0}, step);
       };
-      source_[c] = mesh_.cell_area[c] *
+      source_[c] = mesh_.cell_measure[c] *
                    (options_.source.depends_on_space() ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
     }
   for (const auto& [name, well] : options_.wells) {
@@ -404,7 +404,7 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
   const Vector& fluxes = face_fluxes();
   Vector sums = cumulative_.accepted();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    sums[3 * c] += storage_[c] * mesh_.cell_area[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
+    sums[3 * c] += storage_[c] * mesh_.cell_measure[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
     sums[3 * c + 1] += step.dt * source_[c];
   }
   for (const auto& [face, cell] : outer_faces_) sums[3 * cell + 2] += step.dt * fluxes[face];
@@ -454,7 +454,7 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {
       const double out = mesh_.face_cells[face][0] == c ? fluxes[face] : -fluxes[face];
-      velocity.segment<2>(2 * c) += out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_area[c];
+      velocity.segment<2>(2 * c) += out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
     }
   replicate(mesh_, Location::cell, 2, velocity);
   fields.push_back({name() + ".velocity", "m/s", Location::cell, 2, std::move(velocity)});

@@ -81,7 +81,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   double largest_given_pressure() const override;
   const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
   Field& wall_flux() override { return *wall_flux_; }
-  bool lets_fluid_through() const override { return !is_sealed_; }
+  bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
 
   /// The flux through every face, out of face_cells[f][0], integrated over it (m^2/s); for tests and output.

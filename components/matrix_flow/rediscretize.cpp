@@ -10,7 +10,7 @@ namespace sprekk::matrix_flow {
 namespace {
 
 /// The cells whose geometry and mobility the local problem of each node may read: its own, and near a tip those that
-/// tell the flow around it, and those of all nodes near the same tip (lossy_part).
+/// tell the flow around it, and those of all nodes near the same tip (dissipative_share).
 Adjacency cells_read(const Mesh& mesh) {
   const std::vector<int> tips = ends_nearby(mesh);
   auto around = cells_around_tips(mesh, tips);

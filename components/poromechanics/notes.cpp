@@ -38,9 +38,9 @@ void Rock::note_input(Notes& notes) const {
       for (int k = 0; k < 2; ++k) {
         Share& share = overridden[{mesh_.side_names[mesh_.face_side[f]], stress.name}][k];
         const std::optional<Data>& data = condition->*stress.data;
-        share.all += mesh_.face_length[f];
+        share.all += mesh_.face_measure[f];
         if (condition->displacement_of(k) && data && !data->is_zero())
-          share.length += mesh_.face_length[f] * std::abs(axes(k, stress.axis));
+          share.length += mesh_.face_measure[f] * std::abs(axes(k, stress.axis));
       }
   }
   const auto note = [&](const std::string& what, const Origin& where, const std::string& text) {
@@ -114,8 +114,8 @@ double Rock::largest_load() const {
       if (boundary_values_[2 * f + k] != 0) return unknown;
       total[k] = 0;
     }
-    largest = std::max(largest, initial.norm() / mesh_.face_length[f]);
-    if (mesh_.face_cells[f][1] == none) largest = std::max(largest, total.norm() / mesh_.face_length[f]);
+    largest = std::max(largest, initial.norm() / mesh_.face_measure[f]);
+    if (mesh_.face_cells[f][1] == none) largest = std::max(largest, total.norm() / mesh_.face_measure[f]);
   }
   return body_forces_.isZero(0) ? largest : unknown;
 }

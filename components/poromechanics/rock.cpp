@@ -79,7 +79,7 @@ void Rock::map_walls() {
         for (int k = 0; k < 2; ++k) {
           const double sign = side == 0 ? 1.0 : -1.0;
           const int row = 2 * cell.faces[side] + k, column = 2 * i + axis;
-          forces.emplace_back(row, column, sign * cell.length * axes[axis][k]);
+          forces.emplace_back(row, column, sign * cell.measure * axes[axis][k]);
           if (owned) jumps.emplace_back(column, row, -sign * axes[axis][k]);
         }
   }
@@ -197,7 +197,7 @@ Point Rock::initial_load(int face) const {
   const auto [one, other] = mesh_.face_cells[face];
 
   if (other == none || mesh_.cell_region[one] == mesh_.cell_region[other]) return Point::Zero();
-  return mesh_.face_length[face] * (initial_traction(face, 1) - initial_traction(face, 0));
+  return mesh_.face_measure[face] * (initial_traction(face, 1) - initial_traction(face, 0));
 }
 
 bool Rock::depends_on_time() const {
@@ -218,7 +218,7 @@ void Rock::evaluate_data(const StepTime& step) {
   boundary_values_ = Vector::Zero(2 * mesh_.face_count());
   initial_forces_ = Vector::Zero(2 * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
-    const double length = mesh_.face_length[f];
+    const double length = mesh_.face_measure[f];
     const Point initial = initial_traction(f, 0);
     initial_forces_.segment<2>(2 * f) = length * initial;
     if (mesh_.face_cells[f][1] != none) {
@@ -249,7 +249,7 @@ void Rock::evaluate_data(const StepTime& step) {
              value_in_step(options_.rock_density, place, step) * value_in_step(options_.gravity, place, step);
     };
     body_forces_.segment<2>(2 * c) =
-        mesh_.cell_area[c] * (vary ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
+        mesh_.cell_measure[c] * (vary ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
   }
 }
 
@@ -297,7 +297,7 @@ Vector Rock::face_forces() const {
   for (const Load& load : loads_)
     forces += operators_.force_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
   for (int f = 0; f < mesh_.face_count(); ++f)
-    forces.segment<2>(2 * f) += mesh_.face_length[f] * initial_traction(f, 0);
+    forces.segment<2>(2 * f) += mesh_.face_measure[f] * initial_traction(f, 0);
   return forces;
 }
 
@@ -357,10 +357,10 @@ void Rock::output(std::vector<OutputField>& fields) const {
     for (const int face : mesh_.cell_faces[c]) {
       const double sign = mesh_.face_cells[face][0] == c ? 1 : -1;
       const Point force = sign * forces.segment<2>(2 * face);
-      const Point arm = (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_area[c];
+      const Point arm = (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
       stress.segment<3>(3 * c) +=
           Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0])) +
-          sign / mesh_.cell_area[c] * moments.segment<3>(3 * face);
+          sign / mesh_.cell_measure[c] * moments.segment<3>(3 * face);
     }
   replicate(mesh_, Location::cell, 3, stress);
   fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, 3, std::move(stress)});

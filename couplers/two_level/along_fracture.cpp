@@ -11,8 +11,8 @@ AlongFracture::AlongFracture(const Mesh& mesh, int fracture) {
   double length = 0;
   for (int i = all.first_cell; i < all.first_cell + all.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
-    cells_.push_back({i, length, length + cell.length, is_straight_on(mesh, i), cell, {}});
-    length += cell.length;
+    cells_.push_back({i, length, length + cell.measure, is_straight_on(mesh, i), cell, {}});
+    length += cell.measure;
   }
   for (const Junction& junction : mesh.junctions)
     for (const int i : junction.cells) {

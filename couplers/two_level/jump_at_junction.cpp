@@ -14,7 +14,7 @@ JumpAtJunction::JumpAtJunction(const Mesh& mesh, const Junction& junction) {
     const int behind = leads_here ? index - 1 : index + 1;
     if (leads_here ? is_straight_on(mesh, behind) : is_straight_on(mesh, index)) {
       arm.behind = behind;
-      arm.share = cell.length / (cell.length + mesh.fracture_cells[behind].length);
+      arm.share = cell.measure / (cell.measure + mesh.fracture_cells[behind].measure);
     }
     arms_.push_back(arm);
   }

@@ -18,8 +18,8 @@ NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from
     std::vector<std::pair<int, Point>> sources;  // cells first, then faces
     if (from == From::mean_of_cells) {
       double area = 0;
-      for (const int cell : mesh.node_cells[node]) area += mesh.cell_area[cell];
-      for (const int cell : mesh.node_cells[node]) cells.emplace_back(node, cell, mesh.cell_area[cell] / area);
+      for (const int cell : mesh.node_cells[node]) area += mesh.cell_measure[cell];
+      for (const int cell : mesh.node_cells[node]) cells.emplace_back(node, cell, mesh.cell_measure[cell] / area);
       continue;
     }
     for (const int cell : mesh.node_cells[node]) sources.emplace_back(cell, mesh.cell_center[cell]);

@@ -8,9 +8,9 @@
 
 namespace sprekk {
 
-Assembly::Assembly(std::vector<const Field*> unknowns, Want want, Products* products)
+Assembly::Assembly(std::vector<const Field*> unknowns, Request request, Products* products)
     : unknowns_(std::move(unknowns)),
-      want_(want),
+      request_(request),
       products_(products != nullptr ? products : &own_products_),
       balances_(unknowns_.size()) {
   for (const Field* field : unknowns_) {

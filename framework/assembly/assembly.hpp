@@ -21,15 +21,15 @@ namespace sprekk {
 class Assembly {
  public:
   /// Whether the blocks of the Jacobian are kept, or the residual alone.
-  enum class Want { residual, residual_and_derivatives };
+  enum class Request { residual, residual_and_derivatives };
 
   /// The equation that determines a field is named after the field: row i of the equation is that of value i of the
   /// field. `products`: matrix-vector products that are kept from one assembly to the next; without it, products live
   /// as long as this assembly.
-  Assembly(std::vector<const Field*> unknowns, Want want, Products* products = nullptr);
+  Assembly(std::vector<const Field*> unknowns, Request request, Products* products = nullptr);
 
   bool has_row(const Field& row) const { return index_.count(&row) > 0; }
-  bool wants_derivatives() const { return want_ == Want::residual_and_derivatives; }
+  bool wants_derivatives() const { return request_ == Request::residual_and_derivatives; }
 
   /// residual(row) += values.
   void add(const Field& row, const Vector& values);
@@ -112,7 +112,7 @@ class Assembly {
                   const Vector* weights, const Operator* kept);
 
   std::vector<const Field*> unknowns_;
-  Want want_;
+  Request request_;
   Products own_products_;
   Products* products_;
   std::map<const Field*, int> index_;

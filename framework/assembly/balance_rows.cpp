@@ -9,13 +9,13 @@ void BalanceRows::store(const Vector& amounts, double largest) {
   SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
   assembly_.add(row_, amounts);
   if (largest > 0) assembly_.compare_round_off(row_, largest);
-  turn_over(amounts);
+  add_turnover(amounts);
 }
 
 void BalanceRows::supply(const Vector& amounts) {
   SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
   assembly_.add(row_, -amounts);
-  turn_over(amounts);
+  add_turnover(amounts);
 }
 
 void BalanceRows::exchange(const Vector& outflow, const Vector& leaving, double largest) {
@@ -24,12 +24,12 @@ void BalanceRows::exchange(const Vector& outflow, const Vector& leaving, double 
   if (unknown_ < 0) return;
   assembly_.add(unknown_, outflow, leaving);
   assembly_.compare_round_off_of_rows(unknown_, largest);
-  turn_over(leaving);
+  add_turnover(leaving);
 }
 
-void BalanceRows::turn_over(const Vector& amounts) {
+void BalanceRows::add_turnover(const Vector& amounts) {
   SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
-  if (unknown_ >= 0) assembly_.balances_.turn_over(unknown_, amounts);
+  if (unknown_ >= 0) assembly_.balances_.add_turnover(unknown_, amounts);
 }
 
 }  // namespace sprekk

@@ -34,7 +34,7 @@ class BalanceRows {
   void exchange(const Vector& outflow, const Vector& leaving, double largest = 0);
   /// Adds to the turnover the amounts that other terms of these rows (by Assembly::linear, say) store, bring in or let
   /// out; their sign does not matter.
-  void turn_over(const Vector& amounts);
+  void add_turnover(const Vector& amounts);
 
  private:
   friend class Assembly;

@@ -31,23 +31,23 @@ void for_entries(const Assembly::Block& block, const SparseMatrix& entries, cons
 
 }  // namespace
 
-bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_answered) {
+bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_coupled) {
   constexpr double weak = 1e-6;
   for (const Assembly::Fixed& fixed : assembly.fixed())
     if (quantity.has(fixed.unknown)) return false;
   double exchanged = 0;
-  bool is_answered = false;
+  bool is_coupled = false;
   for (const Assembly::Block& block : assembly.blocks()) {
     if (!quantity.has(block.row)) continue;
     if (quantity.has(block.column)) {
       if (block.largest_exchange > 0) exchanged = std::max(exchanged, largest_weight(block) * block.largest_exchange);
     } else if (is_bulk(assembly.unknowns()[block.column]->spec().role.kind())) {
       const double* values = block.matrix->valuePtr();
-      is_answered =
-          is_answered || std::any_of(values, values + block.matrix->nonZeros(), [](double v) { return v != 0; });
+      is_coupled =
+          is_coupled || std::any_of(values, values + block.matrix->nonZeros(), [](double v) { return v != 0; });
     }
   }
-  if (!also_answered && parallel::any(is_answered)) return false;
+  if (!also_coupled && parallel::any(is_coupled)) return false;
   exchanged = parallel::max(exchanged);
   if (exchanged == 0) return false;
   double held = 0;

@@ -11,10 +11,10 @@ namespace sprekk {
 /// Whether the balances of a quantity are near-singular for a constant: whether the derivatives without exchanges (the
 /// sum of their absolute entries) are at most 1e-6 of the largest exchange. Round-off of the rows then hides what holds
 /// the constant; the sum of the rows without exchanges has it. Where other unknowns of the bulk respond to the
-/// constant, how much these hold is known only with the solution: there `also_answered` decides, which a caller sets
+/// constant, how much these hold is known only with the solution: there `also_coupled` decides, which a caller sets
 /// that has seen the constant lost. Never true where values are fixed in place of balances. Collective; needs the
 /// derivatives.
-bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_answered = false);
+bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_coupled = false);
 
 /// A row of the Jacobian that is the sum of all rows of a quantity's balances.
 struct SumRow {
@@ -42,11 +42,11 @@ class BalanceSums {
   bool are_used = false;
   /// Whether sums are also used where other unknowns of the bulk respond to the constant mode. The row of such a sum
   /// has entries in the columns of all these unknowns.
-  bool are_used_where_answered = false;
+  bool are_used_where_coupled = false;
 
   /// Whether the sum of these balances takes the place of one of them. Collective.
   bool replace_a_row(const Assembly& assembly, const Balances::Quantity& quantity) const {
-    return are_used && is_weak(assembly, quantity, are_used_where_answered);
+    return are_used && is_weak(assembly, quantity, are_used_where_coupled);
   }
   /// Makes the system that `with_sums` returns from the `plain` one of an assembly. Collective.
   void put_into(const LinearSystem& plain, const Assembly& assembly, const std::vector<std::vector<char>>& owned,

@@ -26,7 +26,7 @@ void Balances::add(int unknown, const Vector& values) {
   rows.round_off_base = std::max(rows.round_off_base, size);
 }
 
-void Balances::turn_over(int unknown, const Vector& amounts) {
+void Balances::add_turnover(int unknown, const Vector& amounts) {
   SPREKK_EXPECT(!are_rows_of(unknown) || amounts.size() == of_[unknown].turnover.size(), amounts.size());
   if (are_rows_of(unknown)) of_[unknown].turnover += amounts.cwiseAbs();
 }

@@ -31,7 +31,7 @@ class Balances {
 
   // These add to the balances of an unknown; without effect where its rows are no balances.
   void add(int unknown, const Vector& values);
-  void turn_over(int unknown, const Vector& amounts);
+  void add_turnover(int unknown, const Vector& amounts);
   void compare_round_off(int unknown, double largest);
 
   const std::vector<Quantity>& quantities() const { return quantities_; }

@@ -216,9 +216,9 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
   return sums_.with_sums(system_);
 }
 
-void BlockSystem::use_answered_sums(bool wanted) {
-  if (sums_.are_used_where_answered == wanted) return;
-  sums_.are_used_where_answered = wanted;
+void BlockSystem::use_coupled_sums(bool wanted) {
+  if (sums_.are_used_where_coupled == wanted) return;
+  sums_.are_used_where_coupled = wanted;
   system_.number = 0;  // the last matrix is not what the next is to be, though its blocks may be the same
 }
 

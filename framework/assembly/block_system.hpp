@@ -29,7 +29,7 @@ class BlockSystem {
   /// Sums of balances in the place of one of them, where that is allowed and needed.
   const BalanceSums& sums() const { return sums_; }
   void use_sums(bool wanted) { sums_.are_used = wanted; }
-  void use_answered_sums(bool wanted);
+  void use_coupled_sums(bool wanted);
   /// The sum over all processes of the residuals of balances, without the round-off of what rows exchange. Collective.
   double residual_of_sum(const Assembly& assembly, int unknown) const {
     return sum_of_residuals(assembly, unknown, owned_[unknown]);

@@ -43,12 +43,12 @@ struct Dependence {
 /// start).
 using Stabilization = std::map<const Field*, Vector>;
 
-/// How parts support the search of Newton's method. `freely`: the first attempt, with all shortcuts that make most
-/// steps quick. `carefully`: an attempt after a failure, without shortcuts. `in_pieces`: the discrete state tells all
-/// pieces of piecewise linear terms apart, and derivatives are those of the piece that the values are in, not of a
-/// piece where the update is expected. `in_linear_pieces`: the same, and coefficients that make terms nonlinear within
-/// a piece keep the values that they have at the moment of the call.
-enum class Look { freely, carefully, in_pieces, in_linear_pieces };
+/// How the parts support an attempt of Newton's method. `with_shortcuts`: the first attempt, with all shortcuts that
+/// make most steps quick. `without_shortcuts`: an attempt after a failure. `piecewise`: the discrete state
+/// distinguishes all pieces of piecewise linear terms, and derivatives are those of the piece in which the values are,
+/// not of the piece in which the update is expected. `piecewise_linear`: the same, and coefficients that make terms
+/// nonlinear within a piece keep the values that they have at the moment of the call.
+enum class SearchMode { with_shortcuts, without_shortcuts, piecewise, piecewise_linear };
 
 /// A component or a coupler, as the schedule sees it. Repeating a step after a rewind must give the same bits: whatever
 /// a part keeps between calls is in fields, or follows from the mesh, the parameters and the time of the step.
@@ -88,15 +88,15 @@ class Part {
 
   /// Changes whenever the discrete state (which cells stick, slip, are open) does; the cycle detector reads it.
   virtual std::uint64_t discrete_state() const { return 0; }
-  /// How Newton's method looks for a solution from now on.
-  virtual void look_for_solution(Look) {}
+  /// Sets how the part supports Newton's method from now on.
+  virtual void set_search_mode(SearchMode) {}
   /// Holds the coefficients that make terms nonlinear within a piece at their values now, c_0, until they are released.
   virtual void hold_coefficients() {}
   /// Held coefficients are c_0^(1 − share) c^share from now on, c for a share of 1.
   virtual void release_coefficients(double /*share*/) {}
   /// Moves the fields to where one-sided conditions (contact) are inactive, so that the unknowns that these conditions
   /// hold are free.
-  virtual void loosen() {}
+  virtual void deactivate_conditions() {}
   /// What left its discrete state in this step by a jump, where it could have stayed, is kept in it from now on,
   /// whatever its conditions say. Returns how much there is.
   virtual int keep_states() { return 0; }

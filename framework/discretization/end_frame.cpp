@@ -13,7 +13,7 @@ EndFrame::EndFrame(const Mesh& mesh, int end) : origin_(mesh.nodes[end]) {
     if (mesh.face_fracture_cell[face] == none) continue;
     const Point ahead = (origin_ - mesh.face_center[face]).normalized();
     axes_ << ahead.x(), -ahead.y(), ahead.y(), ahead.x();
-    size_ = mesh.face_length[face];
+    size_ = mesh.face_measure[face];
     SPREKK_ASSERT(size_ > 0, end, face, size_);
   }
 }

@@ -29,7 +29,7 @@ bool is_fracture_end(const Mesh& mesh, int node) {
   return walls.are_all && walls.cells[0] != none && walls.cells[0] == walls.cells[1];
 }
 
-bool field_goes_on(const Mesh& mesh, int node, const FractureCell& last) {
+bool is_field_undisturbed(const Mesh& mesh, int node, const FractureCell& last) {
   if (mesh.node_cells[node].size() < 2) return false;
   const NodeWalls walls(mesh, node);
   return walls.are_all && std::all_of(walls.cells.begin(), walls.cells.end(), [&](int i) {
@@ -48,7 +48,8 @@ std::vector<int> nodes_around_end(const Mesh& mesh, int end, int edges) {
     for (; begin < layer_end; ++begin)
       for (const int face : mesh.node_faces[reached[begin]])
         for (const int node : mesh.face_nodes[face])
-          if (std::find(reached.begin(), reached.end(), node) == reached.end() && field_goes_on(mesh, node, last))
+          if (std::find(reached.begin(), reached.end(), node) == reached.end() &&
+              is_field_undisturbed(mesh, node, last))
             reached.push_back(node);
   }
   return reached;

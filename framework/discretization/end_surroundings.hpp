@@ -22,10 +22,10 @@ bool is_fracture_end(const Mesh& mesh, int node);
 /// Whether the singular field of an end, the end of the given fracture cell, is undisturbed at a node: not on sides,
 /// not on other fractures, not on the end's own fracture beyond a kink (10 degrees), and not where the node has one
 /// cell.
-bool field_goes_on(const Mesh& mesh, int node, const FractureCell& last);
+bool is_field_undisturbed(const Mesh& mesh, int node, const FractureCell& last);
 
 /// The nodes within so many edges of an end, the end among them, along nodes where its field is undisturbed
-/// (field_goes_on).
+/// (is_field_undisturbed).
 std::vector<int> nodes_around_end(const Mesh& mesh, int end, int edges);
 
 }  // namespace sprekk

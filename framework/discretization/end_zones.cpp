@@ -46,7 +46,7 @@ Obstacle nearest_obstacle(const Mesh& mesh, int end, const std::vector<int>& out
     const Point from_end = mesh.nodes[node] - mesh.nodes[end];
     if (from_end.squaredNorm() >= nearest.distance * nearest.distance) continue;
     const bool is_on_line = std::abs(frame.axes().col(1).dot(from_end)) <= off_line * from_end.norm();
-    const bool ends = is_fracture_end(mesh, node), goes_on = is_on_line && field_goes_on(mesh, node, last);
+    const bool ends = is_fracture_end(mesh, node), goes_on = is_on_line && is_field_undisturbed(mesh, node, last);
     if (ends || !goes_on) nearest = {from_end.norm(), ends && goes_on};
   }
   return nearest;
@@ -74,7 +74,7 @@ std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Obstacle& ob
   for (std::size_t i = 0; i < reached.size(); ++i)
     for (const int face : mesh.node_faces[reached[i].node])
       for (const int node : mesh.face_nodes[face])
-        if (const double w = weight(node); w > 0 && seen.insert(node).second && field_goes_on(mesh, node, last))
+        if (const double w = weight(node); w > 0 && seen.insert(node).second && is_field_undisturbed(mesh, node, last))
           reached.push_back({node, w});
   return reached;
 }

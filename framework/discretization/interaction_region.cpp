@@ -41,7 +41,7 @@ void InteractionRegion::assign(const Mesh& mesh, int node) {
       face_center[found] = mesh.face_center[face];
       arm[found] = face_center[found] - center;
       if (is_inner) arm[found] += (mesh.nodes[node] - face_center[found]) / 3;
-      subcell.half_face[found] = (side == 0 ? 0.5 : -0.5) * mesh.face_length[face] * mesh.face_normal[face];
+      subcell.half_face[found] = (side == 0 ? 0.5 : -0.5) * mesh.face_measure[face] * mesh.face_normal[face];
       ++found;
     }
     const double determinant = cross(arm[0], arm[1]);

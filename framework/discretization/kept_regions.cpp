@@ -46,7 +46,7 @@ class Comparison {
     for (int cell = 0; cell < after.mesh.cell_count(); ++cell) {
       const int was = change.cell[cell];
       is_same_cell_[cell] = was != none && same_bits(after.mesh.cell_center[cell], before.mesh.cell_center[was]) &&
-                            same_bits(after.mesh.cell_area[cell], before.mesh.cell_area[was]) &&
+                            same_bits(after.mesh.cell_measure[cell], before.mesh.cell_measure[was]) &&
                             has_same_faces(cell, was) && same_cell(cell, was);
     }
   }
@@ -99,7 +99,7 @@ class Comparison {
     const int wall = after.face_fracture_cell[face], old_wall = before.face_fracture_cell[was];
     if ((wall == none) != (old_wall == none) || (wall != none && change_.fracture_cell[wall] != old_wall)) return false;
     return same_bits(after.face_center[face], before.face_center[was]) &&
-           same_bits(after.face_length[face], before.face_length[was]) &&
+           same_bits(after.face_measure[face], before.face_measure[was]) &&
            same_bits(after.face_normal[face], before.face_normal[was]);
   }
 

@@ -22,7 +22,7 @@ std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
   const std::vector<int> cells(around.begin(), around.end());
   // Minimizes sum (a + b·(x_cell − x) − value)^2; the weights are the first row of the pseudo-inverse.
   Eigen::MatrixXd basis(cells.size(), 3);
-  const double scale = std::sqrt(mesh.cell_area[home]);
+  const double scale = std::sqrt(mesh.cell_measure[home]);
   SPREKK_ASSERT(scale > 0, home, scale);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Point offset = (mesh.cell_center[cells[i]] - x) / scale;

@@ -12,21 +12,21 @@ namespace sprekk {
 /// There is no default: a wrong kind of block gives the right answer, but many times slower, and nothing would tell.
 class Role {
  public:
-  static constexpr Role unknown(BlockKind kind) { return {Who::unknown, kind}; }
-  static constexpr Role input(BlockKind kind) { return {Who::input, kind}; }
-  static constexpr Role derived() { return {Who::derived, BlockKind::interface}; }
+  static constexpr Role unknown(BlockKind kind) { return {Determination::unknown, kind}; }
+  static constexpr Role input(BlockKind kind) { return {Determination::input, kind}; }
+  static constexpr Role derived() { return {Determination::derived, BlockKind::interface}; }
 
-  constexpr bool is_unknown() const { return who_ == Who::unknown; }
-  constexpr bool is_input() const { return who_ == Who::input; }
-  constexpr bool is_derived() const { return who_ == Who::derived; }
+  constexpr bool is_unknown() const { return determination_ == Determination::unknown; }
+  constexpr bool is_input() const { return determination_ == Determination::input; }
+  constexpr bool is_derived() const { return determination_ == Determination::derived; }
   /// The kind of block of an unknown or an input; without meaning for a derived field.
   constexpr BlockKind kind() const { return kind_; }
 
  private:
-  enum class Who { unknown, input, derived };
-  constexpr Role(Who who, BlockKind kind) : who_(who), kind_(kind) {}
+  enum class Determination { unknown, input, derived };
+  constexpr Role(Determination determination, BlockKind kind) : determination_(determination), kind_(kind) {}
 
-  Who who_;
+  Determination determination_;
   BlockKind kind_;
 };
 

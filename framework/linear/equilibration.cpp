@@ -23,7 +23,7 @@ bool is_near_one(const Vector& largest) {
 }
 
 // The first offending number of all processes, or -1.
-int first_of_all(int mine) {
+int first_over_processes(int mine) {
   const double smallest = -parallel::max(mine < 0 ? -HUGE_VAL : -static_cast<double>(mine));
   return std::isinf(smallest) ? -1 : static_cast<int>(smallest);
 }
@@ -64,9 +64,9 @@ std::string find_mistake(const LinearSystem& system, const SparseMatrix& a, cons
     if (largest.of_row[row] == 0) empty_row = system.rows[row];
   for (int column = static_cast<int>(a.cols()) - 1; column >= 0; --column)
     if (largest.of_column[column] == 0) empty_column = column;
-  not_a_number = first_of_all(not_a_number);
-  empty_row = first_of_all(empty_row);
-  empty_column = first_of_all(empty_column);
+  not_a_number = first_over_processes(not_a_number);
+  empty_row = first_over_processes(empty_row);
+  empty_column = first_over_processes(empty_column);
   if (not_a_number >= 0)
     return "the matrix has an entry that is not a finite number (row of " +
            describe_unknown(system.blocks, not_a_number) + ")";

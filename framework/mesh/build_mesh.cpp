@@ -277,8 +277,8 @@ class MeshBuilder {
   void place_fracture_cell(FractureCell& cell, int first, int second) {
     const Point &from = raw_.nodes[first], &to = raw_.nodes[second];
     cell.center = 0.5 * (from + to);
-    cell.length = (to - from).norm();
-    cell.tangents = (to - from) / cell.length;
+    cell.measure = (to - from).norm();
+    cell.tangents = (to - from) / cell.measure;
     cell.normal = {cell.tangents.y(), -cell.tangents.x()};
     const int edge = edges_.find(first, second);
     for (const int side : edges_.cells(edge)) {
@@ -335,18 +335,18 @@ class MeshBuilder {
 
   void compute_geometry() {
     mesh_.cell_center.reserve(mesh_.cell_count());
-    mesh_.cell_area.reserve(mesh_.cell_count());
+    mesh_.cell_measure.reserve(mesh_.cell_count());
     for (const Ring& cell : mesh_.cell_nodes) {
       mesh_.cell_center.push_back(centroid(mesh_.nodes, cell));
-      mesh_.cell_area.push_back(signed_area(mesh_.nodes, cell));
+      mesh_.cell_measure.push_back(signed_area(mesh_.nodes, cell));
     }
     mesh_.face_center.reserve(mesh_.face_count());
-    mesh_.face_length.reserve(mesh_.face_count());
+    mesh_.face_measure.reserve(mesh_.face_count());
     mesh_.face_normal.reserve(mesh_.face_count());
     for (const auto& [a, b] : mesh_.face_nodes) {
       const Point along = mesh_.nodes[b] - mesh_.nodes[a];
       mesh_.face_center.push_back(0.5 * (mesh_.nodes[a] + mesh_.nodes[b]));
-      mesh_.face_length.push_back(along.norm());
+      mesh_.face_measure.push_back(along.norm());
       mesh_.face_normal.push_back(Point(along.y(), -along.x()) / along.norm());
     }
   }

@@ -19,7 +19,7 @@ auto cell_mean(const Mesh& mesh, int cell, const Function& value) {
     const double area = ((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]) / 2;
     sum += area / 3 * (value((a + b) / 2) + value((b + c) / 2) + value((c + a) / 2));
   }
-  return Value(sum / mesh.cell_area[cell]);
+  return Value(sum / mesh.cell_measure[cell]);
 }
 
 }  // namespace sprekk

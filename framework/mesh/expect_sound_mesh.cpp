@@ -13,11 +13,11 @@ void expect_sound_lists(const Mesh& mesh) {
   const auto faces = static_cast<std::size_t>(mesh.face_count());
   SPREKK_ASSERT(mesh.cell_faces.size() == cells, mesh.cell_faces.size(), cells);
   SPREKK_ASSERT(mesh.cell_center.size() == cells, mesh.cell_center.size(), cells);
-  SPREKK_ASSERT(mesh.cell_area.size() == cells, mesh.cell_area.size(), cells);
+  SPREKK_ASSERT(mesh.cell_measure.size() == cells, mesh.cell_measure.size(), cells);
   SPREKK_ASSERT(mesh.cell_region.size() == cells, mesh.cell_region.size(), cells);
   SPREKK_ASSERT(mesh.face_cells.size() == faces, mesh.face_cells.size(), faces);
   SPREKK_ASSERT(mesh.face_center.size() == faces, mesh.face_center.size(), faces);
-  SPREKK_ASSERT(mesh.face_length.size() == faces, mesh.face_length.size(), faces);
+  SPREKK_ASSERT(mesh.face_measure.size() == faces, mesh.face_measure.size(), faces);
   SPREKK_ASSERT(mesh.face_normal.size() == faces, mesh.face_normal.size(), faces);
   SPREKK_ASSERT(mesh.face_side.size() == faces, mesh.face_side.size(), faces);
   SPREKK_ASSERT(mesh.face_fracture_cell.size() == faces, mesh.face_fracture_cell.size(), faces);
@@ -31,7 +31,7 @@ void expect_sound_cell(const Mesh& mesh, int cell) {
   SPREKK_ASSERT(nodes.size() == faces.size(), cell, nodes.size(), faces.size());
   SPREKK_ASSERT(are_indices(nodes, mesh.node_count()), cell);
   SPREKK_ASSERT(are_indices(faces, mesh.face_count()), cell);
-  SPREKK_ASSERT(mesh.cell_area[cell] > 0, cell, mesh.cell_area[cell]);
+  SPREKK_ASSERT(mesh.cell_measure[cell] > 0, cell, mesh.cell_measure[cell]);
   SPREKK_ASSERT(mesh.cell_center[cell].allFinite(), cell);
   for (int k = 0; k < nodes.size(); ++k) {
     const std::array<int, 2>& ends = mesh.face_nodes[faces[k]];
@@ -48,7 +48,7 @@ void expect_sound_face(const Mesh& mesh, int face) {
   SPREKK_ASSERT(is_index(first, mesh.cell_count()), face, first);
   SPREKK_ASSERT(second == none || is_index(second, mesh.cell_count()), face, second);
   SPREKK_ASSERT(first != second, face, first);
-  SPREKK_ASSERT(mesh.face_length[face] > 0, face, mesh.face_length[face]);
+  SPREKK_ASSERT(mesh.face_measure[face] > 0, face, mesh.face_measure[face]);
   SPREKK_ASSERT(std::abs(mesh.face_normal[face].norm() - 1) < nearly_equal, face, mesh.face_normal[face].norm());
   const double outwards = mesh.face_normal[face].dot(mesh.face_center[face] - mesh.cell_center[first]);
   SPREKK_ASSERT(outwards > 0, face, first, outwards);
@@ -65,15 +65,16 @@ void expect_sound_fracture_cell(const Mesh& mesh, int i) {
   SPREKK_ASSERT(is_index(cell.fracture, static_cast<long>(mesh.fractures.size())), i, cell.fracture);
   SPREKK_ASSERT(are_indices(cell.points, static_cast<long>(mesh.fracture_points.size())), i);
   SPREKK_ASSERT(are_indices(cell.faces, mesh.face_count()), i);
-  SPREKK_ASSERT(cell.length > 0, i, cell.length);
+  SPREKK_ASSERT(cell.measure > 0, i, cell.measure);
   SPREKK_ASSERT(std::abs(cell.normal.norm() - 1) < nearly_equal, i, cell.normal.norm());
   const Point turned(-cell.normal.y(), cell.normal.x());
   SPREKK_ASSERT((cell.tangents - turned).norm() < nearly_equal, i);
   for (const int face : cell.faces) {
     SPREKK_ASSERT(mesh.face_fracture_cell[face] == i, i, face, mesh.face_fracture_cell[face]);
-    SPREKK_ASSERT(std::abs(mesh.face_length[face] - cell.length) <= nearly_equal * cell.length, i, face, cell.length);
-    SPREKK_ASSERT((mesh.face_center[face] - cell.center).norm() <= nearly_equal * (cell.length + cell.center.norm()), i,
-                  face);
+    SPREKK_ASSERT(std::abs(mesh.face_measure[face] - cell.measure) <= nearly_equal * cell.measure, i, face,
+                  cell.measure);
+    SPREKK_ASSERT((mesh.face_center[face] - cell.center).norm() <= nearly_equal * (cell.measure + cell.center.norm()),
+                  i, face);
   }
   // The normal points from the plus to the minus side: out of the cell on the plus side.
   SPREKK_ASSERT(mesh.face_normal[cell.faces[0]].dot(cell.normal) > 0, i);

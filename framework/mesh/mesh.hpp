@@ -27,8 +27,8 @@ struct FractureCell {
   /// junction, the first point there that belongs to this cell.
   std::array<int, 2> points;
   Point center;
-  double length;
-  Point normal;  ///< unit, from the plus to the minus side
+  double measure;  ///< length, m (area in three dimensions, m^2)
+  Point normal;    ///< unit, from the plus to the minus side
   /// Unit; (normal, tangents) is a right-handed frame. In a plane from points[0] to points[1]: (-n_y, n_x).
   Tangents tangents;
   bool grown = false;  ///< whether the cell has grown during the run
@@ -73,7 +73,7 @@ struct Fracture {
   int cell_count;
 };
 
-/// All of the topology and geometry that discretizations read. Lengths in m, areas in m^2.
+/// All of the topology and geometry that discretizations read. Lengths in m.
 struct Mesh {
   // Matrix. Nodes, faces and cells are numbered from 0; nodes on fractures exist once per side (tips exist once).
   std::vector<Point> nodes;
@@ -82,12 +82,12 @@ struct Mesh {
   std::vector<std::array<int, 2>> face_nodes;  ///< counter-clockwise as seen from face_cells[f][0]
   std::vector<std::array<int, 2>> face_cells;  ///< [1] is none on the outer boundary and on walls
   std::vector<Point> cell_center;              ///< the centre of gravity
-  std::vector<double> cell_area;
+  std::vector<double> cell_measure;            ///< areas, m^2 (volumes in three dimensions, m^3)
   std::vector<Point> face_center;
-  std::vector<double> face_length;
-  std::vector<Point> face_normal;  ///< unit, out of face_cells[f][0]
-  Adjacency node_cells;            ///< the cells at a node, in ascending order
-  Adjacency node_faces;            ///< the faces at a node, in ascending order
+  std::vector<double> face_measure;  ///< lengths, m (areas in three dimensions, m^2)
+  std::vector<Point> face_normal;    ///< unit, out of face_cells[f][0]
+  Adjacency node_cells;              ///< the cells at a node, in ascending order
+  Adjacency node_faces;              ///< the faces at a node, in ascending order
 
   std::vector<int> face_side;  ///< index into side_names on the outer boundary; none inside and on walls
   std::vector<std::string> side_names;

@@ -19,7 +19,7 @@ Vector covered_parts(const MeshChange& change, const Mesh& after) {
   for (int i = 0; i < after.fracture_cell_count(); ++i)
     if (change.fracture_cell[i] == none) parts[i] = 0;
   for (const ReplacedPart& part : change.replaced_parts)
-    parts[part.cell] += part.length / after.fracture_cells[part.cell].length;
+    parts[part.cell] += part.length / after.fracture_cells[part.cell].measure;
   return parts;
 }
 

@@ -20,7 +20,7 @@ struct Stretch {
   double from, to;
 };
 
-double way_between(const Stretch& a, const Stretch& b) { return std::max({0.0, b.from - a.to, a.from - b.to}); }
+double path_between(const Stretch& a, const Stretch& b) { return std::max({0.0, b.from - a.to, a.from - b.to}); }
 
 /// A place where a fracture touches another fracture, through which a way leads to another line.
 struct Joint {
@@ -83,13 +83,13 @@ class Search {
     // The narrowest gaps first: most others then need no smaller edges.
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.gap < b.gap; });
     for (const auto& [gap, one, other] : pairs) {
-      look_along(lines_[one], lines_[other]);
-      look_along(lines_[other], lines_[one]);
+      find_gaps_along(lines_[one], lines_[other]);
+      find_gaps_along(lines_[other], lines_[one]);
     }
   }
 
  private:
-  void look_along(const Line& line, const Line& other) {
+  void find_gaps_along(const Line& line, const Line& other) {
     const std::vector<Joint> joints = joints_between(line, other);
     divide(line, {0, 1}, other, joints);
   }
@@ -102,15 +102,15 @@ class Search {
     for (const auto& [next, there] : touching_) {
       const bool leads = fixed.fracture == none ? there == &fixed : there->fracture == fixed.fracture;
       if (next->fracture != of_fracture.fracture || !leads) continue;
-      joints.push_back({next->stretch, fixed.fracture == none ? 0 : way_between(there->stretch, fixed.stretch)});
+      joints.push_back({next->stretch, fixed.fracture == none ? 0 : path_between(there->stretch, fixed.stretch)});
     }
     return joints;
   }
 
   /// Infinite without joints.
-  static double way_to(const std::vector<Joint>& joints, const Stretch& stretch) {
+  static double path_to(const std::vector<Joint>& joints, const Stretch& stretch) {
     double way = std::numeric_limits<double>::infinity();
-    for (const Joint& joint : joints) way = std::min(way, way_between(stretch, joint.at) + joint.beyond);
+    for (const Joint& joint : joints) way = std::min(way, path_between(stretch, joint.at) + joint.beyond);
     return way;
   }
 
@@ -122,7 +122,7 @@ class Search {
     const double half = 0.5 * (range.from + range.to);
     const Segment part{at(range.from), at(range.to)};
     const double gap = distance(part, other.segment), length = part.length();
-    const auto [shortest_way, longest_way] = way_along(line, range, other, joints);
+    const auto [shortest_way, longest_way] = paths_along(line, range, other, joints);
     if (longest_way < least_detour * gap) return;
     double wanted = 0, widest = 0;  // the distance from a segment is convex along a line: widest at an end
     bool is_narrow = false;
@@ -147,11 +147,11 @@ class Search {
 
   /// The length of the way along the fractures from a part of one line to another line: the shortest, and a bound for
   /// the longest.
-  static Stretch way_along(const Line& line, const Stretch& range, const Line& other,
-                           const std::vector<Joint>& joints) {
+  static Stretch paths_along(const Line& line, const Stretch& range, const Line& other,
+                             const std::vector<Joint>& joints) {
     const auto at = [&](double t) { return line.stretch.from + t * (line.stretch.to - line.stretch.from); };
     const Stretch part = line.fracture == none ? other.stretch : Stretch{at(range.from), at(range.to)};
-    const double way = way_to(joints, part);
+    const double way = path_to(joints, part);
     return {way, line.fracture == none ? way : way + part.to - part.from};
   }
 

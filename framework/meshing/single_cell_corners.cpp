@@ -49,7 +49,7 @@ class Pass {
     }
   }
 
-  int cure() {
+  int remove_all() {
     int cured = 0;
     const int count = static_cast<int>(is_stale_.size());
     for (int triangle = 0; triangle < count; ++triangle) {
@@ -69,7 +69,7 @@ class Pass {
       if (mesh_.cells[neighbour].size() == 4) {
         halve(triangle, neighbour, a, b, c);
       } else {
-        cure({triangle, neighbour, a, b, c, node_opposite(mesh_, neighbour, a, c), barriers == 0});
+        remove({triangle, neighbour, a, b, c, node_opposite(mesh_, neighbour, a, c), barriers == 0});
       }
       is_stale_[triangle] = is_stale_[neighbour] = true;
       ++cured;
@@ -100,7 +100,7 @@ class Pass {
     return none;
   }
 
-  void cure(const Quadrilateral& q) {
+  void remove(const Quadrilateral& q) {
     const Point &a = mesh_.nodes[q.a], &b = mesh_.nodes[q.b], &c = mesh_.nodes[q.c], &d = mesh_.nodes[q.d];
     const Point m = 0.5 * (a + c);
     const double flipped = std::min(smallest_angle(a, b, d), smallest_angle(b, c, d));
@@ -168,7 +168,7 @@ int avoid_single_cell_corners(RawMesh& mesh) {
   turn_counter_clockwise(mesh);
   int cured = 0;
   for (;;) {
-    const int now = Pass(mesh).cure();
+    const int now = Pass(mesh).remove_all();
     if (now == 0) return cured;
     cured += now;
   }

@@ -72,7 +72,7 @@ std::optional<RawMesh::Chain> follow(const Grid& grid, const FractureGeometry& f
 }
 
 /// The first fracture that leaves the edges of the grid, or none.
-int first_astray(const Grid& grid, const Geometry& geometry) {
+int first_point_off_grid(const Grid& grid, const Geometry& geometry) {
   for (std::size_t i = 0; i < geometry.fractures.size(); ++i) {
     if (!follow(grid, geometry.fractures[i])) return static_cast<int>(i);
   }
@@ -87,10 +87,10 @@ Grid choose_grid(const Geometry& geometry, const MeshOptions& options) {
     grid.cells[axis] =
         std::max(1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - rounding)));
   }
-  const int astray = first_astray(grid, geometry);
+  const int astray = first_point_off_grid(grid, geometry);
   if (astray == none) return grid;
   grid.parity = 1;
-  if (first_astray(grid, geometry) == none) return grid;
+  if (first_point_off_grid(grid, geometry) == none) return grid;
   const FractureGeometry& fracture = geometry.fractures[astray];
   throw InputError(fracture.origin, "fracture '" + fracture.name + "' does not follow the structured mesh",
                    "with " + std::to_string(grid.cells[0]) + " x " + std::to_string(grid.cells[1]) +

@@ -108,7 +108,7 @@ void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
     grown.push_back(cell.grown);
     topology.insert(topology.end(), {cell.fracture, cell.faces[0], cell.faces[1], cell.points[0], cell.points[1]});
     append(geometry, cell.center);
-    geometry.push_back(cell.length);
+    geometry.push_back(cell.measure);
     append(geometry, cell.normal);
     append(geometry, cell.tangents);
   }
@@ -186,9 +186,9 @@ void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
 void require_consistent(const Mesh& mesh) {
   const std::size_t cells = mesh.cell_nodes.size(), faces = mesh.face_nodes.size(), nodes = mesh.nodes.size();
   const bool is_consistent =
-      mesh.cell_faces.size() == cells && mesh.cell_center.size() == cells && mesh.cell_area.size() == cells &&
+      mesh.cell_faces.size() == cells && mesh.cell_center.size() == cells && mesh.cell_measure.size() == cells &&
       mesh.cell_region.size() == cells && mesh.cell_rank.size() == cells && mesh.face_cells.size() == faces &&
-      mesh.face_center.size() == faces && mesh.face_length.size() == faces && mesh.face_normal.size() == faces &&
+      mesh.face_center.size() == faces && mesh.face_measure.size() == faces && mesh.face_normal.size() == faces &&
       mesh.face_side.size() == faces && mesh.face_fracture_cell.size() == faces &&
       mesh.node_cells.size() == static_cast<int>(nodes) && mesh.node_faces.size() == static_cast<int>(nodes);
   if (!is_consistent) throw Hdf5Error("the arrays of the mesh contradict one another");
@@ -203,9 +203,9 @@ void write_mesh(Hdf5Writer& file, const Mesh& mesh) {
   file.integers("mesh/face_nodes", values(mesh.face_nodes));
   file.integers("mesh/face_cells", values(mesh.face_cells));
   file.doubles("mesh/cell_center", values(mesh.cell_center));
-  file.doubles("mesh/cell_area", mesh.cell_area);
+  file.doubles("mesh/cell_area", mesh.cell_measure);
   file.doubles("mesh/face_center", values(mesh.face_center));
-  file.doubles("mesh/face_length", mesh.face_length);
+  file.doubles("mesh/face_length", mesh.face_measure);
   file.doubles("mesh/face_normal", values(mesh.face_normal));
   write_adjacency(file, "mesh/node_cells", mesh.node_cells);
   write_adjacency(file, "mesh/node_faces", mesh.node_faces);
@@ -227,9 +227,9 @@ Mesh read_mesh(const Hdf5Reader& file) {
   mesh.face_nodes = read_lists<2>(file, "mesh/face_nodes");
   mesh.face_cells = read_lists<2>(file, "mesh/face_cells");
   mesh.cell_center = read_points(file, "mesh/cell_center");
-  mesh.cell_area = file.doubles("mesh/cell_area");
+  mesh.cell_measure = file.doubles("mesh/cell_area");
   mesh.face_center = read_points(file, "mesh/face_center");
-  mesh.face_length = file.doubles("mesh/face_length");
+  mesh.face_measure = file.doubles("mesh/face_length");
   mesh.face_normal = read_points(file, "mesh/face_normal");
   mesh.node_cells = read_adjacency(file, "mesh/node_cells");
   mesh.node_faces = read_adjacency(file, "mesh/node_faces");

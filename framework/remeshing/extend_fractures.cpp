@@ -148,7 +148,7 @@ class Growth {
     int next_new = 0;
     for (int cell = 0; cell < mesh.cell_count(); ++cell) {
       mesh.cell_rank[cell] = mesh_.cell_rank[ancestor(change, cell, next_new)];
-      if (change.cell[cell] != none) areas.emplace_back(cell, change.cell[cell], mesh.cell_area[cell]);
+      if (change.cell[cell] != none) areas.emplace_back(cell, change.cell[cell], mesh.cell_measure[cell]);
     }
     change.overlap.resize(mesh.cell_count(), mesh_.cell_count());
     change.overlap.setFromTriplets(areas.begin(), areas.end());

@@ -36,7 +36,7 @@ class ReplacedCells {
         refuse(Reason::not_replaceable, mesh_.fracture_cells[cell].center, "would close", "it has not grown there");
       if (point.kind == FracturePoint::Kind::junction)
         refuse(Reason::not_replaceable, point.position, "would close", "another fracture meets it there");
-      replaced_length += mesh_.fracture_cells[cell].length;
+      replaced_length += mesh_.fracture_cells[cell].measure;
     }
     check_length(replaced_length);
     return cells_;

@@ -148,7 +148,7 @@ MeshChange change_of(const Mesh& before, const GrownMesh& grown, const Mesh& mes
     areas.emplace_back(change.new_cells[i], change.removed_cells[j], area);
   });
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
-    if (change.cell[cell] != none) areas.emplace_back(cell, change.cell[cell], mesh.cell_area[cell]);
+    if (change.cell[cell] != none) areas.emplace_back(cell, change.cell[cell], mesh.cell_measure[cell]);
   change.overlap.resize(mesh.cell_count(), before.cell_count());
   change.overlap.setFromTriplets(areas.begin(), areas.end());
   return change;

@@ -60,7 +60,7 @@ class Placement {
     return {merged_[mesh_.face_nodes[face][0]], merged_[mesh_.face_nodes[face][1]]};
   }
   Segment segment(int face) const { return {at(ends(face)[0]), at(ends(face)[1])}; }
-  double snap(int face) const { return interface_snap * std::min(size_, mesh_.face_length[face]); }
+  double snap(int face) const { return interface_snap * std::min(size_, mesh_.face_measure[face]); }
 
   bool put_end_on_boundary(int& end) {
     for (int face = 0; face < mesh_.face_count(); ++face) {
@@ -189,7 +189,7 @@ class Placement {
       if (nodes[0] == path.back() || nodes[1] == path.back()) is_joined[cell.fracture] = true;
     }
     for (const FractureCell& cell : mesh_.fracture_cells) {
-      if (cell.fracture != fracture && !is_joined[cell.fracture]) add(segment(cell.faces[0]), cell.length);
+      if (cell.fracture != fracture && !is_joined[cell.fracture]) add(segment(cell.faces[0]), cell.measure);
     }
     return near;
   }

@@ -9,9 +9,9 @@ void add_replaced_parts(const Mesh& old, const std::vector<int>& replaced, const
   SPREKK_EXPECT(replaced.empty() || !path.empty(), replaced.size());
   constexpr double round_off = 1e-12;  // of a cell's length
   std::size_t next = 0;
-  double way = 0, end_of_path_cell = path.empty() ? 0 : mesh.fracture_cells[path[0]].length;  // m, from the anchor
+  double way = 0, end_of_path_cell = path.empty() ? 0 : mesh.fracture_cells[path[0]].measure;  // m, from the anchor
   for (const int old_cell : replaced) {
-    const double length = old.fracture_cells[old_cell].length;
+    const double length = old.fracture_cells[old_cell].measure;
     double left = 1;  // share
     while (next + 1 < path.size() && end_of_path_cell < way + (left - round_off) * length) {
       const double share = (end_of_path_cell - way) / length;
@@ -20,7 +20,7 @@ void add_replaced_parts(const Mesh& old, const std::vector<int>& replaced, const
         left -= share;
         way = end_of_path_cell;
       }
-      end_of_path_cell += mesh.fracture_cells[path[++next]].length;
+      end_of_path_cell += mesh.fracture_cells[path[++next]].measure;
     }
     change.replaced_parts.push_back({path[next], old_cell, left, left * length});
     way += left * length;

@@ -19,14 +19,14 @@ constexpr std::size_t most_fractures = 12;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// A fracture at the written times.
-struct Through {
+struct FractureHistory {
   std::vector<double> times;
   std::vector<const Grid*> grids;
   std::vector<std::vector<FracturePath>> paths;
 };
 
-std::map<int, Through> fractures_through_time(const RunResults& results) {
-  std::map<int, Through> all;
+std::map<int, FractureHistory> fracture_histories(const RunResults& results) {
+  std::map<int, FractureHistory> all;
   std::map<int, std::optional<PathOrigin>> origins;
   for (const RunResults::Written& written : results.written) {
     const Grid::Values* const number = written.fractures.find("fracture");
@@ -65,7 +65,7 @@ LineStyle time_style(std::size_t i, std::size_t count) {
   return {viridis(0.88 * fraction), ""};
 }
 
-double largest_of(const Through& through, const std::string& array) {
+double largest_of(const FractureHistory& through, const std::string& array) {
   double largest = 0;
   for (const Grid* grid : through.grids)
     if (const Grid::Values* values = grid->find(array))
@@ -74,7 +74,7 @@ double largest_of(const Through& through, const std::string& array) {
   return largest;
 }
 
-double longest_of(const Through& through) {
+double longest_of(const FractureHistory& through) {
   double longest = 0;
   for (const auto& paths : through.paths)
     for (const FracturePath& path : paths) longest = std::max({longest, std::abs(path.start), std::abs(path.end)});
@@ -82,7 +82,7 @@ double longest_of(const Through& through) {
 }
 
 /// One component of an array along the fracture at all times.
-Panel panel_along(const Through& through, const Grid::Values& sample, int component) {
+Panel panel_along(const FractureHistory& through, const Grid::Values& sample, int component) {
   const ColumnName name = column_name(sample.name);
   const DisplayUnit unit = display_unit(name.unit, largest_of(through, sample.name)),
                     length = display_unit("m", longest_of(through));
@@ -110,7 +110,7 @@ Panel panel_along(const Through& through, const Grid::Values& sample, int compon
 }
 
 /// Where the fractures run, coloured by time; those that do not grow are drawn over one another.
-Panel paths_panel(const std::map<int, Through>& all) {
+Panel paths_panel(const std::map<int, FractureHistory>& all) {
   double farthest = 0;
   for (const auto& [fracture, through] : all)
     for (const auto& paths : through.paths)
@@ -143,7 +143,7 @@ Panel paths_panel(const std::map<int, Through>& all) {
   return panel;
 }
 
-bool has_grown(const std::map<int, Through>& all) {
+bool has_grown(const std::map<int, FractureHistory>& all) {
   return std::any_of(all.begin(), all.end(), [](const auto& entry) {
     const auto& paths = entry.second.paths;
     return std::any_of(paths.begin(), paths.end(), [&](const auto& at_a_time) {
@@ -156,7 +156,7 @@ bool has_grown(const std::map<int, Through>& all) {
 }  // namespace
 
 std::string fracture_section(const RunResults& results) {
-  const std::map<int, Through> all = fractures_through_time(results);
+  const std::map<int, FractureHistory> all = fracture_histories(results);
   if (all.empty()) return "";
   const std::vector<std::string> names = fracture_names(results, static_cast<std::size_t>(all.rbegin()->first) + 1);
   std::string text;

@@ -4,7 +4,7 @@
 
 namespace sprekk {
 
-void EarlyEnd::look_at(const Model& model, const StepTime& step, const std::vector<Quantity>& quantities) {
+void EarlyEnd::check(const Model& model, const StepTime& step, const std::vector<Quantity>& quantities) {
   if (is_steady(model, step)) steady_since_ = step.start;
   has_stopped_ = stop_.is_reached(quantities);
 }

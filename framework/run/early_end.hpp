@@ -17,7 +17,7 @@ class EarlyEnd {
   EarlyEnd(const Scene& scene, const std::vector<Quantity>& quantities) : stop_(scene, quantities) {}
 
   /// Checks a step that is about to be accepted, with the quantities at its end.
-  void look_at(const Model& model, const StepTime& step, const std::vector<Quantity>& quantities);
+  void check(const Model& model, const StepTime& step, const std::vector<Quantity>& quantities);
 
   bool is_reached() const { return steady_since_ || has_stopped_; }
   std::string text() const;                          ///< "fluid_injected has reached 3 m^2", "steady since 3 h"

@@ -157,7 +157,7 @@ void Simulation::accept(const StepTime& step, int iterations) {
   state_.notes.at_time(step.end);
   for (const Part* part : model.parts()) part->note_step(state_.notes, step);
   state_.balance.note_step(model.balances(), state_.notes);
-  early_end_.look_at(model, step, quantities);
+  early_end_.check(model, step, quantities);
   const bool writes_fields = early_end_.is_reached() || output_times_.contains(step.end);
   const std::vector<OutputField> fields = writes_fields ? model.output() : std::vector<OutputField>();
   model.accept();

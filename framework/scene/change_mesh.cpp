@@ -28,7 +28,7 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
     SPREKK_ASSERT(area > 0, cell, area);
     for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) {
       const int from = static_cast<int>(entry.col());
-      const double weight = entry.value() / (old.spec().is_amount ? old_mesh.cell_area[from] : area);
+      const double weight = entry.value() / (old.spec().is_amount ? old_mesh.cell_measure[from] : area);
       values.segment(cell * components, components) += weight * old.accepted().segment(from * components, components);
     }
   }

@@ -51,9 +51,9 @@ Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& m
                      "it lives neither on cells nor on fracture cells", "choose another field");
   check_names(mesh, options);
   if (options.at)
-    weigh_point(mesh, options);
+    set_point_weights(mesh, options);
   else
-    weigh_domain(mesh, options);
+    set_domain_weights(mesh, options);
 }
 
 void Probe::check_names(const Mesh& mesh, const ProbeOptions& options) const {
@@ -73,7 +73,7 @@ void Probe::check_names(const Mesh& mesh, const ProbeOptions& options) const {
   check("region", options.region, !on_fracture, mesh.region_names);
 }
 
-void Probe::weigh_point(const Mesh& mesh, const ProbeOptions& options) {
+void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
   if (field_->spec().location == Location::fracture_cell) {
     int best = none;
     for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
@@ -85,10 +85,10 @@ void Probe::weigh_point(const Mesh& mesh, const ProbeOptions& options) {
     if (best == none)
       throw InputError(options.origin, "probe '" + name_ + "' finds no fracture", "there is none of this name");
     const double away = (mesh.fracture_cells[best].center - *options.at).norm();
-    if (away > mesh.fracture_cells[best].length)
+    if (away > mesh.fracture_cells[best].measure)
       throw InputError(options.origin, "probe '" + name_ + "' lies away from the fractures",
                        "the nearest fracture cell is " + fmt::format("{:.3g} m", away) + " away and only " +
-                           fmt::format("{:.3g} m", mesh.fracture_cells[best].length) + " long",
+                           fmt::format("{:.3g} m", mesh.fracture_cells[best].measure) + " long",
                        "choose a point on a fracture");
     weights_ = {{best, 1.0}};
     return;
@@ -99,15 +99,15 @@ void Probe::weigh_point(const Mesh& mesh, const ProbeOptions& options) {
                      "there is no cell at its position", "move it inside");
 }
 
-void Probe::weigh_domain(const Mesh& mesh, const ProbeOptions& options) {
+void Probe::set_domain_weights(const Mesh& mesh, const ProbeOptions& options) {
   if (field_->spec().location == Location::fracture_cell) {
     for (int i = 0; i < mesh.fracture_cell_count(); ++i)
       if (options.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == options.fracture)
-        weights_.emplace_back(i, mesh.fracture_cells[i].length);
+        weights_.emplace_back(i, mesh.fracture_cells[i].measure);
   } else {
     for (int c = 0; c < mesh.cell_count(); ++c)
       if (options.region.empty() || mesh.region_names[mesh.cell_region[c]] == options.region)
-        weights_.emplace_back(c, mesh.cell_area[c]);
+        weights_.emplace_back(c, mesh.cell_measure[c]);
   }
   if (weights_.empty())
     throw InputError(options.origin, "probe '" + name_ + "' covers nothing",

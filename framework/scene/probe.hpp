@@ -36,8 +36,8 @@ class Probe {
 
  private:
   void check_names(const Mesh& mesh, const ProbeOptions& options) const;
-  void weigh_point(const Mesh& mesh, const ProbeOptions& options);
-  void weigh_domain(const Mesh& mesh, const ProbeOptions& options);
+  void set_point_weights(const Mesh& mesh, const ProbeOptions& options);
+  void set_domain_weights(const Mesh& mesh, const ProbeOptions& options);
 
   std::string name_, take_;
   const Field* field_;

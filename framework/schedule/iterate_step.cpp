@@ -77,7 +77,7 @@ StepStatus IterateStep::run(const StepTime& step) {
     const StepStatus inner = inside_->run(step);
     if (!inner.converged) return {false, fmt::format("pass {}: {}", pass, inner.reason), pass};
 
-    Assembly assembly(inside_->unknowns(), Assembly::Want::residual);
+    Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
     assemble_all(assembly, parts_, step);
     check = check_residual(assembly, system_, options_.relative);
     if (log_) log_({step, "iterate", pass, check.largest, check.equation, 0, 1});

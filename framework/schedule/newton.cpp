@@ -8,12 +8,12 @@
 #include <map>
 #include <set>
 
-#include "framework/assembly/follows_iterates.hpp"
+#include "framework/assembly/iterate_dependent.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
-#include "framework/schedule/looking_so.hpp"
 #include "framework/schedule/residual_check.hpp"
+#include "framework/schedule/search_mode_guard.hpp"
 
 namespace sprekk {
 
@@ -40,9 +40,9 @@ void Newton::set_preconditioner_stabilization(const Stabilization& stabilization
 std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
   ++assemblies_;
   for (Part* part : parts_)
-    if (auto* follower = dynamic_cast<FollowsIterates*>(part)) follower->follow_iterate(unknowns_);
+    if (auto* follower = dynamic_cast<IterateDependent*>(part)) follower->observe_iterate(unknowns_);
   auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()},
-                                             Assembly::Want::residual_and_derivatives, &products_);
+                                             Assembly::Request::residual_and_derivatives, &products_);
   for (const Part* part : parts_) part->assemble(*assembly, step);
   if (stabilization_)
     for (const auto& [field, diagonal] : *stabilization_) {
@@ -166,7 +166,7 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool
   length = 1;
   for (int halvings = 0; halvings < (ask_for_descent ? for_descent : for_finite); ++halvings, length /= 2) {
     move(from, update, length);
-    const ResidualCheck check = look(step);
+    const ResidualCheck check = evaluate(step);
     const double merit = check.merit(recent_.back());
     if (check.finite && (best_length == 0 || merit < best_merit)) {
       best_merit = merit;
@@ -182,13 +182,13 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool
   }
   if (length != best_length) {
     move(from, update, best_length);
-    best = look(step);
+    best = evaluate(step);
   }
   length = best_length;
   return best;
 }
 
-ResidualCheck Newton::look(const StepTime& step) {
+ResidualCheck Newton::evaluate(const StepTime& step) {
   interruption::poll();
   assembly_ = assemble(step);
   return check_residual(*assembly_, system_, options_.residual);
@@ -199,7 +199,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   SPREKK_EXPECT(std::ranges::all_of(unknowns_, [](const Field* field) { return is_finite(field->now()); }));
   stabilization_ = &stabilization;
   products_.forget_unused();
-  system_.use_answered_sums(false);
+  system_.use_coupled_sums(false);
   start_.clear();
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
   const std::vector<Vector> start = values();
@@ -212,26 +212,26 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
 StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start) {
   state_has_changed_ = false;
   // If the system is singular, because nothing holds some unknown in the present discrete state, a further attempt
-  // starts from loosened fields (Part::loosen).
+  // starts from fields whose conditions are inactive (Part::deactivate_conditions).
   int iterations = 0;
-  const auto attempt_also_loosened = [&](Until until) {
+  const auto attempt_also_without_conditions = [&](Until until) {
     StepStatus tried = attempt(step, options_.undamped, until);
     iterations += tried.iterations;
     if (!tried.converged && was_singular_) {
       set(start);
-      for (Part* part : parts_) part->loosen();
+      for (Part* part : parts_) part->deactivate_conditions();
       tried = attempt(step, options_.undamped, until);
       iterations += tried.iterations;
     }
     tried.iterations = iterations;
     return tried;
   };
-  StepStatus status = attempt_also_loosened(Until::search);
+  StepStatus status = attempt_also_without_conditions(Until::search);
   if (status.converged) return status;
-  const LookingSo looking(Look::carefully, Look::freely, parts_);
+  const SearchModeGuard guard(SearchMode::without_shortcuts, SearchMode::with_shortcuts, parts_);
   if (was_left_) {
     set(start);
-    status = attempt_also_loosened(Until::end);
+    status = attempt_also_without_conditions(Until::end);
   }
   if (status.converged) return status;
   if (status.iterations <= 1) return status;
@@ -245,16 +245,16 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
   constexpr double much_shorter = 1.0 / 2;
   const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
   if (has_failed && step.dt > much_shorter * last_failed_path_.dt) return status;
-  for (const Look look : {Look::in_linear_pieces, Look::in_pieces}) {
+  for (const SearchMode mode : {SearchMode::piecewise_linear, SearchMode::piecewise}) {
     set(start);
-    StepStatus path = follow_path(step, look);
+    StepStatus path = follow_path(step, mode);
     status.iterations += path.iterations;
     // From the end of the path, iterations with the true coefficients, and until balances hold.
     if (path.converged) {
       const std::vector<Vector> end = values();
       path = attempt(step, options_.undamped);
       status.iterations += path.iterations;
-      if (!path.converged && look == Look::in_linear_pieces) {
+      if (!path.converged && mode == SearchMode::piecewise_linear) {
         const std::string reason = path.reason;
         set(end);
         path = release_coefficients(step, start);
@@ -275,7 +275,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
   std::uint64_t last_state = 0;
   bool factored = false, cycling = false, seeks_balance = false;
   double length = 1, last_imbalance = std::numeric_limits<double>::infinity();
-  ResidualCheck check = look(step);
+  ResidualCheck check = evaluate(step);
   recent_ = {check};
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1});
   for (int iteration = 0;; ++iteration) {
@@ -291,8 +291,8 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
       constexpr double hardly_better = 0.5;
       const bool stalls = check.imbalance > hardly_better * last_imbalance;
       last_imbalance = check.imbalance;
-      if (stalls && system_.sums().are_used && !system_.sums().are_used_where_answered)
-        system_.use_answered_sums(true);
+      if (stalls && system_.sums().are_used && !system_.sums().are_used_where_coupled)
+        system_.use_coupled_sums(true);
       else
         holds = stalls;
     }

@@ -63,7 +63,7 @@ class Newton {
   std::unique_ptr<Assembly> assemble(const StepTime& step);
   /// Assembles residual and derivatives at the current values of the fields, and checks the residual. Derivatives are
   /// always included: most states that are looked at are accepted, and derivatives of linear terms cost nothing.
-  ResidualCheck look(const StepTime& step);
+  ResidualCheck evaluate(const StepTime& step);
   std::uint64_t discrete_state() const;
   std::vector<Vector> values() const;
   void move(const std::vector<Vector>& from, const Vector& update, double length);
@@ -85,7 +85,7 @@ class Newton {
   /// Iterates, without a line search in the first `undamped` iterations.
   StepStatus attempt(const StepTime& step, int undamped, Until until = Until::end);
   /// The third attempt (path_search.cpp).
-  StepStatus follow_path(const StepTime& step, Look look);
+  StepStatus follow_path(const StepTime& step, SearchMode mode);
   /// Releases held coefficients in small shares from the end of a path, with an attempt at each share.
   StepStatus release_coefficients(const StepTime& step, const std::vector<Vector>& start);
   /// Releases the coefficients that Part::hold_coefficients holds up to `share`, and attempts to solve.

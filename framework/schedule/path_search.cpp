@@ -8,8 +8,8 @@
 #include <set>
 
 #include "framework/invariants.hpp"
-#include "framework/schedule/looking_so.hpp"
 #include "framework/schedule/newton.hpp"
+#include "framework/schedule/search_mode_guard.hpp"
 
 namespace sprekk {
 namespace {
@@ -75,14 +75,14 @@ bool Newton::is_solution(const ResidualCheck& check) {
   return report.solved && relative_size(next, check) <= options_.update;
 }
 
-StepStatus Newton::follow_path(const StepTime& step, Look how) {
+StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
   constexpr double far = 1e9;  // lengths of the update: a ray that has met no other piece meets none
-  const LookingSo looking(how, Look::carefully, parts_);
+  const SearchModeGuard guard(mode, SearchMode::without_shortcuts, parts_);
   std::set<std::uint64_t> entered;
   std::uint64_t left = 0;    // the piece that was left last
   bool has_crossed = false;  // since the last whole step
   int whole_steps = 0;
-  ResidualCheck check = look(step);
+  ResidualCheck check = evaluate(step);
   for (int iteration = 0; iteration < options_.pieces; ++iteration) {
     const auto fails = [iteration](const std::string& reason) { return StepStatus{false, reason, iteration + 1}; };
     if (!check.finite) return fails("the residual of " + check.equation + " is not finite");
@@ -94,7 +94,7 @@ StepStatus Newton::follow_path(const StepTime& step, Look how) {
     if (!report.solved) return fails("linear solver: " + report.reason);
     if (iteration == 0) {
       step_off_kinks(system, update);
-      check = look(step);
+      check = evaluate(step);
       entered.insert(discrete_state());
       continue;
     }
@@ -119,7 +119,7 @@ StepStatus Newton::follow_path(const StepTime& step, Look how) {
     }
     const double length = crossing ? crossing->behind : 1;
     move(from, update, length);
-    check = look(step);
+    check = evaluate(step);
     if (log_)
       log_({step, name_, iteration, check.largest, check.equation, relative_size(update, check),
             is_reversed ? -length : length});

@@ -82,7 +82,7 @@ Comparison::Comparison(const Study& study) : study_(study) {
 std::vector<Comparison::Row> Comparison::rows(const fs::path& folder, const std::vector<RunState>& states) const {
   std::vector<Row> rows;
   for (const RunState& state : states) {
-    const bool is_done = state.standing == RunState::Standing::done;
+    const bool is_done = state.status == RunState::Status::done;
     const CsvTable history = is_done ? history_of(folder, state) : CsvTable();
     Row row;
     for (const Figure& figure : figures_) row.figures.push_back(figure.of(history));
@@ -113,7 +113,7 @@ std::string Comparison::csv(const std::vector<Row>& rows, const std::vector<RunS
     for (const std::string& value : study_.runs[i].values) text += "," + csv_text(value);
     for (const double figure : rows[i].figures) text += "," + csv_number(figure);
     for (const double deviation : rows[i].deviations) text += "," + csv_number(deviation);
-    text += fmt::format(",{},{},{:.3f},{},{}\n", standing_text(state.standing), state.exit_code, state.seconds,
+    text += fmt::format(",{},{},{:.3f},{},{}\n", status_text(state.status), state.exit_code, state.seconds,
                         csv_text(state.program), csv_text(state.reason));
   }
   return text;
@@ -129,7 +129,7 @@ std::string Comparison::record(const std::vector<Row>& rows, const std::vector<R
       figures[figures_[k].heading()] = json_number(rows[i].figures[k]);
       if (study_.reference) deviations[figures_[k].name()] = json_number(rows[i].deviations[k]);
     }
-    Json run = {{"name", state.name},           {"values", values},          {"state", standing_text(state.standing)},
+    Json run = {{"name", state.name},           {"values", values},          {"state", status_text(state.status)},
                 {"exit_code", state.exit_code}, {"reason", state.reason},    {"seconds", state.seconds},
                 {"program", state.program},     {"identity", state.identity}};
     if (!rows.empty()) run["figures"] = figures;
@@ -153,8 +153,8 @@ std::string Comparison::picture(const fs::path& folder, const std::vector<RunSta
     std::vector<HistoryCurve> curves;
     for (std::size_t i = 0; i < states.size(); ++i) {
       const std::vector<double> values = histories[i].numbers(column);
-      const bool is_done = states[i].standing == RunState::Standing::done;
-      const std::string name = states[i].name + (is_done ? "" : " (" + standing_text(states[i].standing) + ")");
+      const bool is_done = states[i].status == RunState::Status::done;
+      const std::string name = states[i].name + (is_done ? "" : " (" + status_text(states[i].status) + ")");
       if (!values.empty()) curves.push_back({name, histories[i].numbers("time[s]"), values, line_style(int(i))});
     }
     panels.push_back(history_panel(column_name(column).quantity, column_name(column).unit, curves));

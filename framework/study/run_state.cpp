@@ -12,16 +12,16 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-constexpr std::array<std::pair<RunState::Standing, const char*>, 4> standings = {
-    {{RunState::Standing::waiting, "waiting"},
-     {RunState::Standing::done, "done"},
-     {RunState::Standing::failed, "failed"},
-     {RunState::Standing::interrupted, "interrupted"}}};
+constexpr std::array<std::pair<RunState::Status, const char*>, 4> statuses = {
+    {{RunState::Status::waiting, "waiting"},
+     {RunState::Status::done, "done"},
+     {RunState::Status::failed, "failed"},
+     {RunState::Status::interrupted, "interrupted"}}};
 
-RunState::Standing standing_of(const std::string& text) {
-  for (const auto& [standing, name] : standings)
-    if (text == name) return standing;
-  return RunState::Standing::waiting;
+RunState::Status status_of(const std::string& text) {
+  for (const auto& [status, name] : statuses)
+    if (text == name) return status;
+  return RunState::Status::waiting;
 }
 
 json read_json(const fs::path& file) {
@@ -42,9 +42,9 @@ bool is_free(const fs::path& folder) { return !fs::exists(folder) || fs::is_empt
 
 }  // namespace
 
-std::string standing_text(RunState::Standing standing) {
-  for (const auto& [value, name] : standings)
-    if (value == standing) return name;
+std::string status_text(RunState::Status status) {
+  for (const auto& [value, name] : statuses)
+    if (value == status) return name;
   return "";
 }
 
@@ -63,7 +63,7 @@ std::map<std::string, RunState> read_states(const fs::path& folder) {
       RunState state;
       state.name = run.at("name");
       state.identity = run.at("identity");
-      state.standing = standing_of(run.at("state"));
+      state.status = status_of(run.at("state"));
       state.exit_code = run.at("exit_code");
       state.reason = run.at("reason");
       state.seconds = run.at("seconds");
@@ -84,7 +84,7 @@ Action next_action(const StudyRun& run, const std::map<std::string, RunState>& r
     throw InputError("the folder " + run_folder.string() + " holds a run " +
                      (state == remembered.end() ? "that this study does not know" : "of other values") +
                      " (results are never overwritten) choose another folder with -o, or remove this one");
-  if (state->second.standing == RunState::Standing::done) return Action::keep;
+  if (state->second.status == RunState::Status::done) return Action::keep;
   // A run that came to its end while the sweep itself was killed.
   const json record = read_json(run_folder / "run.json");
   if (record.is_object() && record.value("/exit/code"_json_pointer, -1) == 0) return Action::keep;
@@ -92,11 +92,11 @@ Action next_action(const StudyRun& run, const std::map<std::string, RunState>& r
 }
 
 void record_end(RunState& state, int code, const fs::path& run_folder, const fs::path& log) {
-  using Standing = RunState::Standing;
+  using Status = RunState::Status;
   state.exit_code = code;
-  state.standing = code == static_cast<int>(ExitCode::done)          ? Standing::done
-                   : code == static_cast<int>(ExitCode::interrupted) ? Standing::interrupted
-                                                                     : Standing::failed;
+  state.status = code == static_cast<int>(ExitCode::done)          ? Status::done
+                 : code == static_cast<int>(ExitCode::interrupted) ? Status::interrupted
+                                                                   : Status::failed;
   state.reason.clear();
   const json record = read_json(run_folder / "run.json");
   const bool is_whole = record.is_object() && record.contains("exit") && record.contains("program");
@@ -104,7 +104,7 @@ void record_end(RunState& state, int code, const fs::path& run_folder, const fs:
     state.seconds += record.value("seconds", 0.0);
     state.program = record["program"].value("version", "") + " " + record["program"].value("git_commit", "");
   }
-  if (state.standing != Standing::failed) return;
+  if (state.status != Status::failed) return;
   if (code < 0)
     state.reason = std::string("ended by a signal: ") + strsignal(-code);
   else if (is_whole && record["exit"].value("code", -1) == code)

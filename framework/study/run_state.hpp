@@ -13,10 +13,10 @@ namespace sprekk {
 /// Whether a run of a study has been done, and how it ended.
 struct RunState {
   /// How far the run is.
-  enum class Standing { waiting, done, failed, interrupted };
+  enum class Status { waiting, done, failed, interrupted };
 
   std::string name, identity;
-  Standing standing = Standing::waiting;
+  Status status = Status::waiting;
   int exit_code = -1;   ///< of the run; minus the number of a signal that ended it
   std::string reason;   ///< why it failed
   double seconds = 0;   ///< wall time of all its parts
@@ -37,6 +37,6 @@ Action next_action(const StudyRun& run, const std::map<std::string, RunState>& r
 /// Sets the state of a run that has ended with `code`, from run.json in `run_folder` and from the log.
 void record_end(RunState& state, int code, const std::filesystem::path& run_folder, const std::filesystem::path& log);
 
-std::string standing_text(RunState::Standing standing);
+std::string status_text(RunState::Status status);
 
 }  // namespace sprekk

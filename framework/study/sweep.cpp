@@ -136,9 +136,9 @@ void Sweep::finish(std::size_t i, int code) {
   const double before = state.seconds;
   record_end(state, code, run_folder(i), log(i));
   const std::string seconds = duration_text(state.seconds - before);
-  const bool has_failed = state.standing == RunState::Standing::failed;
+  const bool has_failed = state.status == RunState::Status::failed;
   const std::string text =
-      fmt::format("[{}/{}] {}: {} {}", ++ended_, study_.runs.size(), state.name, standing_text(state.standing),
+      fmt::format("[{}/{}] {}: {} {}", ++ended_, study_.runs.size(), state.name, status_text(state.status),
                   has_failed ? "(" + state.reason + ")" : "after " + seconds);
   if (has_failed)
     std::cerr << text << std::endl;
@@ -158,7 +158,7 @@ void Sweep::collect_ended() {
 ExitCode Sweep::outcome(bool interrupted) const {
   if (interrupted) return ExitCode::interrupted;
   const bool is_done = std::all_of(states_.begin(), states_.end(),
-                                   [](const RunState& state) { return state.standing == RunState::Standing::done; });
+                                   [](const RunState& state) { return state.status == RunState::Status::done; });
   return is_done ? ExitCode::done : ExitCode::failed;
 }
 
@@ -176,7 +176,7 @@ ExitCode Sweep::execute() {
   for (std::size_t i = 0; i < states_.size(); ++i)
     if (actions_[i] == Action::keep) {
       ++ended_;
-      if (states_[i].standing != RunState::Standing::done) record_end(states_[i], 0, run_folder(i), log(i));
+      if (states_[i].status != RunState::Status::done) record_end(states_[i], 0, run_folder(i), log(i));
     }
   comparison_.write_record(folder_, states_);
   const std::size_t at_a_time = static_cast<std::size_t>(options_.processes > 0 ? options_.processes : host().cores);

@@ -190,7 +190,7 @@ class Mesher {
   }
 
   /// Puts large triangles beside a finished one into the queue.
-  void wake_neighbours(int t) {
+  void requeue_neighbours(int t) {
     const Delaunay::Triangle& triangle = delaunay_.triangles()[t];
     for (int k = 0; k < 3; ++k) {
       if (triangle.edges[k] != Delaunay::Edge::free) continue;
@@ -210,7 +210,7 @@ class Mesher {
       if (front == none) continue;  // until a neighbour is done
       if (!divide(entry.triangle, front)) {
         states_[entry.triangle].state = State::done;  // as good as it gets
-        wake_neighbours(entry.triangle);
+        requeue_neighbours(entry.triangle);
       }
       if (sizes_.size() > most_points) throw std::runtime_error("the wanted sizes make more than two million points");
     }
@@ -255,7 +255,7 @@ class Mesher {
     const std::vector<int> changed = delaunay_.changed();
     for (const int i : changed) rate(i);
     for (const int i : changed)
-      if (states_[i].state == State::done) wake_neighbours(i);
+      if (states_[i].state == State::done) requeue_neighbours(i);
     return true;
   }
 

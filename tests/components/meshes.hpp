@@ -135,7 +135,7 @@ inline Mesh square_with_single_corners(int n) {
 
 inline bool is_outer(const Mesh& mesh, int face) { return mesh.face_cells[face][1] == none; }
 inline bool is_wall(const Mesh& mesh, int face) { return is_outer(mesh, face) && mesh.face_side[face] == none; }
-inline Point face_vector(const Mesh& mesh, int face) { return mesh.face_length[face] * mesh.face_normal[face]; }
+inline Point face_vector(const Mesh& mesh, int face) { return mesh.face_measure[face] * mesh.face_normal[face]; }
 
 /// Sums over the faces of every cell, with the sign of the outward normal; `components` rows a face and a cell.
 inline SparseMatrix divergence(const Mesh& mesh, int components) {

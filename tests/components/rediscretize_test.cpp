@@ -276,7 +276,7 @@ TEST(Rediscretize, NoticesAnyInputThatDiffers) {
   // Geometry, one number after the other.
   const std::vector<std::function<void(Mesh&)>> shifts = {
       [&](Mesh& mesh) { mesh.cell_center[cell].x() += 1e-9; }, [&](Mesh& mesh) { mesh.face_center[face].y() += 1e-9; },
-      [&](Mesh& mesh) { mesh.face_length[face] *= 1 + 1e-9; },
+      [&](Mesh& mesh) { mesh.face_measure[face] *= 1 + 1e-9; },
       [&](Mesh& mesh) { mesh.face_normal[face] = -mesh.face_normal[face]; },
       [&](Mesh& mesh) { mesh.nodes[mesh.face_nodes[face][0]].x() += 1e-9; }};
   for (std::size_t i = 0; i < shifts.size(); ++i) {

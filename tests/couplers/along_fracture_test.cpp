@@ -45,8 +45,8 @@ std::vector<std::pair<int, double>> middles(const Mesh& mesh) {
   std::vector<std::pair<int, double>> result;
   double s = 0;
   for (int i = mesh.fractures[1].first_cell; i < mesh.fractures[1].first_cell + mesh.fractures[1].cell_count; ++i) {
-    result.emplace_back(i, s + 0.5 * mesh.fracture_cells[i].length);
-    s += mesh.fracture_cells[i].length;
+    result.emplace_back(i, s + 0.5 * mesh.fracture_cells[i].measure);
+    s += mesh.fracture_cells[i].measure;
   }
   return result;
 }
@@ -194,12 +194,12 @@ TEST(AlongFracture, JumpsTowardsAJunctionAreExactForLinearDisplacements) {
       for (int i = 0; i < mesh.fractures[f].cell_count; ++i) {
         const FractureCell& cell = mesh.fracture_cells[mesh.fractures[f].first_cell + i];
         for (const double part : {1e-9, 0.2, 0.7, 1 - 1e-9}) {
-          const Point x = cell.center + (part - 0.5) * cell.length * cell.tangents;
+          const Point x = cell.center + (part - 0.5) * cell.measure * cell.tangents;
           if ((x - where_they_cross).norm() > 0.1) continue;  // away from tips, where it vanishes
           ++looked_at;
-          EXPECT_LT((along.jump(s + part * cell.length, values) - jump_at(mesh, cell, x, is_linear)).norm(), 1e-8);
+          EXPECT_LT((along.jump(s + part * cell.measure, values) - jump_at(mesh, cell, x, is_linear)).norm(), 1e-8);
         }
-        s += cell.length;
+        s += cell.measure;
       }
     }
     EXPECT_GT(looked_at, 20);
@@ -216,14 +216,14 @@ TEST(AlongFracture, JumpsAroundAJunctionAddUpToZero) {
     const FractureCell& cell = mesh.fracture_cells[i];
     const AlongFracture along(mesh, cell.fracture);
     double s = 0;
-    for (int k = mesh.fractures[cell.fracture].first_cell; k < i; ++k) s += mesh.fracture_cells[k].length;
+    for (int k = mesh.fractures[cell.fracture].first_cell; k < i; ++k) s += mesh.fracture_cells[k].measure;
     const bool leads_there = (where_they_cross - cell.center).dot(cell.tangents) > 0;
-    const Point jump = along.jump(s + (leads_there ? 1 - 1e-13 : 1e-13) * cell.length, values);
+    const Point jump = along.jump(s + (leads_there ? 1 - 1e-13 : 1e-13) * cell.measure, values);
     // From the right of the way out of the junction to its left.
     sum += leads_there ? jump : Point(-jump);
     largest = std::max(largest, jump.norm());
     // The middle of the cell keeps its own.
-    EXPECT_LT((along.jump(s + 0.5 * cell.length, values) - global(cell, values.segment<2>(2 * i))).norm(), rounding);
+    EXPECT_LT((along.jump(s + 0.5 * cell.measure, values) - global(cell, values.segment<2>(2 * i))).norm(), rounding);
   }
   EXPECT_GT(largest, 0.1);
   EXPECT_LT(sum.norm(), 1e-11);

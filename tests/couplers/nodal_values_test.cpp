@@ -156,8 +156,8 @@ TEST(NodalValues, MeansOfCellsWeighByArea) {
       Point centroid = Point::Zero();
       double area = 0;
       for (const int cell : mesh.node_cells[node]) {
-        centroid += mesh.cell_area[cell] * mesh.cell_center[cell];
-        area += mesh.cell_area[cell];
+        centroid += mesh.cell_measure[cell] * mesh.cell_center[cell];
+        area += mesh.cell_measure[cell];
       }
       EXPECT_LT((Point(values.at<2>(i, mesh.nodes[node])) - linear(centroid / area)).norm(), rounding);
     }

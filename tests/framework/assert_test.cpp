@@ -58,13 +58,14 @@ TEST(AssertDeathTest, FiresWhereAFieldIsNoNumberWhenItIsAccepted) {
 TEST(AssertDeathTest, FiresForAMeshWhoseCellHasNoArea) {
   Mesh mesh = two_cells();
   expect_sound(mesh);
-  mesh.cell_area[1] = 0;
-  EXPECT_DEATH(expect_sound(mesh), "a broken invariant: mesh.cell_area.cell. > 0 .cell, mesh.cell_area.cell. = 1, 0");
+  mesh.cell_measure[1] = 0;
+  EXPECT_DEATH(expect_sound(mesh),
+               "a broken invariant: mesh.cell_measure.cell. > 0 .cell, mesh.cell_measure.cell. = 1, 0");
 }
 
 TEST(AssertDeathTest, FiresForWeightsOfTheWrongLength) {
   const Field field(unknown(1), 2);
-  Assembly assembly({&field}, Assembly::Want::residual);
+  Assembly assembly({&field}, Assembly::Request::residual);
   const Operator identity(diagonal_matrix(Vector::Ones(2)));
   const Vector weights = Vector::Ones(1);
   EXPECT_DEATH(assembly.linear(field, identity, field, 1, &weights), "assembly.cpp:[0-9]+: a broken precondition");

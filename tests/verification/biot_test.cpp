@@ -10,7 +10,7 @@
 namespace sprekk::testing {
 namespace {
 
-Vector areas(const Mesh& mesh) { return Eigen::Map<const Vector>(mesh.cell_area.data(), mesh.cell_count()); }
+Vector areas(const Mesh& mesh) { return Eigen::Map<const Vector>(mesh.cell_measure.data(), mesh.cell_count()); }
 
 const std::string references = std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/";
 
@@ -98,7 +98,7 @@ MandelErrors mandel_errors(const std::string& mesh, const std::vector<Override>&
   for (int c = 0; c < cells; ++c) {
     p[c] = exact.pressure(run.mesh().cell_center[c][0], run.time(), run.steps());
     u.segment<2>(2 * c) = exact.displacement(run.mesh().cell_center[c], run.time(), run.steps());
-    weights.segment<2>(2 * c).setConstant(run.mesh().cell_area[c]);
+    weights.segment<2>(2 * c).setConstant(run.mesh().cell_measure[c]);
   }
   return {relative_error(areas(run.mesh()), run.field("pore.pressure"), p),
           relative_error(weights, run.field("rock.displacement"), u)};

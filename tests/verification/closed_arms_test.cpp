@@ -44,7 +44,7 @@ TEST_P(ClosedArms, OpenLikeTheOthers) {
   double held[2] = {0, 0}, middle[2] = {0, 0};
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
     const FractureCell& cell = run.mesh().fracture_cells[i];
-    held[cell.fracture] += cell.length * jump[2 * i];
+    held[cell.fracture] += cell.measure * jump[2 * i];
     middle[cell.fracture] = std::max(middle[cell.fracture], cell.center.norm() < 0.15 ? jump[2 * i] : 0.0);
   }
   EXPECT_NEAR(held[0] + held[1], volume, 0.01 * volume);  // the rest is pressed into apertures of 0.1 um

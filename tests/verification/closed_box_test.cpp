@@ -14,9 +14,9 @@ double energy(const SceneRun& run) {
   const Mesh& mesh = run.mesh();
   double sum = 0;
   for (int c = 0; c < mesh.cell_count(); ++c)
-    sum += compressibility * porosity * mesh.cell_area[c] * std::pow(run.field("pore.pressure")[c], 2);
+    sum += compressibility * porosity * mesh.cell_measure[c] * std::pow(run.field("pore.pressure")[c], 2);
   for (int i = 0; i < mesh.fracture_cell_count(); ++i)
-    sum += compressibility * aperture * mesh.fracture_cells[i].length * std::pow(run.field("conduit.pressure")[i], 2);
+    sum += compressibility * aperture * mesh.fracture_cells[i].measure * std::pow(run.field("conduit.pressure")[i], 2);
   return sum;
 }
 

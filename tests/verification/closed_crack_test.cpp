@@ -76,8 +76,8 @@ Errors errors_of(const Crack& crack) {
     const double traction = run.field("contact.traction")[2 * i] - (normal_stress - exact.normal_drop);
     errors.traction = std::max(errors.traction, std::abs(traction) / exact.shear_drop);
     const double slip = exact.slip((cell.center - crack.center).norm());
-    difference += cell.length * std::pow(std::abs(run.field("contact.jump")[2 * i + 1]) - slip, 2);
-    norm += cell.length * slip * slip;
+    difference += cell.measure * std::pow(std::abs(run.field("contact.jump")[2 * i + 1]) - slip, 2);
+    norm += cell.measure * slip * slip;
   }
   errors.slip = std::sqrt(difference / norm);
   if (!crack.has_field) return errors;

@@ -105,11 +105,11 @@ CrackErrors crack_errors(SceneRun& run, int axis, double peak) {
     const double x = cell.center.norm();
     const double exact = peak * std::sqrt(std::max(0.0, 1 - x * x));
     const double difference = std::abs(run.field("contact.jump")[2 * i + axis]) - exact;
-    error += cell.length * difference * difference;
-    norm += cell.length * exact * exact;
+    error += cell.measure * difference * difference;
+    norm += cell.measure * exact * exact;
     if (x > 0.85) continue;
-    inner_error += cell.length * difference * difference;
-    inner_norm += cell.length * exact * exact;
+    inner_error += cell.measure * difference * difference;
+    inner_norm += cell.measure * exact * exact;
   }
   return {std::sqrt(error / norm), std::sqrt(inner_error / inner_norm)};
 }

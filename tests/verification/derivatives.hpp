@@ -39,7 +39,7 @@ inline void expect_derivatives(SceneRun& run, const std::vector<Spread>& spreads
   const auto assemble = [&](Assembly& assembly) {
     for (const Part* part : parts) part->assemble(assembly, step);
   };
-  Assembly assembly(unknowns, Assembly::Want::residual_and_derivatives);
+  Assembly assembly(unknowns, Assembly::Request::residual_and_derivatives);
   assemble(assembly);
   const int count = static_cast<int>(unknowns.size());
   for (int column = 0; column < count; ++column) {
@@ -61,7 +61,7 @@ inline void expect_derivatives(SceneRun& run, const std::vector<Spread>& spreads
         Vector moved = values;
         moved[i] += sign * h;
         field.set(moved);
-        Assembly there(unknowns, Assembly::Want::residual);
+        Assembly there(unknowns, Assembly::Request::residual);
         assemble(there);
         for (int row = 0; row < rows; ++row) differences[row].col(i) += sign / (2 * h) * there.residual(row);
       }

@@ -37,13 +37,13 @@ Errors errors(const Mode& mode, const std::string& mesh_text) {
     const Point& x = mesh.cell_center[c];
     const double y = M_PI * std::abs(x[1]);
     const double exact = std::cos(M_PI * x[0]) * (mode.a * std::cosh(y) + mode.b * std::sinh(y));
-    square += mesh.cell_area[c] * std::pow(run.field("pore.pressure")[c] - exact, 2);
-    area += mesh.cell_area[c];
+    square += mesh.cell_measure[c] * std::pow(run.field("pore.pressure")[c] - exact, 2);
+    area += mesh.cell_measure[c];
   }
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
     const double exact = mode.f * std::cos(M_PI * cell.center[0]);
-    fracture_square += cell.length * std::pow(run.field("conduit.pressure")[i] - exact, 2);
+    fracture_square += cell.measure * std::pow(run.field("conduit.pressure")[i] - exact, 2);
   }
   return {std::sqrt(square / area), std::sqrt(fracture_square)};
 }

@@ -24,7 +24,7 @@ double closed_form_k2(double fluid_pressure, double mean_pressure, double flux) 
 
 double mean_pressure(const SceneRun& run) {
   double sum = 0;
-  for (int c = 0; c < run.mesh().cell_count(); ++c) sum += run.mesh().cell_area[c] * run.field("pore.pressure")[c];
+  for (int c = 0; c < run.mesh().cell_count(); ++c) sum += run.mesh().cell_measure[c] * run.field("pore.pressure")[c];
   return sum / 4;
 }
 
@@ -233,7 +233,7 @@ TEST(WingCracks, TheChangeOfTheMeshAloneChangesNoState) {
   constexpr double alpha = 0.8, storage = 3.955e-11 + alpha * alpha / 44.4e9;  // S + alpha^2/(lambda + 2 G)
   double largest = 0;
   for (int c = 0; c < after.mesh().cell_count(); ++c)
-    largest = std::max(largest, std::abs(difference[c]) / after.mesh().cell_area[c] * alpha / storage);
+    largest = std::max(largest, std::abs(difference[c]) / after.mesh().cell_measure[c] * alpha / storage);
   EXPECT_LT(largest, 0.01 * (old.at("conduit.pressure").now().maxCoeff() - 6.9 * mega));
 }
 

@@ -185,7 +185,7 @@ Errors errors_of(const Inclusion& inclusion, double distance, double size, const
   for (int c = 0; c < run.mesh().cell_count(); ++c) {
     const Point& x = run.mesh().cell_center[c];
     if (inclusion.distance(x) < distance) continue;
-    const double off = (stress.segment<3>(3 * c) - inclusion.stress(x)).norm(), area = run.mesh().cell_area[c];
+    const double off = (stress.segment<3>(3 * c) - inclusion.stress(x)).norm(), area = run.mesh().cell_measure[c];
     error += area * off * off;
     all += area * inclusion.stress(x).squaredNorm();
     scale = std::max(scale, inclusion.stress(x).norm());

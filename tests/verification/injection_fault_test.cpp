@@ -27,7 +27,7 @@ Slip run_fault(const std::string& shear, double time) {
   SceneRun run("verification/injection_fault.yaml",
                {{"components.rock.initial_stress.xy", shear}, {"time.end", std::to_string(time) + " s"}});
   run.run();
-  Slip slip{0, 0, run.mesh().fracture_cells[0].length};
+  Slip slip{0, 0, run.mesh().fracture_cells[0].measure};
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)
     slip.at_centre = std::max(slip.at_centre, std::abs(run.field("contact.jump")[2 * i + 1]));
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)

@@ -187,9 +187,9 @@ TEST(PressurizedCross, OpensLikeTheIntegralEquation) {
       const FractureCell& cell = run.mesh().fracture_cells[i];
       const double opening = run.field("contact.jump")[2 * i], slip = run.field("contact.jump")[2 * i + 1];
       const double wanted = scale * exact.opening(cell.center.norm());
-      error += cell.length * (std::pow(opening - wanted, 2) + slip * slip);
-      norm += cell.length * wanted * wanted;
-      volume += cell.length * opening;
+      error += cell.measure * (std::pow(opening - wanted, 2) + slip * slip);
+      norm += cell.measure * wanted * wanted;
+      volume += cell.measure * opening;
       if (cell.center.norm() < 2 * size) near = std::max(near, std::abs(opening / wanted - 1));
     }
     error = std::sqrt(error / norm);
@@ -216,7 +216,7 @@ Point volumes(double size, double first, double second) {
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
     EXPECT_GT(run.field("contact.jump")[2 * i], 0);
     volume[run.mesh().fracture_cells[i].fracture] +=
-        run.mesh().fracture_cells[i].length * run.field("contact.jump")[2 * i];
+        run.mesh().fracture_cells[i].measure * run.field("contact.jump")[2 * i];
   }
   return volume;
 }

@@ -267,7 +267,7 @@ TEST(Junctions, ConductAnyAmountBetterThanTheRock) {
     }
     for (int i = 0; i < mesh.fracture_cell_count(); ++i)
       for (const int wall : {2 * i, 2 * i + 1})
-        rest[i] += mesh.fracture_cells[i].length * run.field("pore.wall_flux")[wall];
+        rest[i] += mesh.fracture_cells[i].measure * run.field("pore.wall_flux")[wall];
     EXPECT_NEAR(rest.maxCoeff(), 1, 1e-11) << transmissivity;
     EXPECT_NEAR(rest.cwiseAbs().sum(), 1, 1e-11) << transmissivity;
   }
@@ -299,7 +299,7 @@ TEST(Junctions, HaveTheDerivativesOfTheirEquations) {
   const auto assemble = [&](Assembly& assembly) {
     for (const Part* part : run.model().parts()) part->assemble(assembly, step);
   };
-  Assembly assembly(unknowns, Assembly::Want::residual_and_derivatives);
+  Assembly assembly(unknowns, Assembly::Request::residual_and_derivatives);
   assemble(assembly);
   std::vector<std::vector<Eigen::MatrixXd>> analytic(3), differences(3);
   for (int row = 0; row < 3; ++row)
@@ -321,7 +321,7 @@ TEST(Junctions, HaveTheDerivativesOfTheirEquations) {
         Vector moved = values;
         moved[i] += sign ? h : -h;
         field.set(moved);
-        Assembly there(unknowns, Assembly::Want::residual);
+        Assembly there(unknowns, Assembly::Request::residual);
         assemble(there);
         for (int row = 0; row < 2; ++row) residuals[sign].push_back(there.residual(row));
       }
@@ -357,8 +357,8 @@ double network_error(bool is_blocking, const std::string& mesh_text) {
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const Point place = squares * mesh.cell_center[c];
     const int square = static_cast<int>(place.y()) * squares + static_cast<int>(place.x());
-    mean[square] += mesh.cell_area[c] * run.field("pore.pressure")[c];
-    area[square] += mesh.cell_area[c];
+    mean[square] += mesh.cell_measure[c] * run.field("pore.pressure")[c];
+    area[square] += mesh.cell_measure[c];
   }
   double sum = 0, least = 1, most = 1;
   for (std::size_t i = 0; i < reference.size(); ++i) {

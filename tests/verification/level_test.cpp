@@ -18,7 +18,7 @@ std::string in_unit(double value, const char* unit) {
 
 double length_of_fractures(const Mesh& mesh) {
   double length = 0;
-  for (const FractureCell& cell : mesh.fracture_cells) length += cell.length;
+  for (const FractureCell& cell : mesh.fracture_cells) length += cell.measure;
   return length;
 }
 

@@ -62,7 +62,7 @@ TEST(NowhereToGo, InjectedFluidOpensTheFracture) {
     EXPECT_EQ(run.steps(), 4);
     double volume = 0, length = 0, mean = 0;
     for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
-      const double cell = run.mesh().fracture_cells[i].length;
+      const double cell = run.mesh().fracture_cells[i].measure;
       length += cell;
       volume += cell * run.field("contact.jump")[2 * i];
       mean += cell * run.field("conduit.pressure")[i];

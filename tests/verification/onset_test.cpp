@@ -33,7 +33,7 @@ Crack closed_form(double fluid_pressure, double mean_pressure, double flux) {
 
 double mean_pressure(const SceneRun& run) {
   double sum = 0;
-  for (int c = 0; c < run.mesh().cell_count(); ++c) sum += run.mesh().cell_area[c] * run.field("pore.pressure")[c];
+  for (int c = 0; c < run.mesh().cell_count(); ++c) sum += run.mesh().cell_measure[c] * run.field("pore.pressure")[c];
   return sum / 4;
 }
 
@@ -61,7 +61,7 @@ TEST(Onset, TractionsAndSlipMatchTheCrackWithBackStress) {
     run.run_until(21 * hour, [&] {
       double flux = 0;
       for (int w = 0; w < run.mesh().wall_count(); ++w)
-        flux += run.field("pore.wall_flux")[w] * run.mesh().face_length[run.mesh().wall_face(w)];
+        flux += run.field("pore.wall_flux")[w] * run.mesh().face_measure[run.mesh().wall_face(w)];
       const Crack crack = closed_form(run.quantity("fracture_pressure"), mean_pressure(run), flux);
       const int last = run.mesh().fracture_cell_count() - 1;
       for (int i = with_tips ? 0 : 1; i <= (with_tips ? last : last - 1); ++i) {

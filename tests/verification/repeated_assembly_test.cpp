@@ -6,7 +6,7 @@
 #include <set>
 
 #include "framework/assembly/assemble_all.hpp"
-#include "framework/assembly/follows_iterates.hpp"
+#include "framework/assembly/iterate_dependent.hpp"
 #include "framework/scene/registry.hpp"
 #include "tests/verification/scene_run.hpp"
 
@@ -25,7 +25,7 @@ using Terms = std::map<std::string, std::vector<double>>;
 void append(std::vector<double>& to, const Vector& values) { to.insert(to.end(), values.begin(), values.end()); }
 
 Terms terms_at(const std::vector<Part*>& parts, const std::vector<const Field*>& unknowns, const StepTime& step) {
-  Assembly assembly(unknowns, Assembly::Want::residual_and_derivatives);
+  Assembly assembly(unknowns, Assembly::Request::residual_and_derivatives);
   assemble_all(assembly, parts, step);
   Terms terms;
   for (int u = 0; u < static_cast<int>(unknowns.size()); ++u) {
@@ -83,7 +83,7 @@ TEST_P(RepeatedAssembly, GivesTheSameBits) {
     const std::vector<Vector> here = random_values(unknowns, random);
     set(here);
     for (Part* part : model.parts())
-      if (auto* follower = dynamic_cast<FollowsIterates*>(part)) follower->follow_iterate(solved);
+      if (auto* follower = dynamic_cast<IterateDependent*>(part)) follower->observe_iterate(solved);
     const Terms first = terms_at(model.parts(), unknowns, step);
     for (int other = 0; other < 4; ++other) {
       set(random_values(unknowns, random));

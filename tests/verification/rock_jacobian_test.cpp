@@ -55,7 +55,7 @@ struct Terms {
   std::vector<std::vector<Eigen::MatrixXd>> derivative;
 };
 Terms terms_of(const Part& part, const std::vector<const Field*>& unknowns, const StepTime& step) {
-  Assembly assembly(unknowns, Assembly::Want::residual_and_derivatives);
+  Assembly assembly(unknowns, Assembly::Request::residual_and_derivatives);
   part.assemble(assembly, step);
   Terms terms;
   const int count = static_cast<int>(unknowns.size());
@@ -147,7 +147,7 @@ Compliances compliances(SceneRun& run) {
     walls->wall_traction().set(state + 1e6 * Vector::Unit(state.size(), i));
     found.own[i] = -1e-6 * (walls->displacement_jump().now() - before)[i];
     walls->wall_traction().set(state);
-    found.length[i] = run.mesh().fracture_cells[i / 2].length;
+    found.length[i] = run.mesh().fracture_cells[i / 2].measure;
   }
   return found;
 }

@@ -39,8 +39,8 @@ double barrier_error(const std::string& mesh_text) {
     const std::complex<double> z(mesh.cell_center[c][0], mesh.cell_center[c][1]);
     if (std::abs(z) > 0.3) continue;
     const double size = std::abs(std::sqrt(z * z - 0.01).imag()), exact = z.imag() < 0 ? -size : size;
-    square += mesh.cell_area[c] * std::pow(run.field("pore.pressure")[c] - exact, 2);
-    exact_square += mesh.cell_area[c] * exact * exact;
+    square += mesh.cell_measure[c] * std::pow(run.field("pore.pressure")[c] - exact, 2);
+    exact_square += mesh.cell_measure[c] * exact * exact;
   }
   return std::sqrt(square / exact_square);
 }

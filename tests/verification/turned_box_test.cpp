@@ -57,7 +57,7 @@ void expect_uniform(SceneRun& run, const Tensor& gradient, const Point& at_rest)
         (Point(run.field("rock.displacement").segment<2>(2 * c)) - gradient * (mesh.cell_center[c] - at_rest)).norm(),
         1e-10 * strain.norm());
   for (int f = 0; f < mesh.face_count(); ++f) {
-    EXPECT_LT((Point(forces.segment<2>(2 * f)) / mesh.face_length[f] - stress * mesh.face_normal[f]).norm(),
+    EXPECT_LT((Point(forces.segment<2>(2 * f)) / mesh.face_measure[f] - stress * mesh.face_normal[f]).norm(),
               1e-10 * stress.norm());
     if (mesh.face_cells[f][1] == none) {
       EXPECT_LT((Point(outer.segment<2>(2 * f)) - gradient * (mesh.face_center[f] - at_rest)).norm(),

@@ -115,7 +115,7 @@ TEST(WallStiffness, IsThatOfACellOfElasticRock) {
   const Vector stiffness = part<ScaledContact>(run).given;
   const double modulus = soft.young / (1 - 0.25 * 0.25);
   for (int i = 0; i < stiffness.size(); ++i) {
-    const double per_modulus = stiffness[i] * run.mesh().fracture_cells[i / 2].length / modulus;
+    const double per_modulus = stiffness[i] * run.mesh().fracture_cells[i / 2].measure / modulus;
     EXPECT_GT(per_modulus, 0.3);
     EXPECT_LT(per_modulus, 10);
   }

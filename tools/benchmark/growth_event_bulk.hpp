@@ -36,7 +36,7 @@ struct Bulk {
 inline std::unique_ptr<Bulk> bulk_of(Model& model, const StepTime& step) {
   begin_step(model.parts(), step);
   const std::vector<const Field*> unknowns = model.schedule().unknowns();
-  Assembly assembly(unknowns, Assembly::Want::residual_and_derivatives);
+  Assembly assembly(unknowns, Assembly::Request::residual_and_derivatives);
   for (const Part* part : model.parts()) part->assemble(assembly, step);
   for (const Part* part : model.parts()) part->constrain(assembly);
   BlockSystem whole(model.mesh(), unknowns);

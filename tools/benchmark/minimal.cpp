@@ -86,7 +86,7 @@ struct Mechanics {
       conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
       if (side_of(mesh, f, "left")) conditions[f][0] = MechanicalCondition::displacement;
       if (side_of(mesh, f, "bottom")) conditions[f][1] = MechanicalCondition::displacement;
-      if (side_of(mesh, f, "top")) values[2 * f + 1] = -mesh.face_length[f];
+      if (side_of(mesh, f, "top")) values[2 * f + 1] = -mesh.face_measure[f];
     }
     const std::vector<poromechanics::Stiffness> stiffness(mesh.cell_count(), poromechanics::isotropic_stiffness(1, 1));
     poromechanics::StressOperators operators = poromechanics::discretize_mpsa(mesh, stiffness, conditions);
@@ -137,7 +137,7 @@ SparseMatrix with_diagonal(const SparseMatrix& matrix, const Vector& diagonal, d
   return SparseMatrix(sum + factor * matrix);
 }
 
-Vector areas(const Mesh& mesh) { return Eigen::Map<const Vector>(mesh.cell_area.data(), mesh.cell_count()); }
+Vector areas(const Mesh& mesh) { return Eigen::Map<const Vector>(mesh.cell_measure.data(), mesh.cell_count()); }
 
 Vector minimal_flow(const Mesh& mesh, int steps) {
   const Flow flow(mesh);

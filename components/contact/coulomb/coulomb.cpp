@@ -66,8 +66,8 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
   dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
-  fracture_length_.assign(mesh_.fractures.size(), 0);
-  for (const FractureCell& cell : mesh_.fracture_cells) fracture_length_[cell.fracture] += cell.length;
+  fracture_measure_.assign(mesh_.fractures.size(), 0);
+  for (const FractureCell& cell : mesh_.fracture_cells) fracture_measure_[cell.fracture] += cell.measure;
 }
 
 void Coulomb::evaluate_data(const StepTime& step) {
@@ -86,7 +86,8 @@ void Coulomb::set_wall_stiffness(const Vector& stiffness) {
   stiffness_of_fractures_ = stiffness;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
-    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *= cell.length / fracture_length_[cell.fracture];
+    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *=
+        cell.measure / fracture_measure_[cell.fracture];
     constexpr double at_most = 0.5;  // of that along the tangent over the wedge
     const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
     for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_}) {
@@ -139,7 +140,7 @@ Coulomb::Trial Coulomb::trial(int i) const {
   return t;
 }
 
-void Coulomb::follow_iterate(const std::vector<Field*>& unknowns) {
+void Coulomb::observe_iterate(const std::vector<Field*>& unknowns) {
   is_solved_for_ = std::find(unknowns.begin(), unknowns.end(), &traction_) != unknowns.end();
   if (follows_pieces_ || !is_solved_for_) return;
   const std::array<std::uint64_t, 2> values{traction_.version(), jump_.version()};
@@ -199,14 +200,14 @@ int Coulomb::piece(int i) const {
 }
 
 /// Opens all cells by next to nothing. The amount makes no difference: within a state the conditions are linear.
-void Coulomb::loosen() {
+void Coulomb::deactivate_conditions() {
   constexpr double opening = 1e-9;  // of the length of a cell
   Vector traction = traction_.now(), jump = jump_.now();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (is_bonded(i)) continue;
     traction.segment<dimension>(dimension * i).setZero();
     const double dilated = magnitude<dimension - 1>(tangential(jump, i)) * dilation_[i];
-    jump[dimension * i] = std::max(jump[dimension * i], dilated + opening * mesh_.fracture_cells[i].length);
+    jump[dimension * i] = std::max(jump[dimension * i], dilated + opening * mesh_.fracture_cells[i].measure);
   }
   traction_.set(std::move(traction));
   jump_.set(std::move(jump));

@@ -8,7 +8,7 @@
 
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/contact/coulomb/return_map.hpp"
-#include "framework/assembly/follows_iterates.hpp"
+#include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
@@ -45,7 +45,7 @@ struct Options {
 /// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
 /// Where friction does not hold anything there is nothing to lose, and none of this: the direction in which such a cell
 /// is about to slide at the start of a step, that of f_t = 0, is round-off.
-class Coulomb : public Component, public FractureContact, public FollowsIterates {
+class Coulomb : public Component, public FractureContact, public IterateDependent {
  public:
   Coulomb(const ComponentContext& context, const Options& options);
 
@@ -58,14 +58,14 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
   /// Cells that cover given-up ones are held meanwhile at the jump of these, with the same volume.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
-  void follow_iterate(const std::vector<Field*>& unknowns) override;
+  void observe_iterate(const std::vector<Field*>& unknowns) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   std::uint64_t discrete_state() const override;
-  void look_for_solution(Look look) override {
-    is_careful_ = look != Look::freely;
-    follows_pieces_ = is_careful_ && look != Look::carefully;
+  void set_search_mode(SearchMode mode) override {
+    is_without_shortcuts_ = mode != SearchMode::with_shortcuts;
+    follows_pieces_ = is_without_shortcuts_ && mode != SearchMode::without_shortcuts;
   }
-  void loosen() override;
+  void deactivate_conditions() override;
   /// Cells that have slid back over their asperities. That closes the fracture, which presses its walls apart and
   /// lessens their friction, so walls that slide back may find rest far away though they also rest where they were. The
   /// state in which they stick is the one that slip in small increments leads to: stick is left where the bound is
@@ -95,7 +95,7 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
-  const Vector& stiffness() const { return is_careful_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
+  const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
   struct Trial : TrialTraction<dimension - 1> {
     double gap;
     TangentialVector slip_direction;  ///< unit; d gap / d [u]_t = −tan psi of it
@@ -133,10 +133,10 @@ class Coulomb : public Component, public FractureContact, public FollowsIterates
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
   bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction
-  std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in follow_iterate
-  bool is_careful_ = false;                  ///< after Newton's method has failed
+  std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in observe_iterate
+  bool is_without_shortcuts_ = false;        ///< after Newton's method has failed
   bool follows_pieces_ = false;              ///< as they are: no guess of what lies beyond the kink
-  std::vector<double> fracture_length_;      ///< m
+  std::vector<double> fracture_measure_;     ///< m
   /// c, Pa/m, (normal, tangential) of each cell: with the tangential stiffness of the cell's walls, and with that of
   /// its whole fracture. Newton's method first uses the stiffness of the fracture, with which cells that unload
   /// together stick at once. After a failure it uses that of the walls: with the other one it may cycle between states

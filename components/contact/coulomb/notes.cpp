@@ -10,7 +10,7 @@ void Coulomb::note_step(Notes& notes, const StepTime&) const {
     double length = 0, jump = 0;
     bool all_open = true, was_in_contact = false;
     for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
-      const double cell = mesh_.fracture_cells[i].length;
+      const double cell = mesh_.fracture_cells[i].measure;
       length += cell;
       jump = std::max(jump, jump_.now().segment<dimension>(dimension * i).norm());
       all_open = all_open && state(i) == State::open;

@@ -91,7 +91,7 @@ void TipsFront::add(Tips::Tip& tip) {
   start.toughness = *tips_.options_.toughness;
   start.speed = tip.now.speed;
   if (tip.now.is_extendable) {
-    start.covered = tips_.last_cell(tip.end).length;
+    start.covered = tips_.last_cell(tip.end).measure;
     segment.replaced = 1;
     start.anchor = end - start.covered * ahead;
     if (start.covered > full_segment * increment) {
@@ -109,7 +109,7 @@ void TipsFront::add(Tips::Tip& tip) {
   // A tip that is at another fracture or at the boundary grows no more by increments.
   const bool wants = start.first_length > 0 || state.load > 1;
   const double reach = start.first_length + longest_advance * increment;
-  const double free = wants ? tips_.free_way(tip, {}, end + reach * ahead) : reach;
+  const double free = wants ? tips_.free_distance(tip, {}, end + reach * ahead) : reach;
   is_blocked_.push_back(wants && state.is_evaluated &&
                         free < std::max(start.first_length, tips_.options_.growth.smallest_length()));
   if (is_blocked_.back()) {

@@ -24,7 +24,7 @@ double distance_to_boundary(const Mesh& mesh, const Point& x) {
 }  // namespace
 
 /// Whether a point is a tip with a path that the mesh does not have yet: then the point is not the end of its fracture.
-bool Tips::goes_on_elsewhere(const FracturePoint& point) const {
+bool Tips::continues_elsewhere(const FracturePoint& point) const {
   return point.kind == FracturePoint::Kind::tip && std::any_of(tips_.begin(), tips_.end(), [&](const Tip& tip) {
            return !tip.now.path.added.empty() && position(tip, {}) == point.position;
          });
@@ -50,7 +50,7 @@ std::optional<Tips::Joining> Tips::find_joining(const Tip& tip, const TipOutcome
   for (const FracturePoint& point : mesh_.fracture_points) {
     const Point way = point.position - from;
     if (networks[mesh_.fracture_cells[point.cells[0]].fracture] == own ||
-        point.kind == FracturePoint::Kind::on_boundary || goes_on_elsewhere(point) ||
+        point.kind == FracturePoint::Kind::on_boundary || continues_elsewhere(point) ||
         way.norm() > std::min(reach, to_side) || way.dot(outcome.ahead) < std::cos(widest_turn) * way.norm())
       continue;
     candidates.emplace_back((point.position - wanted).norm(), &point);

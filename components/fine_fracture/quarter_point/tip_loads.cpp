@@ -7,7 +7,7 @@ FineLoads Tips::loads_of(const Tip& tip) const {
   std::vector<double> lengths;
   for (const Fracture& fracture : mesh_.fractures) {
     double length = 0;
-    for (int i = 0; i < fracture.cell_count; ++i) length += mesh_.fracture_cells[fracture.first_cell + i].length;
+    for (int i = 0; i < fracture.cell_count; ++i) length += mesh_.fracture_cells[fracture.first_cell + i].measure;
     lengths.push_back(length);
   }
   const FineDomain& domain = tip.domain;

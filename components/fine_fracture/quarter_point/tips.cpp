@@ -40,9 +40,9 @@ double original_size(const Mesh& mesh, const TipEnd& end) {
   const Fracture& cells = mesh.fractures[end.fracture];
   for (int i = 0; i < cells.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 - i : i)];
-    if (!cell.grown) return cell.length;
+    if (!cell.grown) return cell.measure;
   }
-  return end_cell(mesh, end).length;
+  return end_cell(mesh, end).measure;
 }
 
 /// The length of the fracture's new cells at this end, m.
@@ -52,7 +52,7 @@ double new_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change)
   for (int i = 0; i < cells.cell_count; ++i) {
     const int cell = cells.first_cell + (end.at_end ? cells.cell_count - 1 - i : i);
     if (change.fracture_cell[cell] != none) break;
-    length += mesh.fracture_cells[cell].length;
+    length += mesh.fracture_cells[cell].measure;
   }
   return length;
 }
@@ -148,7 +148,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   const LameParameters lame = surroundings_->stiffness(center);
   const Elasticity rock{lame.lambda, lame.shear};
   if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
-    tip.answer.reset();
+    tip.kept_factors.reset();
     tip.offsets = nullptr;
     tip.domain = std::move(domain);
     if (options_.tolerance) {
@@ -157,7 +157,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
       tip.model.emplace(std::move(adapted.model));
       meshes_ += adapted.meshes;
       solves_ += adapted.meshes;
-      return noted(tip, adapted.solution);
+      return keep_factors(tip, adapted.solution);
     }
     const bool keeps_pattern = is_followed(tip);
     tip.model.emplace(tip.domain.geometry, mesh, rock, TipPlace{tip.domain.crack, tip.domain.is_last}, profile_,
@@ -167,22 +167,23 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   } else {
     tip.domain = std::move(domain);
   }
-  // The answer is still valid if only paths outside of its domain have changed, or at the first evaluation of a search.
-  if (tip.answer && tip.answer->version == surroundings_->version()) {
+  // The kept factors are still valid if only paths outside of its domain have changed, or at the first evaluation of a
+  // search.
+  if (tip.kept_factors && tip.kept_factors->version == surroundings_->version()) {
     ++kept_;
-    tip.now.sif_error = tip.answer->error;
-    return tip.answer->sifs;
+    tip.now.sif_error = tip.kept_factors->error;
+    return tip.kept_factors->sifs;
   }
   ++solves_;
   FineLoads loads = loads_of(tip);
   if (!tip.offsets) tip.offsets = surroundings_->stress_offsets(tip.model->offset_places());
   loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
-  return noted(tip, tip.model->solve(loads));
+  return keep_factors(tip, tip.model->solve(loads));
 }
 
-Sifs Tips::noted(Tip& tip, const FineSolution& solution) const {
+Sifs Tips::keep_factors(Tip& tip, const FineSolution& solution) const {
   const Sifs sifs = factors_of(tip, solution);
-  tip.answer = {surroundings_->version(), sifs, tip.now.sif_error};
+  tip.kept_factors = {surroundings_->version(), sifs, tip.now.sif_error};
   return sifs;
 }
 
@@ -203,7 +204,7 @@ double Tips::load(const Sifs& sifs) const {
 double Tips::estimated_load(const Tip& tip) const {
   // Williams' field: the jump at a distance r behind the tip is (8/E') sqrt(r/(2 pi)) K.
   const LameParameters lame = surroundings_->stiffness(position(tip, {}));
-  const double distance = 0.5 * end_cell(mesh_, tip.end).length;
+  const double distance = 0.5 * end_cell(mesh_, tip.end).measure;
   const double estimate = Elasticity{lame.lambda, lame.shear}.plane_modulus() / 8 *
                           std::sqrt(2 * std::numbers::pi / distance) *
                           surroundings_->jump_at_tip(tip.end.fracture, tip.end.at_end);
@@ -229,7 +230,7 @@ Growing::Load Tips::examine(const StepTime& step) {
     const double before = surroundings_->accepted_fluid_pressure(tip.end.fracture, tip.end.at_end);
     if (now != before) loads.unsettled = std::max(loads.unsettled, std::abs(now - before) / std::max(now, before));
     const double estimate = may_rule_out && tip.now.path.added.empty() ? estimated_load(tip) : 0;
-    if (tip.answered_for == surroundings_->version()) {
+    if (tip.evaluated_for == surroundings_->version()) {
       ++kept_;
     } else if (may_rule_out && tip.now.path.added.empty() && safety * estimate < options_.skip_below) {
       ++skipped_;
@@ -237,7 +238,7 @@ Growing::Load Tips::examine(const StepTime& step) {
       tip.now.load = estimate;
     } else {
       set_factors(tip, evaluate(i, paths));
-      tip.answered_for = surroundings_->version();
+      tip.evaluated_for = surroundings_->version();
     }
     // At the end of an increment the load is 1 to within a tolerance, and the tip should not grow again for that.
     if (is_followed(tip)) continue;
@@ -264,7 +265,7 @@ bool Tips::is_near(const Tip& tip, const Tip& other) const {
          (position(tip, tip.now.path) - position(other, other.now.path)).norm() < far * options_.growth.increment;
 }
 
-double Tips::free_way(const Tip& tip, const TipPath& path, const Point& to) const {
+double Tips::free_distance(const Tip& tip, const TipPath& path, const Point& to) const {
   const Point from = position(tip, path);
   if (comes_too_near(mesh_, tip.end.fracture, position(tip, {}), from, to, cavity().size)) return 0;
   const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, to - from);
@@ -297,7 +298,7 @@ Growing::Growth Tips::grow(const StepTime&) {
   const std::vector<TipOutcome> outcomes = grow_tips(
       growing, growth, [this](int tip, const std::vector<TipPath>& paths) { return evaluate(tip, paths); },
       [this](int tip, const TipPath& path, const Point& to) {
-        return tips_[tip].now.is_stopped ? 0 : free_way(tips_[tip], path, to);
+        return tips_[tip].now.is_stopped ? 0 : free_distance(tips_[tip], path, to);
       },
       [this](int tip, int other) { return is_near(tips_[tip], tips_[other]); });
   Growth result;
@@ -375,8 +376,8 @@ void Tips::accepted() {
     // The next step starts with a triangulation that follows from the geometry alone, as after a restart.
     if (tip.has_pattern) {
       tip.model.reset();
-      tip.answer.reset();
-      tip.answered_for = 0;
+      tip.kept_factors.reset();
+      tip.evaluated_for = 0;
       tip.pattern.reset();
       tip.has_pattern = false;
     }
@@ -386,8 +387,8 @@ void Tips::accepted() {
 void Tips::rewound() {
   for (Tip& tip : tips_) {
     tip.now = tip.accepted;
-    tip.answered_for = 0;
-    tip.answer.reset();
+    tip.evaluated_for = 0;
+    tip.kept_factors.reset();
   }
   notes_.clear();
 }

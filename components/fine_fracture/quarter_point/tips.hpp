@@ -84,17 +84,17 @@ class Tips : public Component, public FractureTips, public Growing {
     double coarse_size;  ///< m, Delta H: the length of the original cell at this end
     State now, accepted;
     /// The factors for `model`, `domain` and one state of the coarse level.
-    struct Answer {
+    struct KeptFactors {
       std::uint64_t version;  ///< of the surroundings
       Sifs sifs;
       double error;  ///< Pa m^0.5, estimated
     };
-    // A factorization is reused while geometry and rock stay the same, an answer while the coarse level does, too.
+    // A factorization is reused while geometry and rock stay the same, the factors while the coarse level does, too.
     std::optional<FineModel> model;
     TipSurroundings::StressOffsets offsets;  ///< at the places of the model, found when they are first asked for
     FineDomain domain;
-    std::optional<Answer> answer;
-    std::uint64_t answered_for = 0;
+    std::optional<KeptFactors> kept_factors;
+    std::uint64_t evaluated_for = 0;
     /// The triangulation of the trials within a step: it moves along, so that factors depend smoothly on the advance.
     std::shared_ptr<const Triangulated> pattern;
     bool has_pattern = false;  ///< whether `model` was made with it
@@ -117,8 +117,8 @@ class Tips : public Component, public FractureTips, public Growing {
   FineLoads loads_of(const Tip& tip) const;
   /// The factors of this tip in a solution. Sets their estimated error.
   Sifs factors_of(Tip& tip, const FineSolution& solution) const;
-  /// The same, and keeps the factors as the answer of the tip.
-  Sifs noted(Tip& tip, const FineSolution& solution) const;
+  /// The same, and keeps the factors.
+  Sifs keep_factors(Tip& tip, const FineSolution& solution) const;
   /// The load as estimated from the displacement jump of the coarse level beside the tip, without a fine level.
   double estimated_load(const Tip& tip) const;
   double load(const Sifs& sifs) const;
@@ -136,7 +136,7 @@ class Tips : public Component, public FractureTips, public Growing {
   double longest_path(const Tip& tip) const;
   /// Whether an increment of the other tip affects this tip at once; farther increments do so from the next step on.
   bool is_near(const Tip& tip, const Tip& other) const;
-  double free_way(const Tip& tip, const TipPath& path, const Point& to) const;
+  double free_distance(const Tip& tip, const TipPath& path, const Point& to) const;
   std::vector<Point> coarse_path(const Tip& tip, const TipPath& path) const;
   struct Joining {
     PathExtension extension;
@@ -147,7 +147,7 @@ class Tips : public Component, public FractureTips, public Growing {
   std::optional<Joining> find_joining(const Tip& tip, const TipOutcome& outcome,
                                       const std::vector<PathExtension>& others,
                                       const std::vector<std::pair<int, int>>& joined) const;
-  bool goes_on_elsewhere(const FracturePoint& point) const;
+  bool continues_elsewhere(const FracturePoint& point) const;
 
   const Mesh& mesh_;
   TipsOptions options_;

@@ -9,12 +9,12 @@
 namespace sprekk::fracture_flow {
 
 Conductance FractureFlow::conductance(const Link& link) const {
-  const double half = 0.5 * mesh_.fracture_cells[link.first].length;
+  const double half = 0.5 * mesh_.fracture_cells[link.first].measure;
   if (link.second == none) {
     const Transmissivity first = transmissivity(link.first, link.point);
     return {first.value / half, {{link.first, first.by_aperture / half}}};
   }
-  const double other_half = 0.5 * mesh_.fracture_cells[link.second].length;
+  const double other_half = 0.5 * mesh_.fracture_cells[link.second].measure;
   if (options_.transmissivity == "cubic_law") return conductance_by_opening(link, half, other_half);
   const Transmissivity first = transmissivity(link.first, link.point), second = transmissivity(link.second, link.point);
   if (first.value == 0 || second.value == 0) return {0, {}};
@@ -56,7 +56,7 @@ std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
 std::vector<JunctionFluxes::Half> FractureFlow::given_halves(const Junction& junction) const {
   std::vector<JunctionFluxes::Half> halves;
   for (const int cell : junction.cells) {
-    const double half = 0.5 * mesh_.fracture_cells[cell].length;
+    const double half = 0.5 * mesh_.fracture_cells[cell].measure;
     halves.push_back({transmissivity(cell, junction.points.front()).value / half,
                       Vector::Zero(static_cast<Eigen::Index>(junction.cells.size()))});
   }
@@ -74,7 +74,7 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
     std::vector<CellAperture> cells;
     for (const int cell : junction.cells)
       cells.push_back(
-          {0.5 * mesh_.fracture_cells[cell].length, aperture[cell], aperture[cell] - initial_aperture_[cell]});
+          {0.5 * mesh_.fracture_cells[cell].measure, aperture[cell], aperture[cell] - initial_aperture_[cell]});
     return junction_apertures(cells, partners);
   };
   const std::vector<ArmAperture> arms = arms_of(aperture_.now());
@@ -82,7 +82,7 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
   std::vector<JunctionFluxes::Half> halves;
   for (int i = 0; i < count; ++i) {
     const auto [a, by_present] = cubic_law_aperture(arms[i].value, held[i].value);
-    const double half = 0.5 * mesh_.fracture_cells[junction.cells[i]].length;
+    const double half = 0.5 * mesh_.fracture_cells[junction.cells[i]].measure;
     const double value = a * a * a / (12 * viscosity_[junction.cells[i]] * half);
     halves.push_back({value, 3 * value / a * by_present * arms[i].by_aperture});
   }
@@ -134,7 +134,7 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
 /// Divided by its conductance plus that of a cell's storage, a row is well scaled from sealed to wide open.
 double FractureFlow::scale_of_row(const Link& link, double conductance, double dt) const {
   const FractureCell& first = mesh_.fracture_cells[link.first];
-  const double reference = first.length * initial_aperture_[link.first] * compressibility_[link.first] / dt;
+  const double reference = first.measure * initial_aperture_[link.first] * compressibility_[link.first] / dt;
   return conductance + reference > 0 ? 1 / (conductance + reference) : 1;
 }
 

@@ -146,8 +146,8 @@ FractureFlow::CubicLawAperture FractureFlow::cubic_law_aperture(int cell) const 
   return cubic_law_aperture(aperture_.now()[cell], is_held() ? held_aperture_[cell] : 0);
 }
 
-void FractureFlow::look_for_solution(Look look) {
-  held_aperture_ = look == Look::in_linear_pieces ? aperture_.now() : Vector();
+void FractureFlow::set_search_mode(SearchMode mode) {
+  held_aperture_ = mode == SearchMode::piecewise_linear ? aperture_.now() : Vector();
   released_share_ = 0;
 }
 
@@ -201,7 +201,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   const int count = mesh_.fracture_cell_count();
   Vector stored(count), capacity(count), stored_by_aperture(count);
   for (int i = 0; i < count; ++i) {
-    const double length = mesh_.fracture_cells[i].length;
+    const double length = mesh_.fracture_cells[i].measure;
     const double change = pressure_.now()[i] - pressure_.accepted()[i];
     capacity[i] = length * aperture_.now()[i] * compressibility_[i];
     stored[i] = length * (aperture_.now()[i] - aperture_.accepted()[i]) + capacity[i] * change;
@@ -210,7 +210,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   // The changes are small differences of apertures and of pressures.
   double subtracted = 0;
   for (int i = 0; i < count; ++i)
-    subtracted = std::max({subtracted, mesh_.fracture_cells[i].length * std::abs(aperture_.now()[i]),
+    subtracted = std::max({subtracted, mesh_.fracture_cells[i].measure * std::abs(aperture_.now()[i]),
                            std::abs(capacity[i] * pressure_.now()[i])});
   fluid.store(stored, subtracted);
   assembly.diagonal(pressure_, pressure_, capacity);
@@ -244,7 +244,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
   if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
   Vector sums = cumulative_.accepted();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    const double length = mesh_.fracture_cells[i].length;
+    const double length = mesh_.fracture_cells[i].measure;
     sums[3 * i] += length * (aperture_.now()[i] - aperture_.accepted()[i]) +
                    length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);
     if (!is_prescribed_[i]) sums[3 * i + 1] += step.dt * source_[i];  // else the balance is not solved for

@@ -32,8 +32,8 @@ class FractureFlow : public Component, public FractureFluid {
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime& step) const override;
-  void look_for_solution(Look look) override;
-  void hold_coefficients() override { look_for_solution(Look::in_linear_pieces); }
+  void set_search_mode(SearchMode mode) override;
+  void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
   void release_coefficients(double share) override;
   void constrain(Assembly& assembly) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
@@ -89,7 +89,7 @@ class FractureFlow : public Component, public FractureFluid {
   void add_pattern(const Link& link, FluxRows& rows) const;
   double scale_of_row(const Link& link, double conductance, double dt) const;
   void check_names() const;
-  std::vector<int> cells_of(const Where& where) const;
+  std::vector<int> cells_of(const FracturePlace& where) const;
   int region_of(int cell) const;
   std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);

@@ -27,7 +27,7 @@ const EndRule& end_rule() {
 std::vector<Piece> whole_cells(const Mesh& mesh) {
   std::vector<Piece> pieces;
   for (const FractureCell& cell : mesh.fracture_cells) {
-    const Point half = 0.5 * cell.length * cell.tangents.col(0);  // a line cell
+    const Point half = 0.5 * cell.measure * cell.tangents.col(0);  // a line cell
     pieces.push_back({cell.center - half, cell.center + half, mesh.cell_region[mesh.face_cells[cell.faces[0]][0]]});
   }
   return pieces;

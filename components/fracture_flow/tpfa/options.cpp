@@ -4,7 +4,7 @@ namespace sprekk::fracture_flow {
 
 namespace {
 
-void add_where(Spec& spec, Where& where) {
+void add_where(Spec& spec, FracturePlace& where) {
   spec.text("fracture", where.fracture, {.doc = "Name of the fracture; all fractures without it."});
   spec.point("at", where.at, {.unit = "m", .doc = "The nearest cell to this point; the whole fracture without it."});
 }

@@ -10,7 +10,7 @@
 namespace sprekk::fracture_flow {
 
 /// A place on the fractures: the cell of a fracture that is nearest to a point, a whole fracture, or all of them.
-struct Where {
+struct FracturePlace {
   Origin origin;
   std::string fracture;     ///< "" for all
   std::optional<Point> at;  ///< m
@@ -18,13 +18,13 @@ struct Where {
 
 /// A rate of fluid that is injected at a place.
 struct Injection {
-  Where where;
+  FracturePlace where;
   Data rate;  ///< m^2/s in all, spread evenly over the length
 };
 
 /// A pressure that is prescribed at a place.
 struct PrescribedPressure {
-  Where where;
+  FracturePlace where;
   Data pressure;  ///< Pa
 };
 

@@ -24,7 +24,7 @@ int nearest_original_cell(const Mesh& mesh, int fracture, const Point& x) {
 }
 
 /// A place, or a whole fracture, stays what it was at the start of the run: cells that have grown do not belong to it.
-std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
+std::vector<int> cells_at(const Mesh& mesh, const FracturePlace& where) {
   std::vector<int> cells;
   if (where.at) {
     int nearest = none;
@@ -48,16 +48,16 @@ std::vector<int> cells_at(const Mesh& mesh, const Where& where) {
 void FractureFlow::check_names() const {
   std::vector<std::string> names;
   for (const Fracture& fracture : mesh_.fractures) names.push_back(fracture.name);
-  const auto check = [&](const Where& where) {
+  const auto check = [&](const FracturePlace& where) {
     if (!where.fracture.empty() && find_fracture(mesh_, where.fracture) == none)
       throw unknown_name(where.origin, "fracture", where.fracture, names);
     if (!where.at) return;
     const FractureCell& cell = mesh_.fracture_cells[cells_at(mesh_, where).front()];
     const double away = (cell.center - *where.at).norm();
-    if (away > cell.length)
+    if (away > cell.measure)
       throw InputError(where.origin, "there is no fracture at this place",
                        "the nearest cell is " + fmt::format("{:.3g} m", away) + " away and only " +
-                           fmt::format("{:.3g} m", cell.length) + " long",
+                           fmt::format("{:.3g} m", cell.measure) + " long",
                        "choose a point on a fracture");
   };
   for (const auto& [name, injection] : options_.injections) check(injection.where);
@@ -78,7 +78,7 @@ void FractureFlow::check_names() const {
       throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
 }
 
-std::vector<int> FractureFlow::cells_of(const Where& where) const { return cells_at(mesh_, where); }
+std::vector<int> FractureFlow::cells_of(const FracturePlace& where) const { return cells_at(mesh_, where); }
 
 /// The region of the rock on the plus side.
 int FractureFlow::region_of(int cell) const {
@@ -90,10 +90,10 @@ void FractureFlow::prescribe(const StepTime& step) {
   for (const auto& [name, injection] : options_.injections) {
     const std::vector<int> cells = cells_at(mesh_, injection.where);
     double length = 0;
-    for (const int cell : cells) length += mesh_.fracture_cells[cell].length;
+    for (const int cell : cells) length += mesh_.fracture_cells[cell].measure;
     for (const int cell : cells) {
       const FractureCell& at = mesh_.fracture_cells[cell];
-      source_[cell] += value_in_step(injection.rate, {at.center, region_of(cell), 0}, step) * at.length / length;
+      source_[cell] += value_in_step(injection.rate, {at.center, region_of(cell), 0}, step) * at.measure / length;
     }
   }
   prescribed_.clear();
@@ -102,9 +102,9 @@ void FractureFlow::prescribe(const StepTime& step) {
     for (const int cell : cells_at(mesh_, given.where)) {
       const FractureCell& at = mesh_.fracture_cells[cell];
       is_prescribed_[cell] = 1;
-      const double storage = at.length * initial_aperture_[cell] * compressibility_[cell];
+      const double storage = at.measure * initial_aperture_[cell] * compressibility_[cell];
       prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(cell), 0}, step),
-                             storage > 0 ? storage : at.length});
+                             storage > 0 ? storage : at.measure});
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/mpfa/mpfa.hpp"
-#include "components/matrix_flow/mpfa/plain_tips.hpp"
+#include "components/matrix_flow/mpfa/uncorrected_tips.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -24,8 +24,8 @@ class Mpfa : public MatrixFlow {
 
   void note_input(Notes& notes) const override {
     MatrixFlow::note_input(notes);
-    if (!lets_fluid_through()) return;
-    const PlainTips found = plain_tips(mesh(), mobility());
+    if (!is_permeable()) return;
+    const UncorrectedTips found = uncorrected_tips(mesh(), mobility());
     if (found.plain == 0) return;
     notes.add(name() + ": tips without their singular flow",
               fmt::format("'{}' takes the pressure for linear around {} of {} tips of fractures, the first at {} ({}): "

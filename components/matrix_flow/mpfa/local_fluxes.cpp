@@ -61,9 +61,9 @@ LocalFluxes::Weights LocalFluxes::symmetric(const Subcell& subcell, const Tensor
   return weights;
 }
 
-LocalFluxes::Cure LocalFluxes::solve(const Mesh& mesh, int node, const InteractionRegion& region,
-                                     const std::vector<Tensor>& mobility,
-                                     const std::vector<FlowCondition>& conditions) {
+LocalFluxes::Stabilizer LocalFluxes::solve(const Mesh& mesh, int node, const InteractionRegion& region,
+                                           const std::vector<Tensor>& mobility,
+                                           const std::vector<FlowCondition>& conditions) {
   towards_node_.clear();
   bool has_triangles_only = true;
   for (const int face : region.faces) towards_node_.push_back(continuity_point(mesh, face));
@@ -71,8 +71,8 @@ LocalFluxes::Cure LocalFluxes::solve(const Mesh& mesh, int node, const Interacti
     has_triangles_only = has_triangles_only && is_triangle(mesh, subcell.cell);
   find_arms(mesh, node, region);
   solve_with(&LocalFluxes::consistent, region, mobility, conditions);
-  if (has_triangles_only || each_subcell_loses_energy() || loses_energy(region, conditions)) return Cure::none;
-  return cure(mesh, node, region, mobility, conditions);
+  if (has_triangles_only || each_subcell_dissipates() || dissipates(region, conditions)) return Stabilizer::none;
+  return stabilize(mesh, node, region, mobility, conditions);
 }
 
 void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& region, const std::vector<Tensor>& mobility,

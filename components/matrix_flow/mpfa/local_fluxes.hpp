@@ -17,18 +17,18 @@ namespace sprekk::matrix_flow {
 ///
 /// No flow of a region gains energy: the sum over subcells of flux times pressure drop is not negative. For triangles
 /// and parallelograms, the choice of the continuity points ensures this for any tensor. Where other quadrilaterals
-/// violate it, the local problem is changed (see Cure).
+/// violate it, the local problem is changed (see Stabilizer).
 class LocalFluxes {
  public:
   /// The change of a local problem that would gain energy. `points`: other continuity points. `damping`: the part of
   /// the pressures that is not linear flows by the symmetric fluxes of `blend`. Both stay exact for linear pressures.
   /// `blend`: all fluxes are mixed with fluxes that are symmetric and positive definite in each subcell; these are
   /// exact for linear pressures in parallelograms only.
-  enum class Cure { none, points, damping, blend };
+  enum class Stabilizer { none, points, damping, blend };
 
   /// Throws std::runtime_error if the local system is singular.
-  Cure solve(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
-             const std::vector<FlowCondition>& conditions);
+  Stabilizer solve(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
+                   const std::vector<FlowCondition>& conditions);
 
   /// The pressure at the continuity point of a subface.
   const double* pressure(int subface) const { return pressures_.data() + subface * columns_; }
@@ -47,11 +47,11 @@ class LocalFluxes {
   using WeightsOf = Weights (LocalFluxes::*)(const Subcell&, const Tensor&, int) const;
   void solve_with(WeightsOf weights_of, const InteractionRegion& region, const std::vector<Tensor>& mobility,
                   const std::vector<FlowCondition>& conditions);
-  Cure cure(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
-            const std::vector<FlowCondition>& conditions);
-  bool each_subcell_loses_energy() const;
-  bool loses_energy(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
-  Matrix lost_power(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
+  Stabilizer stabilize(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
+                       const std::vector<FlowCondition>& conditions);
+  bool each_subcell_dissipates() const;
+  bool dissipates(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
+  Matrix dissipation(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
   /// The jumps of the gradient along the inner subfaces, times these, Pa.
   Matrix kinks(const Mesh& mesh, int node, const InteractionRegion& region) const;
 

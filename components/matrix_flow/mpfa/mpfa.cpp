@@ -43,8 +43,8 @@ class TipFlows {
     for (auto& [tip, flow] : flows_) {
       const std::vector<int>& corrected = nodes[&flow];
       if (std::none_of(corrected.begin(), corrected.end(), is_wanted)) continue;
-      const double part = lossy_part(flow, mesh, corrected, mobility, conditions);
-      if (part < 1) flow.weaken(part);
+      const double part = dissipative_share(flow, mesh, corrected, mobility, conditions);
+      if (part < 1) flow.scale(part);
     }
   }
 
@@ -181,7 +181,7 @@ FluxOperators discretize_mpfa_with(const MpfaLimits& limits, const Mesh& mesh, c
     region.assign(mesh, node);
     SPREKK_ASSERT(region.subcell_count() > 0, node);
     SPREKK_ASSERT(are_indices(region.faces, mesh.face_count()), node);
-    if (local.solve(mesh, node, region, mobility, conditions) == LocalFluxes::Cure::blend)
+    if (local.solve(mesh, node, region, mobility, conditions) == LocalFluxes::Stabilizer::blend)
       for (const int face : region.faces) blended.emplace_back(face, face, 1.0 / region.subface_count());
     changes.assign(mesh, node, region, local, conditions);
     const TipFlow* flow = flows.at(node);

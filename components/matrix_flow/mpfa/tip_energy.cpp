@@ -49,7 +49,7 @@ class Power {
     }
   }
 
-  bool is_lost_with(double part) const {
+  bool dissipates_with(double part) const {
     const Eigen::VectorXd scale = linear_.diagonal().cwiseAbs().cwiseMax(above_zero).cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd whole = linear_ + part * added_;
     Eigen::MatrixXd form = scale.asDiagonal() * (0.5 * (whole + whole.transpose())) * scale.asDiagonal();
@@ -77,8 +77,8 @@ class Power {
 
 }  // namespace
 
-double lossy_part(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes,
-                  const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
+double dissipative_share(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes,
+                         const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
   Power power(flow, mesh, nodes);
   InteractionRegion region;
   LocalFluxes local;
@@ -88,7 +88,7 @@ double lossy_part(const TipFlow& flow, const Mesh& mesh, const std::vector<int>&
     power.add(region, local, TipCorrection(flow, mesh, region, local, node, mobility, conditions));
   }
   for (const double part : parts)
-    if (power.is_lost_with(part)) return part;
+    if (power.dissipates_with(part)) return part;
   return 0;
 }
 

@@ -11,7 +11,7 @@ namespace sprekk::matrix_flow {
 /// gain no energy (LocalFluxes), for any pressures; mostly 1. On flat or few cells the fitted amounts of the singular
 /// flow may depend so strongly on pressures that the corrected fluxes drive themselves. Each node has at most one tip,
 /// so the whole discretization then gains no energy either. `nodes`: the nodes that are corrected.
-double lossy_part(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes,
-                  const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
+double dissipative_share(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes,
+                         const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
 
 }  // namespace sprekk::matrix_flow

@@ -39,7 +39,7 @@ class TipFlow {
   const Tensor& mobility() const { return mobility_; }      ///< the mean of the tip's cells
   const std::vector<int>& cells() const { return cells_; }  ///< of the fit, ascending
   /// Reduces the amounts of the modes to this part of the fitted ones.
-  void weaken(double part) { share_ *= part; }
+  void scale(double part) { share_ *= part; }
   const Eigen::Matrix2Xd& share() const { return share_; }  ///< amounts of the modes by the cells' pressures, 1/m^0.5
 
  private:

@@ -12,7 +12,7 @@ namespace {
 double half_transmissibility(const Mesh& mesh, const Tensor& mobility, int cell, int face) {
   const Point& normal = mesh.face_normal[face];
   const double distance = std::abs(normal.dot(mesh.face_center[face] - mesh.cell_center[cell]));
-  return mesh.face_length[face] * normal.dot(mobility * normal) / distance;
+  return mesh.face_measure[face] * normal.dot(mobility * normal) / distance;
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
-#include "components/poromechanics/mpsa/plain_tips.hpp"
 #include "components/poromechanics/mpsa/rediscretize.hpp"
+#include "components/poromechanics/mpsa/uncorrected_tips.hpp"
 #include "components/poromechanics/rock.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
@@ -31,7 +31,7 @@ class Mpsa : public Rock {
 
   void note_input(Notes& notes) const override {
     Rock::note_input(notes);
-    if (const PlainTips found = plain_tips(mesh(), stiffness_of_cells()); found.plain > 0)
+    if (const UncorrectedTips found = uncorrected_tips(mesh(), stiffness_of_cells()); found.plain > 0)
       notes.add(
           name() + ": tips without their singular field",
           fmt::format("'{}' takes displacements for linear around {} of {} tips of fractures, the first at {} ({}): "

@@ -70,7 +70,7 @@ Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows,
 }
 
 /// The combination of the vectors for which all sums of balances are zero; empty if there is none.
-Vector unresisted(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
+Vector without_resistance(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
   constexpr double cancelled = 1e-2;
   if (system.sums.empty()) return vectors.back();
   Eigen::FullPivLU<Eigen::MatrixXd> lu(resistance(system, rows, vectors));
@@ -132,7 +132,7 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
     }
     if (!(smallest <= singular)) return "";
     resting.push_back(std::move(best));
-    const Vector found = unresisted(system, rows, resting);
+    const Vector found = without_resistance(system, rows, resting);
     if (found.size() == 0) continue;
     int largest_entry = 0;
     found.cwiseAbs().maxCoeff(&largest_entry);

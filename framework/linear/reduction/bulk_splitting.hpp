@@ -22,7 +22,7 @@ struct SubMatrix {
 
 /// Splits the unknowns of a system in one process into B (bulk) and F (BlockKind::interface), each in their order, and
 /// the matrix into four blocks. A splitting can be used as long as the sparsity pattern stays. `held`: for every
-/// unknown, whether it belongs to F although it is one of the bulk (unknowns_that_fractures_hold): all unknowns of an
+/// unknown, whether it belongs to F although it is one of the bulk (unknowns_held_by_fractures): all unknowns of an
 /// entity, or none of them; an empty vector stands for none at all.
 class BulkSplitting {
  public:

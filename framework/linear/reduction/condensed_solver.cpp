@@ -82,12 +82,12 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
 /// of a reduced system R = (f / (7 sqrt(n)))^3, measured from 4,000 to 250,000 unknowns (docs/performance.md); so m
 /// systems cost 1 + C + m R instead of m. Columns that come with the factorization (`is_short_lived`) cost f / 700 or
 /// less.
-double price_of_columns(const BulkSplitting& split, bool is_short_lived) {
+double cost_of_columns(const BulkSplitting& split, bool is_short_lived) {
   const double f = split.interface_columns.size(), reduced = std::pow(f / (7 * std::sqrt(split.bulk_size())), 3);
   return reduced < 1 ? f / (is_short_lived ? 700 : 200) / (1 - reduced) : HUGE_VAL;
 }
 
-/// The price of columns up to which a bulk is condensed at once. The number of systems for which a bulk will stay is
+/// The cost of columns up to which a bulk is condensed at once. The number of systems for which a bulk will stay is
 /// unknown; it is about three, those of one step, or more. Compared with the best choice, condensing at once costs at
 /// most (1 + C) / 3 times as much, if the bulk stays for three systems only; waiting for C systems first costs at most
 /// (1 + 2 C) / (1 + C) times as much, if the bulk stays longer. Both are equal at C = 2 + sqrt(6).
@@ -101,7 +101,7 @@ struct CondensedSolver::Bulk {
   std::vector<double> values, columns;  ///< of the A_BB and A_BF for which the rest holds
   int systems = 0;                      ///< that it has had
   bool is_tried = false;                ///< whether it has been factorized, successfully or not
-  bool is_proven = false;               ///< a solution was accurate; callers see the residuals of the others
+  bool is_verified = false;             ///< a solution was accurate; callers see the residuals of the others
   LinearReport report;
   BulkSchurComplement schur;
 };
@@ -129,12 +129,12 @@ LinearReport CondensedSolver::factor_whole(const LinearSystem& system) {
 LinearReport CondensedSolver::condense(const LinearSystem& system) {
   const auto is_same = [](std::uint64_t number, std::uint64_t last) { return number != 0 && number == last; };
   const bool fits = splitting_ && (is_same(system.pattern_number, pattern_number_) || splitting_->fits(system.local));
-  if (!fits) split_anew(system, unknowns_that_fractures_hold(system));
+  if (!fits) split_anew(system, unknowns_held_by_fractures(system));
   bool has_changed = false;
   if (!is_same(system.number, number_)) {
     has_changed = splitting_->update(system.local);
     if (has_changed && fits) {
-      std::vector<char> held = unknowns_that_fractures_hold(system);
+      std::vector<char> held = unknowns_held_by_fractures(system);
       if (held != splitting_->held()) {
         split_anew(system, std::move(held));
         splitting_->update(system.local);
@@ -155,12 +155,12 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   Bulk& bulk = bulks_.front();
   ++bulk.systems;
   if (!bulk.is_tried) {
-    const double price = price_of_columns(split, options_.bulk_changes_often);
-    if (price > worth_at_once && bulk.systems <= price)
+    const double cost = cost_of_columns(split, options_.bulk_changes_often);
+    if (cost > worth_at_once && bulk.systems <= cost)
       return LinearReport::failure("condensing costs more than the few systems that the bulk has had so far");
     bulk.report = bulk.schur.compute(split, *bulk.solver, options_.bulk_changes_often);
     bulk.is_tried = true;
-    bulk.is_proven = false;
+    bulk.is_verified = false;
   }
   if (!bulk.report.solved) return bulk.report;
   if (is_same(system.number, reduced_number_)) return reduced_report_;
@@ -225,8 +225,8 @@ LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
     Vector bulk, local;
     LinearReport report = solve_condensed(b_bulk, b_local, bulk, local);
     Bulk& used = bulks_.front();
-    used.is_proven = used.is_proven || (report.solved && proves(b_bulk, b_local, bulk, local));
-    if (report.solved && used.is_proven) {
+    used.is_verified = used.is_verified || (report.solved && verifies(b_bulk, b_local, bulk, local));
+    if (report.solved && used.is_verified) {
       x = split.joined(bulk, local);
       return report;
     }
@@ -240,7 +240,7 @@ LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
 /// Whether this solution is accurate, or would be after one step of refinement. The refined solution is not used: later
 /// solutions are not refined either, and a run that is continued from a checkpoint, whose first solution comes later,
 /// must have the same bits as a run without interruption.
-bool CondensedSolver::proves(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local) {
+bool CondensedSolver::verifies(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local) {
   constexpr double acceptable = 1e-9;
   const BulkSplitting& split = *splitting_;
   const double error = split.backward_error(bulk, local, b_bulk, b_local);

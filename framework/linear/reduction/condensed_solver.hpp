@@ -26,7 +26,7 @@ class BulkSplitting;
 /// The whole system is solved instead where there is nothing to condense, where S costs more than the whole, as long as
 /// X would cost more than it could have saved so far, and where the first solution with a bulk turns out to be
 /// inaccurate. Where only fractures hold a block of rock, a cell or two of the block join F, so that A_BB is not
-/// singular (unknowns_that_fractures_hold).
+/// singular (unknowns_held_by_fractures).
 class CondensedSolver final : public LinearSolver {
  public:
   explicit CondensedSolver(const LinearOptions& options);
@@ -43,7 +43,7 @@ class CondensedSolver final : public LinearSolver {
   void split_anew(const LinearSystem& system, std::vector<char> held);
   void choose_bulk();
   LinearReport solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk, Vector& local);
-  bool proves(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local);
+  bool verifies(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local);
   LinearReport factor_whole(const LinearSystem& system);
 
   LinearOptions options_;

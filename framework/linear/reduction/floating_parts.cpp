@@ -178,7 +178,7 @@ bool are_at_the_same_places(const UnknownBlock& a, const UnknownBlock& b) {
 
 }  // namespace
 
-std::vector<char> unknowns_that_fractures_hold(const LinearSystem& system) {
+std::vector<char> unknowns_held_by_fractures(const LinearSystem& system) {
   const auto unknowns = static_cast<std::size_t>(system.local.cols());
   SPREKK_EXPECT(system.local.rows() == system.local.cols(), system.local.rows(), system.local.cols());
   expect_sound(system);

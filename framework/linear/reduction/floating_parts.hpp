@@ -17,6 +17,6 @@ namespace sprekk {
 /// is largest, then the cell where the rest of the modes is largest. Rows that are sums of balances
 /// (LinearSystem::sums) do not count as equations that hold a mode, and their cells are taken first. The result depends
 /// on the matrix alone.
-std::vector<char> unknowns_that_fractures_hold(const LinearSystem& system);
+std::vector<char> unknowns_held_by_fractures(const LinearSystem& system);
 
 }  // namespace sprekk

@@ -45,15 +45,15 @@ class Contact {
     contact_->jump().set(jump);
   }
   /// Newton's method looks at these values.
-  void follow() { contact_->follow_iterate({&contact_->traction(), &contact_->jump()}); }
-  Vector residual(Assembly::Want want = Assembly::Want::residual) const {
-    Assembly assembly({&contact_->traction(), &contact_->jump()}, want);
+  void follow() { contact_->observe_iterate({&contact_->traction(), &contact_->jump()}); }
+  Vector residual(Assembly::Request request = Assembly::Request::residual) const {
+    Assembly assembly({&contact_->traction(), &contact_->jump()}, request);
     contact_->assemble(assembly, step);
     return assembly.residual(0);
   }
   /// d residual / d (tractions, jumps).
   Eigen::MatrixXd jacobian() const {
-    Assembly assembly({&contact_->traction(), &contact_->jump()}, Assembly::Want::residual_and_derivatives);
+    Assembly assembly({&contact_->traction(), &contact_->jump()}, Assembly::Request::residual_and_derivatives);
     contact_->assemble(assembly, step);
     const int n = contact_->traction().size();
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, 2 * n);
@@ -113,11 +113,11 @@ INSTANTIATE_TEST_SUITE_P(States, InState, ::testing::ValuesIn(states), [](const 
 TEST_P(InState, HasTheDerivativesOfItsConditions) {
   const Mesh mesh = crossing();
   ASSERT_EQ(mesh.junctions.size(), 1u);
-  for (const Look look : {Look::freely, Look::in_pieces}) {
+  for (const SearchMode mode : {SearchMode::with_shortcuts, SearchMode::piecewise}) {
     Contact contact(mesh);
     const int cells = mesh.fracture_cell_count(), n = 2 * cells;
     contact.law().set_wall_stiffness(Vector::LinSpaced(n, 1, 2));
-    contact.law().look_for_solution(look);
+    contact.law().set_search_mode(mode);
     const Values at(GetParam(), cells);
     contact.law().jump().set_both(at.jump_before);
     contact.set(at.traction, at.jump);
@@ -150,13 +150,13 @@ TEST_P(InState, GivesTheSameBitsTwice) {
     contact.set(scale * at.traction, at.jump);
     contact.follow();
     const Eigen::MatrixXd first = contact.jacobian();
-    const Vector residual = contact.residual(Assembly::Want::residual_and_derivatives);
+    const Vector residual = contact.residual(Assembly::Request::residual_and_derivatives);
     // Nor does it matter what else has been assembled meanwhile: the slip the wrong way, where it slides back.
     contact.set(-at.traction, at.jump_before + 2 * (at.jump_before - at.jump));
     contact.jacobian();
     contact.set(scale * at.traction, at.jump);
     EXPECT_EQ(contact.jacobian(), first) << scale;
-    EXPECT_EQ(contact.residual(Assembly::Want::residual_and_derivatives), residual) << scale;
+    EXPECT_EQ(contact.residual(Assembly::Request::residual_and_derivatives), residual) << scale;
   }
 }
 
@@ -167,7 +167,7 @@ TEST(BackSlip, TakesThePieceBeyondTheKink) {
   Contact contact(mesh);
   const int cells = mesh.fracture_cell_count(), n = 2 * cells;
   contact.law().set_wall_stiffness(Vector::Ones(n));
-  contact.law().look_for_solution(Look::carefully);  // with the stiffness that it has in pieces, too
+  contact.law().set_search_mode(SearchMode::without_shortcuts);  // with the stiffness that it has in pieces, too
   const Values back(states[4], cells), forward(states[2], cells);
   contact.law().jump().set_both(back.jump_before);
   contact.set(back.traction, back.jump);
@@ -179,7 +179,7 @@ TEST(BackSlip, TakesThePieceBeyondTheKink) {
   contact.set(back.traction, back.jump);
   contact.follow();
   const Eigen::MatrixXd jacobian = contact.jacobian();
-  const Vector residual = contact.residual(Assembly::Want::residual_and_derivatives);
+  const Vector residual = contact.residual(Assembly::Request::residual_and_derivatives);
 
   Vector beyond = back.jump, traction = back.traction;
   for (int i = 0; i < cells; ++i) {
@@ -188,7 +188,7 @@ TEST(BackSlip, TakesThePieceBeyondTheKink) {
   }
   Vector change(2 * n);
   change << traction - back.traction, beyond - back.jump;
-  contact.law().look_for_solution(Look::in_pieces);
+  contact.law().set_search_mode(SearchMode::piecewise);
   contact.set(traction, beyond);
   for (int i = 0; i < cells; ++i) EXPECT_EQ(contact.law().state(i), State::slip);
   EXPECT_LT((residual + jacobian * change - contact.residual()).lpNorm<Eigen::Infinity>(), 1e-12);
@@ -199,7 +199,7 @@ class NothingHolds : public ::testing::TestWithParam<Law> {
  protected:
   NothingHolds() : mesh_(crossing()), contact_(mesh_, GetParam()) {
     contact_.law().set_wall_stiffness(Vector::Ones(2 * cells()));
-    contact_.law().look_for_solution(Look::carefully);
+    contact_.law().set_search_mode(SearchMode::without_shortcuts);
     contact_.law().jump().set_both(slipped(1));
   }
   int cells() const { return mesh_.fracture_cell_count(); }

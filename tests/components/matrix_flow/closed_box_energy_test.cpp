@@ -77,8 +77,8 @@ class RandomRock {
 
 /// The power that is lost is a quadratic form of the pressures of cells and of what flows out through the boundary: of
 /// the flows out of the cells times their pressures, less what leaves times the pressure there.
-Eigen::MatrixXd lost_power(const Mesh& mesh, const FluxOperators& operators,
-                           const std::vector<FlowCondition>& conditions) {
+Eigen::MatrixXd dissipation(const Mesh& mesh, const FluxOperators& operators,
+                            const std::vector<FlowCondition>& conditions) {
   std::vector<int> outer;
   for (int f = 0; f < mesh.face_count(); ++f)
     if (conditions[f] == FlowCondition::flux) outer.push_back(f);
@@ -133,16 +133,16 @@ double energy_left(RandomRock& rock, const FluxOperators& operators) {
   const int size = cells + walls + fracture_cells;
   Eigen::VectorXd capacity = Eigen::VectorXd::Zero(size), before(size);
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size, size);
-  for (int c = 0; c < cells; ++c) capacity[c] = mesh.cell_area[c];
+  for (int c = 0; c < cells; ++c) capacity[c] = mesh.cell_measure[c];
   system.topLeftCorner(cells, cells) = dt * outflow;
   for (int w = 0; w < walls; ++w) {
     const int face = mesh.wall_face(w), row = cells + w, in = cells + walls + w / 2;
-    const double length = mesh.face_length[face];
+    const double length = mesh.face_measure[face];
     system.col(row).head(cells) = -dt * length * of_sides.col(face);
     // lambda / kappa + trace = pressure in the fracture
     system.row(row).head(cells) = trace_cells.row(face);
     for (int v = 0; v < walls; ++v)
-      system(row, cells + v) = -trace_sides(face, mesh.wall_face(v)) * mesh.face_length[mesh.wall_face(v)];
+      system(row, cells + v) = -trace_sides(face, mesh.wall_face(v)) * mesh.face_measure[mesh.wall_face(v)];
     system(row, row) += 1 / kappa;
     system(row, in) = -1;
     system(in, row) += dt * length;
@@ -169,7 +169,7 @@ void look_at(const MeshOptions& options, int count, const std::vector<int>& more
     for (const bool is_closed : {true, false}) {
       const auto conditions = conditions_of(rock.mesh, is_closed);
       const FluxOperators operators = discretize_mpfa(rock.mesh, rock.mobility, conditions);
-      EXPECT_GE(smallest_eigenvalue(lost_power(rock.mesh, operators, conditions)), -1e-10) << seed << rock.text;
+      EXPECT_GE(smallest_eigenvalue(dissipation(rock.mesh, operators, conditions)), -1e-10) << seed << rock.text;
       if (!is_closed) continue;
       EXPECT_LE(energy_left(rock, operators), 1 + 1e-9) << seed << rock.text;
     }

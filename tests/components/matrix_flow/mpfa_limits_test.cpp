@@ -65,8 +65,8 @@ double error_of_walls(const Mesh& mesh, const Flow& flow, const MpfaLimits& limi
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (!test::is_wall(mesh, f)) continue;
     const double exact = flow.pressure(mesh.face_center[f] - 1e-13 * mesh.face_normal[f]);
-    error += mesh.face_length[f] * std::pow(trace[f] - exact, 2);
-    length += mesh.face_length[f];
+    error += mesh.face_measure[f] * std::pow(trace[f] - exact, 2);
+    length += mesh.face_measure[f];
   }
   return std::sqrt(error / length);
 }

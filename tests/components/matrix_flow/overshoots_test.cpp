@@ -50,9 +50,9 @@ Overshoots after_a_step(const Scene& scene, Discretization discretize, std::arra
   const SparseMatrix divergence = test::divergence(mesh, 1);
   Vector capacity(mesh.cell_count()), before(mesh.cell_count()), source(mesh.cell_count());
   for (int c = 0; c < mesh.cell_count(); ++c) {
-    capacity[c] = scene.storage * mesh.cell_area[c];
+    capacity[c] = scene.storage * mesh.cell_measure[c];
     before[c] = scene.initial(mesh.cell_center[c]);
-    source[c] = scene.dt * mesh.cell_area[c] * scene.source(mesh.cell_center[c]);
+    source[c] = scene.dt * mesh.cell_measure[c] * scene.source(mesh.cell_center[c]);
   }
   Eigen::SparseMatrix<double> system = scene.dt * (divergence * operators.flux_cell);
   for (int c = 0; c < mesh.cell_count(); ++c) system.coeffRef(c, c) += capacity[c];

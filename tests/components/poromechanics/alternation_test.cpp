@@ -99,10 +99,10 @@ Result solve(const Mesh& mesh, double angle, double coupling, const poromechanic
     const double px = factor * (crack.dilation(x + Point(h, 0)) - crack.dilation(x - Point(h, 0))) / (2 * h);
     const double py = factor * (crack.dilation(x + Point(0, h)) - crack.dilation(x - Point(0, h))) / (2 * h);
     const double off = p[c] - factor * crack.dilation(x);
-    area += mesh.cell_area[c];
-    mean += mesh.cell_area[c] * off;
-    error += mesh.cell_area[c] * off * off;
-    slope += mesh.cell_area[c] * mesh.cell_area[c] * (px * px + py * py);
+    area += mesh.cell_measure[c];
+    mean += mesh.cell_measure[c] * off;
+    error += mesh.cell_measure[c] * off * off;
+    slope += mesh.cell_measure[c] * mesh.cell_measure[c] * (px * px + py * py);
   }
   return {p, alternating(mesh, p), std::sqrt((error - mean * mean / area) / slope)};
 }

@@ -80,15 +80,15 @@ Errors solve(const Mesh& mesh, const poromechanics::MpsaLimits& limits = {}) {
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const auto force = [](const Point& at) { return Exact(at).body_force; };
     const auto source = [](const Point& at) { return Exact(at).fluid_source; };
-    step.force.segment<2>(2 * c) = mesh.cell_area[c] * cell_mean(mesh, c, force);
-    step.source[c] = mesh.cell_area[c] * cell_mean(mesh, c, source);
+    step.force.segment<2>(2 * c) = mesh.cell_measure[c] * cell_mean(mesh, c, force);
+    step.source[c] = mesh.cell_measure[c] * cell_mean(mesh, c, source);
   }
   const auto state = test::BiotSystem(step).solve(step);
 
   double p = 0, p_norm = 0, u = 0, u_norm = 0, flux = 0, flux_norm = 0, force = 0, force_norm = 0;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const Exact exact(mesh.cell_center[c]);
-    const double area = mesh.cell_area[c];
+    const double area = mesh.cell_measure[c];
     p += area * std::pow(state.pressure[c] - exact.p, 2);
     p_norm += area * std::pow(exact.p, 2);
     u += area * (state.displacement.segment<2>(2 * c) - exact.displacement()).squaredNorm();

@@ -69,7 +69,7 @@ class BiotSystem {
     place(stress_.volume_stress, 2 * cells, 2 * cells, step.alpha * step.alpha);
     place(outflow, 2 * cells, 2 * cells, step.time_step);
     for (int c = 0; c < cells; ++c)
-      entries.emplace_back(2 * cells + c, 2 * cells + c, step.storage * step.mesh.cell_area[c]);
+      entries.emplace_back(2 * cells + c, 2 * cells + c, step.storage * step.mesh.cell_measure[c]);
     matrix_.resize(3 * cells, 3 * cells);
     matrix_.setFromTriplets(entries.begin(), entries.end());
     solver_.compute(matrix_);
@@ -92,7 +92,7 @@ class BiotSystem {
                   stress_.trace_boundary * step.mechanical_boundary;
     state.fluid = step.alpha * (stress_.volume_displacement * state.displacement + stress_.volume_stress * s +
                                 stress_.volume_boundary * step.mechanical_boundary);
-    for (int c = 0; c < cells; ++c) state.fluid[c] += step.storage * step.mesh.cell_area[c] * state.pressure[c];
+    for (int c = 0; c < cells; ++c) state.fluid[c] += step.storage * step.mesh.cell_measure[c] * state.pressure[c];
     return state;
   }
 

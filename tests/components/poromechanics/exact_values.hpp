@@ -62,7 +62,7 @@ inline Comparison compare(const Mesh& mesh, const std::vector<Stiffness>& stiffn
     errors.trace = std::max(errors.trace, (traces.segment<2>(2 * f) - trace).norm());
   }
   for (int c = 0; c < mesh.cell_count(); ++c)
-    errors.volume = std::max(errors.volume, std::abs(volumes[c] - mesh.cell_area[c] * gradient(c).trace()));
+    errors.volume = std::max(errors.volume, std::abs(volumes[c] - mesh.cell_measure[c] * gradient(c).trace()));
   return errors;
 }
 

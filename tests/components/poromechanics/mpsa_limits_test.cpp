@@ -54,8 +54,8 @@ double error_of_walls(const Mesh& mesh, double angle, const MpsaLimits& limits) 
     if (!test::is_wall(mesh, f)) continue;
     // A little inside the rock: the potentials have their cut along the crack.
     const Point exact = crack.displacement(mesh.face_center[f] - 1e-12 * mesh.face_normal[f]);
-    error += mesh.face_length[f] * (walls.segment<2>(2 * f) - exact).squaredNorm();
-    norm += mesh.face_length[f] * exact.squaredNorm();
+    error += mesh.face_measure[f] * (walls.segment<2>(2 * f) - exact).squaredNorm();
+    norm += mesh.face_measure[f] * exact.squaredNorm();
   }
   return std::sqrt(error / norm);
 }
@@ -133,8 +133,8 @@ double error_of_disc(const Mesh& mesh, double contrast, const MpsaLimits& limits
   double error = 0, norm = 0;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const Point exact = disc.displacement(mesh.cell_center[c]);
-    error += mesh.cell_area[c] * (u.segment<2>(2 * c) - exact).squaredNorm();
-    norm += mesh.cell_area[c] * exact.squaredNorm();
+    error += mesh.cell_measure[c] * (u.segment<2>(2 * c) - exact).squaredNorm();
+    norm += mesh.cell_measure[c] * exact.squaredNorm();
   }
   return std::sqrt(error / norm);
 }

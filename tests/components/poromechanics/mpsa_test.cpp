@@ -325,7 +325,7 @@ struct Ring {
         if (side == "floor") conditions[f][1] = MechanicalCondition::displacement;
       } else {
         conditions[f].axes = ConditionAxes::of_face;
-        if (side == "bore") b.segment<2>(2 * f) = Point(-rock.face_length[f], 0);
+        if (side == "bore") b.segment<2>(2 * f) = Point(-rock.face_measure[f], 0);
         if (side == "wall" || side == "floor") conditions[f][0] = MechanicalCondition::displacement;
         if (side == "bore" && bore_is_moved) {
           conditions[f][0] = MechanicalCondition::displacement;
@@ -339,7 +339,7 @@ struct Ring {
     double error = 0;
     for (int f = 0; f < rock.face_count(); ++f)
       if (is_outer(rock, f) && rock.side_names[rock.face_side[f]] == "wall")
-        error = std::max(error, std::abs(forces.segment<2>(2 * f).dot(rock.face_normal[f]) / rock.face_length[f] -
+        error = std::max(error, std::abs(forces.segment<2>(2 * f).dot(rock.face_normal[f]) / rock.face_measure[f] -
                                          hoop(rock.face_center[f].norm())));
     return error;
   }

@@ -38,7 +38,7 @@ test::BiotStep column(const Mesh& mesh, const Rock& rock, double load) {
     step.mechanical_conditions[f] = {
         is_lateral ? MechanicalCondition::displacement : MechanicalCondition::traction,
         side == "bottom" ? MechanicalCondition::displacement : MechanicalCondition::traction};
-    if (side == "top") step.mechanical_boundary[2 * f + 1] = -load * mesh.face_length[f];
+    if (side == "top") step.mechanical_boundary[2 * f + 1] = -load * mesh.face_measure[f];
   }
   return step;
 }
@@ -106,7 +106,7 @@ TEST(TerzaghiStep, FlowAloneHasNoOvershoot) {
     for (const double number : {1e-6, 1e-4, 1e-2, 1e-1, 1.0}) {
       auto step = column(mesh, rock, 1);
       step.time_step = number * h * h / rock.diffusivity();
-      for (int c = 0; c < mesh.cell_count(); ++c) step.old_fluid[c] = rock.storage * mesh.cell_area[c];
+      for (int c = 0; c < mesh.cell_count(); ++c) step.old_fluid[c] = rock.storage * mesh.cell_measure[c];
       EXPECT_LT(test::BiotSystem(step).solve(step).pressure.maxCoeff() - 1, 1e-12);
     }
 }
@@ -123,8 +123,8 @@ TEST(TerzaghiStep, ConvergesToTheSolutionThatIsExactInSpace) {
     double error = 0, norm = 0;
     for (int c = 0; c < mesh.cell_count(); ++c) {
       const double exact = 1 - std::cosh(mesh.cell_center[c][1] / length) / std::cosh(1 / length);
-      error += mesh.cell_area[c] * std::pow(p[c] - exact, 2);
-      norm += mesh.cell_area[c] * exact * exact;
+      error += mesh.cell_measure[c] * std::pow(p[c] - exact, 2);
+      norm += mesh.cell_measure[c] * exact * exact;
     }
     errors.push_back(std::sqrt(error / norm));
   }

@@ -244,7 +244,7 @@ TEST(TipField, LinearDisplacementsStayExact) {
     const LocalAnswer answer(tip, node, u);
     for (const int face : tip.mesh.node_faces[node]) {
       const Point stretched = 0.5 * (strain + turn) * tip.mesh.face_center[face];
-      const Point force = 0.5 * tip.mesh.face_length[face] * (stress * tip.mesh.face_normal[face]);
+      const Point force = 0.5 * tip.mesh.face_measure[face] * (stress * tip.mesh.face_normal[face]);
       if (test::is_outer(tip.mesh, face))
         EXPECT_LT((answer.trace.segment<2>(2 * face) - stretched).norm(), 1e-12) << face;
       else

@@ -20,7 +20,7 @@ struct TwoBalances : testing::Test {
             .doc = ""};
   }
   const Field one{spec("one"), 3}, other{spec("other"), 2}, elsewhere{spec("elsewhere"), 3};
-  Assembly assembly{{&one, &other}, Assembly::Want::residual};
+  Assembly assembly{{&one, &other}, Assembly::Request::residual};
   const Balances& balances = assembly.balances();
 
   static Vector vector(double a, double b, double c) { return Eigen::Vector3d(a, b, c); }
@@ -53,7 +53,7 @@ TEST_F(TwoBalances, CountWhatOthersAdd) {
   assembly.add(one, vector(1, 1, 1));  // before the owner has said that these are balances
   assembly.balance(one, "fluid");
   assembly.balance(one).store(vector(0, 3, 0));
-  assembly.balance(one).turn_over(vector(-2, 0, 0));
+  assembly.balance(one).add_turnover(vector(-2, 0, 0));
   EXPECT_EQ(balances.residual(0), vector(1, 4, 1));
   EXPECT_EQ(balances.turnover(0), vector(2, 3, 0));
 }

@@ -41,7 +41,7 @@ struct Ring : testing::Test {
               .doc = ""},
              n};
   double capacity = 1e-14, outwards = 0;
-  bool is_fixed = false, is_answered = false;
+  bool is_fixed = false, is_coupled = false;
   Operator exchange = ring(0);
 
   Operator ring(double leaves) const {
@@ -65,14 +65,14 @@ struct Ring : testing::Test {
 
   std::unique_ptr<Assembly> assemble() {
     auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{&bulk, &content},
-                                               Assembly::Want::residual_and_derivatives);
+                                               Assembly::Request::residual_and_derivatives);
     assembly->balance(content, "it");
     assembly->add(content, capacity * content.now() - source());
     assembly->diagonal(content, content, Vector::Constant(n, capacity));
     assembly->linear(content, exchange, content, 2);
     assembly->add(bulk, bulk.now());
     assembly->diagonal(bulk, bulk, Vector::Ones(n));
-    if (is_answered) assembly->diagonal(content, bulk, Vector::Constant(n, 1e-3));
+    if (is_coupled) assembly->diagonal(content, bulk, Vector::Constant(n, 1e-3));
     if (is_fixed) assembly->fix(content, 3, 1, 1);
     return assembly;
   }
@@ -123,7 +123,7 @@ TEST_F(Ring, IsWeakWhereOnlyLittleHoldsTheLevel) {
   is_fixed = true;
   EXPECT_FALSE(is_weak_now());
   is_fixed = false;
-  is_answered = true;
+  is_coupled = true;
   EXPECT_FALSE(is_weak_now());
   const auto answered = assemble();
   EXPECT_TRUE(is_weak(*answered, answered->balances().quantities()[0], true));

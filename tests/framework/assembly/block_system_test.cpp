@@ -53,7 +53,7 @@ struct Blocks : testing::Test {
   }
 
   LinearSystem assemble() {
-    Assembly assembly({&p, &q}, Assembly::Want::residual_and_derivatives);
+    Assembly assembly({&p, &q}, Assembly::Request::residual_and_derivatives);
     const Vector weights = Vector::Constant(n, weight);
     assembly.diagonal(p, p, Vector::Constant(n, 5));
     assembly.linear(p, steady, p, dt);

@@ -20,7 +20,7 @@ std::set<int> nodes_near_tips(const Mesh& mesh) {
     near.insert(node);
     const Segment way{mesh.nodes[node], mesh.nodes[tips[node]]};
     for (const FractureCell& cell : mesh.fracture_cells) {
-      const Point half = 0.5 * cell.length * cell.tangents;
+      const Point half = 0.5 * cell.measure * cell.tangents;
       if (std::abs((way.to - cell.center).dot(cell.normal)) < 1e-9) continue;  // the tip's own: straight
       Point where;
       EXPECT_FALSE(cross_inside(way, {cell.center - half, cell.center + half}, where))

@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Angles, FloatingParts, testing::Values(0.0, 0.4, 1.3, M
 TEST_P(FloatingParts, LoseTwoCellsEach) {
   for (const double bend : {0.0, 1e-9, 0.03}) {
     const Springs three({Held::nowhere, Held::everywhere, Held::nowhere}, 5, GetParam(), bend);
-    const std::vector<char> held = unknowns_that_fractures_hold(three.system);
+    const std::vector<char> held = unknowns_held_by_fractures(three.system);
     EXPECT_EQ(count(held), 2 * 2 * 3);  // blocks, cells, unknowns of a cell
     EXPECT_LT(condition_of_the_rest(three.system, held), 3e3);
     for (int i = 50; i < 100; ++i) EXPECT_FALSE(held[i]) << "of the block that is held";
@@ -103,19 +103,19 @@ TEST_P(FloatingParts, LoseTwoCellsEach) {
 // Along rollers a block moves, and turns nowhere.
 TEST_P(FloatingParts, LoseOneCellWhereTheySlide) {
   const Springs sliding({Held::on_rollers}, 5, GetParam());
-  const std::vector<char> held = unknowns_that_fractures_hold(sliding.system);
+  const std::vector<char> held = unknowns_held_by_fractures(sliding.system);
   EXPECT_EQ(count(held), 3);
   EXPECT_LT(condition_of_the_rest(sliding.system, held), 3e3);
 }
 
 TEST_P(FloatingParts, AreOneCellOrTwo) {
-  EXPECT_EQ(count(unknowns_that_fractures_hold(Springs({Held::nowhere}, 1, GetParam()).system)), 3);
-  EXPECT_EQ(count(unknowns_that_fractures_hold(Springs({Held::nowhere}, 2, GetParam()).system)), 6);
+  EXPECT_EQ(count(unknowns_held_by_fractures(Springs({Held::nowhere}, 1, GetParam()).system)), 3);
+  EXPECT_EQ(count(unknowns_held_by_fractures(Springs({Held::nowhere}, 2, GetParam()).system)), 6);
 }
 
 TEST_P(FloatingParts, AreNoneWhereTheBulkIsHeld) {
-  EXPECT_EQ(count(unknowns_that_fractures_hold(Springs({Held::everywhere}, 5, GetParam()).system)), 0);
-  EXPECT_EQ(count(unknowns_that_fractures_hold(test::FracturedBiot{8}.build())), 0);
+  EXPECT_EQ(count(unknowns_held_by_fractures(Springs({Held::everywhere}, 5, GetParam()).system)), 0);
+  EXPECT_EQ(count(unknowns_held_by_fractures(test::FracturedBiot{8}.build())), 0);
 }
 
 // A level: no storage and no boundary value, or little of either.
@@ -124,7 +124,7 @@ TEST(FloatingLevels, LoseOneCell) {
     LinearSystem closed = test::poisson(9, true);
     for (int i = 0; i < 81; ++i) closed.local.coeffRef(i, i) += storage;
     closed.blocks.push_back({"conduit.pressure", 81, 0, 1, BlockKind::interface, {}, {}});
-    const std::vector<char> held = unknowns_that_fractures_hold(closed);
+    const std::vector<char> held = unknowns_held_by_fractures(closed);
     EXPECT_EQ(count(held), storage < 1e-6 ? 1 : 0) << storage;
     EXPECT_LT(condition_of_the_rest(closed, held), 1e7);
   }
@@ -135,7 +135,7 @@ TEST(FloatingLevels, AreFixedWhereASumStands) {
   LinearSystem closed = test::poisson(9, true);
   closed.sums = {17};
   for (SparseMatrix::InnerIterator entry(closed.local, 17); entry; ++entry) entry.valueRef() = 0;
-  const std::vector<char> held = unknowns_that_fractures_hold(closed);
+  const std::vector<char> held = unknowns_held_by_fractures(closed);
   EXPECT_EQ(count(held), 1);
   EXPECT_TRUE(held[17]);
 }

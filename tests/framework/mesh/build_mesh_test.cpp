@@ -113,7 +113,7 @@ TEST(BuildMesh, TurnsClockwiseTrianglesAndDropsUnusedNodes) {
   const Mesh turned = build_mesh(raw);
   expect_consistent(turned);
   EXPECT_EQ(turned.node_count(), unsplit_nodes);
-  EXPECT_EQ(turned.cell_area, straight.cell_area);
+  EXPECT_EQ(turned.cell_measure, straight.cell_measure);
 }
 
 TEST(BuildMesh, VersionsAreUnique) {

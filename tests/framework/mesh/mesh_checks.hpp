@@ -61,14 +61,14 @@ inline int euler_characteristic(const Mesh& mesh) { return mesh.node_count() - m
 
 inline double total_area(const Mesh& mesh) {
   double area = 0;
-  for (const double cell : mesh.cell_area) area += cell;
+  for (const double cell : mesh.cell_measure) area += cell;
   return area;
 }
 
 inline double fracture_length(const Mesh& mesh, int fracture) {
   const auto& [name, first, count] = mesh.fractures[fracture];
   double length = 0;
-  for (int i = first; i < first + count; ++i) length += mesh.fracture_cells[i].length;
+  for (int i = first; i < first + count; ++i) length += mesh.fracture_cells[i].measure;
   return length;
 }
 
@@ -100,19 +100,19 @@ inline void expect_consistent(const Mesh& mesh) {
       ASSERT_NEAR(outward.norm(), 1, 1e-14);
       ASSERT_NEAR(outward.dot(q - p), 0, 1e-14);
       ASSERT_GT(outward.dot(mesh.face_center[f] - mesh.cell_center[c]), 0);
-      ASSERT_NEAR(mesh.face_length[f], (q - p).norm(), 1e-15);
+      ASSERT_NEAR(mesh.face_measure[f], (q - p).norm(), 1e-15);
       ASSERT_NEAR((mesh.face_center[f] - (p + q) / 2).norm(), 0, 1e-15);
-      normal_sum += mesh.face_length[f] * outward;
-      perimeter += mesh.face_length[f];
+      normal_sum += mesh.face_measure[f] * outward;
+      perimeter += mesh.face_measure[f];
       // Of the polygon, with the first corner as origin (Green's theorem).
       const Point u = p - origin, v = q - origin;
       const double twice_part = u.x() * v.y() - u.y() * v.x();
       moment += twice_part / 6 * (u + v);
       twice_area += twice_part;
     }
-    ASSERT_GT(mesh.cell_area[c], 0);
-    ASSERT_NEAR(mesh.cell_area[c], twice_area / 2, 1e-14);
-    ASSERT_NEAR((mesh.cell_center[c] - origin - moment / mesh.cell_area[c]).norm(), 0, 1e-14);
+    ASSERT_GT(mesh.cell_measure[c], 0);
+    ASSERT_NEAR(mesh.cell_measure[c], twice_area / 2, 1e-14);
+    ASSERT_NEAR((mesh.cell_center[c] - origin - moment / mesh.cell_measure[c]).norm(), 0, 1e-14);
     ASSERT_LT(normal_sum.norm(), 1e-14 * perimeter);
     ASSERT_GE(mesh.cell_region[c], 0);
     ASSERT_LT(mesh.cell_region[c], static_cast<int>(mesh.region_names.size()));
@@ -137,7 +137,7 @@ inline void expect_consistent(const Mesh& mesh) {
     const FractureCell& cell = mesh.fracture_cells[i];
     const Point &from = mesh.fracture_points[cell.points[0]].position,
                 &to = mesh.fracture_points[cell.points[1]].position;
-    ASSERT_NEAR((to - from - cell.length * cell.tangents).norm(), 0, 1e-15);
+    ASSERT_NEAR((to - from - cell.measure * cell.tangents).norm(), 0, 1e-15);
     ASSERT_NEAR((cell.tangents - Point(-cell.normal.y(), cell.normal.x())).norm(), 0, 1e-15);
     ASSERT_NEAR((cell.center - (from + to) / 2).norm(), 0, 1e-15);
     for (int wall = 0; wall < 2; ++wall) {

@@ -71,7 +71,7 @@ TEST(NearestFractureCell, IsTheOneBelowThePoint) {
   for (double x = 1.05; x < 9; x += 0.3) {
     const int cell = nearest_fracture_cell(mesh, 1, {x, 3});
     EXPECT_EQ(mesh.fracture_cells[cell].fracture, 1);
-    EXPECT_LE(std::abs(mesh.fracture_cells[cell].center.x() - x), 0.5 * mesh.fracture_cells[cell].length + 1e-12);
+    EXPECT_LE(std::abs(mesh.fracture_cells[cell].center.x() - x), 0.5 * mesh.fracture_cells[cell].measure + 1e-12);
   }
   EXPECT_EQ(nearest_fracture_cell(mesh, 0, {0, 0}), mesh.fractures[0].first_cell);
 }

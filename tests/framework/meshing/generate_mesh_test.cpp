@@ -45,7 +45,7 @@ TEST(GenerateMesh, NamesTheSidesOfTheBox) {
   const std::array<Point, 4> outward = {Point(-1, 0), Point(1, 0), Point(0, -1), Point(0, 1)};
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (mesh.face_side[f] == none) continue;
-    length[mesh.face_side[f]] += mesh.face_length[f];
+    length[mesh.face_side[f]] += mesh.face_measure[f];
     EXPECT_NEAR((mesh.face_normal[f] - outward[mesh.face_side[f]]).norm(), 0, 1e-12);
   }
   EXPECT_NEAR(length[0], 2, 1e-12);
@@ -75,7 +75,7 @@ TEST(GenerateMesh, ConformsToFracturesAndRegions) {
     EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[first + count - 1].points[1]].position, points.back());
   }
   std::array<double, 3> area{};
-  for (int c = 0; c < mesh.cell_count(); ++c) area[mesh.cell_region[c]] += mesh.cell_area[c];
+  for (int c = 0; c < mesh.cell_count(); ++c) area[mesh.cell_region[c]] += mesh.cell_measure[c];
   EXPECT_NEAR(area[1], 1.6, 1e-12);
   EXPECT_NEAR(area[2], 0.2, 1e-12);
   EXPECT_NEAR(area[0], 8 - 1.8, 1e-12);
@@ -104,7 +104,7 @@ TEST(GenerateMesh, GradingReachesTheSizesAskedFor) {
     int count = 0;
     for (int f = 0; f < mesh.face_count(); ++f) {
       if ((mesh.face_center[f] - x).norm() > radius) continue;
-      sum += mesh.face_length[f];
+      sum += mesh.face_measure[f];
       ++count;
     }
     EXPECT_GT(count, 3);
@@ -222,7 +222,7 @@ TEST(StructuredMesh, AlternatesDiagonals) {
   expect_consistent(mesh);
   EXPECT_EQ(mesh.cell_count(), 64);
   EXPECT_EQ(mesh.node_count(), 45);
-  for (const double area : mesh.cell_area) EXPECT_NEAR(area, 0.125, 1e-15);
+  for (const double area : mesh.cell_measure) EXPECT_NEAR(area, 0.125, 1e-15);
   EXPECT_EQ(mesh_quality(mesh).cells_with_one_neighbour, 0);
   EXPECT_NEAR(mesh_quality(mesh).smallest_angle, 45 * degree, 1e-12);
 }
@@ -255,7 +255,7 @@ TEST(StructuredMesh, FollowsFracturesAlongLinesAndDiagonals) {
   EXPECT_NEAR(fracture_length(mesh, 0), 0.75 * std::sqrt(2.0) + 0.75, 1e-14);
   EXPECT_EQ(mesh.fractures[1].cell_count, 2);
   double upper = 0;
-  for (int c = 0; c < mesh.cell_count(); ++c) upper += mesh.cell_region[c] == 1 ? mesh.cell_area[c] : 0;
+  for (int c = 0; c < mesh.cell_count(); ++c) upper += mesh.cell_region[c] == 1 ? mesh.cell_measure[c] : 0;
   EXPECT_NEAR(upper, 2, 1e-13);
 }
 
@@ -287,7 +287,7 @@ TEST(DistortedMesh, KeepsBoundaryFracturesAndRegionsInPlace) {
       EXPECT_GT(moved, mesh.node_count() / 2);
       EXPECT_NEAR(fracture_length(mesh, 0), std::sqrt(2.0), 1e-13);
       double layer = 0;
-      for (int c = 0; c < mesh.cell_count(); ++c) layer += mesh.cell_region[c] == 1 ? mesh.cell_area[c] : 0;
+      for (int c = 0; c < mesh.cell_count(); ++c) layer += mesh.cell_region[c] == 1 ? mesh.cell_measure[c] : 0;
       EXPECT_NEAR(layer, 1, 1e-13);
       const MeshQuality before = mesh_quality(straight), after = mesh_quality(mesh);
       EXPECT_LT(after.mean_smallest_angle, before.mean_smallest_angle);

@@ -66,7 +66,7 @@ TEST(Quadrilaterals, OneByOne) {
   EXPECT_EQ(mesh.node_count(), 20);
   for (int c = 0; c < mesh.cell_count(); ++c) {
     EXPECT_EQ(mesh.cell_center[c], Point(-0.5 + c % 3, 0.25 + 0.5 * (c / 3)));
-    EXPECT_EQ(mesh.cell_area[c], 0.5);
+    EXPECT_EQ(mesh.cell_measure[c], 0.5);
   }
   const MeshQuality quality = mesh_quality(mesh);
   EXPECT_NEAR(quality.smallest_angle, 90 * degree, 1e-12);
@@ -218,8 +218,8 @@ TEST(Quadrilaterals, OverlapsOfTwoMeshesCoverBoth) {
     of_one[i] += area;
     of_other[j] += area;
   });
-  for (int i = 0; i < one.cell_count(); ++i) EXPECT_NEAR(of_one[i], one.cell_area[i], 1e-14);
-  for (int j = 0; j < other.cell_count(); ++j) EXPECT_NEAR(of_other[j], other.cell_area[j], 1e-14);
+  for (int i = 0; i < one.cell_count(); ++i) EXPECT_NEAR(of_one[i], one.cell_measure[i], 1e-14);
+  for (int j = 0; j < other.cell_count(); ++j) EXPECT_NEAR(of_other[j], other.cell_measure[j], 1e-14);
 }
 
 TEST(Quadrilaterals, GiveWayToTrianglesWhereAFractureGrows) {

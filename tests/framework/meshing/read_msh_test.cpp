@@ -90,8 +90,8 @@ TEST(ReadMsh, ReadsRegionsSidesAndFractures) {
   EXPECT_EQ(mesh.fracture_points[3].kind, FracturePoint::Kind::on_boundary);
   EXPECT_EQ(mesh.side_names[mesh.fracture_points[3].side], "boundary");
   double clay = 0, bottom = 0;
-  for (int c = 0; c < mesh.cell_count(); ++c) clay += mesh.cell_region[c] == 1 ? mesh.cell_area[c] : 0;
-  for (int f = 0; f < mesh.face_count(); ++f) bottom += mesh.face_side[f] == 0 ? mesh.face_length[f] : 0;
+  for (int c = 0; c < mesh.cell_count(); ++c) clay += mesh.cell_region[c] == 1 ? mesh.cell_measure[c] : 0;
+  for (int f = 0; f < mesh.face_count(); ++f) bottom += mesh.face_side[f] == 0 ? mesh.face_measure[f] : 0;
   EXPECT_NEAR(clay, 3, 1e-14);
   EXPECT_NEAR(bottom, 3, 1e-14);
 }
@@ -342,7 +342,7 @@ TEST(ReadMsh, ReadsPartitions) {
 /// Area times distance from the origin squared, summed over cells: tells meshes of one rectangle apart.
 double moment(const Mesh& mesh) {
   double sum = 0;
-  for (int c = 0; c < mesh.cell_count(); ++c) sum += mesh.cell_area[c] * mesh.cell_center[c].squaredNorm();
+  for (int c = 0; c < mesh.cell_count(); ++c) sum += mesh.cell_measure[c] * mesh.cell_center[c].squaredNorm();
   return sum;
 }
 

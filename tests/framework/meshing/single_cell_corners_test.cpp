@@ -66,7 +66,7 @@ TEST(SingleCellCorners, HalvesTheEdgeBetweenRegions) {
   expect_cured(mesh, 9);
   const Mesh built = build_mesh(mesh);
   double area = 0;
-  for (int c = 0; c < built.cell_count(); ++c) area += built.cell_region[c] == 1 ? built.cell_area[c] : 0;
+  for (int c = 0; c < built.cell_count(); ++c) area += built.cell_region[c] == 1 ? built.cell_measure[c] : 0;
   EXPECT_NEAR(area, 0.5, 1e-15);
 }
 

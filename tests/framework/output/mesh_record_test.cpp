@@ -45,9 +45,9 @@ TEST_F(MeshRecord, EveryMemberComesBackToTheBit) {
   EXPECT_EQ(read.face_nodes, mesh.face_nodes);
   EXPECT_EQ(read.face_cells, mesh.face_cells);
   EXPECT_EQ(read.cell_center, mesh.cell_center);
-  EXPECT_EQ(read.cell_area, mesh.cell_area);
+  EXPECT_EQ(read.cell_measure, mesh.cell_measure);
   EXPECT_EQ(read.face_center, mesh.face_center);
-  EXPECT_EQ(read.face_length, mesh.face_length);
+  EXPECT_EQ(read.face_measure, mesh.face_measure);
   EXPECT_EQ(read.face_normal, mesh.face_normal);
   EXPECT_EQ(read.node_cells.offsets, mesh.node_cells.offsets);
   EXPECT_EQ(read.node_cells.items, mesh.node_cells.items);
@@ -75,7 +75,7 @@ TEST_F(MeshRecord, EveryMemberComesBackToTheBit) {
     EXPECT_EQ(a.faces, b.faces);
     EXPECT_EQ(a.points, b.points);
     EXPECT_EQ(a.center, b.center);
-    EXPECT_EQ(a.length, b.length);
+    EXPECT_EQ(a.measure, b.measure);
     EXPECT_EQ(a.normal, b.normal);
     EXPECT_EQ(a.tangents, b.tangents);
   }
@@ -97,7 +97,7 @@ TEST_F(MeshRecord, AMeshThatIsReadHasAVersionOfItsOwn) {
 
 TEST_F(MeshRecord, ContradictingArraysAreRefused) {
   Mesh mesh = small_mesh();
-  mesh.cell_area.pop_back();
+  mesh.cell_measure.pop_back();
   EXPECT_THROW(round_trip(mesh), Hdf5Error);
   mesh = small_mesh();
   mesh.node_cells.offsets[1] = 1000;

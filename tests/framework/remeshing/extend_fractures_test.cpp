@@ -252,7 +252,7 @@ TEST(ExtendFractures, RegionInterfacesStay) {
   const Mesh& after = grown.mesh;
   EXPECT_EQ(after.cell_region[after.face_cells[after.fracture_cells.back().faces[0]][0]], 1);
   double area = 0;
-  for (int c = 0; c < after.cell_count(); ++c) area += after.cell_region[c] == 1 ? after.cell_area[c] : 0;
+  for (int c = 0; c < after.cell_count(); ++c) area += after.cell_region[c] == 1 ? after.cell_measure[c] : 0;
   EXPECT_NEAR(area, signed_area(geometry.regions[0].polygon), 1e-12);
 }
 
@@ -294,7 +294,7 @@ TEST(ExtendFractures, FarFromTheOriginAndSmall) {
     EXPECT_GE(grown.smallest_angle, 30 * degree);
     const Vector rows = grown.change.overlap * Vector::Ones(mesh.cell_count());
     for (int c = 0; c < grown.mesh.cell_count(); ++c) {
-      EXPECT_NEAR(rows[c], grown.mesh.cell_area[c], 1e-12 * grown.mesh.cell_area[c]);
+      EXPECT_NEAR(rows[c], grown.mesh.cell_measure[c], 1e-12 * grown.mesh.cell_measure[c]);
     }
   }
 }

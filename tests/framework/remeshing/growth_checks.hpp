@@ -95,9 +95,9 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
       of_old[entry.col()] += entry.value();
       ASSERT_EQ(change.cell[c] == none, kept[entry.col()] == 0);
     }
-    ASSERT_NEAR(of_new[c], mesh.cell_area[c], 1e-12 * mesh.cell_area[c]);
+    ASSERT_NEAR(of_new[c], mesh.cell_measure[c], 1e-12 * mesh.cell_measure[c]);
   }
-  for (int c = 0; c < old.cell_count(); ++c) ASSERT_NEAR(of_old[c], old.cell_area[c], 1e-12 * old.cell_area[c]);
+  for (int c = 0; c < old.cell_count(); ++c) ASSERT_NEAR(of_old[c], old.cell_measure[c], 1e-12 * old.cell_measure[c]);
 
   // Faces.
   ASSERT_EQ(change.face.size(), mesh.face_nodes.size());
@@ -105,7 +105,7 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
     const int from = change.face[f];
     if (from == none) continue;
     ASSERT_EQ(mesh.face_center[f], old.face_center[from]);
-    ASSERT_EQ(mesh.face_length[f], old.face_length[from]);
+    ASSERT_EQ(mesh.face_measure[f], old.face_measure[from]);
     ASSERT_EQ(mesh.face_side[f], old.face_side[from]);
     const int cell = mesh.face_fracture_cell[f];
     ASSERT_EQ(cell == none ? none : change.fracture_cell[cell], old.face_fracture_cell[from]);
@@ -142,7 +142,7 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
       if (was == none) continue;
       from.push_back(was);
       ASSERT_EQ(mesh.fracture_cells[i].center, old.fracture_cells[was].center);
-      ASSERT_EQ(mesh.fracture_cells[i].length, old.fracture_cells[was].length);
+      ASSERT_EQ(mesh.fracture_cells[i].measure, old.fracture_cells[was].measure);
       ASSERT_EQ(mesh.fracture_cells[i].normal, old.fracture_cells[was].normal);
       for (const int end : {0, 1}) {
         const int point = mesh.fracture_cells[i].points[end], old_point = old.fracture_cells[was].points[end];
@@ -178,12 +178,13 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
     for (int f = 0; f < which->face_count(); ++f) {
       const auto [one, other] = which->face_cells[f];
       if (other == none || which->cell_region[one] == which->cell_region[other]) continue;
-      interface_length[std::minmax(which->cell_region[one], which->cell_region[other])] += sign * which->face_length[f];
+      interface_length[std::minmax(which->cell_region[one], which->cell_region[other])] +=
+          sign * which->face_measure[f];
     }
   }
   Vector area = Vector::Zero(static_cast<int>(mesh.region_names.size()));
-  for (int c = 0; c < mesh.cell_count(); ++c) area[mesh.cell_region[c]] += mesh.cell_area[c];
-  for (int c = 0; c < old.cell_count(); ++c) area[old.cell_region[c]] -= old.cell_area[c];
+  for (int c = 0; c < mesh.cell_count(); ++c) area[mesh.cell_region[c]] += mesh.cell_measure[c];
+  for (int c = 0; c < old.cell_count(); ++c) area[old.cell_region[c]] -= old.cell_measure[c];
   ASSERT_LT(area.cwiseAbs().maxCoeff(), 1e-10 * total_area(mesh));
 
   // Cells with all faces but one on walls or outer faces are no more than before.
@@ -223,7 +224,7 @@ inline PathExtension replacing(const Mesh& mesh, int fracture, bool at_end, int 
   const Point along = replaced > 0 ? Point((to - from).normalized()) : direction(mesh, fracture, at_end);
   double length = more;
   const auto& [name, first, count] = mesh.fractures[fracture];
-  for (int n = 0; n < replaced; ++n) length += mesh.fracture_cells[at_end ? first + count - 1 - n : first + n].length;
+  for (int n = 0; n < replaced; ++n) length += mesh.fracture_cells[at_end ? first + count - 1 - n : first + n].measure;
   return {.fracture = fracture,
           .at_end = at_end,
           .points = {from + length * turned(along, angle)},

@@ -116,8 +116,8 @@ TEST(MoveTips, IsContinuous) {
       }
       // An edge of a cell is at most 0.1 m long. Areas are lost at 1e-16 of a cell's.
       EXPECT_LT(overlap_difference(*next, *at_start), part * size * 0.5 + 1e-16);
-      EXPECT_NEAR(next->mesh.fracture_cells[next->extension_cells[0][0]].length,
-                  at_start->mesh.fracture_cells[next->extension_cells[0][0]].length, part * size + 1e-16);
+      EXPECT_NEAR(next->mesh.fracture_cells[next->extension_cells[0][0]].measure,
+                  at_start->mesh.fracture_cells[next->extension_cells[0][0]].measure, part * size + 1e-16);
       EXPECT_NEAR(next->smallest_angle, at_start->smallest_angle, 2 * part);
     }
   }

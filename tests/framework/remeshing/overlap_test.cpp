@@ -52,7 +52,7 @@ TEST(ForEachOverlap, SumsToTheAreasOfTwoMeshes) {
     for (const Ring& t : mesh.cell_nodes) all.push_back({mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]]});
     return all;
   };
-  std::vector<double> of_one = one.cell_area, of_two = two.cell_area;
+  std::vector<double> of_one = one.cell_measure, of_two = two.cell_measure;
   std::pair<int, int> last{-1, -1};
   for_each_overlap(corners(one), corners(two), [&](int i, int j, double area) {
     EXPECT_LT(last, std::pair(i, j));
@@ -60,8 +60,8 @@ TEST(ForEachOverlap, SumsToTheAreasOfTwoMeshes) {
     of_one[i] -= area;
     of_two[j] -= area;
   });
-  for (int i = 0; i < one.cell_count(); ++i) EXPECT_NEAR(of_one[i], 0, 1e-12 * one.cell_area[i]);
-  for (int j = 0; j < two.cell_count(); ++j) EXPECT_NEAR(of_two[j], 0, 1e-12 * two.cell_area[j]);
+  for (int i = 0; i < one.cell_count(); ++i) EXPECT_NEAR(of_one[i], 0, 1e-12 * one.cell_measure[i]);
+  for (int j = 0; j < two.cell_count(); ++j) EXPECT_NEAR(of_two[j], 0, 1e-12 * two.cell_measure[j]);
 }
 
 }  // namespace

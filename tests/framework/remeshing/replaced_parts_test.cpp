@@ -135,7 +135,7 @@ TEST(ReplacedCells, WholeSegmentsAreOneCellEach) {
     path.points.push_back(path.points[0] + Point(0, 0.6 * size));
     const GrownMesh grown = extended(mesh, {path}, usual);
     ASSERT_EQ(grown.extension_cells[0].size(), 2u);
-    EXPECT_NEAR(grown.mesh.fracture_cells[grown.extension_cells[0][0]].length, length * size, 1e-14);
+    EXPECT_NEAR(grown.mesh.fracture_cells[grown.extension_cells[0][0]].measure, length * size, 1e-14);
     EXPECT_GE(grown.smallest_angle, 20 * degree) << length;
   }
 }

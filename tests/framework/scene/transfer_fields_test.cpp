@@ -96,11 +96,11 @@ TEST(TransferFields, TotalsStay) {
     double amount_before = 0, amount_after = 0, density_before = 0, density_after = 0;
     for (int i = 0; i < c.mesh.cell_count(); ++i) {
       amount_before += values[2 * i + component];
-      density_before += c.mesh.cell_area[i] * values[2 * i + component];
+      density_before += c.mesh.cell_measure[i] * values[2 * i + component];
     }
     for (int i = 0; i < c.grown.mesh.cell_count(); ++i) {
       amount_after += amounts[2 * i + component];
-      density_after += c.grown.mesh.cell_area[i] * densities[2 * i + component];
+      density_after += c.grown.mesh.cell_measure[i] * densities[2 * i + component];
     }
     EXPECT_NEAR(amount_after, amount_before, 1e-13 * amount_before);
     EXPECT_NEAR(density_after, density_before, 1e-13 * density_before);
@@ -112,10 +112,10 @@ TEST(TransferFields, NewCellsTakeTheirShare) {
   // what is averaged.
   const Case c = grown_at_first_point();
   Vector areas(c.mesh.cell_count());
-  for (int i = 0; i < areas.size(); ++i) areas[i] = c.mesh.cell_area[i];
+  for (int i = 0; i < areas.size(); ++i) areas[i] = c.mesh.cell_measure[i];
   const Vector amounts = transfer(c, spec(Location::cell, 1, true), areas).accepted;
   for (int i = 0; i < c.grown.mesh.cell_count(); ++i)
-    EXPECT_NEAR(amounts[i], c.grown.mesh.cell_area[i], 1e-12 * c.grown.mesh.cell_area[i]);
+    EXPECT_NEAR(amounts[i], c.grown.mesh.cell_measure[i], 1e-12 * c.grown.mesh.cell_measure[i]);
   const Vector values = varied(c.mesh.cell_count());
   const Vector means = transfer(c, spec(Location::cell), values).accepted;
   for (const int i : c.grown.change.new_cells) {

@@ -35,7 +35,7 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
     is_kept.push_back(keep);
   };
   path.length = 0;
-  for (int i = 0; i < cells.cell_count; ++i) path.length += mesh.fracture_cells[cells.first_cell + i].length;
+  for (int i = 0; i < cells.cell_count; ++i) path.length += mesh.fracture_cells[cells.first_cell + i].measure;
   const auto end_point = [&](bool at_end) -> const FracturePoint& {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (at_end ? cells.cell_count - 1 : 0)];
     return mesh.fracture_points[cell.points[at_end ? 1 : 0]];
@@ -55,7 +55,7 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
   append(end_point(false).position, 0, true);
   for (int i = 0; i < cells.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
-    arc += cell.length;
+    arc += cell.measure;
     const FracturePoint& point = mesh.fracture_points[cell.points[1]];
     const bool is_last = i + 1 == cells.cell_count;
     append(point.position, is_last ? path.length : arc, is_last || point.kind == FracturePoint::Kind::junction);

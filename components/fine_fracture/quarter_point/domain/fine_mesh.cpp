@@ -146,9 +146,9 @@ class Builder {
     std::size_t segment = 0;
     for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
       const FractureCell& cell = mesh_.fracture_cells[i];
-      const double middle = arc + 0.5 * cell.length;
+      const double middle = arc + 0.5 * cell.measure;
       while (segment + 2 < lengths.size() && middle > lengths[segment + 1]) ++segment;
-      FineMesh::WallEdge edge{c,   {}, {}, cell.tangents, cell.normal, arc, arc + cell.length, crack.walls[segment],
+      FineMesh::WallEdge edge{c,   {}, {}, cell.tangents, cell.normal, arc, arc + cell.measure, crack.walls[segment],
                               none};
       for (int side = 0; side < 2; ++side) {
         auto [a, b] = mesh_.face_nodes[cell.faces[side]];

@@ -32,9 +32,9 @@ struct Drawing {
   }
 };
 
-class Draughtsman {
+class DrawingBuilder {
  public:
-  Draughtsman(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, int sectors)
+  DrawingBuilder(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, int sectors)
       : geometry_(geometry), rooms_(rooms), tolerance_(outline_tolerance(geometry.outline)) {
     draw_outline();
     for (const TipRoom& room : rooms_) draw_rosette(room, sectors);
@@ -225,7 +225,7 @@ std::vector<Point> rosette_corners(const TipRoom& room, int sectors) {
 
 OutsideMesh mesh_outside(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, int sectors,
                          const std::function<double(const Point&)>& size) {
-  const Drawing drawing = Draughtsman(geometry, rooms, sectors).take();
+  const Drawing drawing = DrawingBuilder(geometry, rooms, sectors).take();
   const CanonicalDrawing canonical(drawing.points, drawing.lines);
   // Without the last digits, in which mirrored or shifted domains differ.
   RegionMesh mesh = mesh_region(region(drawing, canonical), [&](const Point& x) {

@@ -1,4 +1,4 @@
-#include "components/matrix_flow/mpfa/plain_tips.hpp"
+#include "components/matrix_flow/mpfa/uncorrected_tips.hpp"
 
 #include <algorithm>
 
@@ -9,16 +9,17 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-bool is_like_the_tip(const Mesh& mesh, int node, const std::vector<Tensor>& mobility, const Tensor& rock) {
+bool has_material_of_tip(const Mesh& mesh, int node, const std::vector<Tensor>& mobility, const Tensor& rock) {
   return std::ranges::all_of(mesh.node_cells[node], [&](int cell) { return resembles(mobility[cell], rock); });
 }
 
 /// Empty where the flow is there.
-std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells, const std::vector<Tensor>& mobility) {
+std::string why_uncorrected(const Mesh& mesh, int tip, const std::vector<int>& cells,
+                            const std::vector<Tensor>& mobility) {
   const Tensor& rock = mobility[mesh.node_cells[tip][0]];
   if (const auto flow = TipFlow::find(mesh, tip, cells, mobility)) {
     for (const int node : nodes_around_end(mesh, tip, 1))
-      if (!is_like_the_tip(mesh, node, mobility, flow->mobility()))
+      if (!has_material_of_tip(mesh, node, mobility, flow->mobility()))
         return "the permeability of cells next to it differs by more than 20 %";
     return "";
   }
@@ -31,11 +32,11 @@ std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells, 
 
 }  // namespace
 
-PlainTips plain_tips(const Mesh& mesh, const std::vector<Tensor>& mobility) {
-  PlainTips found;
+UncorrectedTips uncorrected_tips(const Mesh& mesh, const std::vector<Tensor>& mobility) {
+  UncorrectedTips found;
   for (const auto& [tip, cells] : cells_around_tips(mesh, ends_nearby(mesh))) {
     ++found.tips;
-    const std::string reason = why_plain(mesh, tip, cells, mobility);
+    const std::string reason = why_uncorrected(mesh, tip, cells, mobility);
     if (reason.empty() || found.plain++ > 0) continue;
     found.first = mesh.nodes[tip];
     found.reason = reason;

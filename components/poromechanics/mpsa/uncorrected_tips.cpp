@@ -1,4 +1,4 @@
-#include "components/poromechanics/mpsa/plain_tips.hpp"
+#include "components/poromechanics/mpsa/uncorrected_tips.hpp"
 
 #include <algorithm>
 
@@ -9,20 +9,20 @@
 namespace sprekk::poromechanics {
 namespace {
 
-bool is_like_the_tip(const Mesh& mesh, int node, const std::vector<Stiffness>& stiffness, const Stiffness& rock) {
+bool has_material_of_tip(const Mesh& mesh, int node, const std::vector<Stiffness>& stiffness, const Stiffness& rock) {
   return std::ranges::all_of(mesh.node_cells[node], [&](int cell) { return resembles(stiffness[cell], rock); });
 }
 
 /// Empty where the field is there.
-std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells,
-                      const std::vector<Stiffness>& stiffness) {
+std::string why_uncorrected(const Mesh& mesh, int tip, const std::vector<int>& cells,
+                            const std::vector<Stiffness>& stiffness) {
   if (const auto field = TipField::find(mesh, tip, cells, stiffness)) {
     for (const int node : nodes_around_end(mesh, tip, 1))
-      if (!is_like_the_tip(mesh, node, stiffness, field->rock()))
+      if (!has_material_of_tip(mesh, node, stiffness, field->rock()))
         return "the stiffness of cells next to it differs by more than 20 %";
     return "";
   }
-  if (!is_like_the_tip(mesh, tip, stiffness, stiffness[mesh.node_cells[tip][0]]))
+  if (!has_material_of_tip(mesh, tip, stiffness, stiffness[mesh.node_cells[tip][0]]))
     return "the stiffness around it differs by more than 20 %";
   if (!std::ranges::all_of(mesh.node_cells[tip], [&](int cell) { return is_isotropic(stiffness[cell]); }))
     return "the rock is anisotropic";
@@ -31,11 +31,11 @@ std::string why_plain(const Mesh& mesh, int tip, const std::vector<int>& cells,
 
 }  // namespace
 
-PlainTips plain_tips(const Mesh& mesh, const std::vector<Stiffness>& stiffness) {
-  PlainTips found;
+UncorrectedTips uncorrected_tips(const Mesh& mesh, const std::vector<Stiffness>& stiffness) {
+  UncorrectedTips found;
   for (const auto& [tip, cells] : end_zones(mesh).cells) {
     ++found.tips;
-    const std::string reason = why_plain(mesh, tip, cells, stiffness);
+    const std::string reason = why_uncorrected(mesh, tip, cells, stiffness);
     if (reason.empty() || found.plain++ > 0) continue;
     found.first = mesh.nodes[tip];
     found.reason = reason;

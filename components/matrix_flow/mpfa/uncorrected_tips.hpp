@@ -9,13 +9,13 @@
 namespace sprekk::matrix_flow {
 
 /// How many tips of a mesh get no correction of their flow, where the first of them is, and why.
-struct PlainTips {
+struct UncorrectedTips {
   int tips = 0;        ///< of fractures, all of them
   int plain = 0;       ///< those whose flow (TipFlow) is missing, or at a node next to the tip is
   Point first;         ///< of the plain ones, m
   std::string reason;  ///< why the first is plain
 };
 
-PlainTips plain_tips(const Mesh& mesh, const std::vector<Tensor>& mobility);
+UncorrectedTips uncorrected_tips(const Mesh& mesh, const std::vector<Tensor>& mobility);
 
 }  // namespace sprekk::matrix_flow

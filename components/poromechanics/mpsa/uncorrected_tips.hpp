@@ -9,13 +9,13 @@
 namespace sprekk::poromechanics {
 
 /// How many tips of a mesh get no correction of their displacements, where the first of them is, and why.
-struct PlainTips {
+struct UncorrectedTips {
   int tips = 0;        ///< of fractures, all of them
   int plain = 0;       ///< those whose field (TipField) is missing, or at a node next to the tip is
   Point first;         ///< of the plain ones, m
   std::string reason;  ///< why the first is plain
 };
 
-PlainTips plain_tips(const Mesh& mesh, const std::vector<Stiffness>& stiffness);
+UncorrectedTips uncorrected_tips(const Mesh& mesh, const std::vector<Stiffness>& stiffness);
 
 }  // namespace sprekk::poromechanics

@@ -27,8 +27,8 @@ Eigen::VectorXd scale_of(const Eigen::MatrixXd& form) {
 
 }  // namespace
 
-LocalFluxes::Matrix LocalFluxes::lost_power(const InteractionRegion& region,
-                                            const std::vector<FlowCondition>& conditions) const {
+LocalFluxes::Matrix LocalFluxes::dissipation(const InteractionRegion& region,
+                                             const std::vector<FlowCondition>& conditions) const {
   Matrix power = Matrix::Zero(columns_, columns_);
   int column = region.subcell_count();
   for (int f = 0; f < subfaces_; ++f) {
@@ -48,15 +48,15 @@ LocalFluxes::Matrix LocalFluxes::lost_power(const InteractionRegion& region,
   return 0.5 * (power + power.transpose());
 }
 
-bool LocalFluxes::each_subcell_loses_energy() const {
+bool LocalFluxes::each_subcell_dissipates() const {
   return std::all_of(weights_.begin(), weights_.end(), [](const Weights& w) {
     const double mean = 0.5 * (w[0][1] + w[1][0]);
     return w[0][0] > 0 && w[0][0] * w[1][1] > mean * mean;
   });
 }
 
-bool LocalFluxes::loses_energy(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const {
-  const Matrix power = lost_power(region, conditions);
+bool LocalFluxes::dissipates(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const {
+  const Matrix power = dissipation(region, conditions);
   const Eigen::VectorXd scale = scale_of(power);
   const Eigen::MatrixXd scaled = scale.asDiagonal() * power * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
@@ -80,8 +80,9 @@ LocalFluxes::Matrix LocalFluxes::kinks(const Mesh& mesh, int node, const Interac
   return kinks;
 }
 
-LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const InteractionRegion& region,
-                                    const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
+LocalFluxes::Stabilizer LocalFluxes::stabilize(const Mesh& mesh, int node, const InteractionRegion& region,
+                                               const std::vector<Tensor>& mobility,
+                                               const std::vector<FlowCondition>& conditions) {
   const std::vector<double> points = towards_node_;
   // Continuity points on walls and sides are not free: both halves of such a face have the same point.
   for (const double other : other_points) {
@@ -89,7 +90,7 @@ LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const Interactio
       if (region.is_inner(f)) towards_node_[f] = other;
     find_arms(mesh, node, region);
     solve_with(&LocalFluxes::consistent, region, mobility, conditions);
-    if (loses_energy(region, conditions)) return Cure::points;
+    if (dissipates(region, conditions)) return Stabilizer::points;
   }
   towards_node_ = points;
   find_arms(mesh, node, region);
@@ -98,7 +99,7 @@ LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const Interactio
   const Eigen::MatrixXd kinks = this->kinks(mesh, node, region);
   solve_with(&LocalFluxes::symmetric, region, mobility, conditions);
   const std::vector<double> symmetric_pressures = pressures_, symmetric_fluxes = fluxes_;
-  const Eigen::VectorXd scale = scale_of(lost_power(region, conditions));
+  const Eigen::VectorXd scale = scale_of(dissipation(region, conditions));
 
   // The part of the pressures that is not linear: orthogonal to all pressures without kinks, in units of equal energy.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(kinks * scale.asDiagonal(), Eigen::ComputeFullV);
@@ -111,18 +112,18 @@ LocalFluxes::Cure LocalFluxes::cure(const Mesh& mesh, int node, const Interactio
   const auto take = [&](const Matrix& pressures, const Matrix& fluxes) {
     Eigen::Map<Matrix>(pressures_.data(), subfaces_, columns_) = pressures;
     Eigen::Map<Matrix>(fluxes_.data(), subfaces_, columns_) = fluxes;
-    return loses_energy(region, conditions);
+    return dissipates(region, conditions);
   };
   const Eigen::MatrixXd straight = Eigen::MatrixXd::Identity(columns_, columns_) - bent;
   for (const double damping : dampings)
     if (take(map(exact_pressures) * straight + damping * map(symmetric_pressures) * bent,
              map(exact_fluxes) * straight + damping * map(symmetric_fluxes) * bent))
-      return Cure::damping;
+      return Stabilizer::damping;
   for (const double share : shares)
     if (take((1 - share) * map(exact_pressures) + share * map(symmetric_pressures),
              (1 - share) * map(exact_fluxes) + share * map(symmetric_fluxes)))
-      return Cure::blend;
-  return Cure::blend;
+      return Stabilizer::blend;
+  return Stabilizer::blend;
 }
 
 }  // namespace sprekk::matrix_flow
