@@ -5,6 +5,7 @@
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -80,7 +81,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
     const Field& pressure = fluid_.pressure();
     if (!assembly.has_row(pressure)) return;
     if (decoupled_) return;
-    BalanceRows fluid = assembly.balance(pressure);
+    BalanceRows fluid(assembly, pressure);
     if (has_grains_) {
       fluid.store(grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted()),
                   grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());

@@ -5,6 +5,7 @@
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
+#include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/scene/registry.hpp"
@@ -78,7 +79,7 @@ class WallExchange : public Coupler {
     if (assembly.has_row(pressure)) {
       const Vector& received = assembly.has_row(flux) ? exchanged_.accepted() : exchanged_.now();
       const Vector uncounted = of_both_walls_ * (received - counted_.accepted());
-      assembly.balance(pressure).store(uncounted);
+      BalanceRows(assembly, pressure).store(uncounted);
       if (assembly.has_row(flux)) assembly.linear(pressure, inflow_, flux, step.dt);
     }
     if (!assembly.has_row(flux)) return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/products.hpp"
 #include "framework/discretization/linear_fit.hpp"
 #include "framework/field/ownership.hpp"
@@ -348,7 +349,7 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   SPREKK_EXPECT(step.dt > 0, step.dt);
   SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
   SPREKK_ASSERT(capacity_.size() == mesh_.cell_count() && source_.size() == mesh_.cell_count(), capacity_.size());
-  BalanceRows fluid = assembly.balance(pressure_, "fluid");
+  BalanceRows fluid(assembly, pressure_, "fluid");
   fluid.store(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()),
               capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, pressure_, capacity_of_pressure_);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """docs/pictures/include_graph.py: draws include_graph.svg, which folder of the sources includes headers of which (by dot), without the
-arrows that follow from others. A folder with source files of its own counts with the folders in it. Fails where folders include
-one another in a circle.
+arrows that follow from others. A folder with source files of its own counts with the folders in it. Fails where folders, or files
+(a header and its source are one), include one another in a circle.
 --check: draws nothing, and fails where the picture is not that of the sources, too."""
 
 import graphlib
@@ -44,6 +44,23 @@ def includes():
     return {place: targets - {place} for place, targets in graph.items()}
 
 
+def file_includes():
+    """{file without its ending: those of which it includes headers}"""
+    graph = {}
+    for file in sources():
+        own = file.as_posix().rpartition(".")[0]
+        headers = INCLUDE.findall((ROOT / file).read_text(encoding="utf-8"))
+        graph.setdefault(own, set()).update(header.rpartition(".")[0] for header in headers)
+    return {own: targets - {own} for own, targets in graph.items()}
+
+
+def refuse_circle(graph, what):
+    try:
+        tuple(graphlib.TopologicalSorter(graph).static_order())
+    except graphlib.CycleError as error:
+        sys.exit(f"{what} include one another in a circle: " + " -> ".join(reversed(error.args[1])))
+
+
 def reached(graph, start):
     seen, waiting = set(), list(graph.get(start, ()))
     while waiting:
@@ -84,10 +101,8 @@ def main():
     if sys.argv[1:] not in ([], ["--check"]):
         sys.exit(__doc__)
     graph = includes()
-    try:
-        tuple(graphlib.TopologicalSorter(graph).static_order())
-    except graphlib.CycleError as error:
-        sys.exit("folders include one another in a circle: " + " -> ".join(reversed(error.args[1])))
+    refuse_circle(graph, "folders")
+    refuse_circle(file_includes(), "files")
     picture = HERE / "include_graph.svg"
     if sys.argv[1:]:
         arrows = {f"{place}->{to}" for place, targets in without_what_follows(graph).items() for to in targets}

@@ -30,15 +30,6 @@ int Assembly::index_of(const Field& row) const {
   return found == index_.end() ? -1 : found->second;
 }
 
-BalanceRows Assembly::balance(const Field& row, const std::string& quantity) {
-  SPREKK_EXPECT(!quantity.empty(), row.name());
-  const int i = index_of(row);
-  if (i >= 0) balances_.declare(i, row.name(), quantity, residuals_[i]);
-  return {*this, row, i};
-}
-
-BalanceRows Assembly::balance(const Field& row) { return {*this, row, index_of(row)}; }
-
 void Assembly::add(const Field& row, const Vector& values) {
   if (const int i = index_of(row); i >= 0) add(i, values, values);
 }

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/balances.hpp"
 #include "framework/assembly/linear_expression.hpp"
 #include "framework/assembly/products.hpp"
@@ -33,12 +32,6 @@ class Assembly {
 
   /// residual(row) += values.
   void add(const Field& row, const Vector& values);
-  /// Declares the rows of a field as balances of a quantity. To be called once, by the owner of the field, before any
-  /// of their terms are added. The balances of one quantity, of this and of other fields, have one unit and may be
-  /// added up.
-  BalanceRows balance(const Field& row, const std::string& quantity);
-  /// For terms that other parts add to balances; without effect beside the residual if the owner has declared none.
-  BalanceRows balance(const Field& row);
   /// Adds another magnitude that the residual is compared with, in the units of the equation.
   void compare_with(const Field& row, double magnitude);
   /// Adds a bound of the numbers whose differences make up the residual: these numbers leave round-off of their own

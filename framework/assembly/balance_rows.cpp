@@ -1,9 +1,17 @@
 #include "framework/assembly/balance_rows.hpp"
 
-#include "framework/assembly/assembly.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk {
+
+BalanceRows::BalanceRows(Assembly& assembly, const Field& row)
+    : assembly_(assembly), row_(row), unknown_(assembly.index_of(row)) {}
+
+BalanceRows::BalanceRows(Assembly& assembly, const Field& row, const std::string& quantity)
+    : BalanceRows(assembly, row) {
+  SPREKK_EXPECT(!quantity.empty(), row.name());
+  if (unknown_ >= 0) assembly.balances_.declare(unknown_, row.name(), quantity, assembly.residuals_[unknown_]);
+}
 
 void BalanceRows::store(const Vector& amounts, double largest) {
   SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());

@@ -1,17 +1,16 @@
 // How a part declares the balances of a conserved quantity and adds their terms.
 #pragma once
 
-#include "framework/types.hpp"
+#include <string>
+
+#include "framework/assembly/assembly.hpp"
 
 namespace sprekk {
 
-class Assembly;
-class Field;
-
-/// The rows of one field as balances of a quantity: stored + outflow = supplied, in amounts over the step. Parts get it
-/// from Assembly::balance in each assemble(); terms of rows that are not in the solve are ignored.
+/// The rows of one field as balances of a quantity: stored + outflow = supplied, in amounts over the step. Parts
+/// make one in each assemble(); terms of rows that are not in the solve are ignored.
 ///
-///   BalanceRows fluid = assembly.balance(pressure_, "fluid");
+///   BalanceRows fluid(assembly, pressure_, "fluid");
 ///   fluid.store(capacity.cwiseProduct(p.now() - p.accepted()), largest_of(capacity, p.now()));
 ///   fluid.exchange(dt * outflow, dt * outflow_through_the_boundary, dt * largest_conductance * largest_pressure);
 ///   fluid.supply(dt * source);
@@ -23,6 +22,13 @@ class Field;
 /// together (docs/numerics/constant_modes.md).
 class BalanceRows {
  public:
+  /// Declares the rows of a field as balances of a quantity. To be made once, by the owner of the field, before any
+  /// of their terms are added. The balances of one quantity, of this and of other fields, have one unit and may be
+  /// added up.
+  BalanceRows(Assembly& assembly, const Field& row, const std::string& quantity);
+  /// For terms that other parts add to balances; without effect beside the residual if the owner has declared none.
+  BalanceRows(Assembly& assembly, const Field& row);
+
   /// residual += amounts that each row stores in the step. `largest`: a bound of the numbers whose differences these
   /// amounts are; such numbers leave round-off of their own size.
   void store(const Vector& amounts, double largest = 0);
@@ -37,9 +43,6 @@ class BalanceRows {
   void add_turnover(const Vector& amounts);
 
  private:
-  friend class Assembly;
-  BalanceRows(Assembly& assembly, const Field& row, int unknown) : assembly_(assembly), row_(row), unknown_(unknown) {}
-
   Assembly& assembly_;
   const Field& row_;
   int unknown_;  ///< none where the rows are not in the solve

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "framework/config/yaml/load_scene.hpp"
+
 namespace sprekk {
 
 void SceneArguments::add_to(CLI::App& command) {

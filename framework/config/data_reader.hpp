@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
-#include "framework/config/spec.hpp"
+#include "framework/config/data.hpp"
+#include "framework/config/node.hpp"
+#include "framework/config/parameter.hpp"
 
 namespace sprekk {
 

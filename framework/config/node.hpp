@@ -42,20 +42,4 @@ struct Node::Entry {
 /// `text` as a YAML scalar: in double quotes where YAML would read it as something else.
 std::string yaml_scalar(const std::string& text);
 
-/// One `--set a.b.c=value`; the value is parsed as YAML. An item of a list is named by its index: `couplers.0.type`.
-struct Override {
-  std::string path;
-  std::string value;
-  Origin key_origin = {"--set"}, value_origin = {"--set"};  ///< a study's overrides stand in its file
-};
-
-/// Reads and merges scene files (later files win, maps merge key by key, lists and scalars replace, a null removes the
-/// key: the rules of RFC 7386) and applies the overrides by the same rules.
-/// Throws InputError for unreadable, binary, malformed or oversized input and for duplicate keys.
-Node load_scene(const std::vector<std::string>& files, const std::vector<Override>& overrides);
-
-/// Parses one YAML text, for tests and generated scenes. Anchors, aliases and merge keys (`<<`) are expanded;
-/// at most 200,000 values, 64 levels deep, and 64 MiB, so that no small file can fill the memory.
-Node parse_yaml(const std::string& text, const std::string& source_name);
-
 }  // namespace sprekk

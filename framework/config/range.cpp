@@ -1,6 +1,6 @@
-#include <fmt/format.h>
+#include "framework/config/range.hpp"
 
-#include "framework/config/spec.hpp"
+#include <fmt/format.h>
 
 namespace sprekk {
 

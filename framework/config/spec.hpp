@@ -11,68 +11,15 @@
 #pragma once
 
 #include <functional>
-#include <limits>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/config/data.hpp"
 #include "framework/config/node.hpp"
+#include "framework/config/parameter.hpp"
 
 namespace sprekk {
-
-/// The values that a number may take; bounds in SI units.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_allowed = true;
-  bool high_allowed = true;
-  bool contains(double value) const;
-  std::string text() const;  ///< "> 0", "from 0 to 1", …
-};
-Range positive();
-Range non_negative();
-Range between(double low, double high);           ///< both ends allowed
-Range strictly_between(double low, double high);  ///< neither end allowed
-
-/// The declaration of a parameter besides its name and its target.
-struct About {
-  std::string unit = "";  ///< SI unit, "" for a plain number; the scene may use any unit of this dimension
-  Range range = {};
-  std::string doc = "";        ///< one sentence
-  std::string source = "";     ///< equation or paper
-  bool required = false;       ///< else the target's value at declaration is the default
-  bool material = false;       ///< may also be given in the scene's `materials:` section, shared by all components
-  bool constant_only = false;  ///< data that cannot be a function, a table or a value per region
-  bool in_time = false;        ///< data that are evaluated in every step; others must not depend on t
-  std::string fixed = "";      ///< why the data must not depend on t, for the message
-};
-
-/// The meaning of names in a scene, gathered before the components are read.
-struct ReadContext {
-  const Node* materials = nullptr;        ///< the `materials:` map or nullptr
-  std::vector<std::string> region_names;  ///< for values per region, by index
-  std::string folder = ".";               ///< of the scene file: tables are found relative to it
-  /// Records path, value (YAML on one line) and origin ("scene.yaml:3:4" or "default") of every parameter read or
-  /// defaulted, for `show`; may be null.
-  std::function<void(const std::string& path, const std::string& value, const std::string& origin)> record;
-  /// Receives every key of `materials:` that some spec knows, also where the component's own value wins; may be null.
-  std::function<void(const std::string& key)> material_used;
-};
-
-/// One declared parameter, as `explain` and the schema see it.
-struct Parameter {
-  std::string name;
-  /// "quantity", "data", "vector", "tensor", "point", "points", "quantities", "integer", "flag", "text", "texts",
-  /// "choice", "section", "named sections", "list of sections", "custom"
-  std::string kind;
-  About about;
-  std::string default_text;                                  ///< "" when there is none
-  std::vector<std::pair<std::string, std::string>> choices;  ///< value, doc
-  std::shared_ptr<const class Spec> inner;                   ///< of sections
-};
 
 /// The parameters of one map of a scene, with the variables that they are read into.
 class Spec {

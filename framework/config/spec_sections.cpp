@@ -1,5 +1,6 @@
 // The parameters of a Spec that are maps or lists of maps.
 #include "framework/config/data_reader.hpp"
+#include "framework/config/spec.hpp"
 
 namespace sprekk {
 namespace {

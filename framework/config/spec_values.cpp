@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "framework/config/data_reader.hpp"
+#include "framework/config/spec.hpp"
 #include "framework/config/units.hpp"
 
 namespace sprekk {

@@ -8,6 +8,7 @@
 #include "framework/meshing/single_cell_corners.hpp"
 #include "framework/meshing/structured_mesh.hpp"
 #include "framework/meshing/unstructured_mesh.hpp"
+#include "framework/meshing/validate_geometry.hpp"
 
 namespace sprekk {
 namespace {

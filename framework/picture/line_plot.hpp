@@ -9,17 +9,9 @@
 #include <vector>
 
 #include "framework/picture/axis.hpp"
-#include "framework/picture/colours.hpp"
+#include "framework/picture/curve.hpp"
 
 namespace sprekk {
-
-/// A curve of a plot.
-struct Curve {
-  std::string name;          ///< in the legend; "" for none
-  std::vector<double> x, y;  ///< of the same length; a number that is not finite interrupts the line
-  LineStyle style;
-  bool marked = false;  ///< with a dot at each point
-};
 
 /// A plot of several curves.
 struct Panel {

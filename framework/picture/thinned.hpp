@@ -1,7 +1,7 @@
 // Thins curves of very many points to what can be seen.
 #pragma once
 
-#include "framework/picture/line_plot.hpp"
+#include "framework/picture/curve.hpp"
 
 namespace sprekk {
 

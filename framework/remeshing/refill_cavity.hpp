@@ -7,7 +7,7 @@
 
 #include "framework/mesh/planar.hpp"
 #include "framework/mesh/raw_mesh.hpp"
-#include "framework/remeshing/extend_fractures.hpp"
+#include "framework/remeshing/cavity_options.hpp"
 #include "framework/remeshing/path_nodes.hpp"
 
 namespace sprekk {

@@ -8,6 +8,7 @@
 #include "framework/config/units.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/geometry_spec.hpp"
+#include "framework/meshing/validate_geometry.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/solve_step.hpp"
 

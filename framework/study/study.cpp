@@ -7,6 +7,8 @@
 
 #include "framework/config/node_paths.hpp"
 #include "framework/config/text_file.hpp"
+#include "framework/config/yaml/load_scene.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 #include "framework/study/scene_identity.hpp"
 
 namespace sprekk {

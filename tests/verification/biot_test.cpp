@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "framework/config/yaml/load_scene.hpp"
 #include "tests/verification/mandel_solution.hpp"
 #include "tests/verification/scene_run.hpp"
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "framework/config/yaml/load_scene.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "framework/config/yaml/load_scene.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {

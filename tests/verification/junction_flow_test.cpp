@@ -6,6 +6,7 @@
 
 #include "framework/assembly/assembly.hpp"
 #include "framework/assembly/part.hpp"
+#include "framework/config/yaml/load_scene.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {

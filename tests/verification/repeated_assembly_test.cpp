@@ -7,6 +7,7 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
+#include "framework/config/yaml/load_scene.hpp"
 #include "framework/scene/registry.hpp"
 #include "tests/verification/scene_run.hpp"
 

@@ -8,6 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "framework/config/yaml/load_scene.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
+
 namespace sprekk::testing {
 
 namespace {

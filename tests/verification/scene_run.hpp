@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/config/node.hpp"
+#include "framework/config/yaml/load_scene.hpp"
 #include "framework/run/mesh_growth.hpp"
 #include "framework/scene/model.hpp"
 #include "framework/schedule/step_controller.hpp"

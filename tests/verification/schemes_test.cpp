@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "framework/config/yaml/load_scene.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "framework/config/yaml/load_scene.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {

@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+#include "framework/config/yaml/load_scene.hpp"
+
 #include "tools/benchmark/growth_event_old_factors.hpp"
 #include "tools/benchmark/growth_event_orderings.hpp"
 

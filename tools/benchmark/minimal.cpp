@@ -16,6 +16,7 @@
 #include "components/poromechanics/mpsa/mpsa.hpp"
 #include "framework/command_line/keep_memory.hpp"
 #include "framework/config/node.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/mesh/partition.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/assembly/balance_rows.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 
@@ -195,7 +196,7 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
 void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assemble_fluxes(assembly, step);
   if (!assembly.has_row(pressure_)) return;
-  BalanceRows fluid = assembly.balance(pressure_, "fluid");
+  BalanceRows fluid(assembly, pressure_, "fluid");
   SPREKK_EXPECT(step.dt > 0, step.dt);
   SPREKK_EXPECT(source_.size() == mesh_.fracture_cell_count(), source_.size(), mesh_.fracture_cell_count());
   const int count = mesh_.fracture_cell_count();

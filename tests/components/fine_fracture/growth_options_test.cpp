@@ -1,4 +1,5 @@
 #include "components/fine_fracture/growth/growth_options.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -28,7 +28,7 @@ struct TwoBalances : testing::Test {
 
 // stored + outflow − supplied, and in the sum only what leaves all rows.
 TEST_F(TwoBalances, CountStoredExchangedAndSupplied) {
-  BalanceRows rows = assembly.balance(one, "fluid");
+  BalanceRows rows(assembly, one, "fluid");
   rows.store(vector(1, -2, 4), 100);
   rows.supply(vector(0, 0.5, 0));
   rows.exchange(vector(7, -5, 3), vector(0, 0, 5), 1000);
@@ -42,31 +42,31 @@ TEST_F(TwoBalances, CountStoredExchangedAndSupplied) {
 }
 
 TEST_F(TwoBalances, OfOneQuantityAreOne) {
-  assembly.balance(one, "fluid");
-  assembly.balance(other, "fluid");
+  BalanceRows(assembly, one, "fluid");
+  BalanceRows(assembly, other, "fluid");
   ASSERT_EQ(balances.quantities().size(), 1u);
   EXPECT_EQ(balances.quantities()[0].unknowns, (std::vector<int>{0, 1}));
-  EXPECT_THROW(assembly.balance(one, "fluid"), std::logic_error);
+  EXPECT_THROW(BalanceRows(assembly, one, "fluid"), std::logic_error);
 }
 
 TEST_F(TwoBalances, CountWhatOthersAdd) {
   assembly.add(one, vector(1, 1, 1));  // before the owner has said that these are balances
-  assembly.balance(one, "fluid");
-  assembly.balance(one).store(vector(0, 3, 0));
-  assembly.balance(one).add_turnover(vector(-2, 0, 0));
+  BalanceRows(assembly, one, "fluid");
+  BalanceRows(assembly, one).store(vector(0, 3, 0));
+  BalanceRows(assembly, one).add_turnover(vector(-2, 0, 0));
   EXPECT_EQ(balances.residual(0), vector(1, 4, 1));
   EXPECT_EQ(balances.turnover(0), vector(2, 3, 0));
 }
 
 TEST_F(TwoBalances, AreNoneWithoutTheirOwner) {
-  assembly.balance(one).store(vector(1, 2, 3));
+  BalanceRows(assembly, one).store(vector(1, 2, 3));
   EXPECT_EQ(assembly.residual(0), vector(1, 2, 3));
   EXPECT_TRUE(balances.quantities().empty());
   EXPECT_FALSE(balances.are_rows_of(0));
 }
 
 TEST_F(TwoBalances, OutsideOfTheSolveAreIgnored) {
-  BalanceRows rows = assembly.balance(elsewhere, "fluid");
+  BalanceRows rows(assembly, elsewhere, "fluid");
   rows.store(vector(1, 2, 3));
   rows.supply(vector(1, 2, 3));
   rows.exchange(vector(1, 2, 3), vector(0, 0, 6));

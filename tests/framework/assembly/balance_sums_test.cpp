@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/block_system.hpp"
 #include "framework/mesh/partition.hpp"
 #include "framework/meshing/generate_mesh.hpp"
@@ -66,7 +67,7 @@ struct Ring : testing::Test {
   std::unique_ptr<Assembly> assemble() {
     auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{&bulk, &content},
                                                Assembly::Request::residual_and_derivatives);
-    assembly->balance(content, "it");
+    BalanceRows(*assembly, content, "it");
     assembly->add(content, capacity * content.now() - source());
     assembly->diagonal(content, content, Vector::Constant(n, capacity));
     assembly->linear(content, exchange, content, 2);

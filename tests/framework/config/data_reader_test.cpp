@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/config/yaml/parse_yaml.hpp"
 #include "tests/framework/config/messages.hpp"
 
 namespace sprekk {

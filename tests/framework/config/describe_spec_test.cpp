@@ -7,6 +7,7 @@
 
 #include "framework/config/resolved_yaml.hpp"
 #include "framework/config/spec.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 
 namespace sprekk {
 namespace {

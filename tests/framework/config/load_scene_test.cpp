@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "framework/config/node.hpp"
+#include "framework/config/yaml/load_scene.hpp"
 #include "tests/framework/config/messages.hpp"
 
 namespace sprekk {

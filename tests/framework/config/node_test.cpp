@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "framework/config/yaml/parse_yaml.hpp"
 #include "tests/framework/config/messages.hpp"
 
 namespace sprekk {

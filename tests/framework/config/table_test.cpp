@@ -1,4 +1,5 @@
 #include "framework/config/table.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,7 @@
 #include "framework/meshing/geometry_spec.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 
+#include "framework/meshing/validate_geometry.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

@@ -6,6 +6,7 @@
 #include "framework/mesh/mesh_quality.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/size_field.hpp"
+#include "framework/meshing/validate_geometry.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

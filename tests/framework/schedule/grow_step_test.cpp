@@ -1,5 +1,6 @@
 // When growth lets a step pass, what it refuses, and what it hands on.
 #include "framework/schedule/grow_step.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

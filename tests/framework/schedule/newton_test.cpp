@@ -1,5 +1,6 @@
 // Newton's method where full steps lead nowhere.
 #include "framework/schedule/newton.hpp"
+#include "framework/assembly/balance_rows.hpp"
 
 #include <gtest/gtest.h>
 
@@ -116,7 +117,7 @@ class Exchange : public Part {
   }
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime&) const override {
-    BalanceRows rows = assembly.balance(x_, "quantity");
+    BalanceRows rows(assembly, x_, "quantity");
     const Vector stored = capacity * (x_.now() - x_.accepted()), source = Vector::Unit(2, 0);
     if (tells_) {
       rows.store(stored);

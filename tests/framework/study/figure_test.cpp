@@ -1,4 +1,5 @@
 #include "framework/study/figure.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

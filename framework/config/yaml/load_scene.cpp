@@ -1,10 +1,11 @@
-// Several files and overrides become one scene.
+#include "framework/config/yaml/load_scene.hpp"
+
 #include <algorithm>
 #include <charconv>
 
-#include "framework/config/node.hpp"
 #include "framework/config/node_paths.hpp"
 #include "framework/config/text_file.hpp"
+#include "framework/config/yaml/parse_yaml.hpp"
 
 namespace sprekk {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/config/yaml_builder.hpp"
+#include "framework/config/yaml/yaml_builder.hpp"
 
 #include <algorithm>
 
