@@ -8,8 +8,9 @@ namespace {
 
 struct ApertureOptions {
   Spec spec() {
-    Spec spec("aperture",
-              "The normal displacement jump opens the aperture of the fracture, a = a0 + [u]_n (below Eq. 8).");
+    Spec spec(
+        "aperture",
+        "The normal displacement jump opens the aperture of the fracture, a = a0 + [u]_n (below the paper's Eq. 8).");
     spec.ignore("type").ignore("between");
     return spec;
   }

@@ -20,12 +20,13 @@ struct BiotOptions {
   Data biot_coefficient;
   double fixed_stress_factor = 1;
   Spec spec() {
-    Spec spec("biot", "Poroelastic coupling of the flow in the matrix and the deformation of the rock (Eqs. 5-7).");
+    Spec spec("biot",
+              "Poroelastic coupling of the flow in the matrix and the deformation of the rock (the paper's Eqs. 5-7).");
     spec.ignore("type").ignore("between");
     spec.data("biot_coefficient", biot_coefficient,
               {.range = between(0, 1),
                .doc = "Biot's coefficient alpha.",
-               .source = "Eqs. 6, 7",
+               .source = "the paper's Eqs. 6, 7",
                .required = true,
                .material = true,
                .in_time = true});

@@ -15,9 +15,9 @@ namespace {
 
 struct WallExchangeOptions {
   Spec spec() {
-    Spec spec(
-        "wall_exchange",
-        "Flux between fractures and matrix through the walls, driven by the difference of their pressures (Eq. 9).");
+    Spec spec("wall_exchange",
+              "Flux between fractures and matrix through the walls, driven by the difference of their pressures (the "
+              "paper's Eq. 9).");
     spec.ignore("type").ignore("between");
     return spec;
   }

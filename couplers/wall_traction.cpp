@@ -20,13 +20,14 @@ struct WallTractionOptions {
   Data fracture_biot_coefficient = 1;
   Spec spec() {
     Spec spec("wall_traction",
-              "Contact traction and fluid pressure act on the walls of fractures (Eq. 4); the displacement jump of the "
+              "Contact traction and fluid pressure act on the walls of fractures (the paper's Eq. 4); the displacement "
+              "jump of the "
               "rock acts on the contact. The contact, or the fluid, may be left out.");
     spec.ignore("type").ignore("between");
     spec.data("fracture_biot_coefficient", fracture_biot_coefficient,
               {.range = between(0, 1),
                .doc = "Part of the fluid pressure that acts on the walls.",
-               .source = "alpha_i of Eq. 4",
+               .source = "alpha_i of the paper's Eq. 4",
                .in_time = true});
     return spec;
   }

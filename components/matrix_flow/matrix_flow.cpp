@@ -56,12 +56,13 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                              .accepted_with = pressure_.name(),
                                              .is_amount = true})) {
   if (mesh_.wall_count() > 0)
-    wall_flux_ = &context.fields.add(mesh_, {.owner = context.name,
-                                             .name = "wall_flux",
-                                             .location = Location::wall,
-                                             .role = Role::input(BlockKind::interface),
-                                             .unit = "m/s",
-                                             .doc = "Flux from the fracture into the matrix (lambda of Eq. 9)"});
+    wall_flux_ =
+        &context.fields.add(mesh_, {.owner = context.name,
+                                    .name = "wall_flux",
+                                    .location = Location::wall,
+                                    .role = Role::input(BlockKind::interface),
+                                    .unit = "m/s",
+                                    .doc = "Flux from the fracture into the matrix (lambda of the paper's Eq. 9)"});
   const std::vector<Place> places = cell_places(mesh_);
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
   initial_pressure_ = property(options_.initial_pressure).values();

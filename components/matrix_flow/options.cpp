@@ -9,7 +9,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
               {.unit = "m^2",
                .range = non_negative(),
                .doc = "Permeability of the rock; positive definite, or zero everywhere: then no fluid flows in it.",
-               .source = "Eq. 6",
+               .source = "the paper's Eq. 6",
                .required = true,
                .material = true,
                .in_time = true});
@@ -17,7 +17,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
             {.unit = "Pa*s",
              .range = positive(),
              .doc = "Viscosity of the fluid.",
-             .source = "Eq. 6",
+             .source = "the paper's Eq. 6",
              .required = true,
              .material = true,
              .in_time = true});
@@ -26,15 +26,16 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .range = non_negative(),
              .doc = "Specific storage as a whole; else it is porosity times fluid compressibility, completed by the "
                     "compressibility of the grains when the rock is poroelastic.",
-             .source = "M below Eq. 7",
+             .source = "M below the paper's Eq. 7",
              .in_time = true});
-  spec.data("porosity", porosity,
-            {.range = between(0, 1), .doc = "Porosity.", .source = "Table 1", .material = true, .in_time = true});
+  spec.data(
+      "porosity", porosity,
+      {.range = between(0, 1), .doc = "Porosity.", .source = "the paper's Table 1", .material = true, .in_time = true});
   spec.data("fluid_compressibility", fluid_compressibility,
             {.unit = "1/Pa",
              .range = non_negative(),
              .doc = "Compressibility of the fluid.",
-             .source = "Table 1",
+             .source = "the paper's Table 1",
              .material = true,
              .in_time = true});
   spec.vector("gravity", gravity,
@@ -52,7 +53,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   spec.data("source", source,
             {.unit = "1/s",
              .doc = "Volume of fluid added per volume of rock and time.",
-             .source = "q of Eq. 6",
+             .source = "q of the paper's Eq. 6",
              .in_time = true});
   static SideCondition example_side;
   const auto side_spec = [](SideCondition& side) {

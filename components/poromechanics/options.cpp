@@ -122,13 +122,13 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
             {.unit = "Pa",
              .range = positive(),
              .doc = "Young's modulus of the drained rock.",
-             .source = "Table 1",
+             .source = "the paper's Table 1",
              .material = true,
              .in_time = true});
   spec.data("poisson_ratio", poisson_ratio,
             {.range = strictly_between(-1, 0.5),
              .doc = "Poisson's ratio of the drained rock.",
-             .source = "Table 1",
+             .source = "the paper's Table 1",
              .material = true,
              .in_time = true});
   Spec tensor("stiffness", "Plane-strain stiffness of an anisotropic rock, instead of the two moduli.");
@@ -163,7 +163,10 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                .material = true,
                .fixed = "a weight that changes is a change of rock_density"});
   spec.vector("body_force", body_force,
-              {.unit = "N/m^3", .doc = "Force per volume, besides gravity.", .source = "-b of Eq. 5", .in_time = true});
+              {.unit = "N/m^3",
+               .doc = "Force per volume, besides gravity.",
+               .source = "-b of the paper's Eq. 5",
+               .in_time = true});
   spec.tensor(
       "initial_stress", initial_stress,
       {.unit = "Pa",

@@ -41,13 +41,14 @@ Rock::Rock(const ComponentContext& context, const Options& options, const Stress
       stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
   check_conditions(options_, mesh_, context.origin);
   if (mesh_.wall_count() > 0)
-    wall_traction_ = &context.fields.add(mesh_, {.owner = context.name,
-                                                 .name = "wall_traction",
-                                                 .location = Location::fracture_cell,
-                                                 .components = 2,
-                                                 .role = Role::input(BlockKind::interface),
-                                                 .unit = "Pa",
-                                                 .doc = "Traction on the plus wall, normal and tangential (Eq. 4)"});
+    wall_traction_ =
+        &context.fields.add(mesh_, {.owner = context.name,
+                                    .name = "wall_traction",
+                                    .location = Location::fracture_cell,
+                                    .components = 2,
+                                    .role = Role::input(BlockKind::interface),
+                                    .unit = "Pa",
+                                    .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
 }
 
 void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {

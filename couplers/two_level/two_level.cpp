@@ -18,23 +18,25 @@ struct TwoLevelOptions {
   std::string reconstruction = "wall_traction";
   double propagation_threshold = 0.5;
   Spec spec() {
-    Spec spec(
-        "two_level",
-        "Between the coarse level and the tips of fractures: boundary data for the fine level (Eqs. 15-19), and "
-        "its paths for the coarse level (sec. 4.4.2). Between the rock, the tips, and the fluid in the fractures, "
-        "whose pressure the walls carry that grow on the fine level (without it they carry none).");
+    Spec spec("two_level",
+              "Between the coarse level and the tips of fractures: boundary data for the fine level (the paper's Eqs. "
+              "15-19), and "
+              "its paths for the coarse level (the paper's sec. 4.4.2). Between the rock, the tips, and the fluid in "
+              "the fractures, "
+              "whose pressure the walls carry that grow on the fine level (without it they carry none).");
     spec.ignore("type").ignore("between");
-    spec.choice("reconstruction", reconstruction,
-                {{"wall_traction", "walls are loaded by the tractions of the coarse level, which are smooth at tips"},
-                 {"wall_jump", "walls have the displacement jump of the coarse level (Eq. 15)"},
-                 {"cell_centred",
-                  "the same with jumps and displacements between cell centres, where strain counts as slip: for "
-                  "comparison with the paper's scripts only"}},
-                {.doc = "What the walls of the fine level take from the coarse one.", .source = "sec. 4.4.1"});
+    spec.choice(
+        "reconstruction", reconstruction,
+        {{"wall_traction", "walls are loaded by the tractions of the coarse level, which are smooth at tips"},
+         {"wall_jump", "walls have the displacement jump of the coarse level (the paper's Eq. 15)"},
+         {"cell_centred",
+          "the same with jumps and displacements between cell centres, where strain counts as slip: for "
+          "comparison with the paper's scripts only"}},
+        {.doc = "What the walls of the fine level take from the coarse one.", .source = "the paper's sec. 4.4.1"});
     spec.quantity("propagation_threshold", propagation_threshold,
                   {.range = positive(),
                    .doc = "The part of the coarse mesh size at which a path is handed to the coarse level.",
-                   .source = "epsilon_p of sec. 4.4.2"});
+                   .source = "epsilon_p of the paper's sec. 4.4.2"});
     return spec;
   }
 };

@@ -12,7 +12,8 @@ namespace sprekk {
 
 Spec GrowOptions::spec() {
   Spec spec("grow",
-            "Lets fractures grow (sec. 3.2, 4.4.2, 4.5). After growth the state is settled on the new mesh, and small "
+            "Lets fractures grow (the paper's secs. 3.2, 4.4.2, 4.5). After growth the state is settled on the new "
+            "mesh, and small "
             "steps follow until the change at the tips has faded.");
   spec.text("grow", component, {.doc = "The component with growing fractures.", .required = true});
   spec.texts("settle", settle,
@@ -32,7 +33,7 @@ Spec GrowOptions::spec() {
   spec.quantity("cut", cut,
                 {.range = {.low = 0, .high = 1, .low_allowed = false},
                  .doc = "Steps after a growth event are this part of the standard one.",
-                 .source = "epsilon of sec. 4.5"});
+                 .source = "epsilon of the paper's sec. 4.5"});
   spec.quantity(
       "settled", settled,
       {.range = positive(),

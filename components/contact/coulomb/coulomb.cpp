@@ -14,12 +14,13 @@ namespace sprekk::contact {
 
 Spec Options::spec() {
   Spec spec("contact/coulomb",
-            "Frictional contact of fracture walls with dilation (Eqs. 2, 3): each cell sticks, slips or is open.");
+            "Frictional contact of fracture walls with dilation (the paper's Eqs. 2, 3): each cell sticks, slips or is "
+            "open.");
   spec.ignore("type");
   spec.data("friction", friction,
             {.range = non_negative(),
              .doc = "Coefficient of friction.",
-             .source = "mu_s of Eq. 3",
+             .source = "mu_s of the paper's Eq. 3",
              .required = true,
              .material = true,
              .in_time = true});
@@ -27,7 +28,7 @@ Spec Options::spec() {
             {.unit = "rad",
              .range = between(0, 1.5),
              .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
-             .source = "psi below Eq. 2",
+             .source = "psi below the paper's Eq. 2",
              .material = true,
              .in_time = true});
   spec.quantity("large_jump", large_jump,
@@ -47,15 +48,16 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
                   .components = dimension,
                   .role = Role::unknown(BlockKind::interface),
                   .unit = "Pa",
-                  .doc = "Contact traction on the plus wall, normal and tangential (f of Eqs. 2-4)"})),
-      jump_(context.fields.add(mesh_, {.owner = context.name,
-                                       .name = "jump",
-                                       .location = Location::fracture_cell,
-                                       .components = dimension,
-                                       .role = Role::input(BlockKind::interface),
-                                       .unit = "m",
-                                       .doc = "Displacement jump, normal (opening) and tangential (slip) (Eq. 1)",
-                                       .needs_coupler = "wall_traction"})),
+                  .doc = "Contact traction on the plus wall, normal and tangential (f of the paper's Eqs. 2-4)"})),
+      jump_(context.fields.add(mesh_,
+                               {.owner = context.name,
+                                .name = "jump",
+                                .location = Location::fracture_cell,
+                                .components = dimension,
+                                .role = Role::input(BlockKind::interface),
+                                .unit = "m",
+                                .doc = "Displacement jump, normal (opening) and tangential (slip) (the paper's Eq. 1)",
+                                .needs_coupler = "wall_traction"})),
       options_(options) {
   const int count = mesh_.fracture_cell_count();
   if (count == 0)

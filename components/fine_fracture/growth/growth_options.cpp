@@ -7,10 +7,11 @@ Spec GrowthOptions::spec() {
   spec.choice("direction", direction,
               {{"implicit", "straight increments at whose end K_II vanishes: stable for any length of increment"},
                {"explicit",
-                "maximum tangential stress at the old tip (Eq. 11): the path zigzags when the increment is longer than "
+                "maximum tangential stress at the old tip (the paper's Eq. 11): the path zigzags when the increment is "
+                "longer than "
                 "0.17 (K_I/T)^2"}},
               {.doc = "How the direction of an increment is found.",
-               .source = "Eq. 11; Goldstein and Salganik 1974; Cotterell and Rice 1980"});
+               .source = "the paper's Eq. 11; Goldstein and Salganik 1974; Cotterell and Rice 1980"});
   spec.choice("length", length,
               {{"arrest", "until K_eq falls to the toughness; the last increment is shortened to end there"},
                {"fixed", "whole increments until K_eq is below the toughness (the paper)"}},
@@ -19,12 +20,12 @@ Spec GrowthOptions::spec() {
                 {.unit = "m",
                  .range = positive(),
                  .doc = "Longest increment; a path is straight between its ends.",
-                 .source = "l_max of Eq. 13",
+                 .source = "l_max of the paper's Eq. 13",
                  .required = true});
   spec.quantity("energy_exponent", energy_exponent,
                 {.range = non_negative(),
                  .doc = "Power of the energy release rate in the lengths of tips that grow together.",
-                 .source = "Eq. 13"});
+                 .source = "the paper's Eq. 13"});
   spec.quantity("relaxation", relaxation,
                 {.range = {.low = 0, .high = 1, .low_allowed = false},
                  .doc = "Part of the explicit angle that is taken; less than 1 delays the zigzag."});

@@ -5,35 +5,36 @@ namespace sprekk::fine_fracture {
 
 Spec TipsOptions::spec() {
   Spec spec("fine_fracture/quarter_point",
-            "Tips of fractures: stress-intensity factors from a fine level around each, and growth (secs. 2.5, 4.3).");
+            "Tips of fractures: stress-intensity factors from a fine level around each, and growth (the paper's secs. "
+            "2.5, 4.3).");
   spec.ignore("type");
   spec.quantity("size", size,
                 {.unit = "m",
                  .range = positive(),
                  .doc = "Side of the square around a tip; what reaches out of the rock is cut off.",
-                 .source = "l of sec. 3.1",
+                 .source = "l of the paper's sec. 3.1",
                  .required = true});
   spec.quantity("mesh_ratio", mesh_ratio,
                 {.range = {.low = 0, .high = 1, .low_allowed = false},
                  .doc = "Edge length at the tip over that of the coarse level.",
-                 .source = "epsilon_m of sec. 4.1"});
+                 .source = "epsilon_m of the paper's sec. 4.1"});
   spec.integer("sectors", sectors, {.range = between(8, 64), .doc = "Quarter-point elements around a tip."});
   spec.quantity(
       "tolerance", tolerance,
       {.range = strictly_between(0, 1),
        .doc = "Meshes of the fine level are refined until the estimated error of the stress is below this part "
               "of it (energy norm, Zienkiewicz and Zhu 1992); without it sizes are what is given.",
-       .source = "sec. 4.1"});
+       .source = "the paper's sec. 4.1"});
   spec.quantity("toughness", toughness,
                 {.unit = "Pa*m^0.5",
                  .range = positive(),
                  .doc = "K_IC; without it tips do not grow.",
-                 .source = "sec. 2.5",
+                 .source = "the paper's sec. 2.5",
                  .material = true});
   spec.choice("factors", factors,
               {{"interaction_integral", "over a domain around the tip, with the tractions of the walls"},
                {"displacement_correlation", "from the nodes of the quarter-point elements (the paper)"}},
-              {.doc = "How stress-intensity factors follow from the displacement.", .source = "sec. 4.3"});
+              {.doc = "How stress-intensity factors follow from the displacement.", .source = "the paper's sec. 4.3"});
   spec.choice(
       "meeting", meeting,
       {{"join", "it joins the other fracture, at the nearest point of its mesh, unless that closes a ring"},
@@ -43,7 +44,7 @@ Spec TipsOptions::spec() {
   spec.quantity("cavity", cavity,
                 {.range = positive(),
                  .doc = "The coarse mesh changes within this many of its edge lengths around a path it takes over.",
-                 .source = "sec. 4.1"});
+                 .source = "the paper's sec. 4.1"});
   spec.quantity("cavity_growth", cavity_growth,
                 {.range = {.low = 0, .high = 2, .low_allowed = false},
                  .doc = "By how many m the length of new coarse edges grows per m of distance from the path, where the "

@@ -31,7 +31,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                            .location = Location::fracture_cell,
                                            .role = Role::input(BlockKind::interface),
                                            .unit = "m",
-                                           .doc = "Aperture of the fractures (below Eq. 8)"})),
+                                           .doc = "Aperture of the fractures (below the paper's Eq. 8)"})),
       cumulative_(context.fields.add(mesh_, {.owner = context.name,
                                              .name = "cumulative_balance",
                                              .location = Location::fracture_cell,

@@ -15,7 +15,7 @@ Spec injection_spec(Injection& injection) {
   spec.data("rate", injection.rate,
             {.unit = "m^2/s",
              .doc = "Volume of fluid per time and metre of depth, in all.",
-             .source = "q_i of Eq. 8",
+             .source = "q_i of the paper's Eq. 8",
              .required = true,
              .in_time = true});
   return spec;
@@ -39,13 +39,13 @@ Spec side_spec(Data& pressure) {
 
 Spec Options::spec() {
   Spec spec("fracture_flow/tpfa",
-            "Flow in fractures (Eq. 8): two-point flux approximation along piecewise linear fractures.");
+            "Flow in fractures (the paper's Eq. 8): two-point flux approximation along piecewise linear fractures.");
   spec.ignore("type");
   spec.data("viscosity", viscosity,
             {.unit = "Pa*s",
              .range = positive(),
              .doc = "Viscosity of the fluid.",
-             .source = "Eq. 8",
+             .source = "the paper's Eq. 8",
              .required = true,
              .material = true,
              .in_time = true});
@@ -53,7 +53,7 @@ Spec Options::spec() {
             {.unit = "1/Pa",
              .range = non_negative(),
              .doc = "Compressibility of the fluid.",
-             .source = "c_p of Eq. 8",
+             .source = "c_p of the paper's Eq. 8",
              .required = true,
              .material = true,
              .in_time = true});
@@ -61,7 +61,7 @@ Spec Options::spec() {
             {.unit = "m",
              .range = positive(),
              .doc = "Aperture of the undeformed fracture.",
-             .source = "a^0 below Eq. 8",
+             .source = "a^0 below the paper's Eq. 8",
              .required = true,
              .fixed = "it is what the run starts from, and what opens adds to it"});
   spec.data("initial_pressure", initial_pressure,
@@ -71,7 +71,7 @@ Spec Options::spec() {
                  {.unit = "m",
                   .range = non_negative(),
                   .doc = "Initial aperture of cells that have grown; opening adds to it.",
-                  .source = "a0 of a_i = a0 + [u]_n, below Eq. 8"});
+                  .source = "a0 of a_i = a0 + [u]_n, below the paper's Eq. 8"});
   grown.choice("fluid", grown_fluid,
                {{"drawn", "they are empty, and draw their fluid from what is around them"},
                 {"filled", "they are full, at the pressure of the cell that they continue"}},
@@ -79,9 +79,10 @@ Spec Options::spec() {
   spec.section("grown", grown, {.doc = "What the cells of a fracture that grows start with."});
   spec.quantity("aperture_floor", aperture_floor,
                 {.unit = "m", .range = positive(), .doc = "The hydraulic aperture does not fall below this."});
-  spec.choice("transmissivity", transmissivity,
-              {{"cubic_law", "a^3/12"}, {"constant", "the value given as transmissivity_value"}},
-              {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below Eq. 8"});
+  spec.choice(
+      "transmissivity", transmissivity,
+      {{"cubic_law", "a^3/12"}, {"constant", "the value given as transmissivity_value"}},
+      {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below the paper's Eq. 8"});
   spec.data("transmissivity_value", transmissivity_value,
             {.unit = "m^3",
              .range = non_negative(),
@@ -90,7 +91,7 @@ Spec Options::spec() {
   spec.choice("normal_permeability", normal_permeability,
               {{"cubic_law", "2 K_i/(mu a^2), which with the cubic law is a/(6 mu)"},
                {"constant", "the value given as normal_permeability_value"}},
-              {.doc = "How kappa follows from the aperture.", .source = "below Eq. 9"});
+              {.doc = "How kappa follows from the aperture.", .source = "below the paper's Eq. 9"});
   spec.data("normal_permeability_value", normal_permeability_value,
             {.unit = "m/(Pa*s)",
              .range = non_negative(),

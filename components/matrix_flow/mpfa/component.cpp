@@ -12,9 +12,9 @@ namespace {
 
 struct MpfaOptions : Options {
   Spec spec() {
-    return Options::spec(
-        "matrix_flow/mpfa",
-        "Flow in the matrix (Eq. 6): multi-point flux approximation, exact for linear pressures on any mesh.");
+    return Options::spec("matrix_flow/mpfa",
+                         "Flow in the matrix (the paper's Eq. 6): multi-point flux approximation, exact for linear "
+                         "pressures on any mesh.");
   }
 };
 

@@ -8,9 +8,9 @@ namespace {
 
 struct TpfaOptions : Options {
   Spec spec() {
-    return Options::spec(
-        "matrix_flow/tpfa",
-        "Flow in the matrix (Eq. 6): two-point flux approximation, monotone; consistent on orthogonal meshes only.");
+    return Options::spec("matrix_flow/tpfa",
+                         "Flow in the matrix (the paper's Eq. 6): two-point flux approximation, monotone; consistent "
+                         "on orthogonal meshes only.");
   }
 };
 

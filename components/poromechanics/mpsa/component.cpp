@@ -15,7 +15,7 @@ struct MpsaOptions : Options {
   Spec spec() {
     return Options::spec(
         "poromechanics/mpsa",
-        "Quasi-static deformation of the rock (Eqs. 5, 7), linear elastic in plane strain: multi-point "
+        "Quasi-static deformation of the rock (the paper's Eqs. 5, 7), linear elastic in plane strain: multi-point "
         "stress approximation with weak symmetry.");
   }
 };
