@@ -1,86 +1,12 @@
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
 
-#include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
+#include "components/fine_fracture/quarter_point/ends.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::fine_fracture {
-
-namespace {
-
-const FractureCell& end_cell(const Mesh& mesh, const TipEnd& end) {
-  const Fracture& cells = mesh.fractures[end.fracture];
-  return mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 : 0)];
-}
-
-FracturePoint::Kind kind_of(const Mesh& mesh, const TipEnd& end) {
-  return mesh.fracture_points[end_cell(mesh, end).points[end.at_end ? 1 : 0]].kind;
-}
-
-std::string name_of(const Mesh& mesh, const TipEnd& end) {
-  return mesh.fractures[end.fracture].name + (end.at_end ? "_last" : "_first");
-}
-
-std::vector<TipEnd> all_ends(const Mesh& mesh) {
-  std::vector<TipEnd> ends;
-  for (int f = 0; f < static_cast<int>(mesh.fractures.size()); ++f)
-    for (const bool at_end : {false, true}) ends.push_back({f, at_end});
-  return ends;
-}
-
-bool is_same(const TipEnd& a, const TipEnd& b) { return a.fracture == b.fracture && a.at_end == b.at_end; }
-
-/// The size of the original fracture's cell at this end.
-double original_size(const Mesh& mesh, const TipEnd& end) {
-  const Fracture& cells = mesh.fractures[end.fracture];
-  for (int i = 0; i < cells.cell_count; ++i) {
-    const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 - i : i)];
-    if (!cell.grown) return cell.measure;
-  }
-  return end_cell(mesh, end).measure;
-}
-
-/// The length of the fracture's new cells at this end, m.
-double new_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change) {
-  const Fracture& cells = mesh.fractures[end.fracture];
-  double length = 0;
-  for (int i = 0; i < cells.cell_count; ++i) {
-    const int cell = cells.first_cell + (end.at_end ? cells.cell_count - 1 - i : i);
-    if (change.fracture_cell[cell] != none) break;
-    length += mesh.fracture_cells[cell].measure;
-  }
-  return length;
-}
-
-/// The length of the fracture's cells at this end that were given up for new ones, m.
-double given_up_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change) {
-  const Fracture& cells = mesh.fractures[end.fracture];
-  double length = 0;
-  for (int i = 0; i < cells.cell_count; ++i) {
-    const int cell = cells.first_cell + (end.at_end ? cells.cell_count - 1 - i : i);
-    if (change.fracture_cell[cell] != none) break;
-    for (const ReplacedPart& part : change.replaced_parts)
-      if (part.cell == cell) length += part.length;
-  }
-  return length;
-}
-
-double length_of(const Point& from, const TipPath& path) {
-  double length = 0;
-  Point last = from;
-  for (const Point& x : path.added) {
-    length += (x - last).norm();
-    last = x;
-  }
-  return length;
-}
-
-}  // namespace
 
 Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     : Component(context.name), mesh_(context.mesh), options_(options) {
@@ -123,95 +49,6 @@ std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) co
   return paths;
 }
 
-namespace {
-
-bool is_same(const FineGeometry& a, const FineGeometry& b) {
-  return a.outline == b.outline &&
-         std::equal(a.cracks.begin(), a.cracks.end(), b.cracks.begin(), b.cracks.end(),
-                    [](const CrackPath& x, const CrackPath& y) { return x.points == y.points && x.walls == y.walls; });
-}
-
-}  // namespace
-
-Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
-  Tip& tip = tips_[index];
-  // The square stays where the coarse tip is while the path grows in it.
-  const Point center = position(tip, {});
-  FineMeshOptions mesh;
-  mesh.tip_size = options_.mesh_ratio * tip.coarse_size;
-  constexpr double edges_across = 10;  // of the domain, away from the fractures; the estimated error refines them
-  mesh.far_size = std::max(mesh.tip_size, options_.size / edges_across);
-  mesh.sectors = options_.sectors;
-  const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
-  FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls,
-                                  tip.pattern ? &tip.pattern->geometry.outline : nullptr);
-  const LameParameters lame = surroundings_->stiffness(center);
-  const Elasticity rock{lame.lambda, lame.shear};
-  if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
-    tip.kept_factors.reset();
-    tip.offsets = nullptr;
-    tip.domain = std::move(domain);
-    if (options_.tolerance) {
-      Adapted adapted =
-          adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance}, profile_);
-      tip.model.emplace(std::move(adapted.model));
-      meshes_ += adapted.meshes;
-      solves_ += adapted.meshes;
-      return keep_factors(tip, adapted.solution);
-    }
-    const bool keeps_pattern = is_followed(tip);
-    tip.model.emplace(tip.domain.geometry, mesh, rock, TipPlace{tip.domain.crack, tip.domain.is_last}, profile_,
-                      keeps_pattern ? &tip.pattern : nullptr);
-    tip.has_pattern = keeps_pattern;
-    ++meshes_;
-  } else {
-    tip.domain = std::move(domain);
-  }
-  // The kept factors are still valid if only paths outside of its domain have changed, or at the first evaluation of a
-  // search.
-  if (tip.kept_factors && tip.kept_factors->version == surroundings_->version()) {
-    ++kept_;
-    tip.now.sif_error = tip.kept_factors->error;
-    return tip.kept_factors->sifs;
-  }
-  ++solves_;
-  FineLoads loads = loads_of(tip);
-  if (!tip.offsets) tip.offsets = surroundings_->stress_offsets(tip.model->offset_places());
-  loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
-  return keep_factors(tip, tip.model->solve(loads));
-}
-
-Sifs Tips::keep_factors(Tip& tip, const FineSolution& solution) const {
-  const Sifs sifs = factors_of(tip, solution);
-  tip.kept_factors = {surroundings_->version(), sifs, tip.now.sif_error};
-  return sifs;
-}
-
-Sifs Tips::factors_of(Tip& tip, const FineSolution& solution) const {
-  for (const TipIntensities& found : solution.tips) {
-    if (found.crack != tip.domain.crack || found.is_last != tip.domain.is_last) continue;
-    tip.now.sif_error = found.error.norm();
-    const Point k = options_.factors == "interaction_integral" ? found.K : found.K_correlation;
-    return {k[0], k[1], found.T};
-  }
-  throw std::logic_error("the fine level has lost its tip");
-}
-
-double Tips::load(const Sifs& sifs) const {
-  return options_.toughness ? equivalent_sif(sifs) / *options_.toughness : 0;
-}
-
-double Tips::estimated_load(const Tip& tip) const {
-  // Williams' field: the jump at a distance r behind the tip is (8/E') sqrt(r/(2 pi)) K.
-  const LameParameters lame = surroundings_->stiffness(position(tip, {}));
-  const double distance = 0.5 * end_cell(mesh_, tip.end).measure;
-  const double estimate = Elasticity{lame.lambda, lame.shear}.plane_modulus() / 8 *
-                          std::sqrt(2 * std::numbers::pi / distance) *
-                          surroundings_->jump_at_tip(tip.end.fracture, tip.end.at_end);
-  constexpr double shear_to_equivalent = 1.25;
-  return shear_to_equivalent * estimate / *options_.toughness;
-}
-
 Growing::Load Tips::examine(const StepTime& step) {
   surroundings_->update();
   for (Tip& tip : tips_) tip.now.speed = tip.now.advance / step.dt;
@@ -250,12 +87,6 @@ Growing::Load Tips::examine(const StepTime& step) {
     loads.onset_accepted = std::max(loads.onset_accepted, tip.accepted.load);
   }
   return loads;
-}
-
-void Tips::set_factors(Tip& tip, const Sifs& sifs) const {
-  tip.now.sifs = sifs;
-  tip.now.load = load(sifs);
-  tip.now.is_evaluated = true;
 }
 
 bool Tips::is_near(const Tip& tip, const Tip& other) const {
@@ -416,47 +247,6 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
     for (const Tip& same : old.tips_)
       if (is_same(same.end, joint.end)) joint.grown = same.now.grown + new_length(mesh_, joint.end, change);
   }
-}
-
-void Tips::report(std::vector<Quantity>& quantities) const {
-  // In the order of ends, so that columns stay when a tip joins a fracture and is none any more.
-  for (const TipEnd& end : all_ends(mesh_)) {
-    for (const Tip& tip : tips_)
-      if (is_same(tip.end, end))
-        report_end(tip.name, tip.now, tip.now.grown + length_of(position(tip, {}), tip.now.path), quantities);
-    State at_rest;
-    at_rest.is_stopped = true;
-    for (const Joint& joint : joints_)
-      if (is_same(joint.end, end)) report_end(joint.name, at_rest, joint.grown, quantities);
-  }
-}
-
-void Tips::report_end(const std::string& end, const State& state, double length,
-                      std::vector<Quantity>& quantities) const {
-  const std::string prefix = name() + "." + end + ".";
-  const auto known = [&state](double value) {
-    return state.is_evaluated ? value : std::numeric_limits<double>::quiet_NaN();
-  };
-  quantities.push_back({prefix + "K_I", "Pa*m^0.5", known(state.sifs.k1)});
-  quantities.push_back({prefix + "K_II", "Pa*m^0.5", known(state.sifs.k2)});
-  quantities.push_back({prefix + "K_eq", "Pa*m^0.5", known(equivalent_sif(state.sifs))});
-  quantities.push_back({prefix + "K_error_fine_mesh", "Pa*m^0.5", known(state.sif_error)});
-  quantities.push_back({prefix + "stopped", "1", state.is_stopped ? 1.0 : 0.0});
-  quantities.push_back({prefix + "length", "m", length});
-}
-
-std::map<std::string, long> Tips::counts() const {
-  return {{"tips: solves", solves_},
-          {"tips: meshes", meshes_},
-          {"tips: answers kept", kept_},
-          {"tips: ruled out", skipped_},
-          {"tips: increments", increments_}};
-}
-
-std::vector<Profile::Entry> Tips::efforts() const {
-  std::vector<Profile::Entry> efforts(profile_->entries().begin(), profile_->entries().end());
-  for (Profile::Entry& effort : efforts) effort.name = "tips: " + effort.name;
-  return efforts;
 }
 
 namespace {

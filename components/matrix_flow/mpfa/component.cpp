@@ -25,14 +25,14 @@ class Mpfa : public MatrixFlow {
   void note_input(Notes& notes) const override {
     MatrixFlow::note_input(notes);
     if (!is_permeable()) return;
-    const UncorrectedTips found = uncorrected_tips(mesh(), mobility());
-    if (found.plain == 0) return;
+    const UncorrectedEnds found = uncorrected_tips(mesh(), mobility());
+    if (found.uncorrected == 0) return;
     notes.add(name() + ": tips without their singular flow",
               fmt::format("'{}' takes the pressure for linear around {} of {} tips of fractures, the first at {} ({}): "
                           "the resistance to flow from or around a fracture comes out too small or too large, by some "
                           "6, 3 and 1.5 % with 5, 10 and 20 cells on it; use a smaller mesh.fracture_size",
-                          name(), found.plain, found.tips, to_text(found.first), found.reason),
-              found.plain);
+                          name(), found.uncorrected, found.ends, to_text(found.first), found.reason),
+              found.uncorrected);
   }
 };
 

@@ -32,16 +32,10 @@ std::string why_uncorrected(const Mesh& mesh, int tip, const std::vector<int>& c
 
 }  // namespace
 
-UncorrectedTips uncorrected_tips(const Mesh& mesh, const std::vector<Tensor>& mobility) {
-  UncorrectedTips found;
-  for (const auto& [tip, cells] : cells_around_tips(mesh, ends_nearby(mesh))) {
-    ++found.tips;
-    const std::string reason = why_uncorrected(mesh, tip, cells, mobility);
-    if (reason.empty() || found.plain++ > 0) continue;
-    found.first = mesh.nodes[tip];
-    found.reason = reason;
-  }
-  return found;
+UncorrectedEnds uncorrected_tips(const Mesh& mesh, const std::vector<Tensor>& mobility) {
+  return uncorrected_ends(
+      mesh, cells_around_tips(mesh, ends_nearby(mesh)),
+      [&](int tip, const std::vector<int>& cells) { return why_uncorrected(mesh, tip, cells, mobility); });
 }
 
 }  // namespace sprekk::matrix_flow

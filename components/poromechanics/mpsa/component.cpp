@@ -31,14 +31,14 @@ class Mpsa : public Rock {
 
   void note_input(Notes& notes) const override {
     Rock::note_input(notes);
-    if (const UncorrectedTips found = uncorrected_tips(mesh(), stiffness_of_cells()); found.plain > 0)
+    if (const UncorrectedEnds found = uncorrected_tips(mesh(), stiffness_of_cells()); found.uncorrected > 0)
       notes.add(
           name() + ": tips without their singular field",
           fmt::format("'{}' takes displacements for linear around {} of {} tips of fractures, the first at {} ({}): "
                       "slip and opening come out too large, by some 11, 6.5 and 2.7 % with 10, 20 and 40 cells on the "
                       "fracture; use a smaller mesh.fracture_size",
-                      name(), found.plain, found.tips, to_text(found.first), found.reason),
-          found.plain);
+                      name(), found.uncorrected, found.ends, to_text(found.first), found.reason),
+          found.uncorrected);
   }
 };
 

@@ -31,16 +31,10 @@ std::string why_uncorrected(const Mesh& mesh, int tip, const std::vector<int>& c
 
 }  // namespace
 
-UncorrectedTips uncorrected_tips(const Mesh& mesh, const std::vector<Stiffness>& stiffness) {
-  UncorrectedTips found;
-  for (const auto& [tip, cells] : end_zones(mesh).cells) {
-    ++found.tips;
-    const std::string reason = why_uncorrected(mesh, tip, cells, stiffness);
-    if (reason.empty() || found.plain++ > 0) continue;
-    found.first = mesh.nodes[tip];
-    found.reason = reason;
-  }
-  return found;
+UncorrectedEnds uncorrected_tips(const Mesh& mesh, const std::vector<Stiffness>& stiffness) {
+  return uncorrected_ends(mesh, end_zones(mesh).cells, [&](int tip, const std::vector<int>& cells) {
+    return why_uncorrected(mesh, tip, cells, stiffness);
+  });
 }
 
 }  // namespace sprekk::poromechanics

@@ -8,6 +8,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/expect_sound.hpp"
+#include "framework/linear/gather_entries.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -71,23 +72,11 @@ Eigen::MatrixXd inverse_or_zero(Eigen::MatrixXd a) {
 // The rows of the local unknowns of all processes.
 SparseMatrix gather_local_rows(const LinearSystem& system, const Partition& partition) {
   const Part& local = partition.local();
-  std::vector<int> rows, columns;
-  std::vector<double> values;
-  for (std::size_t k = 0; k < local.owned.size(); ++k)
-    for (SparseMatrix::InnerIterator entry(system.local, local.owned_rows[k]); entry; ++entry) {
-      rows.push_back(local.owned[k]);
-      columns.push_back(static_cast<int>(entry.col()));
-      values.push_back(entry.value());
-    }
-  rows = parallel::gather(rows);
-  columns = parallel::gather(columns);
-  values = parallel::gather(values);
   std::vector<Triplet> entries;
-  entries.reserve(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k) entries.emplace_back(rows[k], columns[k], values[k]);
-  SparseMatrix all(static_cast<int>(local.unknowns.size()), system.local.cols());
-  all.setFromTriplets(entries.begin(), entries.end());
-  return all;
+  for (std::size_t k = 0; k < local.owned.size(); ++k)
+    for (SparseMatrix::InnerIterator entry(system.local, local.owned_rows[k]); entry; ++entry)
+      entries.emplace_back(local.owned[k], static_cast<int>(entry.col()), entry.value());
+  return gather_entries(entries, static_cast<int>(local.unknowns.size()), static_cast<int>(system.local.cols()));
 }
 
 // All rows of `rows`, the columns that belong to `part`.

@@ -8,6 +8,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/expect_sound.hpp"
+#include "framework/linear/gather_entries.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -34,24 +35,13 @@ SparseMatrix local_rows(const LinearSystem& system) {
     whole.finalize();
     return whole;
   }
-  std::vector<int> rows, columns;
-  std::vector<double> values;
+  std::vector<Triplet> entries;
   for (int i = 0; i < system.local.rows(); ++i) {
     if (!is_local[system.rows[i]]) continue;
-    for (SparseMatrix::InnerIterator entry(system.local, i); entry; ++entry) {
-      rows.push_back(system.rows[i]);
-      columns.push_back(static_cast<int>(entry.col()));
-      values.push_back(entry.value());
-    }
+    for (SparseMatrix::InnerIterator entry(system.local, i); entry; ++entry)
+      entries.emplace_back(system.rows[i], static_cast<int>(entry.col()), entry.value());
   }
-  rows = parallel::gather(rows);
-  columns = parallel::gather(columns);
-  values = parallel::gather(values);
-  std::vector<Triplet> entries;
-  entries.reserve(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k) entries.emplace_back(rows[k], columns[k], values[k]);
-  whole.setFromTriplets(entries.begin(), entries.end());
-  return whole;
+  return gather_entries(entries, static_cast<int>(system.local.cols()), static_cast<int>(system.local.cols()));
 }
 
 /// The entries of a column in the rows of one block.

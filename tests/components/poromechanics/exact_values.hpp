@@ -17,6 +17,27 @@ using poromechanics::FaceConditions;
 using poromechanics::MechanicalCondition;
 using poromechanics::Stiffness;
 
+/// Both directions prescribed, either one, and none, in turn; walls have prescribed tractions.
+inline std::vector<FaceConditions> mixed_conditions(const Mesh& mesh) {
+  const auto kind = [](bool moves) {
+    return moves ? MechanicalCondition::displacement : MechanicalCondition::traction;
+  };
+  std::vector<FaceConditions> conditions(mesh.face_count());
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (is_outer(mesh, f)) {
+      const bool is_wall = test::is_wall(mesh, f);
+      conditions[f] = {kind(!is_wall && f % 2 == 0), kind(!is_wall && f / 2 % 2 == 0)};
+    }
+  return conditions;
+}
+
+inline std::vector<FaceConditions> traction_everywhere(const Mesh& mesh) {
+  std::vector<FaceConditions> conditions(mesh.face_count());
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (is_outer(mesh, f)) conditions[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
+  return conditions;
+}
+
 /// What the operators make of exact values in the cells and on the boundary, against the exact result.
 struct Comparison {
   double force = 0, trace = 0, volume = 0;  ///< largest errors

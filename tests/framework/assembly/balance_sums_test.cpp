@@ -5,27 +5,15 @@
 
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/block_system.hpp"
-#include "framework/mesh/partition.hpp"
-#include "framework/meshing/generate_mesh.hpp"
+#include "tests/framework/assembly/small_mesh.hpp"
 
 namespace sprekk {
 namespace {
 
-Mesh small_mesh() {
-  Geometry geometry;
-  geometry.box.low = Point(0, 0);
-  geometry.box.high = Point(1, 1);
-  MeshOptions options;
-  options.size = 0.2;
-  Mesh mesh = generate_mesh(geometry, options);
-  partition(mesh, 1);
-  return mesh;
-}
-
 /// A ring of cells that exchange with three neighbours before and behind; the first leaves something outside.
 /// Conductances of no simple ratio, so that columns cancel to round-off only.
 struct Ring : testing::Test {
-  const Mesh mesh = small_mesh();
+  const Mesh mesh = test::small_mesh(0.2);
   const int n = mesh.cell_count();
   Field content{{.owner = "a",
                  .name = "content",

@@ -3,25 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/mesh/partition.hpp"
-#include "framework/meshing/generate_mesh.hpp"
+#include "tests/framework/assembly/small_mesh.hpp"
 
 namespace sprekk {
 namespace {
 
-Mesh small_mesh() {
-  Geometry geometry;
-  geometry.box.low = Point(0, 0);
-  geometry.box.high = Point(1, 1);
-  MeshOptions options;
-  options.size = 0.4;
-  Mesh mesh = generate_mesh(geometry, options);
-  partition(mesh, 1);
-  return mesh;
-}
-
 struct Blocks : testing::Test {
-  const Mesh mesh = small_mesh();
+  const Mesh mesh = test::small_mesh(0.4);
   const int n = mesh.cell_count();
   Field p{{.owner = "a",
            .name = "p",

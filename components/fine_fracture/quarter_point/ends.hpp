@@ -1,0 +1,31 @@
+// The ends of fractures, by name and in one order, and the cells there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/fine_fracture/growth/grow_tips.hpp"
+#include "components/fine_fracture/quarter_point/domain/fine_domain.hpp"
+#include "framework/mesh/mesh.hpp"
+#include "framework/mesh/mesh_change.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// Both ends of all fractures, in the order of the fractures; their names are "main_first", "main_last".
+std::vector<TipEnd> all_ends(const Mesh& mesh);
+std::string name_of(const Mesh& mesh, const TipEnd& end);
+FracturePoint::Kind kind_of(const Mesh& mesh, const TipEnd& end);
+inline bool is_same(const TipEnd& a, const TipEnd& b) { return a.fracture == b.fracture && a.at_end == b.at_end; }
+
+/// The last cell of the fracture at this end.
+const FractureCell& end_cell(const Mesh& mesh, const TipEnd& end);
+/// The length of the cell at this end of the fracture as the scene gives it, before any growth, m.
+double original_size(const Mesh& mesh, const TipEnd& end);
+/// The length of the fracture's new cells at this end, m.
+double new_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change);
+/// The length of the fracture's cells at this end that were given up for new ones, m.
+double given_up_length(const Mesh& mesh, const TipEnd& end, const MeshChange& change);
+/// The length of a path that begins at `from`, m.
+double length_of(const Point& from, const TipPath& path);
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,106 @@
+// Stress intensity factors of tips: from a fine level, or an estimate where none is needed.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
+#include "components/fine_fracture/quarter_point/ends.hpp"
+#include "components/fine_fracture/quarter_point/tips.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+bool is_same(const FineGeometry& a, const FineGeometry& b) {
+  return a.outline == b.outline &&
+         std::equal(a.cracks.begin(), a.cracks.end(), b.cracks.begin(), b.cracks.end(),
+                    [](const CrackPath& x, const CrackPath& y) { return x.points == y.points && x.walls == y.walls; });
+}
+
+}  // namespace
+
+Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
+  Tip& tip = tips_[index];
+  // The square stays where the coarse tip is while the path grows in it.
+  const Point center = position(tip, {});
+  FineMeshOptions mesh;
+  mesh.tip_size = options_.mesh_ratio * tip.coarse_size;
+  constexpr double edges_across = 10;  // of the domain, away from the fractures; the estimated error refines them
+  mesh.far_size = std::max(mesh.tip_size, options_.size / edges_across);
+  mesh.sectors = options_.sectors;
+  const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
+  FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls,
+                                  tip.pattern ? &tip.pattern->geometry.outline : nullptr);
+  const LameParameters lame = surroundings_->stiffness(center);
+  const Elasticity rock{lame.lambda, lame.shear};
+  if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
+    tip.kept_factors.reset();
+    tip.offsets = nullptr;
+    tip.domain = std::move(domain);
+    if (options_.tolerance) {
+      Adapted adapted =
+          adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance}, profile_);
+      tip.model.emplace(std::move(adapted.model));
+      meshes_ += adapted.meshes;
+      solves_ += adapted.meshes;
+      return keep_factors(tip, adapted.solution);
+    }
+    const bool keeps_pattern = is_followed(tip);
+    tip.model.emplace(tip.domain.geometry, mesh, rock, TipPlace{tip.domain.crack, tip.domain.is_last}, profile_,
+                      keeps_pattern ? &tip.pattern : nullptr);
+    tip.has_pattern = keeps_pattern;
+    ++meshes_;
+  } else {
+    tip.domain = std::move(domain);
+  }
+  // The kept factors are still valid if only paths outside of its domain have changed, or at the first evaluation of a
+  // search.
+  if (tip.kept_factors && tip.kept_factors->version == surroundings_->version()) {
+    ++kept_;
+    tip.now.sif_error = tip.kept_factors->error;
+    return tip.kept_factors->sifs;
+  }
+  ++solves_;
+  FineLoads loads = loads_of(tip);
+  if (!tip.offsets) tip.offsets = surroundings_->stress_offsets(tip.model->offset_places());
+  loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
+  return keep_factors(tip, tip.model->solve(loads));
+}
+
+Sifs Tips::keep_factors(Tip& tip, const FineSolution& solution) const {
+  const Sifs sifs = factors_of(tip, solution);
+  tip.kept_factors = {surroundings_->version(), sifs, tip.now.sif_error};
+  return sifs;
+}
+
+Sifs Tips::factors_of(Tip& tip, const FineSolution& solution) const {
+  for (const TipIntensities& found : solution.tips) {
+    if (found.crack != tip.domain.crack || found.is_last != tip.domain.is_last) continue;
+    tip.now.sif_error = found.error.norm();
+    const Point k = options_.factors == "interaction_integral" ? found.K : found.K_correlation;
+    return {k[0], k[1], found.T};
+  }
+  throw std::logic_error("the fine level has lost its tip");
+}
+
+double Tips::load(const Sifs& sifs) const {
+  return options_.toughness ? equivalent_sif(sifs) / *options_.toughness : 0;
+}
+
+double Tips::estimated_load(const Tip& tip) const {
+  // Williams' field: the jump at a distance r behind the tip is (8/E') sqrt(r/(2 pi)) K.
+  const LameParameters lame = surroundings_->stiffness(position(tip, {}));
+  const double distance = 0.5 * end_cell(mesh_, tip.end).measure;
+  const double estimate = Elasticity{lame.lambda, lame.shear}.plane_modulus() / 8 *
+                          std::sqrt(2 * std::numbers::pi / distance) *
+                          surroundings_->jump_at_tip(tip.end.fracture, tip.end.at_end);
+  constexpr double shear_to_equivalent = 1.25;
+  return shear_to_equivalent * estimate / *options_.toughness;
+}
+
+void Tips::set_factors(Tip& tip, const Sifs& sifs) const {
+  tip.now.sifs = sifs;
+  tip.now.load = load(sifs);
+  tip.now.is_evaluated = true;
+}
+
+}  // namespace sprekk::fine_fracture

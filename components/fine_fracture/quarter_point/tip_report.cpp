@@ -1,0 +1,50 @@
+// What results tell of the tips of fractures.
+#include <limits>
+
+#include "components/fine_fracture/quarter_point/ends.hpp"
+#include "components/fine_fracture/quarter_point/tips.hpp"
+
+namespace sprekk::fine_fracture {
+
+void Tips::report(std::vector<Quantity>& quantities) const {
+  // In the order of ends, so that columns stay when a tip joins a fracture and is none any more.
+  for (const TipEnd& end : all_ends(mesh_)) {
+    for (const Tip& tip : tips_)
+      if (is_same(tip.end, end))
+        report_end(tip.name, tip.now, tip.now.grown + length_of(position(tip, {}), tip.now.path), quantities);
+    State at_rest;
+    at_rest.is_stopped = true;
+    for (const Joint& joint : joints_)
+      if (is_same(joint.end, end)) report_end(joint.name, at_rest, joint.grown, quantities);
+  }
+}
+
+void Tips::report_end(const std::string& end, const State& state, double length,
+                      std::vector<Quantity>& quantities) const {
+  const std::string prefix = name() + "." + end + ".";
+  const auto known = [&state](double value) {
+    return state.is_evaluated ? value : std::numeric_limits<double>::quiet_NaN();
+  };
+  quantities.push_back({prefix + "K_I", "Pa*m^0.5", known(state.sifs.k1)});
+  quantities.push_back({prefix + "K_II", "Pa*m^0.5", known(state.sifs.k2)});
+  quantities.push_back({prefix + "K_eq", "Pa*m^0.5", known(equivalent_sif(state.sifs))});
+  quantities.push_back({prefix + "K_error_fine_mesh", "Pa*m^0.5", known(state.sif_error)});
+  quantities.push_back({prefix + "stopped", "1", state.is_stopped ? 1.0 : 0.0});
+  quantities.push_back({prefix + "length", "m", length});
+}
+
+std::map<std::string, long> Tips::counts() const {
+  return {{"tips: solves", solves_},
+          {"tips: meshes", meshes_},
+          {"tips: answers kept", kept_},
+          {"tips: ruled out", skipped_},
+          {"tips: increments", increments_}};
+}
+
+std::vector<Profile::Entry> Tips::efforts() const {
+  std::vector<Profile::Entry> efforts(profile_->entries().begin(), profile_->entries().end());
+  for (Profile::Entry& effort : efforts) effort.name = "tips: " + effort.name;
+  return efforts;
+}
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,129 @@
+// The discrete operators of the flow: when they are made, and what follows from them.
+#include <algorithm>
+
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/assembly/products.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/cell_sums.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+/// The operators of rock without permeability: the only fluxes are those that are prescribed on sides.
+FluxOperators no_flow(const Mesh& mesh, const std::vector<FlowCondition>& conditions) {
+  FluxOperators operators;
+  operators.flux_cell.resize(mesh.face_count(), mesh.cell_count());
+  operators.trace_cell.resize(mesh.face_count(), mesh.cell_count());
+  operators.trace_boundary.resize(mesh.face_count(), mesh.face_count());
+  operators.flux_boundary.resize(mesh.face_count(), mesh.face_count());
+  operators.flux_change.resize(mesh.face_count(), mesh.face_count());
+  operators.trace_change.resize(mesh.face_count(), mesh.face_count());
+  operators.blended_nodes.resize(mesh.face_count(), mesh.face_count());
+  std::vector<Triplet> prescribed;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (conditions[f] == FlowCondition::flux) prescribed.emplace_back(f, f, 1.0);
+  operators.flux_boundary.setFromTriplets(prescribed.begin(), prescribed.end());
+  return operators;
+}
+
+}  // namespace
+
+void MatrixFlow::find_conditions() {
+  conditions_.assign(mesh_.face_count(), FlowCondition::none);
+  outer_faces_.clear();
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    if (mesh_.face_cells[f][1] != none) continue;
+    conditions_[f] = FlowCondition::flux;
+    if (mesh_.face_side[f] == none) continue;
+    outer_faces_.emplace_back(f, mesh_.face_cells[f][0]);
+    const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
+    if (condition != options_.boundary.end() && condition->second.pressure) conditions_[f] = FlowCondition::pressure;
+  }
+}
+
+bool MatrixFlow::is_discretized() const {
+  return discretized_mesh_ == mesh_.version && discretized_mobility_ == mobility_version_;
+}
+
+void MatrixFlow::discretize() {
+  if (is_discretized()) return;
+  find_conditions();
+  if (is_sealed_) {
+    operators_ = no_flow(mesh_, conditions_);
+  } else if (!mobility_of_operators_.empty()) {
+    return discretize_from({mesh_, mobility_of_operators_, conditions_}, operators_, no_change(mesh_));
+  } else {
+    const std::vector<char> nodes = nodes_to_discretize(mesh_);
+    ++discretizations_;
+    discretized_cells_ += mesh_.cell_count();
+    discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
+    FluxOperators made = discretize_(mesh_, mobility_, conditions_, nodes);
+    operators_.swap(made);
+  }
+  use_operators();
+}
+
+void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
+  const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
+  SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
+  // With several processes the change may have given cells to others.
+  if (parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
+  find_conditions();
+  discretize_from({before.mesh_, before.mobility_, before.conditions_}, before.operators_, change);
+}
+
+void MatrixFlow::discretize_from(const FlowInputs& before, const FluxOperators& operators, const MeshChange& change) {
+  Rediscretized result = rediscretize(discretize_, before, operators, {mesh_, mobility_, conditions_}, change);
+  ++discretizations_;
+  discretized_cells_ += result.cells;
+  discretized_regions_ += result.regions;
+  operators_.swap(result.operators);
+  use_operators();
+}
+
+void MatrixFlow::use_operators() {
+  discretized_mesh_ = mesh_.version;
+  discretized_mobility_ = mobility_version_;
+  mobility_of_operators_.clear();
+  if (properties_change_ && !is_sealed_ && parallel::size() == 1) mobility_of_operators_ = mobility_;
+  boundary_applied_ = false;
+  forget_flow();
+  const int rank = parallel::rank();
+  // Flux through an inner face leaves one cell and enters another.
+  std::vector<char> is_outer(mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) is_outer[f] = mesh_.face_cells[f][1] == none;
+  const auto outflow_of = [&](const SparseMatrix& fluxes) {
+    return Operator(cell_sums(mesh_, fluxes, 1, rank), cell_sums(mesh_, keep_rows(fluxes, is_outer), 1, rank));
+  };
+  outflow_of_pressure_ = outflow_of(operators_.flux_cell);
+  SPREKK_ASSERT(operators_.flux_cell.rows() == mesh_.face_count(), operators_.flux_cell.rows(), mesh_.face_count());
+  SPREKK_ASSERT(operators_.flux_cell.cols() == mesh_.cell_count(), operators_.flux_cell.cols(), mesh_.cell_count());
+  SPREKK_ASSERT(operators_.flux_boundary.cols() == mesh_.face_count(), operators_.flux_boundary.cols());
+  SPREKK_ASSERT(is_finite(operators_.flux_cell) && is_finite(operators_.flux_boundary));
+  largest_conductance_ = 0;
+  const SparseMatrix& outflow = outflow_of_pressure_.entries();
+  for (int row = 0; row < outflow.rows(); ++row)
+    largest_conductance_ = std::max(largest_conductance_, outflow.row(row).cwiseAbs().sum());
+  if (!wall_flux_) return;
+
+  // The flux out of the rock through a wall is −lambda times its length.
+  std::vector<Triplet> entries;
+  for (int w = 0; w < mesh_.wall_count(); ++w)
+    entries.emplace_back(mesh_.wall_face(w), w, -mesh_.face_measure[mesh_.wall_face(w)]);
+  SparseMatrix boundary_of_wall_flux(mesh_.face_count(), mesh_.wall_count());
+  boundary_of_wall_flux.setFromTriplets(entries.begin(), entries.end());
+  flux_of_wall_flux_ = operators_.flux_boundary * boundary_of_wall_flux;
+  outflow_of_wall_flux_ = outflow_of(flux_of_wall_flux_);
+
+  entries.clear();
+  for (int w = 0; w < mesh_.wall_count(); ++w)
+    if (is_owned(mesh_, Location::wall, w)) entries.emplace_back(w, mesh_.wall_face(w), 1.0);
+  SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
+  pick_walls.setFromTriplets(entries.begin(), entries.end());
+  wall_pressure_.terms = {{&pressure_, Operator(pick_walls * operators_.trace_cell)},
+                          {wall_flux_, Operator(pick_walls * operators_.trace_boundary * boundary_of_wall_flux)}};
+}
+
+}  // namespace sprekk::matrix_flow

@@ -1,0 +1,58 @@
+// The fluxes through faces at a state of the pressure, and the velocities that follow from them.
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/assembly/products.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/cell_sums.hpp"
+
+namespace sprekk::matrix_flow {
+
+void MatrixFlow::forget_flow() {
+  flows_ = {};
+  with_walls_ = {};
+}
+
+const MatrixFlow::Flow& MatrixFlow::flow(const Vector& pressure, std::uint64_t version) const {
+  for (Flow& kept : flows_)
+    if (kept.used > 0 && kept.pressure == version) {
+      kept.used = ++flow_uses_;
+      return kept;
+    }
+  Flow& flow = flows_[flows_[0].used <= flows_[1].used ? 0 : 1];
+  SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.size(), mesh_.cell_count());
+  flow.pressure = version;
+  flow.used = ++flow_uses_;
+  flow.fluxes = multiply(operators_.flux_cell, pressure - gravity_potential_cell_, false).value;
+  flow.fluxes += boundary_fluxes_;
+  flow.outflow = cell_sums(mesh_, flow.fluxes, 1);
+  flow.leaving = Vector::Zero(mesh_.cell_count());
+  for (const auto& [face, cell] : outer_faces_) flow.leaving[cell] += flow.fluxes[face];
+  flow.largest_outflow = flow.outflow.lpNorm<Eigen::Infinity>();
+  return flow;
+}
+
+const Vector& MatrixFlow::face_fluxes() const {
+  const Flow& flow = this->flow(pressure_.now(), pressure_.version());
+  if (!wall_flux_) return flow.fluxes;
+  if (with_walls_.fluxes.size() == 0 || with_walls_.pressure != flow.pressure ||
+      with_walls_.wall_flux != wall_flux_->version())
+    with_walls_ = {flow.pressure, wall_flux_->version(), flow.fluxes + flux_of_wall_flux_ * wall_flux_->now()};
+  return with_walls_.fluxes;
+}
+
+void MatrixFlow::output(std::vector<OutputField>& fields) const {
+  // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
+  // one.
+  if (discretized_mobility_ == 0) return;
+  const Vector& fluxes = face_fluxes();
+  Vector velocity = Vector::Zero(2 * mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    for (const int face : mesh_.cell_faces[c]) {
+      const double out = mesh_.face_cells[face][0] == c ? fluxes[face] : -fluxes[face];
+      velocity.segment<2>(2 * c) += out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
+    }
+  replicate(mesh_, Location::cell, 2, velocity);
+  fields.push_back({name() + ".velocity", "m/s", Location::cell, 2, std::move(velocity)});
+}
+
+}  // namespace sprekk::matrix_flow

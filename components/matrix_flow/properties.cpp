@@ -1,0 +1,81 @@
+// The properties of rock and fluid, what follows from them, and checks of them.
+#include <algorithm>
+
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/discretization/linear_fit.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk::matrix_flow {
+
+std::vector<const Data*> MatrixFlow::properties() const {
+  const TensorData& k = options_.permeability;
+  std::vector<const Data*> data = {&k.xx, &k.yy, &k.xy, &options_.viscosity};
+  for (const std::optional<Data>* given : {&options_.storage, &options_.porosity, &options_.fluid_compressibility})
+    if (*given) data.push_back(&**given);
+  return data;
+}
+
+void MatrixFlow::use_properties() {
+  if (!options_.storage) storage_.set(porosity_.values().cwiseProduct(compressibility_.values()));
+  std::uint64_t version = viscosity_.version();
+  for (const Property& entry : permeability_) version += entry.version();
+  if (version == mobility_version_) return;
+  mobility_.resize(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    Tensor permeability;
+    permeability << permeability_[0][c], permeability_[2][c], permeability_[2][c], permeability_[1][c];
+    mobility_[c] = permeability / viscosity_[c];
+    SPREKK_ASSERT(viscosity_[c] > 0 && mobility_[c].allFinite(), c, viscosity_[c]);
+  }
+  check_mobility();
+  place_wells();
+  mobility_version_ = version;  // at the end: a mobility may be refused
+}
+
+void MatrixFlow::check_mobility() {
+  long sealed = 0;
+  for (const Tensor& mobility : mobility_) {
+    sealed += mobility.isZero(0);
+    if (!mobility.isZero(0) && mobility(0, 0) * mobility(1, 1) <= mobility(0, 1) * mobility(1, 0))
+      throw DataError(InputError(origin_, "the permeability is not positive definite",
+                                 "fluid could not flow in one direction", "raise it in that direction")
+                          .what());
+  }
+  is_sealed_ = sealed == mesh_.cell_count();
+  if (sealed > 0 && !is_sealed_)
+    throw DataError(InputError(origin_, "the permeability is zero in a part of the rock",
+                               "there is no pressure at the face of a cell that lets no fluid through",
+                               "give that part a very small permeability")
+                        .what());
+}
+
+void MatrixFlow::check_sides() const {
+  for (const auto& [side, condition] : options_.boundary)
+    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
+      throw unknown_name(condition.origin, "side of the boundary", side, mesh_.side_names);
+  for (const auto& [name, well] : options_.wells)
+    if (well_cells_.at(name).empty())
+      throw InputError(well.origin, "well '" + name + "' lies outside the rock", "there is no cell at its position",
+                       "move it inside");
+}
+
+void MatrixFlow::place_wells() {
+  // Fluid of a well must not be added to rock of another permeability, where it might not be able to flow away.
+  const auto is_like = [&](int cell, int other) {
+    const double ratio = mobility_[other].trace() / mobility_[cell].trace();
+    constexpr double most = 2;
+    return is_sealed_ || (ratio > 1 / most && ratio < most);
+  };
+  for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at, is_like);
+}
+
+void MatrixFlow::use_storage() {
+  if (capacity_version_ == storage_.version()) return;
+  capacity_version_ = storage_.version();
+  SPREKK_ASSERT(storage_.values().size() == mesh_.cell_count(), storage_.values().size(), mesh_.cell_count());
+  SPREKK_ASSERT(storage_.values().size() == 0 || storage_.values().minCoeff() >= 0, storage_.values().minCoeff());
+  capacity_ = storage_.values().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()));
+  capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
+}
+
+}  // namespace sprekk::matrix_flow

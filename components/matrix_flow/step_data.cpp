@@ -1,0 +1,106 @@
+// The data of a step: properties, values on the boundary, sources and wells.
+#include <algorithm>
+#include <cmath>
+
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/cell_mean.hpp"
+
+namespace sprekk::matrix_flow {
+
+bool MatrixFlow::depends_on_time() const {
+  return properties_change_ || options_.source.depends_on_time() ||
+         std::any_of(options_.wells.begin(), options_.wells.end(),
+                     [](const auto& well) { return well.second.rate.depends_on_time(); }) ||
+         std::any_of(options_.boundary.begin(), options_.boundary.end(),
+                     [](const auto& side) { return side.second.depends_on_time(); });
+}
+
+void MatrixFlow::evaluate_data(const StepTime& step) {
+  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
+  const bool is_evaluated = data_evaluated_ && (same_step || !depends_on_time());
+  if (properties_change_ && !is_evaluated) {
+    for (Property& entry : permeability_) entry.evaluate(step);
+    for (Property* property : {&viscosity_, &porosity_, &compressibility_, &storage_}) property->evaluate(step);
+    use_properties();
+  }
+  if (is_sealed_ && wall_flux_ && !wall_flux_->determined_by().empty())
+    throw DataError(InputError(origin_, "fluid is to flow through the walls of rock that has no permeability",
+                               "what enters a cell could not leave it",
+                               "remove the coupler of its walls, or give it a permeability")
+                        .what());
+  if (is_evaluated) return;
+  data_evaluated_ = true;
+  evaluated_for_ = step;
+  boundary_applied_ = false;
+  forget_flow();
+  evaluate_sources(step);
+  boundary_values_ = Vector::Zero(mesh_.face_count());
+  boundary_changes_ = Vector::Zero(mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    if (mesh_.face_side[f] == none) continue;
+    const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
+    if (found == options_.boundary.end()) continue;
+    const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
+    const SideCondition& side = found->second;
+    if (side.pressure && (side.pressure->depends_on_space() || !options_.gravity.is_zero())) {
+      // At the third points of the face: these are exact for linear pressures on the face.
+      const Point third = (mesh_.nodes[mesh_.face_nodes[f][1]] - mesh_.nodes[mesh_.face_nodes[f][0]]) / 6;
+      const auto value = [&](const Point& x) {
+        return value_in_step(*side.pressure, {x, place.region, 0}, step) - gravity_potential(x);
+      };
+      const double first = value(place.x - third), second = value(place.x + third);
+      boundary_values_[f] = 0.5 * (first + second);
+      boundary_changes_[f] = 3 * (second - first);
+    } else if (side.pressure) {
+      boundary_values_[f] = value_in_step(*side.pressure, place, step);
+    }
+    if (side.flux) boundary_values_[f] = value_in_step(*side.flux, place, step) * mesh_.face_measure[f];
+  }
+}
+
+void MatrixFlow::evaluate_sources(const StepTime& step) {
+  source_ = Vector::Zero(mesh_.cell_count());
+  if (!options_.source.is_zero())
+    for (int c = 0; c < mesh_.cell_count(); ++c) {
+      const auto density = [&](const Point& at) {
+        return value_in_step(options_.source, {at, mesh_.cell_region[c], 0}, step);
+      };
+      source_[c] = mesh_.cell_measure[c] *
+                   (options_.source.depends_on_space() ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
+    }
+  for (const auto& [name, well] : options_.wells) {
+    const double rate = value_in_step(well.rate, {well.at, 0, 0}, step);
+    for (const auto& [cell, weight] : well_cells_.at(name)) source_[cell] += weight * rate;
+    SPREKK_ASSERT(std::isfinite(rate), name, rate);
+  }
+}
+
+void MatrixFlow::apply_boundary() {
+  if (boundary_applied_) return;
+  boundary_applied_ = true;
+  SPREKK_ASSERT(boundary_values_.size() == mesh_.face_count(), boundary_values_.size(), mesh_.face_count());
+  SPREKK_ASSERT(is_finite(boundary_values_) && is_finite(boundary_changes_));
+  boundary_fluxes_ = operators_.flux_boundary * boundary_values_ + operators_.flux_change * boundary_changes_;
+  if (!wall_flux_) return;
+  const Vector trace = operators_.trace_boundary * boundary_values_ + operators_.trace_change * boundary_changes_ -
+                       operators_.trace_cell * gravity_potential_cell_ + gravity_potential_face_;
+  wall_pressure_.constant.resize(mesh_.wall_count());
+  for (int w = 0; w < mesh_.wall_count(); ++w) wall_pressure_.constant[w] = trace[mesh_.wall_face(w)];
+}
+
+std::vector<double> MatrixFlow::switch_times() const {
+  std::vector<double> times = merged_switch_times(properties());
+  const auto append = [&](const Data& data) {
+    times.insert(times.end(), data.switch_times().begin(), data.switch_times().end());
+  };
+  append(options_.source);
+  for (const auto& [name, well] : options_.wells) append(well.rate);
+  for (const auto& [side, condition] : options_.boundary) {
+    if (condition.pressure) append(*condition.pressure);
+    if (condition.flux) append(*condition.flux);
+  }
+  return times;
+}
+
+}  // namespace sprekk::matrix_flow
