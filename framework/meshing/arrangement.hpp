@@ -1,4 +1,4 @@
-// Cuts segments at each other, so that they meet in common points only.
+// Cuts segments at each other, so that segments share nothing but points.
 #pragma once
 
 #include <vector>

@@ -53,7 +53,7 @@ void distort_mesh(RawMesh& mesh, double amount, int seed) {
   }
 
   std::mt19937 random(static_cast<unsigned>(seed));
-  // The library's distributions differ between implementations; these figures do not.
+  // The distributions of the standard library differ between implementations; these numbers are the same everywhere.
   const auto from_0_to_1 = [&] { return random() / 4294967296.0; };
   for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
     if (is_fixed[node] || cells_at[node].empty()) continue;

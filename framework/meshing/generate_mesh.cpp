@@ -23,7 +23,8 @@ Mesh finish(RawMesh raw, const Geometry& geometry, const MeshOptions& options) {
   avoid_single_cell_corners(raw);
   const std::vector<Point> places = raw.nodes;
   distort_mesh(raw, options.distortion, options.seed);
-  // A distorted mesh has the numbers of the regular one. Those of a structured mesh follow its lines.
+  // A distorted mesh is numbered like the mesh before the distortion. Structured meshes keep their numbers, which
+  // follow the grid lines.
   if (geometry.is_imported() || options.kind == MeshOptions::Kind::unstructured) number_in_space(raw, places);
   return build_mesh(raw);
 }
@@ -37,7 +38,7 @@ Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options) {
   try {
     return finish(std::move(raw), geometry, options);
   } catch (const InputError& error) {
-    // Wrong triangles of a file are a mistake of the user: the message names the file.
+    // Wrong triangles in a file are an error of the user, so the message names the file.
     throw InputError(geometry.file_origin, "cannot use the mesh file '" + geometry.file + "'", error.what());
   }
 }

@@ -35,8 +35,8 @@ struct RegionGeometry {
 
 inline constexpr std::array<const char*, 4> box_sides = {"left", "right", "bottom", "top"};
 
-/// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is
-/// medium_name(), what no polygon covers; where polygons overlap the later one counts.
+/// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is what no polygon
+/// covers; its name is medium_name(). Where polygons overlap, the later polygon counts.
 struct Geometry {
   Box box;
   std::string file;  ///< a mesh that gmsh reads, or "" for a box
@@ -66,9 +66,9 @@ struct MeshOptions {
   double gap_length = 2;  ///< gaps between parallel walls are not refined if longer than so many times their width
   std::optional<double> gap_size =
       std::nullopt;                   ///< least edge length in gaps, m; default a 500th of the shortest size
-  std::array<int, 2> cells = {0, 0};  ///< structured: rectangles along x and y; 0 means as `size` asks
+  std::array<int, 2> cells = {0, 0};  ///< structured: rectangles along x and y; 0: as many as `size` gives
   double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge at the node, 0 to 0.4
-  int seed = 1;           ///< of the distortion
+  int seed = 1;           ///< of the random distortion
   Origin origin = {};
 };
 

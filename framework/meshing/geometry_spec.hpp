@@ -8,8 +8,9 @@
 
 namespace sprekk {
 
-/// The spec of `geometry:`. Mesh files are looked for in `folder`, the folder of the scene. The geometry that is read
-/// still has to pass `validate_geometry`, which also needs the mesh options. `geometry` must outlive the spec.
+/// The spec of `geometry:`. Paths of mesh files are relative to `folder`, the folder of the scene. After reading, the
+/// caller checks the geometry by `validate_geometry`, which also needs the mesh options. `geometry` must outlive the
+/// spec.
 Spec geometry_spec(Geometry& geometry, const std::string& folder = ".");
 
 /// The spec of `mesh:`.

@@ -6,7 +6,7 @@
 namespace sprekk {
 
 std::vector<Point> graded_division(const Segment& segment, const std::function<double(const Point&)>& size) {
-  // How many edges fit between the beginning and each sample (midpoint rule).
+  // The number of edges between the beginning of the segment and each sample, by the midpoint rule.
   constexpr int samples = 64;
   const Point along = segment.to - segment.from;
   double edges[samples + 1] = {0};

@@ -10,7 +10,7 @@
 namespace sprekk {
 namespace {
 
-/// Of angles from 90 degrees, in rad. Two equilateral triangles make 30 degrees.
+/// Largest deviation of the angles of a quadrilateral from 90 degrees, rad. Two equilateral triangles give 30 degrees.
 constexpr double largest_deviation = 50 * std::numbers::pi / 180;
 
 struct Pair {

@@ -13,7 +13,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// from_chars knows no sign in front of positive numbers.
+/// std::from_chars does not accept a plus sign.
 std::string_view without_plus(std::string_view word) {
   return word.size() > 1 && word[0] == '+' && word[1] != '-' ? word.substr(1) : word;
 }
@@ -104,7 +104,7 @@ double MshCursor::real(const char* what) {
     text = word(what);
     begin = at_ - text.size();
     const std::errc error = parse(text, value);
-    // Too small is as good as zero.
+    // A number below the range of double is taken for zero.
     if (error == std::errc::result_out_of_range) value = std::strtod(text.c_str(), nullptr);
     if (error == std::errc::invalid_argument) {
       fail_at(begin, quoted(text) + " stands where " + what + " is expected");

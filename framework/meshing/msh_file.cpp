@@ -12,7 +12,8 @@ namespace {
 
 const std::string save_again = "save it with 'gmsh FILE -save -format msh41 -o NEW.msh'";
 
-/// Of gmsh's types of elements those with straight edges in a plane: dimension and nodes. 0 nodes: not among them.
+/// An element type of gmsh, if its edges are straight and it lies in a plane: dimension and number of nodes; 0 nodes
+/// for all other types.
 struct Kind {
   int dimension, node_count;
 };
@@ -33,7 +34,7 @@ Kind kind_of(int type) {
 
 constexpr int most_tags = 100'000;  // of an element: more is a file that is damaged
 
-/// Whether it is a line with more than two nodes.
+/// Whether the type is a line with more than two nodes.
 bool is_curved_line(int type) { return type == 8 || (type >= 26 && type <= 28); }
 
 class Parser {
@@ -145,7 +146,7 @@ class Parser {
     }
   }
 
-  /// The least bytes of so many values of so many bytes each.
+  /// The smallest number of bytes that `values` values take: `binary` in a binary file, two for each value in a text.
   std::size_t bytes_of(std::size_t binary, std::size_t values) const { return file_.is_binary ? binary : 2 * values; }
   std::size_t wide_count(const char* what, std::size_t binary, std::size_t values) {
     return cursor_.count(what, std::max<std::size_t>(1, bytes_of(binary, values)), true);
@@ -182,7 +183,7 @@ class Parser {
     for (int& group : groups) {
       group = cursor_.integer("a group's number");
       if (group == 0 || group == -2147483647 - 1) cursor_.fail("there is no group " + std::to_string(group));
-      group = std::abs(group);  // the sign turns the entity
+      group = std::abs(group);  // the sign gives the orientation of the entity
     }
     std::sort(groups.begin(), groups.end());
     groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
@@ -190,7 +191,7 @@ class Parser {
       const std::size_t borders = wide_count("the number of bordering entities", 4, 1);
       for (std::size_t i = 0; i < borders; ++i) cursor_.integer("a bordering entity");
     }
-    // A partition's entities may repeat the number of one of the whole.
+    // Entities of a partition may have the same numbers as entities of the whole mesh.
     auto& known = is_partitioned ? partitioned_ : entities_;
     if (!known.try_emplace({dimension, number}, static_cast<int>(file_.group_lists.size())).second) {
       cursor_.fail_at(
@@ -278,7 +279,7 @@ class Parser {
     return static_cast<std::uint64_t>(number);
   }
 
-  /// Elements of version 2.2 name their group themselves.
+  /// Elements of version 2.2 contain the number of their group.
   void add_old_element(const Kind& kind, int tag_count, std::size_t place) {
     int group = 0;
     for (int i = 0; i < tag_count; ++i) {
@@ -365,7 +366,8 @@ class Parser {
     }
   }
 
-  /// Replaces the blocks of elements of version 4.1 by lists of groups. The file may list entities behind elements.
+  /// Replaces the blocks of elements of version 4.1 by lists of groups. In a file, the entities may come after the
+  /// elements.
   void assign_groups() {
     std::vector<int> list_of_block;
     const bool has_entities = !entities_.empty() || !partitioned_.empty();

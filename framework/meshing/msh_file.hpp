@@ -1,4 +1,4 @@
-// The content of a mesh file, before a mesh is made of it.
+// The content of a mesh file as it is in the file.
 #pragma once
 
 #include <array>

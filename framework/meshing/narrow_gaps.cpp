@@ -11,27 +11,27 @@ namespace {
 
 /// The largest variation of the width of a gap along one part.
 constexpr double evenness = 1.25;
-/// Lines that join each other count as neighbours across a gap where the way along the fractures is at least so many
-/// times the gap.
+/// Two lines that are connected form a gap only where the path from one to the other along the fractures is at least
+/// this many times the gap.
 constexpr double least_detour = 1.5;
 
-/// From one place along a fracture to another, m.
+/// A part of a fracture, given by the arc lengths of its ends, m.
 struct Stretch {
   double from, to;
 };
 
 double path_between(const Stretch& a, const Stretch& b) { return std::max({0.0, b.from - a.to, a.from - b.to}); }
 
-/// A place where a fracture touches another fracture, through which a way leads to another line.
+/// A place where a fracture touches another fracture: the connection between two lines.
 struct Joint {
-  Stretch at;     ///< of the fracture
-  double beyond;  ///< m, the way from there along the other line's fracture
+  Stretch at;     ///< on the fracture
+  double beyond;  ///< m, the distance from there to the other line, along that line's fracture
 };
 
 struct Line {
   Segment segment;
   int fracture;     ///< or none
-  Stretch stretch;  ///< of the fracture
+  Stretch stretch;  ///< on the fracture
 };
 
 std::vector<Line> lines_of(const Geometry& geometry) {
@@ -80,7 +80,7 @@ class Search {
         if (gap >= touch_ && gap < limits_.widest) pairs.push_back({gap, i, j});
       }
     }
-    // The narrowest gaps first: most others then need no smaller edges.
+    // The narrowest gaps come first: after them most other gaps need no smaller edges.
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.gap < b.gap; });
     for (const auto& [gap, one, other] : pairs) {
       find_gaps_along(lines_[one], lines_[other]);
@@ -94,7 +94,7 @@ class Search {
     divide(line, {0, 1}, other, joints);
   }
 
-  /// Where the fractures of two lines, which do not touch, lead from one to the other.
+  /// The connections between two lines that do not touch each other themselves.
   std::vector<Joint> joints_between(const Line& line, const Line& other) const {
     if (line.fracture == other.fracture) return {{other.stretch, 0}};
     const Line &of_fracture = line.fracture != none ? line : other, &fixed = line.fracture != none ? other : line;
@@ -114,7 +114,8 @@ class Search {
     return way;
   }
 
-  /// `range`: of the line, from 0 to 1. Halves it until the gap is even enough, or nowhere narrow.
+  /// Halves the `range` of the line (within 0 to 1) until the width of the gap varies little enough, or the gap is
+  /// nowhere narrow.
   void divide(const Line& line, const Stretch& range, const Line& other, const std::vector<Joint>& joints) {
     const auto at = [&](double t) -> Point {
       return t == 1 ? line.segment.to : Point(line.segment.from + t * (line.segment.to - line.segment.from));
@@ -145,8 +146,8 @@ class Search {
     }
   }
 
-  /// The length of the way along the fractures from a part of one line to another line: the shortest, and a bound for
-  /// the longest.
+  /// The length of the path along the fractures from a part of one line to another line: the shortest, and an upper
+  /// bound of the longest.
   static Stretch paths_along(const Line& line, const Stretch& range, const Line& other,
                              const std::vector<Joint>& joints) {
     const auto at = [&](double t) { return line.stretch.from + t * (line.stretch.to - line.stretch.from); };

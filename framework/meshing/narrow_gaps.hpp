@@ -28,8 +28,8 @@ struct GapLimits {
 /// Calls `keep` for gaps that are narrower than `wanted` (m, at a place), between a fracture and a side, an edge of a
 /// region, another fracture or the fracture itself. Gaps are given part by part: along a part the width varies by at
 /// most a quarter, or is below `least`. `keep` may reduce what `wanted` returns; the narrowest gaps come first. Lines
-/// that touch form an angle and no gap; so do two places of a fracture whose distance along the fracture is shorter
-/// than 1.5 times the gap.
+/// that touch form an angle, not a gap. Two places of one fracture form a gap only if their distance along the fracture
+/// is at least 1.5 times the gap.
 void for_each_narrow_gap(const Geometry& geometry, const GapLimits& limits,
                          const std::function<double(const Point&)>& wanted,
                          const std::function<void(const NarrowGap&)>& keep);

@@ -20,7 +20,8 @@
 namespace sprekk {
 namespace {
 
-/// m. A mesh that is farther away, or smaller as a whole, is a mistake, and squares of its lengths might overflow.
+/// m. Meshes that are farther from the origin, or smaller, are taken for an error of the user; squares of their lengths
+/// might overflow or vanish.
 constexpr double farthest = 1e12, smallest_extent = 1e-12;
 
 struct CurveGroup {
@@ -58,7 +59,7 @@ class Path {
   }
 
  private:
-  /// The nodes of the path from `node` on, away from `previous`, to its end.
+  /// The nodes of the path from `node` to the end that is not on the side of `previous`.
   std::vector<int> walk(int previous, int node) const {
     std::vector<int> nodes{node};
     while (nodes.size() <= group_.lines.size()) {
@@ -187,7 +188,7 @@ class Reader {
     }
   }
 
-  /// In the order of their groups' numbers.
+  /// The groups of curves in the order of their numbers.
   std::vector<CurveGroup> curve_groups() const {
     std::map<int, CurveGroup> curves;
     for (const MshFile::Element& line : file_.lines) {
@@ -199,7 +200,8 @@ class Reader {
     return list;
   }
 
-  /// Two cells with the same corners, which is how a surface of two groups stands in files of version 2.2.
+  /// Throws InputError for two cells with the same corners: files of version 2.2 contain a surface of two groups in
+  /// this way.
   void refuse_doubled_cells() const {
     std::map<std::vector<int>, std::size_t> first;
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
@@ -273,7 +275,7 @@ class Reader {
   RawMesh mesh_;
 };
 
-/// Throws InputError where there is no file that can be read as a whole.
+/// Throws InputError if the file cannot be read.
 std::string bytes_of(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw InputError("it does not exist or may not be read");

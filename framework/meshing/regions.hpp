@@ -8,10 +8,10 @@
 
 namespace sprekk {
 
-/// `rock`, then the polygons' names.
+/// The names of all regions: medium_name(), then those of the polygons.
 std::vector<std::string> region_names(const Geometry& geometry);
 
-/// Sets the region of every cell: that of the last polygon that contains the centre of the cell, or else region 0.
+/// Assigns each cell to the last polygon that contains the centre of the cell, or to region 0 where there is none.
 void assign_regions(const Geometry& geometry, RawMesh& mesh);
 
 }  // namespace sprekk

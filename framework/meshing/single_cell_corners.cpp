@@ -11,7 +11,7 @@
 namespace sprekk {
 namespace {
 
-/// A flip that keeps all angles above this is good enough, in rad.
+/// A flip is accepted if all angles stay above this, rad.
 constexpr double good_angle = 20 * std::numbers::pi / 180;
 
 void turn_counter_clockwise(RawMesh& mesh) {
@@ -84,7 +84,7 @@ class Pass {
     return count;
   }
 
-  /// Whether fractures, or they and sides, are all around a cell.
+  /// Whether all edges of a cell lie on fractures or sides.
   bool is_pocket(int cell) const {
     const auto& edges = edges_.of_cell(cell);
     return barrier_count(cell) == mesh_.cells[cell].size() &&
@@ -122,7 +122,7 @@ class Pass {
     mesh_.regions.push_back(other_region);
   }
 
-  /// Triangle a b c and, behind its edge c a, a quadrilateral that begins there with a, c.
+  /// Halves the edge c a between the triangle a b c and a quadrilateral.
   void halve(int triangle, int neighbour, int a, int b, int c) {
     const Ring quadrilateral = mesh_.cells[neighbour];
     const int middle = static_cast<int>(mesh_.nodes.size());
@@ -131,7 +131,7 @@ class Pass {
     add({b, c, middle}, mesh_.regions[triangle]);
     bool is_first = true;
     for (int k = 0; k < quadrilateral.size(); ++k) {
-      if (quadrilateral[k] == a) continue;  // followed by c: the edge that is halved
+      if (quadrilateral[k] == a) continue;  // this edge leads from a to c and is halved
       const Ring part{quadrilateral[k], quadrilateral.after(k), middle};
       if (is_first) {
         mesh_.cells[neighbour] = part;
@@ -142,7 +142,7 @@ class Pass {
     }
   }
 
-  /// Into triangles with a node of their own in the middle.
+  /// Divides a cell into triangles around a new node at its centre.
   void divide(int cell) {
     const Ring nodes = mesh_.cells[cell];
     const int middle = static_cast<int>(mesh_.nodes.size());

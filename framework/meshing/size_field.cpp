@@ -9,7 +9,7 @@
 namespace sprekk {
 namespace {
 
-/// Steeper grading than this would leave small angles beside the small edges of a gap.
+/// A steeper grading gives small angles beside the small edges of a gap.
 constexpr double most_growth_from_gaps = 0.5;
 
 }  // namespace
@@ -46,7 +46,7 @@ void SizeField::add_gaps(const Geometry& geometry, const MeshOptions& options) {
   double shortest = far_size_;
   for (const Source& source : sources_) shortest = std::min(shortest, source.size);
   const double least = options.gap_size.value_or(least_gap_part * shortest);
-  // Whether a gap is narrow is measured in numbers of edges.
+  // A gap is narrow if fewer edges than this fit into it.
   const double edges = options.gap_edges, growth = std::min(growth_, most_growth_from_gaps);
   for_each_narrow_gap(
       geometry, {edges * least, edges * far_size_, edges * growth_}, [&](const Point& x) { return edges * at(x); },
@@ -85,7 +85,7 @@ void SizeField::put_into_buckets(int source) {
   }
 }
 
-/// The size so far, or less where the source asks for less.
+/// The smaller one of `size` and the size that the source asks for.
 double SizeField::lowered(double size, const Source& source, const Point& x) {
   const Point &a = source.segment.from, &b = source.segment.to;
   const double reach = (size - source.size) / source.growth;
@@ -113,7 +113,8 @@ double SizeField::estimated_triangles() const {
   const double per_area = 4 / std::sqrt(3.0);
   double integral = box_.size().x() * box_.size().y() / (far_size_ * far_size_);
   for (const auto& [segment, size, growth, reach] : sources_) {
-    // With h = size + growth * distance: a strip on either side of a segment, and a disc around a point.
+    // The integral for h = size + growth * distance: over a strip on either side of a segment, and over a disc around a
+    // point.
     integral += 2 * segment.length() * (1 / size - 1 / far_size_) / growth;
     integral += 2 * std::numbers::pi / (growth * growth) * (std::log(far_size_ / size) - 1 + size / far_size_);
   }

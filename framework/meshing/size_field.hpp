@@ -31,7 +31,7 @@ class SizeField {
     double growth;
     double reach;  ///< the distance at which the far size is reached
   };
-  /// Whether the source asks for a length below the far size; only then it is added.
+  /// Adds a source if it asks for a length below the far size; returns whether it does.
   bool add_source(const Segment& segment, double size, double growth);
   void add_gaps(const Geometry& geometry, const MeshOptions& options);
   static double lowered(double size, const Source& source, const Point& x);

@@ -39,8 +39,8 @@ std::vector<Segment> all_segments(const Geometry& geometry) {
   return segments;
 }
 
-/// gmsh meshes a box near the origin of size between 1 and 2: its absolute tolerances let it fail, and end the process,
-/// for small boxes far away. The scale is a power of two, so that it costs no digits.
+/// gmsh meshes a box near the origin of size between 1 and 2: with its absolute tolerances gmsh fails, and ends the
+/// process, for small boxes far from the origin. The scale is a power of two, so that it costs no digits.
 struct Frame {
   Point origin;
   double scale;
@@ -65,7 +65,7 @@ double random_factor(const Geometry& geometry, const SizeField& sizes, const Arr
   return std::clamp(of_square * share * share, least, standard);
 }
 
-/// The lines between neighbouring points of an arrangement, as gmsh shall see them, and what it finds along them.
+/// The lines between neighbouring points of an arrangement, as input of gmsh, and the nodes that gmsh makes along them.
 class Lines {
  public:
   Lines(const Arrangement& arrangement, const Frame& frame) : arrangement_(arrangement), frame_(frame) {
@@ -129,7 +129,7 @@ RawMesh raw_mesh(const Geometry& geometry, const Arrangement& arrangement, const
       mesh.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, side_of_segment[s]});
     }
   }
-  // Given positions are restored, so that the rounding of the frame has no effect on them.
+  // Nodes at given points get the exact positions of these points again, without the rounding of the frame.
   for (const auto& [nodes, side] : mesh.boundary_edges) {
     const int axis = side / 2;
     for (const int node : nodes) {
@@ -149,7 +149,8 @@ RawMesh raw_mesh(const Geometry& geometry, const Arrangement& arrangement, const
   return mesh;
 }
 
-/// Sizes beyond what gmsh can do: measured with lines at all angles, it folds none up to 400,000 edges across a box.
+/// Refuses sizes at which gmsh folds triangles. Measured with lines at all angles: no fold with up to 400,000 edges
+/// across a box.
 void refuse_folds(const Geometry& geometry, const SizeField& sizes, const RawMesh& mesh) {
   try {
     const CellEdges edges(mesh.nodes, mesh.cells);

@@ -24,7 +24,7 @@ std::string box_text(const Box& box) {
          number(box.low.y()) + " to " + number(box.high.y()) + " m";
 }
 
-/// How far inside the box a point is; negative outside.
+/// The distance from a point in the box to the nearest side; negative outside of the box.
 double depth(const Box& box, const Point& x) { return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff()); }
 
 std::vector<Segment> segments_of(const std::vector<Point>& points, bool closed = false) {
@@ -59,7 +59,7 @@ void validate_points(const Box& box, const std::vector<Point>& points, const std
   }
 }
 
-/// Segments that follow each other share a point; they may still not fold back onto each other.
+/// Whether a segment folds back onto the segment before it, with which it shares a point.
 bool fold_back(const Segment& first, const Segment& second, double tolerance) {
   return distance(second.to, first) < tolerance || distance(first.from, second) < tolerance;
 }

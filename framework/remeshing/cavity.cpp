@@ -84,7 +84,8 @@ class Choice {
     return in >= sides - 1 || (in > 0 && out == 0);
   }
 
-  /// Takes all cells around nodes that more than one rim edge leaves; returns whether there are any.
+  /// Adds all cells around nodes at which the rim of the cavity touches itself (more than one rim edge begins there);
+  /// returns whether there are any.
   bool part_pinches() {
     std::vector<char> leaving(node_count_, 0);
     bool is_pinched = false;

@@ -13,9 +13,9 @@ int cell_across(const Mesh& mesh, int cell, int k);
 
 /// Marks the cells that are removed for paths. The walls of fractures count as closed; `merged` has the nodes of the
 /// closed mesh (see to_raw_mesh). For each path these are cells whose centre is within the radius (m) of a segment,
-/// cells that a segment meets, and all cells around the nodes of the latter. Then cells join the cavity that have at
-/// most one face which is not at the cavity, or no neighbour outside of it, and cells around a node where the cavity
-/// would touch itself.
+/// cells that a segment meets, and all cells around the nodes of the latter. Then further cells join the cavity: cells
+/// with at most one face that does not border on the cavity, cells without a neighbour outside of the cavity, and cells
+/// around a node where the cavity would touch itself.
 std::vector<bool> choose_cavity(const Mesh& mesh, const std::vector<int>& merged,
                                 const std::vector<std::vector<Segment>>& paths, const std::vector<double>& radii);
 

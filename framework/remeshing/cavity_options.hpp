@@ -6,10 +6,11 @@ namespace sprekk {
 /// How the mesh changes around a new path.
 struct CavityOptions {
   /// Cells whose centre is nearer than this to the old tip or the new path are made anew, m (sec. 4.1 of the paper:
-  /// five times the length of growth). Cells next to those that the path crosses always are.
+  /// five times the length of growth). Cells next to those that the path crosses are always made anew.
   double radius;
-  double size;    ///< edge length at the new path, m
-  double growth;  ///< by how many m the edge length grows per m of distance from the path, where the rim lets it
+  double size;  ///< edge length at the new path, m
+  double
+      growth;  ///< by how many m the edge length grows per m of distance from the path, if the rim is far enough away
   /// Where the outer boundary or another fracture is nearer than `size` times this, the edges of the path are as long
   /// as the width of the gap over this; 0 does not refine in gaps.
   double gap_edges = 0.5;

@@ -137,7 +137,7 @@ class Growth {
     });
   }
 
-  /// The old cell that is the same as a new cell, or that contains its centre.
+  /// The old cell that has become a new cell, or that contains the centre of the new cell.
   int ancestor(const MeshChange& change, int cell, int& next_new) const {
     return change.cell[cell] != none ? change.cell[cell] : holder_[next_new++];
   }
@@ -157,7 +157,7 @@ class Growth {
   void map_fractures(GrownMesh& grown) const {
     auto& [mesh, change, angle, extension_cells] = grown;
     change.fracture_cell.assign(mesh.fracture_cell_count(), none);
-    std::vector<int> grown_before(mesh_.fractures.size(), 0);  // at the first point
+    std::vector<int> grown_before(mesh_.fractures.size(), 0);  // number of new cells at the first point
     extension_cells.resize(extensions_.size());
     for (std::size_t e = 0; e < extensions_.size(); ++e) {
       const int fracture = extensions_[e].fracture;

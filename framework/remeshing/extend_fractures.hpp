@@ -1,4 +1,4 @@
-// Growth of fractures in the mesh: the mesh around their tips is removed and made anew along the new path.
+// Extends fractures in a mesh: cells around the tips are removed, and new cells are made along the new paths.
 #pragma once
 
 #include <vector>
@@ -27,9 +27,9 @@ struct GrownMesh {
 /// cells than before: then the last cells move to the lowest free numbers. New cells are triangles, also where
 /// quadrilaterals were. An end within a hundredth of `size` of the outer boundary is moved onto it and becomes
 /// on_boundary. An end as near to a fracture point of another fracture joins that fracture in a junction. When an angle
-/// is below 25 degrees, further cavities are tried and the best is taken. Throws ExtensionError, before any work, for
-/// paths that check_extensions refuses, std::invalid_argument for options that are not positive, and std::runtime_error
-/// when the cavity cannot be meshed.
+/// is below 25 degrees, further cavities are tried, and the cavity with the largest smallest angle is taken. Throws
+/// ExtensionError, before any work, for paths that check_extensions refuses, std::invalid_argument for options that are
+/// not positive, and std::runtime_error when the cavity cannot be meshed.
 GrownMesh extend_fractures(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                            const CavityOptions& options);
 

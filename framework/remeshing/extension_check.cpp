@@ -15,7 +15,7 @@ namespace {
 
 using Reason = ExtensionError::Reason;
 
-/// A path approaches a segment if its distance falls below this part of that of its beginning.
+/// A path approaches a segment if the distance of the path falls below this part of the distance of its beginning.
 constexpr double approach = 0.9;
 /// Parallel lines, ends of segments and angles of 90 degrees: what rounding leaves of a length or a cosine.
 constexpr double rounding = 1e-12;
@@ -25,7 +25,7 @@ constexpr double parallel = 1e-14;
 constexpr double shortest = 1e-6;
 /// Of the least gap: a tip looks that much farther ahead than what its last increment may have.
 constexpr double room_ahead = 1.5;
-/// Parts of one and the same path may be as near to each other as this part of the way between them along the path.
+/// Two parts of one path must be farther from each other than this part of their distance along the path.
 constexpr double self_gap = 0.25;
 
 struct OwnEnd {
@@ -55,7 +55,7 @@ double extent(const Mesh& mesh) {
   return (high - low).norm();
 }
 
-/// Of `path`, the point nearest to `other`, or where they cross.
+/// The point of `path` nearest to `other`, or their crossing.
 Point meeting_point(const Segment& path, const Segment& other) {
   Point crossing;
   if (cross_inside(path, other, crossing)) return crossing;
@@ -81,7 +81,8 @@ void join(const Segment& edge, Segment& line) {
   }
 }
 
-/// The straight part of a side that a face belongs to: the result must not depend on the length of edges.
+/// The straight part of the side that a face belongs to. Checks use it instead of the face, so that results do not
+/// depend on the lengths of edges.
 Segment straight_side(const Mesh& mesh, int face) {
   const Segment given = segment_of_face(mesh, face);
   Segment line = given;
@@ -93,7 +94,7 @@ Segment straight_side(const Mesh& mesh, int face) {
   return line;
 }
 
-/// The part of a fracture without a bend that a cell belongs to.
+/// The straight part of the fracture that a cell belongs to.
 Segment straight_part(const Mesh& mesh, int fracture_cell) {
   const auto& [name, first, count] = mesh.fractures[mesh.fracture_cells[fracture_cell].fracture];
   const Segment given = segment_of(mesh, fracture_cell);
@@ -181,7 +182,7 @@ class Check {
     }
   }
 
-  /// Puts an end onto the outer boundary that is meant to lie there.
+  /// Moves an end onto the outer boundary if it is nearer than boundary_snap.
   bool snap(Point& end) const {
     double least = boundary_snap * size_;
     Point nearest = end;
@@ -192,7 +193,7 @@ class Check {
       least = distance(end, s);
       const Point along = s.to - s.from;
       const double t = (end - s.from).dot(along) / along.squaredNorm();
-      // On a side along an axis the coordinate is taken over to the bit.
+      // On a side parallel to an axis, the end gets the exact coordinate of the side.
       nearest = t <= 0 ? s.from : t >= 1 ? s.to : Point(s.from + t * along);
       for (int axis = 0; axis < 2; ++axis) {
         if (s.from[axis] == s.to[axis]) nearest[axis] = s.from[axis];
@@ -203,7 +204,8 @@ class Check {
     return is_near;
   }
 
-  /// Puts an end onto a point of other fractures that is meant to be there, and notes these.
+  /// Moves an end onto a fracture point of other fractures if it is nearer than joint_snap, and marks these fractures
+  /// as joined.
   void join(Point& end) {
     const int own = extensions_[index_].fracture;
     double least = joint_snap * size_;
@@ -223,7 +225,7 @@ class Check {
     }
   }
 
-  /// Whether a fracture cell begins where the path ends. Then the angle between both must not be small.
+  /// Whether a fracture cell begins where the path ends. Throws ExtensionError if the angle between the two is small.
   bool is_joint(const Segment& path, const Segment& cell, const std::string& name) const {
     if (path.to != cell.from && path.to != cell.to) return false;
     const Point back = path.from - path.to, along = cell.from + cell.to - 2 * path.to;
@@ -243,10 +245,10 @@ class Check {
     return segments;
   }
 
-  /// How near the current path may come to something that is this far from its beginning.
+  /// The least distance that the path must keep from an object at this distance from the beginning of the path.
   double allowed(double distance_of_tip) const { return std::min(least_gap * size_, approach * distance_of_tip); }
 
-  /// The same for a part of the same fracture, by the way between both along it.
+  /// The same for a part of the same fracture; `way`: the distance from it along the fracture.
   double allowed_to_itself(double way) const { return std::min(least_gap * size_, self_gap * way); }
 
   void check_boundary(bool ends_on_boundary) {
@@ -316,7 +318,7 @@ class Check {
         const auto& [name, first, count] = mesh_.fractures[f];
         double way_behind = 0;
         for (int n = 0; n < count; ++n) {
-          // From the end that grows backwards, so that the way along the fracture adds up.
+          // Backwards from the end that grows, to add up the distance along the fracture.
           const int cell = own.at_end ? first + count - 1 - n : first + n;
           const Segment other = segment_of(mesh_, cell);
           const bool is_ending = is_joined_[f] && i + 1 == segments.size();
@@ -360,11 +362,11 @@ class Check {
 
   const Mesh& mesh_;
   const double size_;
-  const double touch_;  ///< m; nearer is in contact
+  const double touch_;  ///< m; objects at a smaller distance are in contact
   std::vector<PathExtension> extensions_;
   std::vector<std::vector<Segment>> paths_;
   std::vector<bool> is_joined_;  ///< per fracture: whether the path ends on it
-  int index_ = 0;                ///< of the extension that is looked at
+  int index_ = 0;                ///< of the extension that is checked
   std::optional<Obstacle> obstacle_;
 };
 
@@ -408,7 +410,7 @@ FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point&
       const double along = cross(w, u) / determinant;
       if (along < -rounding || along > 1 + rounding) return;
     } else {
-      // Parallel: met at its nearer end when it lies ahead on the same line.
+      // A parallel segment is met, at its nearer end, only if it lies ahead on the same line.
       if (std::abs(cross(w, u)) > rounding * length) return;
       t = std::min(w.dot(u), (w + v).dot(u));
     }

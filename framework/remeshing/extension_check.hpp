@@ -18,10 +18,11 @@ inline constexpr double joint_snap = 0.01;
 /// degrees).
 inline constexpr double least_incidence = 0.2617993877991494;
 
-/// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). A fracture or
-/// boundary that is nearer to the old tip than the least gap may be passed at nine tenths of the tip's distance, and
-/// left at 15 degrees or more. Cells that are replaced count as healed (heal_ends). Returns the extensions; ends near
-/// the outer boundary, or near a fracture point of another fracture inside of the rock, are moved onto it.
+/// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). Near a fracture or
+/// boundary that is nearer to the old tip than the least gap, a path may pass at nine tenths of the distance of the
+/// tip, and may leave it at 15 degrees or more. Cells that are replaced count as healed (heal_ends). Returns the
+/// extensions; ends near the outer boundary, or near a fracture point of another fracture inside of the rock, are moved
+/// onto it.
 std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                             double size);
 

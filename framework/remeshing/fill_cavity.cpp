@@ -16,7 +16,7 @@ namespace {
 
 using Place = CavityOutline::Edge::Place;
 
-/// Edge lengths between inner edges and rim.
+/// The wanted edge lengths between the inner edges and the rim.
 class Sizes {
  public:
   Sizes(const CavityOutline& outline, double growth) : growth_(growth) {
@@ -37,7 +37,7 @@ class Sizes {
     }
     if (sources_[0].empty()) return upper;
     const double sum = nearest[0] + nearest[1];
-    // So steep that the rim's size is reached at the rim, as far as mesh_region() follows.
+    // Steep enough for the length of the rim's edges at the rim, within the slope that mesh_region() can follow.
     const double straight = sum > 0 ? (size[0] * nearest[1] + size[1] * nearest[0]) / sum : 0;
     return std::max(upper, straight);
   }
@@ -51,8 +51,8 @@ class Sizes {
   double growth_;
 };
 
-/// The outline as the drawing has it: its points, and its edges in the drawing's order, those of the rim in their
-/// direction.
+/// The outline in the frame of the drawing, with its points and edges in the order of the drawing. Edges of the rim
+/// keep their direction.
 CavityOutline canonical(const CavityOutline& outline, const CanonicalDrawing& drawing) {
   CavityOutline result{drawing.points, std::vector<CavityOutline::Edge>(outline.edges.size())};
   for (std::size_t e = 0; e < outline.edges.size(); ++e) {
@@ -109,7 +109,7 @@ void verify(const CavityOutline& outline, const CanonicalDrawing& drawing, const
   }
 }
 
-/// From the drawing's numbers and places back to those of the outline.
+/// Transforms the filling from the frame and numbers of the drawing back to those of the outline.
 void take_back(const CavityOutline& outline, const CanonicalDrawing& drawing, Triangulation& filling) {
   std::vector<int> number(filling.points.size());
   std::iota(number.begin(), number.end(), 0);

@@ -28,7 +28,7 @@ struct Extent {
   }
 };
 
-/// Each half plane adds one corner at most; two more for what rounding makes of thin polygons.
+/// Each half plane adds at most one corner; rounding may add two more to thin polygons.
 constexpr int most_corners = 4 + 4 + 2;
 
 /// A convex polygon, counter-clockwise.
@@ -58,7 +58,7 @@ struct Polygon {
   }
 };
 
-/// Cells by the buckets of a grid that their bounding boxes meet.
+/// A grid of buckets, each with the cells whose bounding boxes meet the bucket.
 class Buckets {
  public:
   explicit Buckets(const std::vector<Corners>& cells) {
@@ -82,7 +82,7 @@ class Buckets {
     }
   }
 
-  /// Ascending, each once.
+  /// Finds the cells in the buckets of `extent`, ascending, each once.
   void find(const Extent& extent, std::vector<int>& found) const {
     found.clear();
     for_each(extent, [&](int b) { found.insert(found.end(), cells_[b].begin(), cells_[b].end()); });

@@ -22,12 +22,12 @@ struct PathExtension {
   bool whole_segments = false;
 };
 
-/// A path that a fracture cannot take: what, where and why, so that its growth can be stopped.
+/// A path that a fracture cannot take, with place and reason, so that the caller can stop the growth of that fracture.
 class ExtensionError : public std::runtime_error {
  public:
   /// Why the path is refused.
   enum class Reason {
-    no_tip,            ///< the end lies on the outer boundary or on another fracture already, or grows twice
+    no_tip,            ///< the end lies on the outer boundary or on another fracture, or the end is extended twice
     no_path,           ///< no points, points that are not finite, or segments without length
     turns_back,        ///< turns by more than 90 degrees
     leaves_mesh,       ///< crosses the outer boundary

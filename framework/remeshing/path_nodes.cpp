@@ -11,9 +11,9 @@
 namespace sprekk {
 namespace {
 
-/// An end counts as on the outer boundary, or as a node of it, within this part of the edge length.
+/// An end lies on the outer boundary, or at a node of it, if the distance is below this part of the edge length.
 constexpr double contact = 1e-9;
-/// By how many m the edges of a path grow per m away from a short one.
+/// The growth of the lengths of edges along a path away from a short edge, m per m.
 constexpr double growth_along = 0.5;
 
 class Placement {
@@ -85,8 +85,8 @@ class Placement {
     return false;
   }
 
-  /// Points of the path near an interface move onto it. An old tip and an end on the outer boundary or on a fracture
-  /// stay.
+  /// Moves points of the path that are near an interface onto the interface. The old tip stays, and so does an end on
+  /// the outer boundary or on a fracture.
   void meet_interfaces(std::vector<int>& path, bool is_end_fixed) {
     for (std::size_t i = 1; i < path.size() - (is_end_fixed ? 1 : 0); ++i) {
       int nearest = none;
@@ -156,8 +156,8 @@ class Placement {
            std::find(found->second.begin(), found->second.end(), node) != found->second.end();
   }
 
-  /// A segment that a path may be near to. A side or a fracture on which the path ends is no obstacle: both meet at an
-  /// angle, without a gap.
+  /// A segment with which a path may form a narrow gap. A side or a fracture on which the path ends is no obstacle:
+  /// both meet at an angle, without a gap.
   struct Obstacle {
     Segment segment;
     double least;  ///< m, the length of edges beside it that cannot change
@@ -210,7 +210,7 @@ class Placement {
   }
 
   std::vector<int> divide(const std::vector<int>& path) {
-    // Interfaces may leave short pieces; the edges grow away from them.
+    // Between interfaces there may be short pieces; edges grow with the distance from these.
     std::vector<Segment> pieces;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) pieces.push_back({at(path[i]), at(path[i + 1])});
     const auto wanted = [&](const Point& x) {

@@ -16,13 +16,13 @@ namespace {
 
 using Place = CavityOutline::Edge::Place;
 
-/// Below this angle (rad) smaller edges and larger cavities are tried.
+/// Smaller edges and larger cavities are tried while the smallest angle is below this, rad.
 constexpr double wanted_angle = 25 * std::numbers::pi / 180;
 struct Attempt {
   double radius_factor, size_factor;
 };
 constexpr Attempt attempts[] = {{1, 1}, {1, 0.75}, {1.25, 1}, {1.25, 0.75}, {1.6, 1}, {2, 1}};
-/// The number of attempts in a row without gain after which no more are made: some angles between fixed lines are
+/// The search ends after this many attempts in a row without an improvement, since some angles between fixed lines are
 /// small.
 constexpr int most_vain_attempts = 2;
 /// An edge of an interface is divided when it is so many times longer than the gap between it and a path.
@@ -135,7 +135,7 @@ class Refilling {
 
   /// Of the outer boundary, counter-clockwise.
   struct OuterEdge {
-    std::vector<int> nodes;  ///< its ends and what lies between them
+    std::vector<int> nodes;  ///< both ends and the new nodes between them
     int side, region;
   };
 
@@ -168,7 +168,7 @@ class Refilling {
         } else if (is_fracture) {
           outline.add(a, b, Place::inside, true);
         } else if (mesh_.cell_region[cell] != mesh_.cell_region[next]) {
-          if (cell > next) continue;  // an edge that is divided must be so once
+          if (cell > next) continue;  // each edge is divided only once
           const std::vector<int> nodes = divide_interface(face, a, b, refill.nodes);
           for (std::size_t i = 0; i + 1 < nodes.size(); ++i) outline.add(nodes[i], nodes[i + 1], Place::inside, false);
         }
@@ -193,7 +193,7 @@ class Refilling {
     for (const auto& [a, b, c] : filling.triangles) refill.triangles.push_back({node_of[a], node_of[b], node_of[c]});
   }
 
-  /// a, what lies on the face, b.
+  /// The node a, the new nodes on the face in their order, and b.
   std::vector<int> with_added_nodes(int face, int a, int b, const std::vector<Point>& nodes) const {
     std::vector<int> chain{a};
     if (const auto added = path_nodes_.on_face.find(face); added != path_nodes_.on_face.end()) {
@@ -228,7 +228,7 @@ class Refilling {
     return chain;
   }
 
-  /// A path may run along an interface.
+  /// Whether an edge of an interface is an edge of a path: paths may run along interfaces.
   bool is_edge_of_path(int a, int b) const {
     return std::any_of(path_nodes_.paths.begin(), path_nodes_.paths.end(), [&](const std::vector<int>& path) {
       for (std::size_t i = 0; i + 1 < path.size(); ++i)
@@ -237,7 +237,7 @@ class Refilling {
     });
   }
 
-  /// Two edges in one line become one where their common node is nearly, but not, a path's end.
+  /// Joins two edges on one line where their common node is very near to the end of a path, but not that end.
   void join_at_path_ends(std::vector<OuterEdge>& edges, const std::vector<Point>& nodes) const {
     const auto is_needless = [&](int node) {
       bool is_near = false;

@@ -16,7 +16,7 @@ std::vector<int> same_fracture_points(const Mesh& old, const Mesh& mesh, const s
       same[mesh.fracture_cells[now].points[end]] = old.fracture_cells[old_cell[now]].points[end];
   }
   if (mesh.junctions.empty()) return same;
-  std::map<std::array<int, 2>, int> old_point;  // by the old cells
+  std::map<std::array<int, 2>, int> old_point;  // by the old cells that meet there
   for (std::size_t point = 0; point < old.fracture_points.size(); ++point) {
     const auto& cells = old.fracture_points[point].cells;
     if (cells.size() == 2) old_point[{cells[0], cells[1]}] = static_cast<int>(point);

@@ -9,12 +9,12 @@ namespace {
 
 constexpr double grid = 0x1p-32;
 
-/// Without negative zeros.
+/// Rounds to the grid; the sum replaces a negative zero by zero.
 Point onto_grid(const Point& x) {
   return {std::round(x.x() / grid) * grid + 0.0, std::round(x.y() / grid) * grid + 0.0};
 }
 
-/// The place of each of `count` things when they are sorted.
+/// The position of each of `count` items in sorted order.
 template <class IsLess>
 std::vector<int> ranks(std::size_t count, const IsLess& is_less) {
   std::vector<int> order(count), rank(count);
@@ -32,7 +32,7 @@ CanonicalDrawing::CanonicalDrawing(const std::vector<Point>& given, const std::v
   origin_ = 0.5 * (low + high);
   scale_ = std::exp2(std::floor(std::log2((high - low).maxCoeff())));
   for (const auto& [from, to] : joined) mean += inward(0.5 * (given[from] + given[to]));
-  constexpr double centred = 1e-6;  // more than rounding: the drawing is its own image, or nearly
+  constexpr double centred = 1e-6;  // larger than rounding: the drawing is (nearly) point-symmetric
   if (mean.x() < -centred || (mean.x() < centred && mean.y() < -centred)) scale_ = -scale_;
 
   points.resize(given.size());

@@ -10,8 +10,9 @@
 namespace sprekk {
 
 /// Points and lines between them, numbered from 0, in a frame and an order that follow from their shape. Drawings that
-/// differ by a shift, by half a turn, or by the order and direction of their parts become the same to the last bit (but
-/// where rounding decides), and so do their meshes. So point-symmetric growth stays point-symmetric.
+/// differ by a shift, by half a turn, or by the order and direction of their parts become the same to the last bit
+/// (except where rounding decides), and so their meshes are the same. Point-symmetric growth therefore stays
+/// point-symmetric.
 ///
 /// The frame has its origin in the middle of the points, and the drawing has a size between 1 and 2 in it. The scale is
 /// a power of two, so that scaling rounds nothing. Coordinates are multiples of 2^-32, as mesh_region() requires.

@@ -44,7 +44,7 @@ Delaunay::Delaunay()
       triangle_at_{0, 0, 0, 1} {}
 
 int Delaunay::find(const Point& x) const {
-  // From triangle to triangle towards x: without fixed edges no triangle is met twice.
+  // Walks from triangle to triangle towards x. Without fixed edges no triangle is visited twice.
   int t = last_;
   constexpr std::size_t most_a_triangle = 4;  // fixed edges may lead around
   for (std::size_t steps = 0; steps <= most_a_triangle * triangles_.size(); ++steps) {
@@ -93,14 +93,14 @@ int Delaunay::add_inside(int triangle, const Point& x) {
   }
   triangle_at_.push_back(triangle);
   changed_.assign(parts.begin(), parts.end());
-  // All around the new point: edge 0 of each is the one opposite to it.
+  // The changed triangles lie around the new point; edge 0 of each is opposite to the point.
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     const int t = changed_[i];
     while (true) {
       const int k = next(corner_of(t, point));
       const int other = triangles_[t].across[k];
       const auto& [a, b, c] = triangles_[t].corners;
-      // The point may lie on an edge: then that one goes.
+      // If the point lies on this edge, the edge is removed.
       const bool is_flat = turn(points_[a], points_[b], points_[c]) == 0;
       if (other == none || triangles_[t].edges[k] != Edge::free) break;
       if (!is_flat && is_delaunay(t, k)) break;
@@ -160,7 +160,7 @@ void Delaunay::flip(int triangle, int edge) {
   triangle_at_[b] = neighbour;
 }
 
-/// Calls visit(triangle, corner) counter-clockwise around a point inside until that returns true.
+/// Calls visit(triangle, corner) counter-clockwise around an inner point until visit returns true.
 template <class Visit>
 void Delaunay::around(int point, const Visit& visit) const {
   const int first = triangle_at_[point];

@@ -17,7 +17,7 @@ class Delaunay {
  public:
   static constexpr double grid = 0x1p-32;
   static constexpr int outer_points = 4;
-  /// Whether an edge may be flipped (free), or is fixed, as a line inside of the region or as its boundary.
+  /// Free edges may be flipped; lines inside of the region and edges of its boundary are fixed.
   enum class Edge : char { free, line, boundary };
 
   /// Edge k leads from corner k to the next one. Corners are counter-clockwise.

@@ -20,7 +20,8 @@ Point onto_grid(const Point& x) {
 std::vector<Point> division(const Point& from, const Point& to, const std::function<double(const Point&)>& size) {
   const double length = (to - from).norm();
   const Point along = (to - from) / length;
-  // Small steps, since sizes may differ by orders of magnitude: how many edges fit between the beginning and each.
+  // Steps are small, since sizes may differ by orders of magnitude. `edges`: the number of edges from the beginning to
+  // each place.
   constexpr double step_per_size = 0.25;
   constexpr double smallest_step = 1e-9;  // of the line
   constexpr double nearly_all = 0.999;    // of what is left: the rest would be a step of rounding
@@ -84,7 +85,7 @@ class Mesher {
   }
 
  private:
-  static constexpr double growth = 0.4;  ///< of sizes, away from short edges
+  static constexpr double growth = 0.4;  ///< of sizes away from short edges, per distance
   enum class State { outside, done, large };
   struct Entry {
     double excess;
@@ -109,9 +110,9 @@ class Mesher {
     return static_cast<int>(sizes_.size()) - 1;
   }
 
-  /// Lines may be shorter than the wanted size at their ends. Sizes then grow from what edges there are.
+  /// Lines may be shorter than the wanted size at their ends. Sizes then grow from the lengths of the given edges.
   void respect_short_edges() {
-    constexpr double most = 1.5;  // of an edge: divisions make some that are shorter than wanted
+    constexpr double most = 1.5;  // times the length of an edge: divided lines have edges shorter than wanted
     for (const std::vector<int>& points : mesh_.on_line) {
       for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const double length =
@@ -121,7 +122,7 @@ class Mesher {
     }
   }
 
-  /// From the outer points, every boundary leads from outside to inside or back.
+  /// Starts at the outer points; each boundary edge separates the outside from the inside.
   void find_inside() {
     states_.assign(count(), {});
     std::vector<char> is_reached(count(), false);
@@ -207,9 +208,9 @@ class Mesher {
       const Kept& kept = states_[entry.triangle];
       if (kept.state != State::large || kept.version != entry.version) continue;
       const int front = shortest_front(entry.triangle);
-      if (front == none) continue;  // until a neighbour is done
+      if (front == none) continue;  // the triangle waits until a neighbour is finished
       if (!divide(entry.triangle, front)) {
-        states_[entry.triangle].state = State::done;  // as good as it gets
+        states_[entry.triangle].state = State::done;  // cannot be improved
         requeue_neighbours(entry.triangle);
       }
       if (sizes_.size() > most_points) throw std::runtime_error("the wanted sizes make more than two million points");
@@ -259,7 +260,7 @@ class Mesher {
     return true;
   }
 
-  /// Whether a corner or a fixed edge of the triangle around it is too near to a place.
+  /// Whether a place is too near to a corner or a fixed edge of the triangle that contains it.
   bool is_crowded(int t, const Point& x, double size) const {
     constexpr double to_corners = 0.5, to_lines = 0.3;
     const Delaunay::Triangle& triangle = delaunay_.triangles()[t];

@@ -44,7 +44,7 @@ class Smoother {
   }
 
  private:
-  /// 1 for equal sides, 0 for no area, negative when clockwise.
+  /// The shape of a triangle: 1 for equal sides, 0 for no area, negative when clockwise.
   double shape(int a, int b, int c) const {
     const Point ab = points_[b] - points_[a], bc = points_[c] - points_[b], ca = points_[a] - points_[c];
     constexpr double of_equal_sides = 3.4641016151377544;  // 2 sqrt(3)
@@ -70,7 +70,7 @@ class Smoother {
     if (count == 0) return;
     const double before = worst(around, count);
     const Point start = points_[point];
-    // Each neighbour belongs to two of the triangles.
+    // Each neighbour is a corner of two of the triangles, and counts twice.
     Point mean = Point::Zero();
     for (int k = 0; k < count; ++k)
       for (const int other : triangles_[around[k]])

@@ -10,11 +10,12 @@
 namespace sprekk {
 namespace {
 
-constexpr double worthwhile = 1e-3;                         ///< rad; a change that gains less is left
-constexpr double acceptable = 20 * std::numbers::pi / 180;  ///< for a flip that cures a corner
+constexpr double worthwhile = 1e-3;  ///< rad; changes that gain less are not made
+constexpr double acceptable =
+    20 * std::numbers::pi / 180;  ///< the least angle after a flip that removes a corner with two barriers
 constexpr int most_rounds = 12;
 
-/// One round works on fixed connections, and marks what it has changed as stale.
+/// A round of changes on fixed connections. Triangles that a change has touched are stale until the next round.
 class Round {
  public:
   explicit Round(Triangulation& t)
@@ -108,7 +109,7 @@ class Round {
   /// Whether both edges at `corner` of a triangle are barriers, its third edge being new.
   bool makes_corner(int corner, int p, int q) const { return is_barrier(corner, p) && is_barrier(corner, q); }
 
-  /// The smallest angle of all, or the first that is not above `enough`.
+  /// The smallest angle of all triangles, or the first angle found that is not above `enough`.
   double worst_around(const std::vector<int>& triangles, double enough) const {
     double worst = std::numeric_limits<double>::infinity();
     for (const int i : triangles) {
@@ -120,7 +121,7 @@ class Round {
 
   bool move(int point, const std::vector<int>& triangles) {
     double best = worst_around(triangles, -std::numeric_limits<double>::infinity());
-    // Nothing is gained around a point that has good triangles already.
+    // A point with good triangles around it stays.
     constexpr double good_enough = 50;  // degrees, of the 60 that are the most
     if (best > good_enough * std::numbers::pi / 180) return false;
     const Point start = t_.points[point];

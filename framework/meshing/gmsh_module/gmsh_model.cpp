@@ -32,13 +32,13 @@ GmshModel::GmshModel() {
     start();
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
-    // What callers may change for their model.
+    // Reset of the options that callers may change for their model.
     gmsh::option::setNumber("Mesh.Algorithm", 6);
     gmsh::option::setNumber("Mesh.Smoothing", 1);
     gmsh::option::setNumber("Mesh.LcIntegrationPrecision", 1e-9);
     gmsh::option::setNumber("Mesh.ElementOrder", 1);
     gmsh::option::setNumber("Mesh.RandomFactor", 1e-9);
-    // Sizes come from the callback alone.
+    // Only the callback gives edge lengths.
     gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
     gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
     gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 0);
@@ -51,7 +51,7 @@ GmshModel::~GmshModel() {
     gmsh::model::mesh::removeSizeCallback();
     gmsh::clear();
   } catch (...) {
-    // Nothing is lost: the next model starts from an empty one of its own.
+    // An error here is harmless: the next object makes a new, empty model.
   }
 }
 

@@ -6,9 +6,9 @@
 
 namespace sprekk {
 
-/// A guard for a model of gmsh. The first object in a process starts gmsh (0.1 s), which then stays: no other code may
-/// initialize or finalize gmsh. There may be one model at a time; the destructor removes it with its size callback. Not
-/// for several threads.
+/// A guard for a model of gmsh. The first object in a process initializes gmsh (0.1 s), which stays initialized: no
+/// other code may initialize or finalize gmsh. There may be one model at a time; the destructor removes it with its
+/// size callback. Not thread-safe.
 class GmshModel {
  public:
   GmshModel();
