@@ -33,9 +33,9 @@ struct WallTractionOptions {
   }
 };
 
-/// Determines the wall traction T = f − alpha_i p_i n and the jump that the contact sees (Eqs. 4 and 1 of the paper).
-/// The rows of T are multiplied by the compliance of the walls, and so are jumps (m): a linear solver can then tell
-/// them from zero.
+/// Determines the wall traction T = f − alpha_i p_i n and the jump of the contact (Eqs. 4 and 1 of the paper). The rows
+/// of T are multiplied by the compliance of the walls, and are then jumps (m), which a linear solver can distinguish
+/// from zero.
 class WallTraction : public Coupler {
  public:
   WallTraction(const CouplerContext& context, const WallTractionOptions& options)
@@ -118,10 +118,10 @@ class WallTraction : public Coupler {
  private:
   /// On rough meshes (two fractures one cell apart) a wall may move against its own traction while the cells around it
   /// do not move. The compliance is used as a scale, and by the contact as stiffness of walls, so it must be positive:
-  /// at least a tenth of the mean, in proportion to the length of the cell.
+  /// at least a tenth of the mean compliance, in proportion to the length of the cell.
   Vector positive(Vector compliance) const {
     SPREKK_EXPECT(compliance.size() == dimension * mesh_.fracture_cell_count(), compliance.size());
-    constexpr double least = 0.1;  // of the mean
+    constexpr double least = 0.1;  // of the mean compliance
     double mean[dimension] = {};
     const int cells = mesh_.fracture_cell_count();
     for (int i = 0; i < dimension * cells; ++i)

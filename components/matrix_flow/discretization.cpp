@@ -68,7 +68,7 @@ void MatrixFlow::discretize() {
 void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
-  // With several processes the change may have given cells to others.
+  // With several processes, cells may have moved to other processes.
   if (parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
   find_conditions();
   discretize_from({before.mesh_, before.mobility_, before.conditions_}, before.operators_, change);

@@ -30,7 +30,7 @@ struct FluxOperators {
   /// faces; the sum is the number of these nodes
   SparseMatrix blended_nodes;
 
-  /// To move matrices would copy them.
+  /// Eigen copies sparse matrices when they are moved; swap does not.
   void swap(FluxOperators& other) {
     flux_cell.swap(other.flux_cell);
     flux_boundary.swap(other.flux_boundary);

@@ -46,7 +46,7 @@ struct Options {
   Data source;                                ///< 1/s
   std::map<std::string, SideCondition> boundary;
   std::map<std::string, Well> wells;
-  std::map<std::string, std::string> without_effect;  ///< keys of the component that are, and why
+  std::map<std::string, std::string> without_effect;  ///< keys of the component that have no effect, and why
   Spec spec(const std::string& type, const std::string& doc);
 };
 
@@ -97,7 +97,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   double gravity_potential(const Point& x) const;  ///< rho g·x, Pa
   void check_sides() const;
   std::vector<const Data*> properties() const;
-  /// Renews what follows from properties that have changed.
+  /// Updates mobility and wells after properties have changed.
   void use_properties();
   void check_mobility();
   /// Spreads each well over the cells around it so that its total rate and its position are kept.
@@ -106,7 +106,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   /// Discretizes, and keeps the unchanged part of the operators that were made for `before`.
   void discretize_from(const FlowInputs& before, const FluxOperators& operators, const MeshChange& change);
   void find_conditions();
-  /// Renews what follows from the operators.
+  /// Updates the matrices of balances and walls after the operators have changed.
   void use_operators();
   void use_storage();
   bool is_discretized() const;  ///< on this mesh, with this mobility
@@ -126,7 +126,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Property viscosity_, porosity_, compressibility_, storage_;
   bool properties_change_ = false;
   std::vector<Tensor> mobility_;               ///< m^2/(Pa s), one a cell
-  std::vector<Tensor> mobility_of_operators_;  ///< kept of properties that change, in one process
+  std::vector<Tensor> mobility_of_operators_;  ///< of operators_; only if properties change, in one process
   std::uint64_t mobility_version_ = 0;
   bool is_sealed_ = false;  ///< the mobility is zero: no flux exists, and none is discretized
 
@@ -136,7 +136,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   long discretizations_ = 0, discretized_cells_ = 0, discretized_regions_ = 0;
   FluxOperators operators_;
   std::vector<FlowCondition> conditions_;
-  std::vector<std::pair<int, int>> outer_faces_;                           ///< with their cells
+  std::vector<std::pair<int, int>> outer_faces_;                           ///< faces on the sides, with their cells
   std::map<std::string, std::vector<std::pair<int, double>>> well_cells_;  ///< cells and weights by well
   Vector capacity_;                                                        ///< storage times area, m^2/Pa
   Operator capacity_of_pressure_;                                          ///< the same as a diagonal

@@ -13,12 +13,12 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-constexpr double softest_rock = 1e3;  // Pa; a scene with less is one without units, in which a strain has no size
+constexpr double softest_rock = 1e3;  // Pa; a scene with softer rock is taken for dimensionless
 
 }  // namespace
 
 void Rock::note_input(Notes& notes) const {
-  // The part of a prescribed stress in a direction (x, y) whose displacement is prescribed.
+  // How much of a prescribed stress acts in a direction (x, y) in which the displacement is prescribed.
   struct Share {
     double length = 0, all = 0;
   };
@@ -46,7 +46,7 @@ void Rock::note_input(Notes& notes) const {
   const auto note = [&](const std::string& what, const Origin& where, const std::string& text) {
     notes.add(name() + "." + what + " without effect", where.text() + ": " + text);
   };
-  constexpr double square = 1e-6;  // a side along an axis has normals that are so to rounding
+  constexpr double square = 1e-6;  // normals of a side parallel to an axis differ from the axis by rounding only
   for (const auto& [side, condition] : options_.boundary)
     for (int k = 0; k < 2; ++k) {
       const std::string direction(1, "xy"[k]);

@@ -126,7 +126,7 @@ void Rock::discretize() {
 void Rock::carry_over(const Part& part, const MeshChange& change) {
   const Rock& before = dynamic_cast<const Rock&>(part);
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
-  // With several processes the change may have given cells to others.
+  // With several processes, cells may have moved to other processes.
   if (parallel::size() > 1 || !before.is_discretized()) return;
   find_conditions();
   discretize_from({before.mesh_, before.stiffness_.of_cells(), before.conditions_}, before.operators_, change);

@@ -73,7 +73,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   /// Discretizes, and keeps the unchanged part of the operators that were made for `before`.
   void discretize_from(const StressInputs& before, const StressOperators& operators, const MeshChange& change);
   void find_conditions();
-  /// Renews what follows from the operators.
+  /// Updates the matrices of momentum rows and walls after the operators have changed.
   void use_operators();
   void use_loads();
   void map_walls();
@@ -94,7 +94,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   RockStiffness stiffness_;
   std::vector<Load> loads_;
 
-  std::vector<Stiffness> stiffness_of_operators_;  ///< kept of properties that change, in one process
+  std::vector<Stiffness> stiffness_of_operators_;  ///< of the operators; only if properties change, in one process
   std::uint64_t discretized_mesh_ = 0, discretized_stiffness_ = 0;
   StepTime evaluated_for_;
   bool data_evaluated_ = false, boundary_applied_ = false;

@@ -35,7 +35,7 @@ void RockStiffness::compute() {
   if (version == version_) return;
   const int cells = static_cast<int>(stiffness_.size());
   for (int c = 0; c < cells; ++c) stiffness_[c] = at(c);
-  version_ = version;  // at the end: a stiffness may be refused
+  version_ = version;  // at the end, since the loop above may throw
   if (options_.is_anisotropic) return;
   Vector bulk_modulus(cells);
   for (int c = 0; c < cells; ++c) bulk_modulus[c] = moduli_[0][c] / (3 * (1 - 2 * moduli_[1][c]));

@@ -9,7 +9,7 @@
 
 namespace sprekk::poromechanics {
 
-/// What it depends on: on `load` faces both cells have that condition, on others with two cells there is none.
+/// The input of a discretization. A face with two cells has the condition `load` in both directions, or none.
 struct StressInputs {
   const Mesh& mesh;
   const std::vector<Stiffness>& stiffness;        ///< one a cell
@@ -24,11 +24,11 @@ struct Rediscretized {
 
 /// A discretization of the stress (MPSA is one), as the balance of forces uses it.
 struct StressDiscretization {
-  /// `nodes`: one flag a node, around which the local problems are to be solved; empty for all. What belongs to others
-  /// stays zero.
+  /// `nodes`: one flag a node, around which the local problems are to be solved; empty for all. Rows of other nodes
+  /// stay zero.
   StressOperators (*discretize)(const StressInputs& inputs, const std::vector<char>& nodes);
-  /// What `discretize` gives for `after` around all nodes, to the bit, from the operators that it gave for `before`:
-  /// only what has changed is computed. In one process.
+  /// The same bits as `discretize` for `after` around all nodes. Computes only rows that have changed, and takes all
+  /// others from the operators for `before`. In one process only.
   Rediscretized (*rediscretize)(const StressInputs& before, const StressOperators& operators, const StressInputs& after,
                                 const MeshChange& change);
 };

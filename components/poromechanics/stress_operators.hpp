@@ -32,7 +32,7 @@ struct StressOperators {
   SparseMatrix volume_displacement, volume_stress, volume_boundary;  ///< cells × …
   SparseMatrix moment_displacement;                                  ///< 3 faces × 2 cells; mostly empty
 
-  /// To move matrices would copy them.
+  /// Eigen copies sparse matrices when they are moved; swap does not.
   void swap(StressOperators& other);
 };
 

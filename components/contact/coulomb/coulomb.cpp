@@ -90,10 +90,11 @@ void Coulomb::set_wall_stiffness(const Vector& stiffness) {
     const FractureCell& cell = mesh_.fracture_cells[i];
     stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *=
         cell.measure / fracture_measure_[cell.fracture];
-    constexpr double at_most = 0.5;  // of that along the tangent over the wedge
+    constexpr double at_most = 0.5;  // times the tangential stiffness over mu_s tan psi
     const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
     for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_}) {
-      // One for all tangents: then the return to the cone does not know which way they point.
+      // The same stiffness for all tangents: the return to the cone then does not depend on the directions of the
+      // tangents.
       auto tangential = c->segment<dimension - 1>(dimension * i + 1);
       const double least = tangential.minCoeff();
       tangential.setConstant(least);
@@ -146,7 +147,7 @@ void Coulomb::observe_iterate(const std::vector<Field*>& unknowns) {
   is_solved_for_ = std::find(unknowns.begin(), unknowns.end(), &traction_) != unknowns.end();
   if (follows_pieces_ || !is_solved_for_) return;
   const std::array<std::uint64_t, 2> values{traction_.version(), jump_.version()};
-  if (!back_slip_.empty() && values == followed_) return;  // the same update
+  if (!back_slip_.empty() && values == followed_) return;  // this update has been considered already
   followed_ = values;
   back_slip_.resize(mesh_.fracture_cell_count());
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
@@ -160,7 +161,7 @@ void Coulomb::observe_iterate(const std::vector<Field*>& unknowns) {
       const TangentialVector slip = tangential(jump_.now(), i) - tangential(jump_.accepted(), i);
       cell.is_beyond = cell.is_beyond || slip.dot(cell.direction) < 0;
     } else if (cell.taken == BackSlip::Piece::beyond_kink && slides_back) {
-      cell.is_beyond = false;  // not reached, or not there: the other piece has its turn
+      cell.is_beyond = false;  // the kink was not reached, or no solution lies beyond it
     }
     cell.taken = !slides_back     ? BackSlip::Piece::none
                  : cell.is_beyond ? BackSlip::Piece::beyond_kink
@@ -174,7 +175,8 @@ Coulomb::Trial Coulomb::trial_of_update(int i) const {
   if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
   t.slip_direction = -t.slip_direction;
   t.gap = jump_.now()[dimension * i] - t.slip_direction.dot(tangential(jump_.now(), i)) * dilation_[i];
-  // Walls that touch, whatever the sign here: this linear function passes through the values beyond the kink.
+  // The walls touch, whatever the sign of the normal trial traction: the linear function passes through the values
+  // beyond the kink.
   const double normal = traction_.now()[dimension * i] + stiffness()[dimension * i] * t.gap;
   t.bound = -friction_[i] * normal;
   t.normal = std::min(normal, 0.0);
@@ -185,7 +187,8 @@ State Coulomb::state(int i) const { return trial(i).state(); }
 
 namespace {
 
-/// Which of the two directions of a line; in space directions change without a kink, and all are one piece.
+/// Whether slip has the positive one of the two directions in a plane. In space the direction changes without a kink,
+/// and all directions are one piece.
 bool is_forward(const TangentialVector& vector) { return dimension == 2 && vector[0] > 0; }
 
 }  // namespace
@@ -201,7 +204,8 @@ int Coulomb::piece(int i) const {
   return 2 * piece + (has_kink && is_forward(t.slip_direction));
 }
 
-/// Opens all cells by next to nothing. The amount makes no difference: within a state the conditions are linear.
+/// Opens all cells by a very small amount. The amount makes no difference, since the conditions of open cells are
+/// linear.
 void Coulomb::deactivate_conditions() {
   constexpr double opening = 1e-9;  // of the length of a cell
   Vector traction = traction_.now(), jump = jump_.now();
@@ -216,7 +220,7 @@ void Coulomb::deactivate_conditions() {
 }
 
 int Coulomb::keep_states() {
-  constexpr double least = 1e-6;  // of the largest jump: less is round-off
+  constexpr double least = 1e-6;  // of the largest jump; smaller jumps are round-off
   if (!is_solved_for_) return 0;
   kept_.assign(mesh_.fracture_cell_count(), 0);
   int count = 0;

@@ -66,11 +66,11 @@ class Coulomb : public Component, public FractureContact, public IterateDependen
     follows_pieces_ = is_without_shortcuts_ && mode != SearchMode::without_shortcuts;
   }
   void deactivate_conditions() override;
-  /// Cells that have slid back over their asperities. That closes the fracture, which presses its walls apart and
-  /// lessens their friction, so walls that slide back may find rest far away though they also rest where they were. The
-  /// state in which they stick is the one that slip in small increments leads to: stick is left where the bound is
-  /// reached, and within given states of all cells tractions are linear in the load, and so within the (convex) cone of
-  /// friction all along the step if they are at both of its ends.
+  /// Keeps cells that have slid back over their asperities in the state stick. Sliding back closes the fracture, which
+  /// reduces its contact pressure and so its friction. Walls may then come to rest far away although they could also
+  /// have stayed where they were. The state in which they stick is the one that slip in small increments leads to:
+  /// stick is left where the bound is reached, and within given states of all cells tractions are linear in the load,
+  /// and so within the (convex) cone of friction all along the step if they are at both of its ends.
   int keep_states() override;
   int release_violated() override;
   void release_kept() override { kept_.clear(); }
@@ -113,7 +113,7 @@ class Coulomb : public Component, public FractureContact, public IterateDependen
   /// tells the piece of |[u]_t|.
   int piece(int cell) const;
 
-  /// What Newton's method has tried in this step for a cell that slides back.
+  /// What Newton's method has tried in this step for a cell that slides back towards zero slip.
   struct BackSlip {
     enum class Piece { none, before_kink, beyond_kink } taken = Piece::none;  ///< of |[u]_t|, by the last update
     TangentialVector direction = TangentialVector::Zero();                    ///< of the slip at that update
@@ -135,7 +135,7 @@ class Coulomb : public Component, public FractureContact, public IterateDependen
   bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction
   std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in observe_iterate
   bool is_without_shortcuts_ = false;        ///< after Newton's method has failed
-  bool follows_pieces_ = false;              ///< as they are: no guess of what lies beyond the kink
+  bool follows_pieces_ = false;              ///< derivatives of the present piece, no guess of the next
   std::vector<double> fracture_measure_;     ///< m
   /// c, Pa/m, (normal, tangential) of each cell: with the tangential stiffness of the cell's walls, and with that of
   /// its whole fracture. Newton's method first uses the stiffness of the fracture, with which cells that unload

@@ -24,7 +24,7 @@ void Coulomb::note_step(Notes& notes, const StepTime&) const {
                       "stiffness and what holds the rock",
                       fracture.name, jump, jump / length, length, options_.large_jump),
           jump);
-    // A cell that has been open all the time is meant to be open; cells that have grown start closed.
+    // No note where cells were open from the start. Cells that have grown start closed.
     if (all_open && was_in_contact)
       notes.add(name() + " all open: " + fracture.name,
                 fmt::format("all {} cells of fracture '{}' have opened (the fluid carries all that pressed its walls "

@@ -22,7 +22,7 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
   // A tip that has met another fracture ends there, whatever its load.
   const bool is_off =
       growth.seeks_arrest() && !has_joined && (excess > most_excess || (has_grown && excess < -most_excess));
-  // For good, whatever increments are like.
+  // The tip is blocked for good; its last increment does not matter.
   const bool is_blocked = outcome.blocked && !has_joined && excess > 0;
   // A tip that did not grow although its load is above the toughness by more than the tolerance.
   const bool waits = growth.seeks_arrest() && !has_grown && excess > growth.arrest_tolerance;

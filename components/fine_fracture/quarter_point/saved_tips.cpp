@@ -6,7 +6,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int state_size = 13;  ///< without the path
+constexpr int state_size = 13;  ///< numbers of a state, without its path
 
 }  // namespace
 

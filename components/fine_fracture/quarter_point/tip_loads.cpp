@@ -32,8 +32,8 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     if (middle > lengths[fracture]) return -surroundings_->fluid_pressure(fracture, true) * normal;
     return surroundings_->wall_traction(fracture, at);
   };
-  // Jumps are asked for at the ends of segments, too. At a junction each segment has its own: there this is a
-  // rounding's way inside.
+  // Jumps are asked for at the ends of segments, too. At a junction each segment has its own jump: the place is moved
+  // into the segment by a rounding error.
   constexpr double rounding = 1e-9;  // of a segment
   const double inside = mesh_.junctions.empty() ? 0 : rounding;
   loads.wall_jump = [this, &domain, arc, inside](int crack, int segment, double s) {

@@ -1,6 +1,7 @@
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "components/fine_fracture/quarter_point/ends.hpp"
 #include "framework/mesh/mesh_change.hpp"

@@ -57,26 +57,26 @@ class Tips : public Component, public FractureTips, public Growing {
   void grow_within_steps() override { grows_within_steps_ = true; }
   std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) override;
   CavityOptions cavity() const override;
-  /// The rock alone, with cells held closed, cost UMFPACK the digits that MUMPS keeps.
+  /// With cells held closed, UMFPACK loses digits that MUMPS keeps.
   bool settling_costs_digits() const override { return true; }
 
  private:
   friend class TipsFront;  // it sets the state of the tips of trial models
   /// The state of a tip that a step may change and a rewind restores.
   struct State {
-    TipPath path;               ///< not yet known to the coarse level
+    TipPath path;               ///< in the fine level only
     Sifs sifs;                  ///< if is_evaluated
     double sif_error = 0;       ///< Pa m^0.5, the estimated error by the mesh of the fine level
     bool is_evaluated = false;  ///< whether the factors have been computed for this state
     double load = 0;            ///< K_eq over the toughness, or the estimate by which a fine level was skipped
     double grown = 0;           ///< m, passed to the coarse level
     bool has_started = false;   ///< whether the tip has begun to grow: its onset is over
-    WarmStart warm_start;       ///< with its last increment
+    WarmStart warm_start;       ///< of the last increment
     bool is_extendable =
         false;                ///< whether the last cell of the fracture is the last segment, which growth may replace
     double advance = 0;       ///< m, by which the tip has grown in the step
     double speed = 0;         ///< m/s, of growth in the last step
-    bool is_stopped = false;  ///< for good, at or before another fracture, or before the boundary
+    bool is_stopped = false;  ///< for good: at or before another fracture, or before the boundary
   };
   struct Tip {
     TipEnd end;

@@ -97,7 +97,7 @@ double FractureFlow::pressure_drop(const Link& link) const {
 struct FractureFlow::FluxRows {
   double dt;
   Vector of_flux, drop;
-  std::vector<Triplet> by_flux, by_pressure, by_aperture;  ///< by_flux: beside of_flux, which is the diagonal
+  std::vector<Triplet> by_flux, by_pressure, by_aperture;  ///< by_flux: off the diagonal, which is of_flux
   double largest_pressure = 0;
 };
 
@@ -131,7 +131,8 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
   assembly.derivative(flux_, flux_, std::move(fluxes));
 }
 
-/// Divided by its conductance plus that of a cell's storage, a row is well scaled from sealed to wide open.
+/// A row is divided by its conductance plus the conductance that corresponds to the storage of a cell: it is then well
+/// scaled for sealed and for wide open fractures.
 double FractureFlow::scale_of_row(const Link& link, double conductance, double dt) const {
   const FractureCell& first = mesh_.fracture_cells[link.first];
   const double reference = first.measure * initial_aperture_[link.first] * compressibility_[link.first] / dt;
@@ -146,7 +147,7 @@ void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& row
   rows.largest_pressure = std::max(rows.largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
   rows.by_pressure.emplace_back(link.point, link.first, -scale * c.value);
   if (link.second != none) rows.by_pressure.emplace_back(link.point, link.second, scale * c.value);
-  // d/da of scale (q − C dp), with the scale's own derivative −scale^2 C'.
+  // The derivative of scale (q − C dp) by an aperture, where d scale / da = −scale^2 dC/da.
   for (const auto& [cell, by] : c.by_aperture)
     rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
 }

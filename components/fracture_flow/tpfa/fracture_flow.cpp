@@ -79,7 +79,7 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
   Vector pressure = pressure_.now(), aperture = aperture_.accepted();
   std::vector<char> known(pressure.size());
   for (int i = 0; i < pressure.size(); ++i) known[i] = !is_new(i);
-  // New cells lie one behind the other at the ends of old ones: each sweep reaches the next.
+  // New cells follow each other from the ends of old ones: each sweep reaches one more cell.
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
     for (int i = 0; i < pressure.size(); ++i) {
@@ -208,7 +208,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
     stored[i] = length * (aperture_.now()[i] - aperture_.accepted()[i]) + capacity[i] * change;
     stored_by_aperture[i] = length * (1 + compressibility_[i] * change);
   }
-  // The changes are small differences of apertures and of pressures.
+  // The stored volumes are small differences of large numbers: apertures and pressures.
   double subtracted = 0;
   for (int i = 0; i < count; ++i)
     subtracted = std::max({subtracted, mesh_.fracture_cells[i].measure * std::abs(aperture_.now()[i]),
@@ -248,7 +248,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
     const double length = mesh_.fracture_cells[i].measure;
     sums[3 * i] += length * (aperture_.now()[i] - aperture_.accepted()[i]) +
                    length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);
-    if (!is_prescribed_[i]) sums[3 * i + 1] += step.dt * source_[i];  // else the balance is not solved for
+    if (!is_prescribed_[i]) sums[3 * i + 1] += step.dt * source_[i];  // else not solved
   }
   for (const Link& link : links_)
     if (link.second == none) sums[3 * link.first + 2] += step.dt * flux_.now()[link.point];

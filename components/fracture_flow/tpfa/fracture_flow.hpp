@@ -104,7 +104,7 @@ class FractureFlow : public Component, public FractureFluid {
   Field& cumulative_;  ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_aperture_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one
-  double released_share_ = 0;  ///< of the cubic law's change from the held apertures to the present ones
+  double released_share_ = 0;  ///< share of the change from the held to the present apertures that the cubic law takes
   Property viscosity_, compressibility_;
   MeansAlong given_transmissivity_, given_normal_permeability_;  ///< m^3, m/(Pa s), one a cell
   std::array<MeansAlong, 2> transmissivity_of_half_;             ///< by FractureCell::points

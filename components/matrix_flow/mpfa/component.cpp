@@ -1,4 +1,4 @@
-// matrix_flow/mpfa: flow in the matrix with this flux approximation.
+// matrix_flow/mpfa: flow in the matrix with the multi-point flux approximation.
 #include <fmt/format.h>
 
 #include "components/matrix_flow/matrix_flow.hpp"

@@ -52,7 +52,7 @@ LocalFluxes::Weights LocalFluxes::consistent(const Subcell& subcell, const Tenso
   return weights;
 }
 
-/// The same where the half faces are dual to the arms.
+/// The same weights, if the half faces are dual to the arms.
 LocalFluxes::Weights LocalFluxes::symmetric(const Subcell& subcell, const Tensor& mobility, int k) const {
   const double area = 0.5 * (arm_[k][0].dot(subcell.half_face[0]) + arm_[k][1].dot(subcell.half_face[1]));
   Weights weights;
@@ -109,7 +109,7 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& regi
     }
     if (!region.is_inner(f)) row[boundary_column++] = 0.5;
   }
-  constexpr double singular = 1e-14;  // of a row: round-off
+  constexpr double singular = 1e-14;  // of the largest entry of a row; smaller pivots are round-off
   if (eliminate(system_.data(), subfaces_, width) < singular)
     throw std::runtime_error("MPFA: singular local problem at a node of cell " +
                              std::to_string(region.subcells[0].cell) + " (is its mobility positive definite?)");
@@ -119,7 +119,7 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& regi
 
   fluxes_.assign(subfaces_ * columns_, 0);
   for (int f = 0; f < subfaces_; ++f) {
-    // Of the two equal expressions for the flux, the one of the less permeable side suffers less from cancellation.
+    // The flux can be computed from either side. The expression of the less permeable side has less cancellation.
     int side = 0;
     if (region.is_inner(f)) {
       const auto trace = [&](int s) { return mobility[region.subcells[region.neighbours[f][s]].cell].trace(); };

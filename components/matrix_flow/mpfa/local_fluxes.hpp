@@ -39,7 +39,7 @@ class LocalFluxes {
 
  private:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  using Weights = std::array<std::array<double, 2>, 2>;  ///< of a subcell: flux into it by both drops of pressure
+  using Weights = std::array<std::array<double, 2>, 2>;  ///< fluxes into a subcell, by both pressure drops
 
   void find_arms(const Mesh& mesh, int node, const InteractionRegion& region);
   Weights consistent(const Subcell& subcell, const Tensor& mobility, int k) const;
@@ -52,7 +52,7 @@ class LocalFluxes {
   bool each_subcell_dissipates() const;
   bool dissipates(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
   Matrix dissipation(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
-  /// The jumps of the gradient along the inner subfaces, times these, Pa.
+  /// The jumps of the gradient along the inner subfaces, times the lengths of these subfaces, Pa.
   Matrix kinks(const Mesh& mesh, int node, const InteractionRegion& region) const;
 
   int subfaces_ = 0, columns_ = 0;

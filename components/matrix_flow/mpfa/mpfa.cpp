@@ -21,7 +21,7 @@ namespace {
 /// The flows around all tips, for the nodes near them.
 class TipFlows {
  public:
-  /// `is_wanted`: of nodes; the flows of the others need not be right.
+  /// `is_wanted`: whether a node is discretized; only the flows at such nodes are needed.
   template <class IsWanted>
   TipFlows(const Mesh& mesh, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions,
            const IsWanted& is_wanted, const MpfaLimits& limits)
@@ -50,7 +50,8 @@ class TipFlows {
 
   const TipFlow* at(int node) const { return of_node_[node]; }  ///< null where there is none
 
-  /// The cells whose pressures count at each node, ascending: its own, and those that tell the flow around its tip.
+  /// The cells whose pressures enter the local problem of each node, ascending: those at the node, and those from which
+  /// the flow around its tip is fitted.
   Adjacency cells_of_nodes(const Mesh& mesh) const {
     Adjacency all;
     std::vector<int> of_node;
@@ -67,7 +68,7 @@ class TipFlows {
   std::vector<const TipFlow*> of_node_;
 };
 
-/// Coefficients with respect to the pressures of the cells that count at one node.
+/// Coefficients with respect to the pressures of the cells that enter the local problem of a node.
 class CellColumns {
  public:
   void assign(std::span<const int> own, std::span<const int> cells, const TipFlow* flow) {
@@ -136,7 +137,7 @@ class ChangeColumns {
   }
 
  private:
-  std::vector<std::pair<int, double>> columns_;  ///< of the local problem, with their place along the face
+  std::vector<std::pair<int, double>> columns_;  ///< columns of the local problem, and positions along the face
   std::vector<double> values_;
 };
 

@@ -84,7 +84,7 @@ LocalFluxes::Stabilizer LocalFluxes::stabilize(const Mesh& mesh, int node, const
                                                const std::vector<Tensor>& mobility,
                                                const std::vector<FlowCondition>& conditions) {
   const std::vector<double> points = towards_node_;
-  // Continuity points on walls and sides are not free: both halves of such a face have the same point.
+  // Continuity points on walls and sides stay, since both halves of such a face share their point.
   for (const double other : other_points) {
     for (int f = 0; f < subfaces_; ++f)
       if (region.is_inner(f)) towards_node_[f] = other;

@@ -47,7 +47,8 @@ TipFlow::Modes TipCorrection::of_flux(int subface) const {
 }
 
 TipFlow::Modes TipCorrection::of_pressure(int subface) const {
-  // The wall's pressure is the mean over the continuity points of its two halves, and shall be that at its centre.
+  // The pressure of a wall is the mean of the pressures at the continuity points of both halves; the correction makes
+  // this mean the pressure at the centre of the wall.
   const int face = region_.faces[subface], side = flow_.frame().side_of_wall(mesh_, face);
   const Point &middle = mesh_.face_center[face], here = continuity_point(subface), there = 2 * middle - here;
   const auto pressure = [&](const Point& x) { return flow_.pressure(x, side); };

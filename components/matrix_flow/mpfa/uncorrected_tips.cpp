@@ -13,7 +13,7 @@ bool has_material_of_tip(const Mesh& mesh, int node, const std::vector<Tensor>& 
   return std::ranges::all_of(mesh.node_cells[node], [&](int cell) { return resembles(mobility[cell], rock); });
 }
 
-/// Empty where the flow is there.
+/// Why a tip has no correction; "" if it has one.
 std::string why_uncorrected(const Mesh& mesh, int tip, const std::vector<int>& cells,
                             const std::vector<Tensor>& mobility) {
   const Tensor& rock = mobility[mesh.node_cells[tip][0]];

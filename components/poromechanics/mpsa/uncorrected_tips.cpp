@@ -13,7 +13,7 @@ bool has_material_of_tip(const Mesh& mesh, int node, const std::vector<Stiffness
   return std::ranges::all_of(mesh.node_cells[node], [&](int cell) { return resembles(stiffness[cell], rock); });
 }
 
-/// Empty where the field is there.
+/// Why a tip has no correction; "" if it has one.
 std::string why_uncorrected(const Mesh& mesh, int tip, const std::vector<int>& cells,
                             const std::vector<Stiffness>& stiffness) {
   if (const auto field = TipField::find(mesh, tip, cells, stiffness)) {

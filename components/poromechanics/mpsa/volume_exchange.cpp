@@ -27,7 +27,7 @@ void VolumeExchange::assign(const Mesh& mesh, const InteractionRegion& region, c
     root_[i] = std::sqrt(most * least * std::min(moduli[0], moduli[1]) / modulus(dilation[subfaces[i]]));
     slope_.row(i) = root_[i] * (mesh.cell_center[one.cell] - mesh.cell_center[other.cell]).transpose();
   }
-  // Unit columns that span what slopes of q make.
+  // Orthogonal unit columns that span the changes of q by slopes.
   if (slope_.col(1).squaredNorm() > slope_.col(0).squaredNorm()) slope_.col(0).swap(slope_.col(1));
   const double longest = slope_.col(0).norm();
   slope_.col(0) /= longest;
@@ -37,7 +37,7 @@ void VolumeExchange::assign(const Mesh& mesh, const InteractionRegion& region, c
   if (rest > on_a_line * longest)
     slope_.col(1) /= rest;
   else
-    slope_.col(1).setZero();  // all centres on a line
+    slope_.col(1).setZero();  // all centres lie on a line
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < count; ++j)
       volume(i, j) = root_[i] * root_[j] * ((i == j ? 1 : 0) - slope_.row(i).dot(slope_.row(j)));

@@ -22,7 +22,7 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
   const auto append = [&](const Point& x, double arc, bool keep) {
     const std::size_t n = path.points.size();
     if (n >= 2) {
-      // A point on the way straight on replaces the one before.
+      // On a straight part, the new point replaces the point before.
       const Point a = path.points[n - 1] - path.points[n - 2], b = x - path.points[n - 1];
       if (a.dot(b) > (1 - least_bend) * a.norm() * b.norm() && !is_kept.back()) {
         path.points.pop_back();
@@ -88,7 +88,8 @@ Rectangle bounds(const Mesh& mesh) {
   return box;
 }
 
-/// The part of the segment inside, as two parameters; empty when the first is not below the second.
+/// The parameters at which the part of the segment inside of the box begins and ends; there is no such part if the
+/// first is not below the second.
 std::pair<double, double> clipped(const Rectangle& box, const Point& from, const Point& to) {
   double first = 0, last = 1;
   for (int k = 0; k < dimension; ++k) {
@@ -104,7 +105,7 @@ std::pair<double, double> clipped(const Rectangle& box, const Point& from, const
   return {first, last};
 }
 
-/// Moves a point onto the outline to the last digit.
+/// Moves a point that is near the outline exactly onto it.
 Point snapped(const Rectangle& box, Point x) {
   const double near = rounding * (box.high - box.low).maxCoeff();
   for (int k = 0; k < dimension; ++k) {
@@ -114,9 +115,9 @@ Point snapped(const Rectangle& box, Point x) {
   return x;
 }
 
-/// How near the outline comes to a tip, a kink or a junction that is inside of the rock, or to a segment that runs
-/// along one of its sides (to the segment's farthest place, so that those that cross a side do not count). What lies on
-/// the outer boundary is not counted.
+/// The smallest distance of the outline from tips, kinks and junctions inside of the rock, and from segments along one
+/// of its sides. For a segment the distance of its farthest point counts, so that segments that cross a side are left
+/// out. Points on the outer boundary of the rock are left out, too.
 double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths) {
   double gap = std::numeric_limits<double>::infinity();
   for (const FracturePath& path : paths)
@@ -129,7 +130,7 @@ double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vect
   for (const FracturePath& path : paths)
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
       for (int k = 0; k < dimension; ++k) {
-        // The part beside the two sides across k.
+        // The parts of the rock beyond the two sides normal to axis k.
         Rectangle strip = rock;
         strip.low[1 - k] = box.low[1 - k];
         strip.high[1 - k] = box.high[1 - k];
@@ -144,7 +145,7 @@ double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vect
   return gap;
 }
 
-/// Whether the path leads through x, which then is one of its points.
+/// Adds x to the points of the path if the path leads through x; returns whether it does.
 bool add_if_on(FracturePath& path, const Point& x, double tolerance) {
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
     const Segment segment{path.points[i], path.points[i + 1]};
@@ -181,7 +182,7 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
   const std::vector<FracturePath> paths = joined(separate_paths, same_place * (rock.high - rock.low).maxCoeff());
   Rectangle box;
   double widest = -1;
-  constexpr double more = 1 + 1e-9;  // by more than rounding, so that domains that are images of one another stay so
+  constexpr double more = 1 + 1e-9;  // exceeds rounding, so that domains of mirrored scenes are mirrored
   if (outline) box = {(*outline)[0], (*outline)[2]};
   // A domain is made larger by small steps until no side is near to a fracture.
   constexpr double largest = 1.5, step = 0.02;
@@ -197,7 +198,7 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
   domain.geometry.outline = {box.low, {box.high[0], box.low[1]}, box.high, {box.low[0], box.high[1]}};
   for (int f = 0; f < static_cast<int>(paths.size()); ++f) {
     const FracturePath& path = paths[f];
-    bool is_open = false;  // whether the last crack goes on
+    bool is_open = false;  // whether the last crack continues
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
       const Point &a = path.points[i], &b = path.points[i + 1];
       const auto [first, last] = clipped(box, a, b);

@@ -21,7 +21,8 @@ void validate(const FineMeshOptions& options) {
   }
 }
 
-/// Grows from the rosettes' edges, from the kinks and junctions, and from where the kind of walls changes.
+/// The wanted edge length: grows with the distance from rosettes, kinks, junctions and from points where the kind of
+/// walls changes.
 class SizeField {
  public:
   SizeField(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, const FineMeshOptions& options)
@@ -34,7 +35,7 @@ class SizeField {
     for (const CrackPath& crack : geometry.cracks) {
       for (std::size_t i = 1; i + 1 < crack.points.size(); ++i) {
         const Point a = crack.points[i] - crack.points[i - 1], b = crack.points[i + 1] - crack.points[i];
-        // Where the walls hardly bend, stresses are hardly singular; where prescribed jumps begin, they are.
+        // Stresses are nearly regular at points where the walls hardly bend, but singular where prescribed jumps begin.
         const bool changes = crack.walls[i - 1] != crack.walls[i];
         const double bend = std::abs(std::atan2(cross(a, b), a.dot(b)));
         constexpr double right_angle = std::numbers::pi / 2;

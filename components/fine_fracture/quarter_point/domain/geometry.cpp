@@ -52,7 +52,7 @@ void validate_crack(const FineGeometry& geometry, const std::vector<CrackJunctio
   }
 }
 
-/// Segments that share a point run in different directions there, and meet nowhere else.
+/// Whether two segments with a common end have different directions there, and no other common point.
 bool part_from_shared_end(const Segment& a, const Segment& b, double tolerance) {
   for (const auto& [shared, end] : {std::pair(a.from, a.to), std::pair(a.to, a.from)})
     for (const auto& [also_shared, other] : {std::pair(b.from, b.to), std::pair(b.to, b.from)})
@@ -95,7 +95,7 @@ void validate(const FineGeometry& geometry) {
     const std::size_t begin = segments.size();
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       const Segment segment{points[i], points[i + 1]};
-      // Neighbours along a path share a point.
+      // Segments that follow each other along a path share a point.
       const std::size_t others = i == 0 ? begin : segments.size() - 1;
       for (std::size_t k = 0; k < others; ++k) {
         const auto& [other_crack, other] = segments[k];

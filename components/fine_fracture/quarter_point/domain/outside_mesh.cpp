@@ -129,11 +129,11 @@ class DrawingBuilder {
   const std::vector<TipRoom>& rooms_;
   double tolerance_;
   std::vector<int> outline_edges_;               ///< by line of the outline
-  std::vector<std::vector<int>> shared_points_;  ///< by crack and point of its path: what is drawn, or none
+  std::vector<std::vector<int>> shared_points_;  ///< by crack and point of its path: drawn point, or none
   Drawing drawing_;
 };
 
-/// In the frame of the drawing's shape, so that images of one another have meshes that are.
+/// The region in the canonical frame of the drawing, so that mirrored domains get mirrored meshes.
 RegionDrawing region(const Drawing& drawing, const CanonicalDrawing& canonical) {
   RegionDrawing region{canonical.points, std::vector<RegionDrawing::Line>(canonical.lines.size())};
   for (std::size_t i = 0; i < canonical.lines.size(); ++i) region.lines[i] = {canonical.lines[i], false, false};
@@ -156,12 +156,12 @@ class Reader {
     for (const Point& x : mesh.points) raw.nodes.push_back(canonical.outward(x));
     raw.cells = mesh.triangles;
     for (std::size_t i = 0; i < drawing.points.size(); ++i)
-      raw.nodes[at_point(static_cast<int>(i))] = drawing.points[i];  // without the frame's rounding
+      raw.nodes[at_point(static_cast<int>(i))] = drawing.points[i];  // without the rounding of the frame
   }
 
   int at_point(int point) const { return canonical_.point_number[point]; }
 
-  /// From the beginning of a line to its end. Nodes inside are placed on the line again.
+  /// The nodes of a line from its beginning to its end. Inner nodes are moved exactly onto the line.
   std::vector<int> along(int line, RawMesh& raw) const {
     std::vector<int> nodes = mesh_.on_line[canonical_.line_number[line]];
     if (canonical_.is_reversed[line]) std::reverse(nodes.begin(), nodes.end());
@@ -216,7 +216,7 @@ std::vector<Point> rosette_corners(const TipRoom& room, int sectors) {
   const Point x1 = room.direction, x2(-x1.y(), x1.x());
   for (int k = 0; k < sectors; ++k) {
     const double angle = std::numbers::pi * (2.0 * k / sectors - 1);
-    // The first corner lies on the crack without rounding of its sine.
+    // The first corner lies exactly on the crack, without the rounding of the sine.
     const Point place = k == 0 ? Point(-1, 0) : Point(std::cos(angle), std::sin(angle));
     corners.push_back(room.position + room.radius * (place.x() * x1 + place.y() * x2));
   }
@@ -227,7 +227,7 @@ OutsideMesh mesh_outside(const FineGeometry& geometry, const std::vector<TipRoom
                          const std::function<double(const Point&)>& size) {
   const Drawing drawing = DrawingBuilder(geometry, rooms, sectors).take();
   const CanonicalDrawing canonical(drawing.points, drawing.lines);
-  // Without the last digits, in which mirrored or shifted domains differ.
+  // Lengths without the last digits, which differ between mirrored or shifted domains.
   RegionMesh mesh = mesh_region(region(drawing, canonical), [&](const Point& x) {
     return static_cast<double>(static_cast<float>(size(canonical.outward(x)) / canonical.scale()));
   });

@@ -8,9 +8,9 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr double largest_bend = 1e-9;  ///< rad, of what still counts as straight
+constexpr double largest_bend = 1e-9;  ///< rad, largest bend of a part that counts as straight
 
-/// The path as walked from a tip.
+/// The points of a path in their order from a tip.
 struct Walk {
   std::vector<Point> points;
   std::vector<CrackPath::Walls> walls;
@@ -32,7 +32,7 @@ TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double larges
   const Point along = (walk.points[1] - tip).normalized();
   TipRoom room{c, is_last, tip, -along, 0, 0, 0, 0};
 
-  std::size_t segments = 0;  // of the straight end
+  std::size_t segments = 0;  // segments of the straight end
   while (segments < walk.walls.size()) {
     const Point step = (walk.points[segments + 1] - walk.points[segments]).normalized();
     if (std::abs(cross(along, step)) > largest_bend || along.dot(step) < 0) break;
@@ -73,7 +73,7 @@ std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radi
     if (geometry.cracks[c].first_is_tip) rooms.push_back(room_of(geometry, static_cast<int>(c), false, largest_radius));
     if (geometry.cracks[c].last_is_tip) rooms.push_back(room_of(geometry, static_cast<int>(c), true, largest_radius));
   }
-  // Rosettes of other tips are not in it, either.
+  // The clearance also excludes the rosettes of other tips.
   for (TipRoom& room : rooms)
     for (const TipRoom& other : rooms)
       if (&other != &room)

@@ -9,7 +9,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-/// The sizes that a solved mesh asks for.
+/// The edge lengths that follow from the error estimate on the last mesh.
 class WantedSizes {
  public:
   WantedSizes(const FineSolution& solution, const ErrorEstimate& estimate, double tolerance)
@@ -23,12 +23,12 @@ class WantedSizes {
       const double edge = std::sqrt(2 * std::abs(a.x() * b.y() - a.y() * b.x()) / std::sqrt(3.0));
       constexpr double above_zero = 1e-300;
       const double excess = allowed / std::max(estimate.elements[e], above_zero);
-      // The error of a quadratic element goes with the third power of its size where the stress is smooth.
-      constexpr double smallest = 0.3, smallest_of_tip = 0.4;  // in one round
+      // Where the stress is smooth, the error of a quadratic element is proportional to the third power of its size.
+      constexpr double smallest = 0.3, smallest_of_tip = 0.4;  // largest reduction in one round
       const double shrink = std::clamp(std::cbrt(excess), smallest, 1.0);
       sizes_.push_back(edge * shrink);
       expected_elements_ += 1 / (shrink * shrink);
-      // The error in a rosette goes with the root of its radius.
+      // The error in a rosette is proportional to the square root of its radius.
       if (mesh_->elements[e].tip != none) tip_shrink_ = std::min(tip_shrink_, std::clamp(excess, smallest_of_tip, 1.0));
     }
   }

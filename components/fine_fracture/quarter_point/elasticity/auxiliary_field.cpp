@@ -30,7 +30,7 @@ Potentials potentials(Auxiliary field, const Complex& w, const Complex& root) {
   return {a * root, -0.5 * a * root * w, 0.75 * a * root * w * w, b * root, -0.5 * b * root * w};
 }
 
-/// From s11 + s22 and s22 - s11 + 2i s12.
+/// The stress from s11 + s22 (sum) and s22 - s11 + 2i s12 (deviator).
 Tensor stress_of(double sum, const Complex& deviator) {
   Tensor s;
   s << 0.5 * (sum - deviator.real()), 0.5 * deviator.imag(), 0.5 * deviator.imag(), 0.5 * (sum + deviator.real());
@@ -52,7 +52,8 @@ AuxiliaryPoint auxiliary_point(Auxiliary field, const Elasticity& rock, double r
 }
 
 std::array<AuxiliaryPoint, 3> auxiliary_points(const Elasticity& rock, const Point& x) {
-  // The half angle without its angle; of r + x1 and r - x1 one would cancel, but their product is x2^2.
+  // Sine and cosine of the half angle without trigonometric functions. One of r + x1 and r - x1 has cancellation; it
+  // follows from the other, since their product is x2^2.
   const double r = x.norm(), sum = r + std::abs(x.x());
   const double larger = std::sqrt(0.5 * sum) / r, smaller = 0.5 * std::abs(x.y()) / (r * std::sqrt(0.5 * sum));
   const double cosine = x.x() >= 0 ? larger : smaller, sine = x.x() >= 0 ? smaller : larger;

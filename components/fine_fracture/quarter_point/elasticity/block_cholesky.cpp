@@ -47,11 +47,11 @@ void BlockCholesky::factorize(const BlockMatrix& matrix) {
   rows_.resize(starts_[n]);
   lower_.resize(starts_[n]);
   inverse_.resize(n);
-  std::vector<int> ends(starts_.begin(), starts_.end() - 1);  // of what is known of each column
+  std::vector<int> ends(starts_.begin(), starts_.end() - 1);  // ends of the known parts of the columns
   std::vector<int> seen_by(n, none), reached(n), way(n);
   std::vector<Block> row(n, Block::Zero());
   for (int k = 0; k < n; ++k) {
-    // What row k of L has: all that is passed on the way up the tree, from the bottom.
+    // The pattern of row k of L: all columns on the paths from the entries of the row up the tree.
     int top = n;
     seen_by[k] = k;
     for (int p = matrix.starts[k]; p < matrix.starts[k + 1]; ++p) {

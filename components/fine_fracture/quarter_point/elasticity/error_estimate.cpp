@@ -91,7 +91,7 @@ class Recovery {
     patch.center = mesh_.nodes[node];
     for (std::size_t t = 0; t < solution_.tips.size(); ++t) {
       const double r = (patch.center - solution_.tips[t].position).norm();
-      if (r == 0) return patch;  // the tip itself is not needed
+      if (r == 0) return patch;  // no samples at the tip itself
       if (r < solution_.tips[t].domain_radius) patch.tip = static_cast<int>(t);
     }
     const std::vector<int> elements = samples(node);

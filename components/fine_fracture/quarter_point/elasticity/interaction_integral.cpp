@@ -64,7 +64,7 @@ InteractionIntegrals::InteractionIntegrals(const FineMesh& mesh, const Elasticit
   if (own_wall_ != nullptr && own_wall_->walls == CrackPath::Walls::jump) add_places_of_fit();
 }
 
-/// The weight for domain 0, the larger one, is 0 only where the other weights are.
+/// Where the weight for domain 0, the larger domain, is 0, all other weights are 0.
 double InteractionIntegrals::weight(int node, int domain) const {
   SPREKK_EXPECT(is_index(node, mesh_.node_count()) && is_index(domain, domains), node, domain);
   const double r = (mesh_.nodes[node] - tip_.room.position).norm(), inner = tip_.room.radius;
@@ -75,8 +75,8 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
   std::array<std::array<double, 3>, domains> q;
   for (int k = 0; k < 3; ++k) q[0][k] = weight(element.nodes[k], 0);
   if (q[0] == std::array<double, 3>{}) return;
-  const bool is_rosette = element.tip != none;     // the weight is constant there
-  if (is_rosette && !is_own(element.tip)) return;  // it is 0 but for rounding
+  const bool is_rosette = element.tip != none;     // the weight is constant in a rosette
+  if (is_rosette && !is_own(element.tip)) return;  // the weight is 0 up to rounding
   std::array<Point, domains> dq;
   for (int d = 0; d < domains; ++d) {
     for (int k = 0; k < 3; ++k) q[d][k] = weight(element.nodes[k], d);
@@ -185,7 +185,7 @@ void InteractionIntegrals::fit_traction(State& state) const {
   state.fitted = {fit.row(0).transpose(), fit.row(1).transpose()};
 }
 
-/// On the plus wall, in the frame of the tip.
+/// The traction on the plus wall, in the frame of the tip.
 Point InteractionIntegrals::traction(const State& state, const WallPoint& point) const {
   const FineMesh::WallEdge& edge = *point.edge;
   if (edge.walls == CrackPath::Walls::traction) return wall_traction(state, edge, point.x);

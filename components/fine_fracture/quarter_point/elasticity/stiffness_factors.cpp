@@ -14,7 +14,8 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-/// The unknowns of a node are neighbours, and the first stands for both. A node may have one, or share another's.
+/// The blocks of unknowns. The two unknowns of a node have consecutive numbers, and the first stands for the block. A
+/// node may have one unknown only, or share the unknowns of another node.
 struct NodeBlocks {
   std::vector<int> first_unknown;              ///< by block
   std::vector<int> of_node;                    ///< or none
@@ -56,7 +57,8 @@ class Neighbours {
         if (block != none) elements_[next[block]++] = static_cast<int>(e);
   }
 
-  /// Appends number(neighbour), ascending, of those neighbours, itself included, where it is not none. Once a block.
+  /// Appends number(n), ascending, for the block itself and all its neighbours n with a number that is not none. To be
+  /// called once for each block.
   void append(int block, const auto& number, std::vector<int>& rows) {
     const std::size_t begin = rows.size();
     for (int p = first_[block]; p < first_[block + 1]; ++p) {
@@ -77,7 +79,7 @@ class Neighbours {
 /// The blocks at corners of elements, and which of them share an element.
 struct CornerGraph {
   std::vector<int> corners;    ///< blocks
-  std::vector<int> number_of;  ///< by block: which of them it is, or none
+  std::vector<int> number_of;  ///< by block: its number among the corners, or none
   Eigen::SparseMatrix<double> lower;
 
   explicit CornerGraph(const NodeBlocks& blocks) : number_of(blocks.count(), none) {
@@ -104,13 +106,13 @@ struct CornerGraph {
   }
 };
 
-/// By place: the block there. Corners in an order of minimum degree, and before each the nodes on edges to later ones:
-/// half the time of an order of all nodes, and a tenth less fill.
+/// The blocks in the order of elimination: corners by minimum degree, and before each corner the nodes on its edges to
+/// later corners. This takes half the time of a minimum degree order of all nodes, and gives a tenth less fill.
 std::vector<int> order_of_minimum_degree(const NodeBlocks& blocks) {
   const CornerGraph graph(blocks);
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(graph.lower.selfadjointView<Eigen::Lower>(), order);
-  std::vector<int> place(blocks.count(), blocks.count());  // among corners; last where no end of the edge is free
+  std::vector<int> place(blocks.count(), blocks.count());  // among corners; last: an edge with no free end
   for (int k = 0; k < order.size(); ++k) place[graph.corners[order.indices()[k]]] = k;
   for (const auto& element : blocks.of_element) {
     for (int k = 0; k < 3; ++k) {

@@ -11,7 +11,7 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-/// Nodes that are in one part when they have been joined, directly or by way of others.
+/// Disjoint sets of nodes (union-find).
 class Parts {
  public:
   explicit Parts(int nodes) : part_(nodes) { std::iota(part_.begin(), part_.end(), 0); }
@@ -73,8 +73,8 @@ void Unknowns::tie_walls(const FineMesh& mesh) {
       branches.push_back({plus, minus, static_cast<int>(e)});
     }
   }
-  // From each tree's root outward, so that masters come before their slaves. A junction lies inside of the outline, and
-  // so no tree has two prescribed nodes.
+  // From the root of each tree outwards, so that masters come before their slaves. A junction lies inside of the
+  // outline, and so no tree has two prescribed nodes.
   std::vector<char> is_done(branches.size(), false);
   for (const Branch& first : branches) {
     std::vector<int> reached{is_prescribed_[first.minus] ? first.minus : first.plus};
@@ -93,7 +93,7 @@ void Unknowns::tie_walls(const FineMesh& mesh) {
   }
 }
 
-/// Pins parts of the rock that nothing holds, which removes their rigid-body motions.
+/// Pins parts of the rock without prescribed displacements, which removes their rigid-body motions.
 void Unknowns::pin_floating_parts(const FineMesh& mesh) {
   Parts parts(mesh.node_count());
   const auto root = [&parts](int n) { return parts.of(n); };

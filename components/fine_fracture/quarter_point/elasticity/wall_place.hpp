@@ -34,7 +34,7 @@ inline WallPlace wall_place(const FineMesh& mesh, const FineMesh::WallEdge& edge
 /// Gauss rules, with `points` each, for the parts of an edge that lie on different segments: loads may jump there.
 inline std::vector<LinePoint> wall_rule(const FineMesh& mesh, const FineMesh::WallEdge& edge, int points) {
   const double length = edge.to - edge.from;
-  // In a rosette the distance from the tip goes with the square of the parameter.
+  // In a rosette the distance from the tip is proportional to the square of the parameter.
   const bool has_tip_first = edge.tip != none && edge.nodes[0][0] == mesh.tips[edge.tip].node;
   const auto parameter = [&](double part) {
     if (edge.tip == none) return part;
