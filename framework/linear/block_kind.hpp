@@ -1,4 +1,5 @@
-// What linear solvers know of the equations of one field. They know no physics: the declaration of the field says it.
+// What linear solvers know of the equations of one field. Solvers know no physics; the declaration of each field gives
+// the kind.
 #pragma once
 
 namespace sprekk {

@@ -17,7 +17,7 @@ namespace sprekk {
 /// then no large multiple of another medium's balance is added and subtracted again.
 inline double eliminate(double* system, int n, int width) {
   SPREKK_EXPECT(n > 0 && width >= n, n, width);
-  constexpr double large_enough = 0.05;  // of its column: a diagonal that stays the pivot
+  constexpr double large_enough = 0.05;  // of the largest entry of its column: such a diagonal entry stays the pivot
   double smallest = 1;
   for (int i = 0; i < n; ++i) {
     double* row = system + i * width;

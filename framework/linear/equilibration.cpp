@@ -18,11 +18,11 @@ double half_inverse(double value) {
 }
 
 bool is_near_one(const Vector& largest) {
-  constexpr double low = 0.25, high = 4;  // what powers of two and their roots reach in any case
+  constexpr double low = 0.25, high = 4;  // scaling by powers of two cannot come closer to 1
   return largest.size() == 0 || (largest.minCoeff() >= low && largest.maxCoeff() <= high);
 }
 
-// The first offending number of all processes, or -1.
+// The smallest number over all processes that is not -1, or -1.
 int first_over_processes(int mine) {
   const double smallest = -parallel::max(mine < 0 ? -HUGE_VAL : -static_cast<double>(mine));
   return std::isinf(smallest) ? -1 : static_cast<int>(smallest);

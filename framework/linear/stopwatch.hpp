@@ -5,7 +5,7 @@
 
 namespace sprekk {
 
-/// Adds the seconds from its construction to its end to `total`.
+/// A guard: adds the seconds from its construction to its destruction to `total`.
 class Stopwatch {
  public:
   explicit Stopwatch(double& total) : total_(total) {}

@@ -13,7 +13,7 @@ namespace {
 std::string library_of(void* symbol) {
   Dl_info info;
   if (symbol == nullptr || dladdr(symbol, &info) == 0 || info.dli_fname == nullptr) return "";
-  // Debian's alternatives are links: only the end of the chain tells which library it is.
+  // Debian's alternatives are symbolic links; the last target is the library in use.
   std::error_code error;
   const auto real = std::filesystem::canonical(info.dli_fname, error);
   return error ? info.dli_fname : real.string();
@@ -32,7 +32,7 @@ BlasInfo blas_in_use() {
   std::string path = library_of(dgemm);
   std::transform(path.begin(), path.end(), path.begin(), [](unsigned char c) { return std::tolower(c); });
 
-  // OpenBLAS may also be loaded beside the library that dgemm_ came from: its name counts only if dgemm_ is its own.
+  // OpenBLAS may be loaded without being the library of dgemm_, so its name counts only if dgemm_ belongs to it.
   if (path.find("openblas") != std::string::npos) {
     if (const auto config = reinterpret_cast<Config>(dlsym(RTLD_DEFAULT, "openblas_get_config")))
       return {trimmed(config()), false};

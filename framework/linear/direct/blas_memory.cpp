@@ -24,7 +24,7 @@ void reserve_blas_memory() {
   const int one = 1;
   const double a = 1;
   double x = 1;
-  dtrsv_("L", "N", "N", &one, &a, &one, &x, &one);  // takes the memory, and keeps it for the calls to come
+  dtrsv_("L", "N", "N", &one, &a, &one, &x, &one);  // OpenBLAS allocates its memory here, and keeps it
 }
 
 }  // namespace sprekk

@@ -39,13 +39,13 @@ Vector scales_of_border(const Vector& largest) {
 
 }  // namespace
 
-/// Parameters carry the numbers of the MUMPS 5.5 users' guide.
+/// The indices of parameters are those of the MUMPS 5.5 users' guide.
 struct MumpsSolver::Instance {
   DMUMPS_STRUC_C data{};
   std::vector<int> rows, columns;  ///< of the entries of this process, counted from one
   std::vector<double> values;      ///< of the matrix and its border
   std::vector<int> border;         ///< the numbers of the unknowns that are not eliminated
-  std::vector<double> schur;       ///< what is left of their equations, by rows
+  std::vector<double> schur;       ///< their Schur complement, by rows
 
   Instance() {
     parallel::start_mpi();
@@ -57,14 +57,14 @@ struct MumpsSolver::Instance {
     icntl(4) = 0;
     icntl(5) = 0;                              // an assembled matrix
     icntl(6) = 0;                              // no permutation of columns
-    icntl(8) = 0;                              // no scaling: done already
-    icntl(10) = 0;                             // no refinement: ours looks at the true residual
+    icntl(8) = 0;                              // no scaling: the matrix is scaled already
+    icntl(10) = 0;                             // no refinement: refined_solve uses the true residual
     icntl(14) = 30;                            // per cent of spare room
     icntl(18) = parallel::size() > 1 ? 3 : 0;  // entries on every process
     icntl(20) = 0;                             // a dense right-hand side on the root
     icntl(21) = 0;                             // the solution on the root
-    icntl(24) = 1;                             // notes pivots that are zero to rounding, and goes on
-    icntl(26) = 0;                             // solves for what is eliminated
+    icntl(24) = 1;                             // detects pivots that are zero to rounding, and continues
+    icntl(26) = 0;                             // solves for the eliminated unknowns
   }
   ~Instance() {
     int is_finalized = 0;
@@ -159,7 +159,8 @@ LinearReport MumpsSolver::factor_scaled(bool has_new_pattern) {
   last_report_ = scaled_.mistake.empty() ? LinearReport::success() : LinearReport::failure(scaled_.mistake);
   if (last_report_.solved && has_new_pattern) last_report_ = order();
   if (last_report_.solved) last_report_ = factor_values();
-  // MUMPS promises nothing about an instance after an error. A singular matrix is none: its ordering stays.
+  // After an error an instance of MUMPS must not be used again. A singular matrix is no error in this sense, and its
+  // ordering is kept.
   if (!last_report_.solved && (mumps_->status() < 0 || !scaled_.mistake.empty())) {
     last_.forget();
     border_ = {};
@@ -222,12 +223,12 @@ LinearReport MumpsSolver::order() {
   mumps_->icntl(19) = border_.size() > 0 ? 1 : 0;
   data.size_schur = border_.size();
   data.listvar_schur = mumps_->border.data();
-  // Minimum degree costs a third of nested dissection, and leaves as little fill where there is not much to dissect. A
-  // border excludes the latter, of those that Debian's MUMPS knows.
+  // Minimum degree costs a third of nested dissection, and gives as little fill for small matrices. With a border,
+  // nested dissection is not available in Debian's MUMPS.
   constexpr int minimum_degree = 0, its_own_choice = 7, worth_dissecting = 10'000;
   const bool is_small = parallel::size() == 1 && data.n < worth_dissecting;
   mumps_->icntl(7) = is_small || border_.size() > 0 ? minimum_degree : its_own_choice;
-  data.a = nullptr;  // values are for the factorization; those of the last matrix may be gone
+  data.a = nullptr;  // the analysis needs no values, and those of the last matrix may not exist any more
   mumps_->run(analyse);
   ++counts_.orderings;
   if (mumps_->status() == -6) return LinearReport::failure("the matrix is singular (its pattern alone shows it)");
@@ -243,7 +244,7 @@ LinearReport MumpsSolver::factor_values() {
   mumps_->data.schur = mumps_->schur.data();
   // The threshold of a zero pivot: the default is round-off of the largest entry; with sums of balances, whose entries
   // may be smaller, it is zero.
-  constexpr double by_default = 0, zero_alone = -1e-200;  // negative: absolute, and not of the largest entry
+  constexpr double by_default = 0, zero_alone = -1e-200;  // negative: an absolute threshold
   mumps_->data.cntl[2] = system_.sums.empty() ? by_default : zero_alone;
   const int spare = mumps_->icntl(14);
   // Pivoting may need more room than the analysis foresaw (-9: the main array, -8, -17, -20: buffers).
@@ -288,7 +289,7 @@ bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
   if (parallel::size() > 1) return false;
   const Stopwatch watch(counts_.seconds_solve);
   counts_.columns += static_cast<int>(columns.cols());
-  constexpr int together = 32;  // more than one is what makes it fast; all of them would double the memory
+  constexpr int together = 32;  // several columns together are faster; all together would double the memory
   Eigen::MatrixXd block(mumps_->data.n, std::min<Eigen::Index>(together, columns.cols()));
   mumps_->icntl(9) = 1;
   for (Eigen::Index first = 0; first < columns.cols(); first += block.cols()) {
@@ -301,7 +302,7 @@ bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
   return true;
 }
 
-/// In place; rows of the border are zero.
+/// Solves in place for several columns, whose rows of the border are zero.
 void MumpsSolver::back_substitute(Eigen::Ref<Eigen::MatrixXd> columns) {
   SPREKK_EXPECT(columns.rows() == mumps_->data.n, columns.rows(), mumps_->data.n);
   mumps_->data.rhs = columns.data();

@@ -14,7 +14,8 @@
 namespace sprekk {
 namespace {
 
-// A fixed vector that no structure of a mesh is orthogonal to (splitmix64 of the index), one for each number.
+// A fixed pseudo-random unit vector (splitmix64 of the index), one for each number; no structure of a mesh is
+// orthogonal to it.
 Vector scattered_unit_vector(int n, int number) {
   SPREKK_EXPECT(n > 0 && number >= 0, n, number);
   Vector v(n);
@@ -95,7 +96,7 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
   constexpr double suspicious = 1e8;  // a singular matrix grows a random vector by 1e16 / sqrt(n), roughly
   constexpr double singular = 3e-15;  // a floating rock shows 1e-16; an open fracture in tight rock has 5e-15
   const int unknowns = static_cast<int>(rows.cols());
-  std::vector<Vector> resting;  // nearly null vectors, at right angles
+  std::vector<Vector> resting;  // nearly null vectors, orthogonal to one another
   for (std::size_t number = 0; number <= system.sums.size(); ++number) {
     Vector v = scattered_unit_vector(unknowns, static_cast<int>(number));
     remove_from(v, resting);

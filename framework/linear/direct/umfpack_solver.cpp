@@ -119,7 +119,7 @@ std::vector<int> UmfpackSolver::order_of_entities() const {
   const bool has_local = std::any_of(system_.blocks.begin(), system_.blocks.end(), [](const UnknownBlock& block) {
     return block.kind == BlockKind::interface && block.entities > 0;
   });
-  if (has_local) return {};  // their zero diagonals need pivots that an ordering of entities would not foresee
+  if (has_local) return {};  // zero diagonals need pivots that an ordering of entities cannot foresee
   const EntityGraph graph(scaled_.matrix, system_.blocks);
   const int n = graph.size();
   if (n == static_cast<int>(scaled_.matrix.rows())) return {};
@@ -129,7 +129,7 @@ std::vector<int> UmfpackSolver::order_of_entities() const {
   // 1.4 times the fill, and 3 times where many entities depend on some that do not depend on them, as around tips of
   // fractures.
   control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  constexpr int worth_dissecting = 4000;  // below, minimum degree is quicker and leaves no more fill
+  constexpr int worth_dissecting = 4000;  // below, minimum degree is faster and gives no more fill
   if (n < worth_dissecting) control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
   if (umfpack_di_symbolic(n, n, graph.starts().data(), graph.neighbours().data(), nullptr, &symbolic, control.data(),
                           nullptr) != UMFPACK_OK)

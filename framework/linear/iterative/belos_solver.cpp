@@ -127,7 +127,7 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   if (b_norm == 0) return report;
 
   Vector r = b, y = x;
-  constexpr double safely = 0.5;  // of the tolerance: GMRES sees another norm than the test below
+  constexpr double safely = 0.5;  // of the tolerance, since GMRES tests another norm than the loop below
   constexpr int most_restarts = 6;
   double r_norm = b_norm, wanted_norm = safely * tolerance_ * b_norm;
   BlockResidual measured;
@@ -136,7 +136,8 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     const bool is_at_rounding = measured.largest_ratio <= rounding && r_norm <= useless * b_norm;
     return measured.largest_ratio <= tolerance_ && (r_norm <= tolerance_ * b_norm || is_at_rounding);
   };
-  // GMRES trusts a recurrence and one norm; this loop trusts the residual of every block, and starts again from it.
+  // GMRES tests a residual from a recurrence, in one norm. This loop tests the true residual of every block, and
+  // restarts GMRES from it.
   for (int restart = 0; restart < most_restarts && report.iterations < max_iterations_; ++restart) {
     constexpr double deepest = 1e-12, shallowest = 0.1;  // of one restart
     Gmres::Result step;

@@ -21,7 +21,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
   for (int row_part = 0; row_part < parts; ++row_part) {
     owned_rows_.push_back(partition.parts[row_part].owned_rows);
     for (int column_part = 0; column_part < parts; ++column_part) {
-      // A sweep needs only couplings to bulk parts that it has solved before.
+      // A sweep needs only the couplings to bulk parts that come earlier in the sweep.
       const bool is_needed = row_part == local ? column_part != local : column_part < row_part || column_part == local;
       if (!is_needed || partition.parts[row_part].unknowns.empty()) continue;
       const SparseMatrix block = sub_matrix(system.local, partition, row_part, column_part);
@@ -48,7 +48,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
   }
 }
 
-// A_FF^-1 exists on every process, so the right-hand side is made whole first.
+// Every process has A_FF^-1, so the right-hand side is gathered first.
 Vector BlockPreconditioner::solve_local(Vector owned) const {
   SPREKK_EXPECT(owned.size() == static_cast<Eigen::Index>(local_owned_.size()), owned.size(), local_owned_.size());
   Vector whole = whole_vector(local_owned_, owned, local_unknowns_);

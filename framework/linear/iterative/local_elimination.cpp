@@ -25,7 +25,7 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
       low = low.cwiseMin(point);
       high = high.cwiseMax(point);
     }
-  constexpr double same_place = 1e-8;  // of the extent
+  constexpr double same_place = 1e-8;  // of the extent of the fractures
   const double spacing = std::max((high - low).maxCoeff(), 0.0) * same_place;
 
   std::map<CellKey, std::vector<int>> cells;
@@ -79,7 +79,7 @@ SparseMatrix gather_local_rows(const LinearSystem& system, const Partition& part
   return gather_entries(entries, static_cast<int>(local.unknowns.size()), static_cast<int>(system.local.cols()));
 }
 
-// All rows of `rows`, the columns that belong to `part`.
+// The columns of `rows` that belong to `part`.
 SparseMatrix columns_of_part(const SparseMatrix& rows, const Partition& partition, int part) {
   std::vector<Triplet> entries;
   for (int row = 0; row < rows.rows(); ++row)

@@ -90,7 +90,7 @@ bool BulkSchurComplement::solve_columns(const BulkSplitting& split, LinearSolver
   const SparseMatrix from_interface = chosen_columns(split.bf.matrix, split.interface_columns);
   near_.resize(split.near.size(), count);
   is_whole_ = static_cast<double>(rows) * count <= largest_;
-  columns_.resize(rows, 0);  // stays so without interface columns
+  columns_.resize(rows, 0);  // stays empty without interface columns
   const int width = is_whole_ ? count : piece_;
   for (int first = 0; first < count; first += width) {
     const int end = std::min(count, first + width);
@@ -106,7 +106,7 @@ bool BulkSchurComplement::solve_columns(const BulkSplitting& split, LinearSolver
   return true;
 }
 
-/// Row k of A_FB with X.
+/// The product of row k of A_FB with X.
 void BulkSchurComplement::multiply(const BulkSplitting& split, std::size_t k) {
   SPREKK_EXPECT(k < split.interface_rows.size(), k, split.interface_rows.size());
   SPREKK_ASSERT(schur_rows_.cols() == near_.cols(), schur_rows_.cols(), near_.cols());

@@ -153,7 +153,7 @@ SubMatrix BulkSplitting::extract(const SparseMatrix& matrix, bool local_rows, bo
   sub.matrix.resizeNonZeros(columns.size());
   std::copy(starts.begin(), starts.end(), sub.matrix.outerIndexPtr());
   std::copy(columns.begin(), columns.end(), sub.matrix.innerIndexPtr());
-  std::fill_n(sub.matrix.valuePtr(), columns.size(), std::nan(""));  // so that the first values are a change
+  std::fill_n(sub.matrix.valuePtr(), columns.size(), std::nan(""));  // the first update is a change
   return sub;
 }
 

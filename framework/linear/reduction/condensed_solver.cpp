@@ -16,7 +16,7 @@ namespace sprekk {
 namespace {
 
 constexpr std::size_t kept_bulks = 2;
-constexpr double most_schur_entries = 1.5e8;  ///< entries of what is kept in any case, 1.2 GB
+constexpr double most_schur_entries = 1.5e8;  ///< largest number of entries that are always kept, 1.2 GB
 
 bool same_values(const SparseMatrix& a, const std::vector<double>& kept) {
   return a.nonZeros() == static_cast<Eigen::Index>(kept.size()) &&
@@ -98,10 +98,10 @@ constexpr double worth_at_once = 4.4;
 struct CondensedSolver::Bulk {
   explicit Bulk(const LinearOptions& options) : solver(make_linear_solver(options)) {}
   std::unique_ptr<LinearSolver> solver;
-  std::vector<double> values, columns;  ///< of the A_BB and A_BF for which the rest holds
-  int systems = 0;                      ///< that it has had
+  std::vector<double> values, columns;  ///< of A_BB and A_BF at the factorization
+  int systems = 0;                      ///< number of systems with this bulk
   bool is_tried = false;                ///< whether it has been factorized, successfully or not
-  bool is_verified = false;             ///< a solution was accurate; callers see the residuals of the others
+  bool is_verified = false;             ///< whether the first solution was accurate
   LinearReport report;
   BulkSchurComplement schur;
 };
@@ -193,7 +193,7 @@ void CondensedSolver::choose_bulk() {
   if (bulks_.size() < kept_bulks)
     bulks_.emplace_front(options_);
   else
-    bulks_.splice(bulks_.begin(), bulks_, std::prev(bulks_.end()));  // keeps its ordering
+    bulks_.splice(bulks_.begin(), bulks_, std::prev(bulks_.end()));  // the oldest; its ordering stays
   Bulk& bulk = bulks_.front();
   bulk.values = values_of(splitting_->bb.matrix);
   bulk.columns = values_of(splitting_->bf.matrix);

@@ -41,9 +41,9 @@ class Parts {
     SPREKK_EXPECT(static_cast<int>(preferred.size()) == block_.entities, preferred.size(), block_.entities);
     std::vector<int> chosen;
     for (const Part& part : parts_) {
-      constexpr double resists = 1e-8;        // half of the digits
-      constexpr double hardly_moves = 1e-6;   // of the largest motion of a mode
-      constexpr double much_preferred = 1e3;  // more than shapes of parts can make of motions
+      constexpr double resists = 1e-8;        // a resistance of half of the digits counts
+      constexpr double hardly_moves = 1e-6;   // of the largest motion of a mode counts as none
+      constexpr double much_preferred = 1e3;  // larger than ratios of motions by the shapes of parts
       constexpr double is_fixed = 0.1;        // of the motion that an entity fixes best
       const Eigen::JacobiSVD<Modes> svd(part.triangle, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const int held = static_cast<int>((svd.singularValues().array() > resists).count());
@@ -76,7 +76,7 @@ class Parts {
     return place >= 0 && place < block_.entities * block_.components ? place / block_.components : -1;
   }
 
-  /// Joins what one row reads.
+  /// Joins the entities that have entries in one row.
   void find(const std::vector<char>& is_balance) {
     std::vector<int> parent(block_.entities);
     std::iota(parent.begin(), parent.end(), 0);

@@ -62,7 +62,7 @@ void SeparatedSolver::separate(const LinearSystem& system) {
   std::vector<int> set_of_block(system.blocks.size(), 0);
   const bool can_separate = parallel::size() == 1 && a.isCompressed() && system.blocks.size() > 1;
   if (can_separate) set_of_block = sets_of_blocks(system, sets);
-  // One part keeps its solver, and so its ordering, also when the pattern changes.
+  // A single part keeps its solver, with its ordering, when the pattern changes.
   if (groups_.size() != 1 || sets != 1) {
     for (const Group& group : groups_) retired_ += group.solver->counts();
     groups_.clear();

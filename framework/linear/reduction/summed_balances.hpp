@@ -23,7 +23,7 @@ class SummedBalances final : public LinearSolver {
   LinearReport factor(const LinearSystem& system) override;
   LinearReport solve(const Vector& b_rows, Vector& x) override;
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override;
-  /// std::nullopt where there are rows to sum.
+  /// std::nullopt where there are rows to sum: then a border is not supported.
   std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
                                               const SparseMatrix& rows, Eigen::MatrixXd& schur) override;
   std::string name() const override { return solver_->name(); }

@@ -7,13 +7,13 @@ namespace sprekk::tpetra {
 void start() {
   static const bool started = [] {
     if (!Tpetra::isInitialized()) {
-      // It insists on arguments, and keeps them.
+      // Tpetra::initialize needs arguments, and keeps pointers to them.
       static char name[] = "sprekk";
       static char* arguments[] = {name, nullptr};
       static char** argument_vector = arguments;
       static int argument_count = 1;
       Tpetra::initialize(&argument_count, &argument_vector);
-      // Registered after MPI's end, so called before it.
+      // This handler is registered after the one that finalizes MPI, so it runs before it.
       std::atexit([] { Tpetra::finalize(); });
     }
     return true;
