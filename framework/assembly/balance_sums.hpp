@@ -9,11 +9,11 @@
 namespace sprekk {
 
 /// Whether the balances of a quantity are near-singular for a constant: whether the derivatives without exchanges (the
-/// sum of their absolute entries) are at most 1e-6 of the largest exchange. Round-off of the rows then hides what holds
-/// the constant; the sum of the rows without exchanges has it. Where other unknowns of the bulk respond to the
-/// constant, how much these hold is known only with the solution: there `also_coupled` decides, which a caller sets
-/// that has seen the constant lost. Never true where values are fixed in place of balances. Collective; needs the
-/// derivatives.
+/// sum of their absolute entries) are at most 1e-6 of the largest exchange. The derivatives that determine the constant
+/// are then lost in the round-off of the rows, but not in the sum of the rows without exchanges. Where other unknowns
+/// of the bulk respond to the constant, how much these hold is known only with the solution: there `also_coupled`
+/// decides; a caller sets it after an attempt in which the constant was lost. Never true where values are fixed in
+/// place of balances. Collective; needs the derivatives.
 bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_coupled = false);
 
 /// A row of the Jacobian that is the sum of all rows of a quantity's balances.

@@ -134,7 +134,8 @@ void BlockSystem::build_pattern(const Assembly& assembly) {
   inner.reserve(entries);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     std::vector<Source>& sources = by_row[u];
-    // Column fields from left to right: then only the entries of one field need sorting, and mostly are sorted already.
+    // Takes the column fields from left to right: then only the entries of one field need sorting, and most of them are
+    // sorted already.
     std::vector<Source*> ordered;
     for (Source& source : sources) ordered.push_back(&source);
     std::stable_sort(ordered.begin(), ordered.end(),
@@ -219,7 +220,7 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
 void BlockSystem::use_coupled_sums(bool wanted) {
   if (sums_.are_used_where_coupled == wanted) return;
   sums_.are_used_where_coupled = wanted;
-  system_.number = 0;  // the last matrix is not what the next is to be, though its blocks may be the same
+  system_.number = 0;  // the next matrix differs from the last one even if its blocks are the same
 }
 
 void BlockSystem::apply_fixed(const Assembly& assembly) {

@@ -14,7 +14,7 @@ void Notes::add(const std::string& topic, const std::string& text, double measur
     same->text = text;
     same->measure = measure;
   }
-  if (is_of_input_ || same->last_time == time_) return;  // several places of one step
+  if (is_of_input_ || same->last_time == time_) return;  // one step counts once, however many notes it has
   same->last_time = time_;
   ++same->steps;
 }

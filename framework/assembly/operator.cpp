@@ -12,7 +12,8 @@
 namespace sprekk {
 namespace {
 
-/// Up to round-off of the entries. Several processes have the rows of their own only, and cannot tell.
+/// Whether the column sums of two matrices agree up to round-off. Always true with several processes, which have only a
+/// part of the rows.
 [[maybe_unused]] bool columns_add_up_alike(const SparseMatrix& a, const SparseMatrix& b) {
   if (parallel::size() > 1) return true;
   constexpr double round_off = 1e-9;
@@ -33,7 +34,7 @@ Operator::Operator(SparseMatrix entries) {
   SPREKK_EXPECT(is_well_formed(entries), entries.rows(), entries.cols());
   SPREKK_EXPECT(is_finite(entries), entries.rows(), entries.cols());
   const auto kept = std::make_shared<SparseMatrix>();
-  kept->swap(entries);  // to move it would copy it
+  kept->swap(entries);  // Eigen copies sparse matrices when they are moved
   entries_ = kept;
   number_ = ++made;
 }

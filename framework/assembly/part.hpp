@@ -59,8 +59,8 @@ class Part {
   /// Evaluates the data that depend on time for the step (value_in_step), and does nothing else. Also called before a
   /// run, for its last and its first step, to refuse data without a value there. Throws DataError.
   virtual void evaluate_data(const StepTime&) {}
-  /// Called when all parts have evaluated their data: renews the discretizations that a changed mesh or property makes
-  /// stale.
+  /// Called when all parts have evaluated their data: updates the discretizations after the mesh or properties have
+  /// changed.
   virtual void begin_step(const StepTime& step) = 0;
   /// Adds all terms of all its equations; the assembly keeps what its solve needs.
   virtual void assemble(Assembly& assembly, const StepTime& step) const = 0;
@@ -97,12 +97,12 @@ class Part {
   /// Moves the fields to where one-sided conditions (contact) are inactive, so that the unknowns that these conditions
   /// hold are free.
   virtual void deactivate_conditions() {}
-  /// What left its discrete state in this step by a jump, where it could have stayed, is kept in it from now on,
-  /// whatever its conditions say. Returns how much there is.
+  /// Finds cells that have left their discrete state in this step by a jump although they could have stayed, and keeps
+  /// them in that state from now on, whatever their conditions are. Returns their number.
   virtual int keep_states() { return 0; }
-  /// Lets go of what is kept against its conditions in the values now, and returns how much that was.
+  /// Releases kept cells whose conditions are violated at the present values, and returns their number.
   virtual int release_violated() { return 0; }
-  /// Lets go of all that is kept.
+  /// Releases all kept cells.
   virtual void release_kept() {}
   /// The names of the stabilizations that the part offers to split schemes.
   virtual std::vector<std::string> stabilizations() const { return {}; }

@@ -1,4 +1,5 @@
-// From a solution that left discrete states by a jump to one that the step's start leads to.
+// After a solution in which cells have left their discrete states by a jump: looks for the solution to which small
+// increments from the start of the step lead.
 #include "framework/schedule/newton.hpp"
 
 namespace sprekk {

@@ -86,7 +86,7 @@ void Newton::move(const std::vector<Vector>& from, const Vector& update, double 
   SPREKK_EXPECT(std::isfinite(length), length);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const auto part = update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size());
-    if (!part.isZero(0)) unknowns_[u]->set(from[u] + length * part);  // else it is where it was
+    if (!part.isZero(0)) unknowns_[u]->set(from[u] + length * part);  // else it has its values at the start
   }
 }
 
@@ -131,7 +131,7 @@ double Newton::relative_size(const Vector& update, const ResidualCheck& check) c
     const Field& field = *unknowns_[u];
     if (field.size() == 0) continue;
     double& s = scale[field.spec().unit];
-    // A field may vanish: its change is then small against what it was.
+    // A field may become zero: its change is then compared with its former values.
     s = std::max({s, field.now().lpNorm<Eigen::Infinity>(), field.accepted().lpNorm<Eigen::Infinity>()});
     if (settled[u]) continue;
     double& c = change[field.spec().unit];
@@ -161,7 +161,7 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool
   ResidualCheck best;
   double best_length = 0, best_merit = 0;
   const double bound = merit_bound(recent_);
-  constexpr double sufficient = 1e-4;              // of the descent that the derivatives foretell (Armijo 1966)
+  constexpr double sufficient = 1e-4;              // of the descent that the derivatives predict (Armijo 1966)
   constexpr int for_descent = 6, for_finite = 12;  // halvings
   length = 1;
   for (int halvings = 0; halvings < (ask_for_descent ? for_descent : for_finite); ++halvings, length /= 2) {
@@ -204,7 +204,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
   const std::vector<Vector> start = values();
   StepStatus status = search(step, start);
-  // The larger of both numbers tells how hard the step is; the sum would make adaptive steps shorter.
+  // The larger number of iterations is the measure for adaptive steps; with the sum, steps would become shorter.
   if (status.converged) status.iterations = std::max(status.iterations, keep_states(step, start));
   return status;
 }
@@ -249,7 +249,7 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     set(start);
     StepStatus path = follow_path(step, mode);
     status.iterations += path.iterations;
-    // From the end of the path, iterations with the true coefficients, and until balances hold.
+    // Iterates from the end of the path with the true coefficients, until balances hold.
     if (path.converged) {
       const std::vector<Vector> end = values();
       path = attempt(step, options_.undamped);
@@ -300,7 +300,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
       const std::vector<char> settled = is_settled(check);
       const bool is_exact = std::all_of(settled.begin(), settled.end(), [](char c) { return c; });
       if (!factored || is_exact) return {true, "", iteration};
-      // The simplified update: what one more iteration would change, for the price of a back-solve.
+      // The simplified update: the change by one more iteration, at the cost of a back-solve.
       Vector update;
       const LinearReport report = linear_->solve(right_hand_side(check), update);
       const double size = report.solved ? relative_size(update, check) : std::numeric_limits<double>::infinity();
@@ -324,7 +324,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
     SPREKK_ASSERT(update.size() == system_.size(), update.size(), system_.size());
 
-    // A discrete state that stays is no cycle. A state that has been left and returns repeatedly is one.
+    // A cycle is a discrete state that is left and returns repeatedly. A state that stays is no cycle.
     const std::uint64_t state = discrete_state();
     if (iteration == 0 || state != last_state) {
       cycling = cycling || seen_states.count(state) > 1;
@@ -339,7 +339,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     }
     check = take_step(step, update, searches, length);
     recent_.push_back(check);
-    constexpr std::size_t remembered = 3;  // states that a line search may be compared with (Grippo and others 1986)
+    constexpr std::size_t remembered = 3;  // states in the bound of a line search (Grippo and others 1986)
     if (recent_.size() > remembered) recent_.erase(recent_.begin());
     if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length});
   }

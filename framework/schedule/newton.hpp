@@ -62,7 +62,7 @@ class Newton {
  private:
   std::unique_ptr<Assembly> assemble(const StepTime& step);
   /// Assembles residual and derivatives at the current values of the fields, and checks the residual. Derivatives are
-  /// always included: most states that are looked at are accepted, and derivatives of linear terms cost nothing.
+  /// always included: most evaluated states are accepted, and derivatives of linear terms cost nothing.
   ResidualCheck evaluate(const StepTime& step);
   std::uint64_t discrete_state() const;
   std::vector<Vector> values() const;
@@ -80,7 +80,8 @@ class Newton {
   enum class Until { end, search };
   /// All attempts, until one converges.
   StepStatus search(const StepTime& step, const std::vector<Vector>& start);
-  /// From a solution to one that keeps states which it has left (keep_states.cpp), if there is any. Returns iterations.
+  /// Looks for a solution with states that the present solution has left (keep_states.cpp). Returns the number of
+  /// iterations.
   int keep_states(const StepTime& step, const std::vector<Vector>& start);
   /// Iterates, without a line search in the first `undamped` iterations.
   StepStatus attempt(const StepTime& step, int undamped, Until until = Until::end);

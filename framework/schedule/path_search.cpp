@@ -21,7 +21,7 @@ struct Crossing {
 };
 
 /// The first crossing within `limit`, or none. `is_same` says whether a length is still in the piece: pieces are
-/// convex, so that one end in it has all between in it.
+/// convex, so if a length is in the piece, all shorter lengths are.
 template <class IsSame>
 std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
   constexpr double sharpness = 1e-13, shortest = 1e-16;
@@ -76,10 +76,10 @@ bool Newton::is_solution(const ResidualCheck& check) {
 }
 
 StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
-  constexpr double far = 1e9;  // lengths of the update: a ray that has met no other piece meets none
+  constexpr double far = 1e9;  // in lengths of the update: a ray without a crossing up to here has none
   const SearchModeGuard guard(mode, SearchMode::without_shortcuts, parts_);
   std::set<std::uint64_t> entered;
-  std::uint64_t left = 0;    // the piece that was left last
+  std::uint64_t left = 0;    // the last piece before the present one
   bool has_crossed = false;  // since the last whole step
   int whole_steps = 0;
   ResidualCheck check = evaluate(step);
@@ -112,7 +112,7 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
       is_reversed = discrete_state() == left;
     }
     if (is_reversed) {
-      // The determinant has changed its sign: from here the path leads away from the solution before it comes back.
+      // The determinant has changed its sign: s grows from here until the path turns again.
       update = -update;
       crossing = first_crossing(is_same, far);
       if (!crossing) return fails("the path leads to infinity");
@@ -128,7 +128,7 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
     if (has_crossed) {
       left = piece;
       whole_steps = 0;
-      // A line enters a convex region once.
+      // A straight line enters a convex piece only once.
       if (!entered.insert(discrete_state()).second) return fails("the path comes back to where it was");
     } else if (++whole_steps == options_.at_most) {
       return fails("no convergence in the last piece of the path");

@@ -15,7 +15,7 @@ StepStatus Newton::attempt_with_share(const StepTime& step, double share) {
 }
 
 /// Coefficients c_0^(1 - share) c^share, for shares that grow from 0, where the path has ended, to 1. Each solution is
-/// the start for the next; a share that is not reached is tried with half the increment, and the next with twice that.
+/// the start for the next share. After a failure the increment of the share is halved, after a success doubled.
 StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<Vector>& start) {
   constexpr double first = 0.25, smallest = 1.0 / 64;
   std::vector<Vector> reached = values();

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
 
-/// The balances of each field in a sum add up to zero as well, and to more digits than any one of them has.
+/// Checks the sums of balances, which are zero as well: the sum of the balances of a field has more correct digits than
+/// any one of them.
 void check_sums(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
   const std::size_t unknowns = assembly.unknowns().size();
   check.is_round_off_in_sum.assign(unknowns, 1);
@@ -72,7 +73,7 @@ void check_balances(const Assembly& assembly, const BlockSystem& system, double 
     const double relative = error / sums[turnover];
     if (relative <= check.imbalance) continue;
     check.imbalance = relative;
-    if (!check.rows_hold) continue;  // else the row that is worst tells more
+    if (!check.rows_hold) continue;  // otherwise the message names the worst row
     check.largest = relative;
     check.equation = "the balance of " + quantity.name;
   }

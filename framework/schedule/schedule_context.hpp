@@ -26,7 +26,7 @@ struct ScheduleContext {
   std::vector<Field*> solved_fields(const std::vector<std::string>& components) const;
 };
 
-/// What a `schedule:` is read with, before there is a mesh.
+/// What is known of a scene when its `schedule:` is read, before there is a mesh.
 struct ScheduleReading {
   std::vector<std::string> component_names;  ///< what a `solve` may name
   LinearOptions linear;                      ///< for a `solve` without options of its own

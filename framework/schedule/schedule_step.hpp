@@ -35,7 +35,7 @@ class ScheduleStep {
   /// One line for the graph and for messages.
   virtual std::string describe() const = 0;
   virtual std::vector<const ScheduleStep*> children() const { return {}; }
-  /// Sums up what the linear solvers inside did.
+  /// Adds the counts of the linear solvers in this step and in the steps inside of it.
   virtual void add_counts(LinearCounts& counts) const = 0;
 };
 

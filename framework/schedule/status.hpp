@@ -5,7 +5,7 @@
 
 namespace sprekk {
 
-/// Whether a step converged, and if not, why. Nobody infers convergence from a count of iterations.
+/// Whether a step converged, and if not, why. Callers must not infer convergence from the number of iterations.
 struct StepStatus {
   bool converged = false;
   std::string reason;   ///< why not
