@@ -1,4 +1,4 @@
-// What the program is doing just now, for a user who waits.
+// The current activity of the program, shown to its user.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ inline std::function<void(const std::string&)>& activity_listener() {
 }
 
 /// Tells the listener what begins now ("discretizing rock"). To be called by code that may take long; without a
-/// listener it costs next to nothing.
+/// listener it takes almost no time.
 inline void now_doing(const std::string& what) {
   if (activity_listener()) activity_listener()(what);
 }

@@ -1,4 +1,4 @@
-// Which program this is: what a result must say to be reproducible.
+// Version, libraries and machine of the program, which make a result reproducible.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ const BuildInfo& build_info();
 /// The machine that the program runs on.
 struct Host {
   int cores;              ///< that this process may use
-  std::string processor;  ///< its model; "" where the system does not tell
+  std::string processor;  ///< its model; "" if unknown
 };
 Host host();
 

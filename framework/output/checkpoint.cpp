@@ -131,7 +131,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     throw unusable(path, damage.what(), start_anew);
   } catch (const nlohmann::json::exception&) {
     throw unusable(path, "a list of names is damaged", start_anew);
-  } catch (const std::logic_error&) {  // a number that is none, or an array without its only entry
+  } catch (const std::logic_error&) {  // a text that is no number, or an empty array
     throw unusable(path, "it is damaged", start_anew);
   }
 }

@@ -1,4 +1,4 @@
-// Everything that a run needs to go on from an accepted step, in one file.
+// Checkpoints: all that a run needs to continue after an accepted step, in one file.
 #pragma once
 
 #include <filesystem>

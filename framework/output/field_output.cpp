@@ -8,7 +8,7 @@ namespace sprekk {
 
 FieldOutput::FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures)
     : folder_(std::move(folder)), matrix_(std::move(matrix)), fractures_(std::move(fractures)) {
-  open_module("vtk");  // a run that cannot write ends before it begins
+  open_module("vtk");  // throws before the run starts if fields cannot be written
 }
 
 FieldOutput::FieldOutput(const std::filesystem::path& folder)

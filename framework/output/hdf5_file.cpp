@@ -31,7 +31,7 @@ void require(herr_t status, const std::string& what) {
   if (status < 0) throw Hdf5Error(what);
 }
 
-/// Failures reach the user as our own messages, not as HDF5's stack on the terminal.
+/// Switches off HDF5's own messages on the terminal; errors are reported by exceptions.
 void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 constexpr std::size_t memory_step = std::size_t{1} << 22;  // bytes by which a file in memory grows
@@ -48,8 +48,8 @@ struct Hdf5Writer::Image {
   std::size_t size = 0;  ///< a multiple of memory_step
   ~Image() { std::free(bytes); }
 
-  /// The file's own length, which its first block tells (HDF5 file format 3.0, "Superblock versions 2 and 3"); 0 when
-  /// there is none.
+  /// The length of the file as its superblock gives it (HDF5 file format 3.0, "Superblock versions 2 and 3"); 0 without
+  /// a superblock.
   std::size_t used() const {
     constexpr std::size_t version = 8, end_of_file = 28, length = 48;
     const auto* block = static_cast<const unsigned char*>(bytes);
@@ -82,9 +82,9 @@ struct Hdf5Writer::Image {
 Hdf5Writer::Hdf5Writer(std::filesystem::path file) : path_(std::move(file)), image_(std::make_unique<Image>()) {
   silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "out of memory");
-  // The latest format has checksums on its own structures too.
+  // The latest format also has checksums on the structures of the file.
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
-  // In memory: a library that has failed to write a file does so again when the program ends, and crashes.
+  // The file is made in memory: after a failure to write, HDF5 would try again at the end of the program, and crash.
   require(H5Pset_fapl_core(access, memory_step, 0), "out of memory");
   H5FD_file_image_callbacks_t callbacks = image_->callbacks();
   require(H5Pset_file_image_callbacks(access, &callbacks), "out of memory");

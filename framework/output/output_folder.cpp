@@ -33,7 +33,7 @@ std::string folder_name(const std::string& scene_name) {
   std::replace_if(
       name.begin(), name.end(),
       [](unsigned char c) { return c < 128 && !std::isalnum(c) && c != '.' && c != '-' && c != '_'; }, '_');
-  if (name.front() == '.') name.front() = '_';  // neither hidden nor "..", which is another folder
+  if (name.front() == '.') name.front() = '_';  // a leading dot would hide the folder, or name another folder ("..")
   return name;
 }
 
@@ -92,7 +92,7 @@ const fs::path& OutputFolder::create() {
     fs::create_directories(path_, error);
   } else {
     if (wanted_.has_parent_path()) fs::create_directories(wanted_.parent_path(), error);
-    // A folder counts as ours when we made it or found it empty; when another run was faster, look for the next one.
+    // The run takes a folder that it has made or found empty. If another run was faster, it tries the next name.
     while (!error && !fs::create_directory(path_, error) && !error && !is_free(path_)) find_free();
   }
   if (error) throw unusable(path_, error.message());

@@ -1,4 +1,4 @@
-// Finds the first parameter of a scene that has changed since a run wrote its record.
+// Compares the parameters of a scene with those in the record of a run.
 #pragma once
 
 #include <filesystem>

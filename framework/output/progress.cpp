@@ -18,8 +18,8 @@ namespace sprekk {
 namespace {
 
 constexpr double redraw_interval = 0.1;  // s
-constexpr double short_wait = 0.5;       // s, that nobody on a terminal asks about
-constexpr double long_part = 10;         // s, worth a line
+constexpr double short_wait = 0.5;       // s; shorter activities are not shown
+constexpr double long_part = 10;         // s; longer activities get a line of their own
 constexpr double long_silence = 60;      // s
 constexpr int bar_width = 30;
 const std::string clear_line = "\r\x1b[K";
@@ -41,7 +41,7 @@ void block_signals() {
 
 std::string duration_text(double seconds) {
   if (!std::isfinite(seconds)) return "?";
-  constexpr double a_minute = 59.95;  // from there on three digits say 60
+  constexpr double a_minute = 59.95;  // above, three digits would give 60
   if (seconds < a_minute) return fmt::format("{:.3g} s", seconds);
   constexpr double year = 365.25 * 86400;
   if (seconds > 10 * year) return fmt::format("{:.3g} years", seconds / year);

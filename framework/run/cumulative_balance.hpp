@@ -1,4 +1,4 @@
-// Checks whether a run conserves what it should.
+// Checks that a run conserves all quantities with a balance.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// Why a run is done before its end.
+// The conditions that end a run before its end time.
 #pragma once
 
 #include <optional>

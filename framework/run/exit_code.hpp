@@ -3,7 +3,7 @@
 
 namespace sprekk {
 
-/// How a run, or several, ended, as exit code of the program.
+/// The exit code of the program for one run or for several.
 enum class ExitCode { done = 0, failed = 1, wrong_input = 2, interrupted = 130 };
 
 }  // namespace sprekk

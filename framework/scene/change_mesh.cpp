@@ -15,7 +15,8 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
   const int components = old.spec().components;
   SPREKK_EXPECT(old.accepted().size() == static_cast<Eigen::Index>(old_mesh.cell_count()) * components, old.name());
   Vector values = Vector::Zero(static_cast<int>(change.cell.size()) * components);
-  // Row by row: the overlap of a new cell with the old ones, over the old area (shares) or its own (a mean).
+  // One row for each new cell: its overlap with old cells, divided by the areas of the old cells (for shares of
+  // amounts) or by its own area (for a mean).
   const Eigen::SparseMatrix<double, Eigen::RowMajor> overlap = change.overlap;
   for (int cell = 0; cell < static_cast<int>(change.cell.size()); ++cell) {
     if (change.cell[cell] != none) {
@@ -35,7 +36,7 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
   return values;
 }
 
-/// Entities that have been kept, `parts` of the field's entities each (two walls a fracture cell).
+/// Copies the values of kept cells; each cell has `parts` entities of the field (two walls for a fracture cell).
 void copy_kept(const Field& old, const std::vector<int>& origin, int parts, Vector& values) {
   const int width = parts * old.spec().components;
   SPREKK_EXPECT(values.size() == static_cast<Eigen::Index>(origin.size()) * width, old.name(), values.size(), width);

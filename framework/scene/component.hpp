@@ -1,4 +1,4 @@
-// Components and couplers, and what each is built from.
+// The base classes of components and couplers, and the input of their constructors.
 #pragma once
 
 #include <memory>
@@ -44,7 +44,7 @@ class CouplerContext {
         origin(std::move(origin)),
         between_(std::move(between)) {}
 
-  const std::string name;  ///< its type, or type#2 for a second one
+  const std::string name;  ///< its type; "type#2" for a second coupler of that type
   const Mesh& mesh;
   FieldStore& fields;
   const double start_time;  ///< s

@@ -25,7 +25,7 @@ Mesh make_mesh(const Scene& scene) {
   return mesh;
 }
 
-/// Data that have no value before the run has begun are wrong input.
+/// Data without a value at the start of the run are an error of the input.
 template <class Build>
 auto refusing_bad_data(const Build& build) {
   try {
@@ -96,7 +96,7 @@ void Model::check_data() {
     const double end = std::min(jump + step, time.end);
     steps.push_back({jump, end - jump, end});
   }
-  // The first step last: parts are left with what it needs.
+  // The first step comes last, so that parts keep the data of the first step.
   steps.push_back({time.start, step, time.start + step});
   for (const StepTime& at : steps)
     for (Part* part : parts_) part->evaluate_data(at);

@@ -1,4 +1,4 @@
-// Probes: figures of a field at a point, on a fracture or over a region, one column of history.csv each.
+// Probes: values of a field at a point, on a fracture or over a region, each a column of history.csv.
 #pragma once
 
 #include <optional>

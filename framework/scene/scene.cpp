@@ -56,7 +56,7 @@ void check_sections(const Node& whole) {
           needed == "components" || needed == "schedule" ? "see 'sprekk list'" : "see 'sprekk explain " + needed + "'");
 }
 
-/// What `materials:` may hold: every parameter of a registered type that is declared as a material's.
+/// The keys that `materials:` may have: all parameters of registered types with About::material.
 std::vector<std::string> material_names() {
   std::set<std::string> names;
   const auto collect = [&](const Spec& spec) {
@@ -85,7 +85,7 @@ std::string type_of(const Node& node, const std::string& what) {
   return type->scalar;
 }
 
-/// Names become parts of the names of fields, "pore.pressure", of columns and of files.
+/// Checks a name that becomes a part of names of fields ("pore.pressure"), columns and files.
 void check_name(const Node::Entry& entry) {
   const auto is_allowed = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
   if (!std::all_of(entry.key.begin(), entry.key.end(), is_allowed))
@@ -134,7 +134,7 @@ std::vector<std::string> read_between(const Node& coupler, const std::string& ty
   return names;
 }
 
-/// The same terms would count twice.
+/// Throws InputError for a second coupler of one type between the same components: its terms would count twice.
 void check_is_first(const Scene& scene, const Scene::CouplerEntry& entry) {
   const std::set<std::string> joined(entry.between.begin(), entry.between.end());
   for (const Scene::CouplerEntry& other : scene.couplers)

@@ -58,7 +58,7 @@ struct Scene {
   NewtonOptions newton;
   LinearOptions linear;
   std::vector<Resolved> resolved;
-  Notes notes;  ///< on input that is not wrong but may not be meant
+  Notes notes;  ///< on valid input that may be a mistake
 
   const Origin& schedule_origin() const { return whole.find("schedule")->origin; }
 };
