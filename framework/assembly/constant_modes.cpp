@@ -29,8 +29,8 @@ void ConstantModes::require_held() const {
   }
   for (const Floating& floating : floating_)
     if (!is_held(floating.field))
-      throw InputError(floating.where, "the level of " + floating.field->name() + " is not determined", floating.why,
-                       floating.suggestion);
+      throw InputError(floating.where, "the constant mode of " + floating.field->name() + " is not determined",
+                       floating.why, floating.suggestion);
 }
 
 }  // namespace sprekk

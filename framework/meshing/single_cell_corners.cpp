@@ -50,12 +50,12 @@ class Pass {
   }
 
   int remove_all() {
-    int cured = 0;
+    int removed = 0;
     const int count = static_cast<int>(is_stale_.size());
     for (int triangle = 0; triangle < count; ++triangle) {
       if (!is_stale_[triangle] && is_pocket(triangle)) {
         divide(triangle);
-        ++cured;
+        ++removed;
         continue;
       }
       const int k = only_inner_edge(triangle);
@@ -72,9 +72,9 @@ class Pass {
         remove({triangle, neighbour, a, b, c, node_opposite(mesh_, neighbour, a, c), barriers == 0});
       }
       is_stale_[triangle] = is_stale_[neighbour] = true;
-      ++cured;
+      ++removed;
     }
-    return cured;
+    return removed;
   }
 
  private:
@@ -166,11 +166,11 @@ class Pass {
 
 int avoid_single_cell_corners(RawMesh& mesh) {
   turn_counter_clockwise(mesh);
-  int cured = 0;
+  int removed = 0;
   for (;;) {
     const int now = Pass(mesh).remove_all();
-    if (now == 0) return cured;
-    cured += now;
+    if (now == 0) return removed;
+    removed += now;
   }
 }
 

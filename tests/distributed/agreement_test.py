@@ -2,8 +2,9 @@
 """agreement_test.py SPREKK MPIEXEC: two processes give the answer of one.
 
 Mandel's problem, on triangles and on a mesh of mostly quadrilaterals, and the scene of sec. 5.1, also with properties
-that change with time and with fractures that cross and touch, and turned by 30 degrees, run in one process, and on two with a distributed
-direct solver and with multigrid; a closed box, whose level a sum of balances of both processes holds, with the direct solver.
+that change with time and with fractures that cross and touch, and turned by 30 degrees, run in one process, and on two with
+a distributed direct solver and with multigrid; a closed box, whose constant mode a sum of balances of both processes
+determines, with the direct solver.
 Every figure of history.csv agrees to 1e-8 of the largest of its column, and of its unit where the column is zero but for
 round-off. And a run that shares so little among processes says so.
 """
@@ -30,7 +31,7 @@ scenes = (("verification/mandel.yaml", []), ("verification/mandel.yaml", ["--set
           ("paper/onset_coarse.yaml", small + meeting), ("verification/closed_box.yaml", []),
           ("paper/onset_coarse.yaml", small + ["--turned"]))
 direct_only = ("verification/closed_box.yaml",)
-# Counts of iterations, and books that are differences of round-off, are not answers.
+# Counts of iterations, and balance errors, which are differences of round-off, are not answers.
 left_out = ("iterations[1]", "fluid_balance_error[m^2]")
 
 

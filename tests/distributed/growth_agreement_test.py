@@ -3,7 +3,7 @@
 
 Each scene that grows, shortened to its first growth: before it every figure of history.csv agrees to 1e-8 of the largest
 of its unit; the first growth comes in the same step, with all factors to 1e-6 and lengths to 1e-4. On three processes,
-too, where tips belong to others than on two; and when a run on two goes on from a checkpoint. Books close on all of them.
+too, where tips belong to others than on two; and when a run on two goes on from a checkpoint. Balances close on all of them.
 """
 
 import csv
@@ -95,14 +95,14 @@ def notes(name, folder, processes):
     return [] if says == (processes > 1) else [f"{name}: says so of {processes} processes: {says}"]
 
 
-def books(name, rows):
+def balance_error(name, rows):
     column = "fluid_balance_error[m^2]"
     if column not in rows[0]:
         return []
     turnover = max(max(abs(float(row[f"fluid_{what}[m^2]"])) for what in ("stored", "injected", "outflow"))
                    for row in rows)
     worst = max(abs(float(row[column])) for row in rows)
-    return [f"{name}: the books are off by {worst / turnover:.2e}"] if worst > 1e-7 * turnover else []
+    return [f"{name}: the balance is off by {worst / turnover:.2e}"] if worst > 1e-7 * turnover else []
 
 
 def main():
@@ -115,11 +115,11 @@ def main():
             if wrong or grown(alone[-1]) == 0:
                 failures.append(wrong or f"{name}: nothing has grown")
                 continue
-            failures += books(name, alone) + notes(name, folder, 1)
+            failures += balance_error(name, alone) + notes(name, folder, 1)
             for processes in (2, 3) if name in on_three else (2,):
                 title, folder = f"{name} on {processes}", Path(temporary) / f"{name}_{processes}"
                 together, wrong = run(processes, base + ["-o", str(folder)], folder)
-                failures += [wrong] if wrong else (compare(title, alone, together) + books(title, together)
+                failures += [wrong] if wrong else (compare(title, alone, together) + balance_error(title, together)
                                                    + notes(title, folder, processes))
                 compared += 1
             if len(alone) < 2:

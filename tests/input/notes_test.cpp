@@ -203,7 +203,7 @@ TEST(Notes, APressureThatFallsBelowZeroIsToldWithPlaceAndSize) {
   EXPECT_EQ(note["last_time"], 3600);
   EXPECT_THAT(run.err, HasSubstr("note: pore.pressure falls to"));  // in spite of -q
   EXPECT_EQ(run_of("flow.yaml", gentle).record["notes"].size(), 0U);
-  // From a start at 0 Pa the level of the pressure is not known.
+  // From a start at 0 Pa the constant in the pressure is not known.
   EXPECT_TRUE(run_of("flow.yaml", any_level).note("pressure below zero").is_null());
 }
 

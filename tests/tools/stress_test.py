@@ -36,7 +36,7 @@ def grids(n=8, columns=(2, 3, 4, 5)):
 
 
 def at_rest():
-    """A state that fulfils everything: uniform stress, slip of a hair with its friction and dilation in two cells."""
+    """A state that fulfils everything: uniform stress, a very small slip with its friction and dilation in two cells."""
     matrix, lines = grids()
     cells = len(matrix.cells)
     x, y = physics.stresses(P, 1.0)
@@ -109,7 +109,7 @@ class Checks(unittest.TestCase):
 
     def test_a_load_that_has_drained_lowers_the_pressure_when_it_is_taken_away(self):
         """In a step that was not written the load was larger than ever since: what drained then is missing now. The lowest
-        pressure is that of a box that has drained under the load, and then feels all of it taken away."""
+        pressure is that of a box that has drained under the load, from which all of the load is then removed."""
         p = {**P, "alpha": 1.0, "history": "cycle"}
         factor = p["alpha"] / (p["alpha"] ** 2 + p["storage"] * physics.in_plane_modulus(p))
         instant = at_rest()
@@ -161,7 +161,7 @@ class Checks(unittest.TestCase):
 
 
 class Growing(unittest.TestCase):
-    """A state at rest, as of a scene that grows, and the books of a run that has injected twice and drawn out once."""
+    """A state at rest, as of a scene that grows, and the balance of a run that has injected twice and drawn out once."""
     P = {**P, "family": "growing", "lines": {"f0": ((1.0, 2.0), (3.0, 2.0))}, "gravity": True, "scheme": "monolithic", "toughness": 1e6, "fracture_size": 0.05,
          "source": [(2e-8, 0.0, 3600.0), (1e-8, 7200.0, 10800.0), (-1e-8, 10800.0, 14400.0)]}
 
@@ -194,7 +194,7 @@ class Growing(unittest.TestCase):
             history = self.history()
             history["fluid_stored[m^2]"] = history["fluid_stored[m^2]"] - lost
             self.assertEqual(bool(check_growing.fluid({**self.P, "alpha": 0.5, "scheme": scheme}, history)), is_found)
-        both = self.history()  # a rate that was left out, with books that close
+        both = self.history()  # a rate that was left out, with a balance that closes
         for column in ("injected", "stored"):
             both[f"fluid_{column}[m^2]"] = both[f"fluid_{column}[m^2]"] - 3.6e-5 * (both["time[s]"] > 7200)
         self.found([at_rest()], both, "what was injected")

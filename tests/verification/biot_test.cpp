@@ -66,7 +66,7 @@ TEST(Terzaghi, RectanglesHaveNoOvershoot) {
 
 TEST(Terzaghi, OvershootOnTrianglesStaysBelowTheKnownLimit) {
   // The aim is max p/p0 - 1 < 1e-10, which rectangles reach and triangles miss: cells of one layer drain at different
-  // rates, and the rock's answer to that raises the next layer by at most 0.40 % of what the drained cells lose
+  // rates, and the rock's response to that raises the next layer by at most 0.40 % of what the drained cells lose
   // (docs/numerics). The bound is that mechanism's: half a percent of the largest loss of pressure.
   for (const double ratio : {1e-6, 1e-4, 1e-2, 0.1, 1.0}) {
     for (const char* kind : {"structured", "unstructured"}) {

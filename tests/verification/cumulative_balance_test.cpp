@@ -74,8 +74,8 @@ time: {end: 80 s, step: 20 s}
 )";
 }
 
-// The level of the pressure is held by what rock and fluid store, as little as 1e-15 of what the rock conducts in a
-// step.
+// The constant mode of the pressure is determined by what rock and fluid store, as little as 1e-15 of what the rock
+// conducts in a step.
 TEST(CumulativeBalance, CloseInAClosedBlock) {
   for (const char* permeability : {"1e-24 m^2", "5e-20 m^2", "1e-10 m^2", "1e-6 m^2", "1e-3 m^2"}) {
     SCOPED_TRACE(permeability);

@@ -1,5 +1,5 @@
 // Injection where nothing stores fluid, neither rock nor compression: it has to open the fracture, and while walls
-// stick the pressure has no level.
+// stick nothing determines the constant mode of the pressure.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -47,8 +47,8 @@ std::string stimulated(const std::string& fractures, bool condense) {
          std::string(condense ? "true" : "false") + "}}";
 }
 
-/// Flow through rock that stores nothing, held by fractures that end in the boundary: in a pocket the level of the
-/// pressure is known from its walls only.
+/// Flow through rock that stores nothing, held by fractures that end in the boundary: in a pocket the constant mode of
+/// the pressure is known from its walls only.
 std::string drained(const std::string& fractures, bool condense) {
   return "{geometry: {box: {x: [0 m, 100 m], y: [0 m, 100 m]}, fractures: {" + fractures +
          "}}, mesh: {size: 14 m, fracture_size: 3 m}, materials: {porosity: 0, fluid_compressibility: 4.5e-10 1/Pa, "

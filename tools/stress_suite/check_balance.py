@@ -3,7 +3,7 @@
 Momentum: for a body at rest the integral of a stress component over its volume follows from the forces on its sides
 (the mean stress theorem). Rollers at x = 0 and y = 0 drop out, forces on the two walls of a fracture cancel.
 Mass: what a fracture stores in a step is what was injected less what left through its walls. The same for the matrix
-where it does not feel the rock and its sides are closed. The program's own books must close, too.
+where it does not depend on the rock and its sides are closed. The program's own balance must close, too.
 """
 
 import numpy as np
@@ -135,8 +135,8 @@ def matrix_mass(p, instants):
     return found
 
 
-def books(p, instants, history):
-    """The error of the program's books against what moved in one cell in the largest step, or against round-off of
+def cumulative_balance(p, instants, history):
+    """The error of the program's cumulative balance against what moved in one cell in the largest step, or against round-off of
     the fluid in the rock and fractures, and what the residuals of flow allow."""
     error = np.abs(history["fluid_balance_error[m^2]"]).max()
     size = np.abs(history["fluid_stored[m^2]"]).max() + np.abs(history["fluid_injected[m^2]"]).max() + \
@@ -155,15 +155,15 @@ def books(p, instants, history):
         digits += 1e-15 * ((length * aperture * (1 + p["compressibility"] * np.abs(in_fracture))).sum() +
                            (p["storage"] * area * np.abs(pressure)).sum()) + allowed_flow(p, instant)
     if error > PRECISION * size * len(history["time[s]"]) + digits:
-        return [f"mass: the books are wrong by {error:.3g} of {size:.3g} m^2 (allowed {digits:.2g})"]
+        return [f"mass: the cumulative balance is wrong by {error:.3g} of {size:.3g} m^2 (allowed {digits:.2g})"]
     return []
 
 
-def relative_error_of_books(history):
+def relative_error_of_balance(history):
     """Of the largest of the three sums."""
     sums = [np.abs(history[f"fluid_{name}[m^2]"]).max() for name in ("stored", "injected", "outflow")]
     return float(np.abs(history["fluid_balance_error[m^2]"]).max() / max(*sums, 1e-300))
 
 
 def failures(p, instants, history, main):
-    return momentum(p, instants) + fracture_mass(p, instants, main) + matrix_mass(p, instants) + books(p, instants, history)
+    return momentum(p, instants) + fracture_mass(p, instants, main) + matrix_mass(p, instants) + cumulative_balance(p, instants, history)

@@ -49,7 +49,7 @@ def examine(program, chosen, number, folder, keep=False):
         report["reason"] = written.exit_record(ended.folder)["exit"]["reason"]
         report["iterations"], report["accepted"], report["rejected"] = written.iterations_of_steps(ended.folder)
         if report["accepted"] > 0:
-            report["balance"] = check_balance.relative_error_of_books(written.history(ended.folder))
+            report["balance"] = check_balance.relative_error_of_balance(written.history(ended.folder))
             report["failures"] += check_fields(p, ended.folder)
     if report["failures"]:
         report["outcome"] = "failed"

@@ -41,7 +41,7 @@ def figures(reports):
                                 for name in ("singular", "not converged")},
             "iterations": {str(k): iterations[k] for k in sorted(iterations)},
             "iterations, median": share(0.5), "iterations, 99 percent": share(0.99), "iterations, most": share(1.0),
-            "scenes by error of the books": {f"below {limit:g}": sum(1 for r in reports if r["accepted"] and r["balance"] < limit)
+            "scenes by error of the balance": {f"below {limit:g}": sum(1 for r in reports if r["accepted"] and r["balance"] < limit)
                                              for limit in (1e-12, 1e-9, 1e-6, 1e-3, 1e300)},
             "seconds": round(sum(report["seconds"] for report in reports), 1)}
 

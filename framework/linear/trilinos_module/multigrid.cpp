@@ -67,7 +67,7 @@ RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, 
 
 // On several processes the coarse levels move to fewer and the coarsest to one: Debian's Amesos2 KLU2, the coarse
 // solver, is wrong on more than one.
-void set_levels(ParameterList& list, int unknowns, bool has_coordinates, bool is_parallel) {
+void set_multigrid_levels(ParameterList& list, int unknowns, bool has_coordinates, bool is_parallel) {
   constexpr int rows_per_process = 3000;
   // The coarsest level is factorized; on several processes one of few unknowns is smoothed instead.
   constexpr int most_coarse = 1500, coarsening = 4, least_coarse = 50;
@@ -108,7 +108,7 @@ class MueLuMultigrid final : public Multigrid {
     list.set("aggregation: type", "uncoupled");
     list.set("smoother: type", "RELAXATION");
     list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
-    set_levels(list, unknowns, has_coordinates, map->getComm()->getSize() > 1);
+    set_multigrid_levels(list, unknowns, has_coordinates, map->getComm()->getSize() > 1);
     ParameterList& user = list.sublist("user data");
     user.set("Nullspace", make_near_null_space(entities, block, map,
                                                is_elastic && has_coordinates && block.components == dimension));

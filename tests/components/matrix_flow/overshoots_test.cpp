@@ -92,7 +92,7 @@ TEST(Overshoots, AreNoneInOrdinaryRock) {
         EXPECT_EQ(after_a_step({mesh, tensor(ratio, 20), zero, rising, zero, 0, dt}, discretize_mpfa).cells, 0) << dt;
         EXPECT_EQ(after_a_step({mesh, tensor(ratio, 70), hill, zero, zero, 0, dt}, discretize_mpfa).cells, 0) << dt;
         EXPECT_EQ(after_a_step({mesh, tensor(ratio, 140), zero, zero, well, 0, dt}, discretize_mpfa).cells, 0) << dt;
-        // A sink in a well's place, and a level far from zero.
+        // A sink in a well's place, and a mean pressure far from zero.
         const auto sink = [&](const Point& x) { return -well(x); };
         const auto high = [](const Point&) { return 1e3; };
         EXPECT_EQ(after_a_step({mesh, tensor(ratio, 5), high, high, sink, 1e3, dt}, discretize_mpfa).cells, 0) << dt;

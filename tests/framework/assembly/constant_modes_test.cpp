@@ -35,7 +35,7 @@ TEST_F(ConstantModesOfPressures, AreMissedWithTheReason) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "scene.yaml:3:1: the level of rock.pressure is not determined (nothing holds it) hold it");
+                 "scene.yaml:3:1: the constant mode of rock.pressure is not determined (nothing holds it) hold it");
   }
 }
 

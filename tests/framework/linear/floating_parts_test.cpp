@@ -118,7 +118,7 @@ TEST_P(FloatingParts, AreNoneWhereTheBulkIsHeld) {
   EXPECT_EQ(count(unknowns_held_by_fractures(test::FracturedBiot{8}.build())), 0);
 }
 
-// A level: no storage and no boundary value, or little of either.
+// A constant mode: no storage and no boundary value, or little of either.
 TEST(FloatingLevels, LoseOneCell) {
   for (const double storage : {0.0, 1e-13, 1e-5}) {
     LinearSystem closed = test::poisson(9, true);

@@ -191,8 +191,8 @@ TEST_P(EveryDirectSolver, RefusesAFloatingProblem) {
   EXPECT_FALSE(make()->solve(Vector::Ones(3600), x).solved);
 }
 
-// A sum of balances holds the level by what is, in other units, far below another entry of its row. Nothing is wrong
-// with that; what else moves freely is still found.
+// A sum of balances determines the constant mode by entries that are, in other units, far below another entry of its
+// row. Nothing is wrong with that; what else moves freely is still found.
 TEST_P(EveryDirectSolver, TakesWhatIsSmallInASumForWhatItIs) {
   const int n = 8, cells = n * n;
   for (const bool something_floats : {false, true}) {

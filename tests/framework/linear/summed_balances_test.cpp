@@ -1,4 +1,4 @@
-// The level of contents that exchange much more than they store, against its closed form.
+// The constant mode of contents that exchange much more than they store, against its closed form.
 #include "framework/linear/reduction/summed_balances.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ class SummedBalancesOf : public testing::TestWithParam<const char*> {
   }
 };
 
-// One content gives, another takes more: the level is the rest over all that is stored, however well they exchange.
+// One content gives, another takes more: the constant is the rest over all that is stored, however well they exchange.
 TEST_P(SummedBalancesOf, HoldsTheLevelByStorageAlone) {
   for (const double storage : {1e-9, 1e-14, 1e-18, 1e-25})
     for (const double conductance : {1.0, 1e4}) {
@@ -88,7 +88,7 @@ TEST_P(SummedBalancesOf, OrdersOnce) {
   EXPECT_EQ(solver->counts().orderings, 1);
 }
 
-// The last flux leaves what the chain has: the level is given from outside.
+// The last flux leaves what the chain has: the constant is determined from outside.
 TEST(ExchangingRows, DoNotLeadOut) {
   LinearSystem open = test::Exchange{4, 1e-12, 1}.build();
   open.local.coeffRef(3, 3) = 1;
@@ -96,7 +96,7 @@ TEST(ExchangingRows, DoNotLeadOut) {
   EXPECT_THAT(exchanging_rows(open.local, open.blocks), testing::IsEmpty());
 }
 
-// Where three meet, two exchanges answer to contents and the third one to the others.
+// Where three meet, two exchanges depend on contents and the third one on the other two.
 TEST(ExchangingRows, AreJoinedByWhatAnswersToContents) {
   LinearSystem three = test::Exchange{3, 1e-12, 1}.build();
   std::vector<Triplet> entries = {{1, 5, -3e7}, {2, 5, 3e7}, {5, 5, 1}, {5, 3, 0.5}, {5, 4, 0.5}};

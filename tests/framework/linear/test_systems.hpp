@@ -71,7 +71,7 @@ struct Exchange {
     b[n / 2] = total - 1;
     return b;
   }
-  /// To the first order in S / (t C): the level, and differences by what flows from the first to the middle.
+  /// To the first order in S / (t C): the constant mode, and differences by what flows from the first to the middle.
   Vector solution() const {
     const Vector b = right_hand_side();
     Vector x(2 * n - 1), drop = Vector::Zero(n);
@@ -82,8 +82,8 @@ struct Exchange {
       drop[i + 1] = drop[i] - x[n + i] / conductance;
     }
     // Neglected in the fluxes: S drop of each cell, which vanishes in the sum.
-    const double level = storage > 0 ? total / (n * storage) - drop.mean() : 0;
-    x.head(n) = Vector::Constant(n, level) + drop;
+    const double constant = storage > 0 ? total / (n * storage) - drop.mean() : 0;
+    x.head(n) = Vector::Constant(n, constant) + drop;
     return x;
   }
 };

@@ -87,8 +87,8 @@ TEST_P(DistributedSolve, ReusesOnlyWhenNoProcessHasANewRow) {
 INSTANTIATE_TEST_SUITE_P(Types, DistributedSolve, testing::Values("mumps", "belos", "auto"),
                          [](const auto& info) { return std::string(info.param); });
 
-// A level that storage alone holds, 1e-21 of what is exchanged, while the rows that exchange are on different
-// processes.
+// A constant mode that storage alone determines, 1e-21 of what is exchanged, while the rows that exchange are on
+// different processes.
 TEST(SummedBalances, HoldsTheLevelAcrossProcesses) {
   const test::Exchange problem{30, 1e-14, 1.0};
   const LinearSystem whole = problem.build(), system = test::strip(whole, parallel::rank(), parallel::size());

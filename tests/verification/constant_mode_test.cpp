@@ -1,4 +1,5 @@
-// The level of pressures that storage alone holds, where rock conducts many orders more in a step than anything stores.
+// The constant mode of pressures that storage alone determines, where rock conducts many orders of magnitude more in a
+// step than rock and fluid store.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ double length_of_fractures(const Mesh& mesh) {
 }
 
 /// After `rise` all pressures are the first one plus that. Newton's method may leave 1e-10 of it.
-void expect_level(SceneRun& run) {
+void expect_rise(SceneRun& run) {
   int cells = 0;
   for (const char* name : {"pore.pressure", "conduit.pressure"}) {
     const Vector& pressure = run.field(name);
@@ -37,7 +38,7 @@ void expect_level(SceneRun& run) {
 }
 
 // What the fluid in the fracture stores is 4e-10 to 4e-28 of what the rock conducts in a step.
-TEST(Level, IsTheStoredFluidOverTheCapacity) {
+TEST(ConstantMode, IsTheStoredFluidOverTheCapacity) {
   for (const double permeability : {1e-15, 1e-9, 1e-3, 1e3})
     for (const char* type : {"matrix_flow/mpfa", "matrix_flow/tpfa"})
       for (const char* solver : {"umfpack", "mumps", "{type: umfpack, condense: false}"}) {
@@ -46,13 +47,13 @@ TEST(Level, IsTheStoredFluidOverTheCapacity) {
                                                       {"components.pore.type", type},
                                                       {solver[0] == '{' ? "solver" : "solver.type", solver}});
         run.run();
-        expect_level(run);
+        expect_rise(run);
       }
 }
 
-// The rock stores as much as the fracture, cell by cell: the sum has an entry for every cell, and the bulk alone has a
-// level.
-TEST(Level, IsThatOfRockAndFracture) {
+// The rock stores as much as the fracture, in each cell: the sum has an entry for every cell, and the bulk alone has a
+// constant mode.
+TEST(ConstantMode, IsThatOfRockAndFracture) {
   for (const double permeability : {1e-15, 1e-9, 1e-3})
     for (const char* condense : {"true", "false"}) {
       SCOPED_TRACE(in_unit(permeability, "m^2, condense: ") + condense);
@@ -64,22 +65,22 @@ TEST(Level, IsThatOfRockAndFracture) {
                     {"solver.condense", condense}});
       ASSERT_NEAR(length_of_fractures(run.mesh()), std::hypot(0.4, 0.25), 1e-12);
       run.run();
-      expect_level(run);
+      expect_rise(run);
     }
 }
 
-// What a well in the rock injects is 1e-10 of the round-off of the balances there: only their sum knows of it.
-TEST(Level, HearsOfAWellThatRoundOffHides) {
+// What a well in the rock injects is 1e-10 of the round-off of the balances there: only their sum contains it.
+TEST(ConstantMode, HasAWellThatRoundOffHides) {
   SceneRun run("verification/closed_box.yaml",
                {{"components.pore.permeability", "1e-3 m^2"},
                 {"components.conduit.injection.well.rate", "0 m^2/s"},
                 {"components.pore.wells.well", "{at: [0.8 m, 0.2 m], rate: 9.433981132056604e-17 m^2/s}"}});
   run.run();
-  expect_level(run);
+  expect_rise(run);
 }
 
-// A side with a given pressure holds the level.
-TEST(Level, IsGivenByASide) {
+// A side with a given pressure determines the constant.
+TEST(ConstantMode, IsGivenByASide) {
   SceneRun run("verification/closed_box.yaml", {{"components.pore.boundary.left", "{pressure: 21 MPa}"}});
   run.run();
   EXPECT_NEAR(run.field("pore.pressure").minCoeff(), first_pressure + rise, 1e-9 * rise);
