@@ -14,6 +14,11 @@ namespace {
 const void* opened(const std::string& name) {
   const std::string file = "sprekk_" + name + ".so";
   const auto failed = [&](const std::string& why) {
+    // What the loader says when it finds no room for a library.
+    for (const char* lack : {"failed to map segment", "annot allocate memory"})
+      if (why.find(lack) != std::string::npos)
+        return std::runtime_error("there is not enough memory to open the module " + file + " (" + why +
+                                  ") raise the limit of the memory (ulimit -v)");
     return std::runtime_error("cannot open the module " + file + " (" + why +
                               ") build or install Sprekk anew: the folder lib/sprekk belongs to the program");
   };

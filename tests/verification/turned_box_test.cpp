@@ -143,7 +143,12 @@ TEST_P(TurnedBox, InitialStressInEquilibriumMovesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Directions, TurnedBox,
                          ::testing::Values(turned_by(0), turned_by(30), turned_by(77), mirrored,
-                                           turned_by(30) * mirrored, turned_by(1e-7)));
+                                           turned_by(30) * mirrored, turned_by(1e-7)),
+                         [](const auto& info) {
+                           constexpr const char* names[] = {"AsDrawn",         "By30",           "By77", "Mirrored",
+                                                            "MirroredAndBy30", "ByNextToNothing"};
+                           return names[info.index];
+                         });
 
 /// Pore pressure and displacement of Terzaghi's column after each step. `conditions`: of left, right and top.
 struct Column {

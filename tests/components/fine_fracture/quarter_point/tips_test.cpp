@@ -75,7 +75,7 @@ struct Setting {
   /// Both tips go straight on by so much that the coarse level does not know of, at these ends.
   void grow(double length, bool first, bool last) {
     const auto state = [&](bool has_grown, double sign) {
-      Vector values = Vector::Zero(has_grown ? 13 : 11);
+      Vector values = Vector::Zero(has_grown ? 15 : 13);
       values[7] = 1;
       if (has_grown) values.tail<2>() = sign * (crack_half_length + length) * along;
       return values;
@@ -147,14 +147,15 @@ TEST(Tips, AskForEdgesThatGrowAsTheSceneSays) {
 }
 
 TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
-  // Factors, growth, flags (stopped, started, evaluated), an error, a warm start, a load and a path of two points.
-  constexpr int flags[] = {4, 5, 9};
-  for (int set = 0; set < 8; ++set) {
-    Vector first(15), last(11);
+  // Factors, growth, flags (stopped, started, evaluated, extendable), an error, a warm start, a load, a speed and a
+  // path of two points.
+  constexpr int flags[] = {4, 5, 9, 11};
+  for (int set = 0; set < 16; ++set) {
+    Vector first(17), last(13);
     for (int i = 0; i < first.size(); ++i) first[i] = 1.1 + 0.1 * i;
-    for (int k = 0; k < 3; ++k) first[flags[k]] = (set >> k) & 1;
-    last = -first.head(11);
-    for (int k = 0; k < 3; ++k) last[flags[k]] = 1 - first[flags[k]];
+    for (int k = 0; k < 4; ++k) first[flags[k]] = (set >> k) & 1;
+    last = -first.head(13);
+    for (int k = 0; k < 4; ++k) last[flags[k]] = 1 - first[flags[k]];
     Setting setting(0.3);
     setting.tips.restore({{"tips.main_first", first}, {"tips.main_last", last}});
     std::map<std::string, Vector> saved;
@@ -184,8 +185,8 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
   setting.fluid.jump[0] = 0;
   setting.fluid.pressure[1] = 30e6;
   setting.grow(0.1, false, true);
-  Vector values(13);
-  values << 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0;
+  Vector values(15);
+  values << 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0;
   const double turn = 100 * pi / 180;
   const Point tip = crack_half_length * setting.along;
   values.tail<2>() =
