@@ -141,14 +141,15 @@ TEST_P(TurnedBox, InitialStressInEquilibriumMovesNothing) {
   }
 }
 
+std::string name_of_direction(const ::testing::TestParamInfo<TurnedBox::ParamType>& info) {
+  constexpr const char* names[] = {"AsDrawn", "By30", "By77", "Mirrored", "MirroredAndBy30", "ByNextToNothing"};
+  return names[info.index];
+}
+
 INSTANTIATE_TEST_SUITE_P(Directions, TurnedBox,
                          ::testing::Values(turned_by(0), turned_by(30), turned_by(77), mirrored,
                                            turned_by(30) * mirrored, turned_by(1e-7)),
-                         [](const auto& info) {
-                           constexpr const char* names[] = {"AsDrawn",         "By30",           "By77", "Mirrored",
-                                                            "MirroredAndBy30", "ByNextToNothing"};
-                           return names[info.index];
-                         });
+                         name_of_direction);
 
 /// Pore pressure and displacement of Terzaghi's column after each step. `conditions`: of left, right and top.
 struct Column {
