@@ -220,6 +220,7 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
+    same->now.speed = (same->now.grown - tips_.tips_[i].now.grown) / dt_;
     same->now.has_started = same->now.has_started || front_->grows(i);
     same->now.is_stopped = same->now.is_stopped || is_blocked_[i];
   }

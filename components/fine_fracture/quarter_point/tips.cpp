@@ -50,9 +50,8 @@ std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) co
   return paths;
 }
 
-Growing::Load Tips::examine(const StepTime& step) {
+Growing::Load Tips::examine(const StepTime&) {
   surroundings_->update();
-  for (Tip& tip : tips_) tip.now.speed = tip.now.advance / step.dt;
   notes_.clear();
   constexpr double safety = 2;  // of the estimate
   const bool may_rule_out = options_.toughness && options_.skip_below > 0;
@@ -204,7 +203,6 @@ CavityOptions Tips::cavity() const {
 void Tips::accepted() {
   for (Tip& tip : tips_) {
     tip.accepted = tip.now;
-    tip.now.advance = tip.accepted.advance = 0;
     // The next step starts with a triangulation that follows from the geometry alone, as after a restart.
     if (tip.has_pattern) {
       tip.model.reset();
@@ -221,6 +219,8 @@ void Tips::rewound() {
     tip.now = tip.accepted;
     tip.evaluated_for = 0;
     tip.kept_factors.reset();
+    // A step that is repeated does not know of the trials of the one that was refused.
+    tip.pattern.reset();
   }
   notes_.clear();
 }
@@ -236,7 +236,6 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
       const double taken = new_length(mesh_, tip.end, change) - given_up_length(mesh_, tip.end, change);
       if (taken > 0) {
         tip.now.grown += taken;
-        tip.now.advance = taken;
         tip.now.is_extendable = grows_within_steps_;
         tip.now.path.added.clear();
       }

@@ -74,7 +74,6 @@ class Tips : public Component, public FractureTips, public Growing {
     WarmStart warm_start;       ///< of the last increment
     bool is_extendable =
         false;                ///< whether the last cell of the fracture is the last segment, which growth may replace
-    double advance = 0;       ///< m, by which the tip has grown in the step
     double speed = 0;         ///< m/s, of growth in the last step
     bool is_stopped = false;  ///< for good: at or before another fracture, or before the boundary
   };
