@@ -1,5 +1,7 @@
 #include "tests/verification/mesh_file.hpp"
 
+#include <unistd.h>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +40,7 @@ std::string write_msh(const RawMesh& mesh, const Tensor& map, const Point& shift
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     add(mesh.cells[c].size() == 3 ? 2 : 3, first_region + mesh.regions[c], mesh.cells[c]);
 
-  const std::string file = ::testing::TempDir() + name + ".msh";
+  const std::string file = ::testing::TempDir() + name + "_" + std::to_string(getpid()) + ".msh";
   std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n"
                       << group << '\n'
                       << groups << "$EndPhysicalNames\n$Nodes\n"
