@@ -18,15 +18,16 @@ class AlongFracture {
 
   /// The (normal, tangential) values of all fracture cells of the mesh, at s (m), in global components.
   Point at(double s, const Vector& values) const;
-  /// The same for displacement jumps, which decrease linearly to 0 at ends that are tips, and are 0 beyond them.
+  /// As `at`, for displacement jumps, which decrease linearly to 0 at ends that are tips, and are 0 beyond them.
   /// Towards a junction they change linearly to their value there, see JumpAtJunction.
   Point jump(double s, const Vector& values) const;
 
  private:
+  /// A cell of the fracture in the order along it.
   struct Cell {
     int index;
     double begin, end;   ///< m
-    bool continues;      ///< whether the next cell has its direction
+    bool continues;      ///< whether the next cell has the same direction
     FractureCell frame;  ///< the cell, for its normal and tangent
     /// At its beginning and its end, where that is a junction.
     std::array<std::optional<JumpAtJunction>, 2> at_junction;

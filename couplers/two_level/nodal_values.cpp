@@ -6,7 +6,7 @@ namespace sprekk::couplers {
 
 namespace {
 
-/// Of the distances of cells: a direction along which they lie within this is one of which they say nothing.
+/// Part of the distances of cells: values of cells that lie within this along a direction do not tell its gradient.
 constexpr double round_off = 1e-12;
 
 }  // namespace

@@ -30,7 +30,7 @@ class NodalValues {
     std::array<double, 3> share;
   };
   Place place(int cell, const Point& x) const;
-  /// The values there; `components` is what was set.
+  /// The values at a place; `components` as they were set.
   template <int components>
   Eigen::Vector<double, components> at(const Place& place) const {
     return place.share[0] * row<components>(place.nodes[0]) + place.share[1] * row<components>(place.nodes[1]) +

@@ -152,7 +152,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   RockWalls& walls_;
   FractureFluid* fluid_;
   PointLocation location_;
-  mutable int last_cell_ = none;  ///< where a place was looked for last: the next one is often in the same cell
+  mutable int last_cell_ = none;  ///< the cell of the last place that was looked for: the next is often in it, too
   NodalValues displacement_, pore_stress_;
   std::vector<AlongFracture> along_;
   Vector traction_, jump_;

@@ -1,4 +1,4 @@
-// Assembles all terms of all parts, and then their prescribed values.
+// Assembles a whole system.
 #pragma once
 
 #include <vector>
@@ -7,6 +7,7 @@
 
 namespace sprekk {
 
+/// Adds the terms of all parts, and then their fixed values: these replace rows that are complete.
 inline void assemble_all(Assembly& assembly, const std::vector<Part*>& parts, const StepTime& step) {
   for (const Part* part : parts) part->assemble(assembly, step);
   for (const Part* part : parts) part->constrain(assembly);

@@ -87,7 +87,8 @@ void require_command(const CLI::App& app, int argc, char** argv) {
     throw unknown_name({"sprekk", 0, 0}, "command", argv[1], names);
 }
 
-/// Wrong input has been found by every process; a folder that cannot be written, perhaps by the first process only.
+/// Every process has found the wrong input, so the first one tells it; a folder that cannot be written may be known to
+/// the first process only.
 int answer_wrong_input(const InputError& error) {
   if (parallel::is_root()) std::cerr << "error: " << error.what() << "\n";
   return static_cast<int>(ExitCode::wrong_input);
@@ -96,7 +97,7 @@ int answer_wrong_input(const InputError& error) {
 }  // namespace
 
 int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files makes writing fail, as a full disk does
+  std::signal(SIGXFSZ, SIG_IGN);  // so a limit on the size of files makes writing fail, as a full disk does
   CLI::App app(purpose.description);
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);

@@ -5,13 +5,15 @@
 
 namespace sprekk {
 
-/// What the program is for, as its help and its manual page say it. The framework serves any physics.
+/// What the program is for, as its help and its manual page say it. The caller gives it: the framework serves any
+/// physics.
 struct ProgramPurpose {
   std::string summary;      ///< a line without a full stop
   std::string description;  ///< one sentence
 };
 
-/// Exit codes: 0 done, 1 the run failed, 2 the input is wrong, 130 interrupted.
+/// Runs the command that the arguments of `main` ask for. Returns the exit code: 0 done, 1 the run failed, 2 the input
+/// is wrong, 130 interrupted.
 int run_command_line(int argc, char** argv, const ProgramPurpose& purpose);
 
 }  // namespace sprekk

@@ -9,7 +9,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return text;
 }
 
-/// What may stand for a value, as lines of bash that fill COMPREPLY.
+/// A line of bash that sets COMPREPLY to the words that may stand as the value of an option.
 std::string bash_values(const DeclaredOption& option) {
   const std::vector<std::string> choices = option.choices();
   if (!choices.empty()) return "COMPREPLY=($(compgen -W '" + joined(choices, " ") + "' -- \"$word\"))";

@@ -1,4 +1,4 @@
-// What a shell proposes while a command is typed, from the same declaration of commands and options as --help.
+// Scripts by which a shell completes commands, from the same declaration of commands and options as --help.
 #pragma once
 
 #include <string>

@@ -35,7 +35,7 @@ std::vector<Explained> everything() {
 
 using Json = nlohmann::json;
 
-/// One step, or a list of them.
+/// The schema of one step, or of a list of steps.
 Json schedule_of(const Json& step) {
   return {{"anyOf", {{{"type", "array"}, {"minItems", 1}, {"items", step}}, step}}};
 }

@@ -3,7 +3,7 @@
 namespace sprekk {
 namespace {
 
-/// Text as it shall be read: roff takes backslashes, and dots and quotes at the beginning of a line, for its own.
+/// Text for roff, with what would be a request escaped: backslashes, and dots and quotes at the beginning of a line.
 std::string plain(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -29,7 +29,7 @@ std::string sentence(std::string text) {
   return text;
 }
 
-/// "-o, --output FOLDER"
+/// The names and the value of an option: "-o, --output FOLDER".
 std::string usage_of(const DeclaredOption& option) {
   std::string text;
   for (const std::string& name : option.names) text += (text.empty() ? "" : ", ") + bold(name);

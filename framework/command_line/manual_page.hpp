@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// sprekk.1, in the man macros. `summary`: what the program is, in a line.
+/// The text of sprekk.1, in the macros of man. `summary`: what the program is, in one line.
 std::string manual_page(const DeclaredCommand& program, const std::string& summary, const std::string& version);
 
 }  // namespace sprekk

@@ -54,7 +54,7 @@ class Data {
   std::vector<double> switch_times_;
 };
 
-/// The switch times of several data, sorted, each once.
+/// The switch times (s) of several data, sorted, each once.
 std::vector<double> merged_switch_times(const std::vector<const Data*>& data);
 
 /// A vector of data, a component for each axis.

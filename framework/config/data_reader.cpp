@@ -58,7 +58,8 @@ Data sum_of(std::vector<Window> windows) {
   return Data(std::move(sum), in_time, in_space, std::move(switch_times));
 }
 
-/// A sum of constant windows is known before the run: it is checked in every interval between its switch times.
+/// The values of a sum of constant windows are known before the run: they are checked in each interval between switch
+/// times.
 void check_constant_windows(const Data& sum, const std::vector<Window>& windows, const Node& node,
                             const DataRequest& request) {
   for (const Window& window : windows) {
@@ -117,7 +118,7 @@ Data read_tabulated(const Node& node, const DataRequest& request) {
   return Data([table, axis](const Place& place) { return table->at(place.x[axis]); }, false, true);
 }
 
-/// Any form of a datum; its range is not checked yet, except where the parts say more than the whole.
+/// Reads any form of a datum. Its range is not checked yet, except where messages on its parts say more.
 Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_scalar()) return parse_data(node.scalar, request.about.unit, node.origin, request.name);
   const std::string forms = "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) +

@@ -18,6 +18,8 @@ struct DataRequest {
   const ReadContext& context;
 };
 
+/// A value in any form that a scene may use (spec.hpp lists them), in SI units. All three throw InputError where it is
+/// malformed, out of range, or has another dimension.
 Data read_data(const Node& node, const DataRequest& request);
 VectorData read_vector(const Node& node, const DataRequest& request);
 TensorData read_tensor(const Node& node, const DataRequest& request);
@@ -30,14 +32,15 @@ std::vector<Value> read_by_region(const Node& node, const DataRequest& request, 
 /// made at each evaluation.
 Data within_range(Data data, const Origin& where, const DataRequest& request);
 
-/// One datum out of one per region.
+/// The data of all regions, by index, as one datum.
 Data by_region(std::vector<Data> values);
 
-// Functions that the readers of nodes share.
+// Functions that the readers of nodes share. They throw InputError where a node is not what they are to read.
 void require_known_keys(const Node& map, const std::vector<std::string>& allowed, const DataRequest& request);
 const Node& required_entry(const Node& map, const std::string& key, const DataRequest& request);
 double read_number(const Node& node, const std::string& unit, const Range& range, const std::string& name);
 const std::string& read_scalar(const Node& node, const std::string& name);
+/// What to throw for a node that is no `needed`.
 InputError wrong_kind(const Node& node, const std::string& name, const std::string& needed);
 
 /// Whether the map has the key `key`, so that its form is known.

@@ -57,7 +57,7 @@ std::vector<std::string> known_names(const mu::Parser& parser) {
   return names;
 }
 
-/// The library would let "x = 3" change the variable.
+/// Whether the text assigns: muParser would let "x = 3" change the variable.
 bool has_assignment(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '=') continue;
@@ -68,7 +68,8 @@ bool has_assignment(const std::string& text) {
   return false;
 }
 
-/// A parser holds the addresses of its variables: it neither moves nor serves two threads at a time.
+/// A formula and its parser. The parser holds the addresses of the variables, so the object must not move, and one
+/// thread at a time may use it.
 class Expression {
  public:
   Expression(const std::string& text, double scale, const Origin& where) : text_(text), scale_(scale), where_(where) {

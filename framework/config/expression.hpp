@@ -17,7 +17,7 @@ Data parse_expression(const std::string& text, double scale, const Origin& where
 /// `of_a_term`: the units in it do not give that dimension. An expression of x, y or t lacks nothing: x, y and t are in
 /// SI units, and so is their result.
 enum class LackOfUnit { none, any, of_a_term };
-/// Throws InputError when malformed.
+/// What an expression lacks, see LackOfUnit. Throws InputError when the expression is malformed.
 LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, const Origin& where);
 
 /// "x = 1, y = 2, t = 3" for messages about evaluations.

@@ -11,7 +11,8 @@ using Json = nlohmann::ordered_json;
 
 Json map_schema(const Spec& spec);
 
-/// The bounds hold for plain numbers: of what has a unit other than m, only 0. Texts are checked by the program.
+/// Bounds apply to plain numbers; a quantity with a unit other than m may only be the plain number 0. Texts are checked
+/// by the program.
 void add_bounds(Json& schema, const About& about) {
   const Range range = about.unit.empty() || about.unit == "m" ? about.range : Range{.low = 0, .high = 0};
   if (std::isfinite(range.low)) schema[range.low_allowed ? "minimum" : "exclusiveMinimum"] = range.low;
@@ -64,7 +65,7 @@ Json value_schema(const Parameter& parameter) {
     return {{"type", {"object", "null"}}, {"additionalProperties", map_schema(*parameter.inner)}};
   }
   if (kind == "list of sections") return list_schema(map_schema(*parameter.inner));
-  if (kind != "integer") return Json::object();  // read by the declarer itself
+  if (kind != "integer") return Json::object();  // the declaring class reads it itself
   Json schema = {{"type", "integer"}};
   add_bounds(schema, about);
   return schema;

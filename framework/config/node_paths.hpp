@@ -7,6 +7,7 @@
 
 namespace sprekk {
 
+/// The path of what is called `name` in the node at `path`.
 inline std::string joined_path(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
 }

@@ -1,4 +1,4 @@
-// The smallest steps of reading a node, with their error messages.
+// Reads keys, numbers and texts of nodes, with the messages for mistakes.
 #include "framework/config/data_reader.hpp"
 #include "framework/config/units.hpp"
 

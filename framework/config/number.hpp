@@ -13,7 +13,7 @@ struct LeadingNumber {
   std::size_t length = 0;
   bool is_finite = true;
 };
-std::optional<LeadingNumber> leading_number(const std::string& text);
+std::optional<LeadingNumber> leading_number(const std::string& text);  ///< none where the text begins otherwise
 
 std::string trimmed(const std::string& text);  ///< without blanks at both ends
 

@@ -18,7 +18,7 @@ struct About {
   Range range = {};
   std::string doc = "";        ///< one sentence
   std::string source = "";     ///< equation or paper
-  bool required = false;       ///< else the target's value at declaration is the default
+  bool required = false;       ///< if not, the target's value at declaration is the default
   bool material = false;       ///< may also be given in the scene's `materials:` section, shared by all components
   bool constant_only = false;  ///< data that cannot be a function, a table or a value per region
   bool in_time = false;        ///< data that are evaluated in every step; others must not depend on t

@@ -19,10 +19,11 @@ bool is_operand_byte(char c) { return begins_operand(c) && c != '%'; }
 /// An expression split into what is evaluated and the unit that follows.
 struct Split {
   std::string expression, unit;
-  bool is_single_operand = true;  ///< so that the unit can only belong to all of it
+  bool is_single_operand = true;  ///< then the unit can only belong to the whole expression
 };
 
-/// The unit begins where, outside parentheses, one operand follows another without an operator.
+/// Finds the unit behind an expression: it begins where, outside parentheses, one operand follows another without an
+/// operator.
 Split split_off_unit(const std::string& text) {
   Split split;
   int depth = 0;
@@ -54,7 +55,7 @@ Split split_off_unit(const std::string& text) {
   return split;
 }
 
-/// "40 GPa" and "5e-3", but not "2*x": a number, then at most a unit.
+/// Whether the text is a number with at most a unit behind it: "40 GPa" and "5e-3", but not "2*x".
 bool is_quantity(const std::string& text) {
   const std::optional<LeadingNumber> number = leading_number(text);
   if (!number) return false;
@@ -63,14 +64,14 @@ bool is_quantity(const std::string& text) {
   return std::string("+-*/^<>=!&|?),").find(text[next]) == std::string::npos;
 }
 
-/// "1,5 mPa*s": a number with a comma where the point belongs.
+/// Whether a number has a comma where the point belongs: "1,5 mPa*s".
 bool has_decimal_comma(const std::string& text) {
   const std::optional<LeadingNumber> number = leading_number(text);
   if (!number || number->length + 1 >= text.size() || text[number->length] != ',') return false;
   return std::isdigit(static_cast<unsigned char>(text[number->length + 1])) != 0;
 }
 
-/// A length without a unit is in m, and what has no dimension needs none.
+/// Refuses a quantity without a unit; a length is in m then, and a plain number needs none.
 void require_unit(const std::string& expression, const std::string& unit, const Origin& where,
                   const std::string& name) {
   const Dimension wanted = parse_unit(unit).dimension;

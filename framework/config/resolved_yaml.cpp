@@ -29,7 +29,7 @@ struct Branch {
   }
 };
 
-/// The lines below a branch; the first one goes behind what its parent has written when that was "- ".
+/// Writes the lines of a branch; the first goes behind the "- " of its parent, where that is a list.
 std::string lines(const Branch& branch, std::size_t indentation, bool continues_line) {
   std::string text;
   const bool is_list = branch.is_list();

@@ -14,7 +14,7 @@ Parameter described(const std::string& name, const char* kind, const About& abou
   return parameter;
 }
 
-/// All mistakes of all entries, together.
+/// Reads all entries, and throws one InputError with the mistakes of all.
 class Problems {
  public:
   template <class Action>

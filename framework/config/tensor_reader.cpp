@@ -11,13 +11,13 @@ namespace {
 
 bool must_be_definite(const About& about) { return about.range.low >= 0; }
 
-/// Positive definite, or zero where the range has it.
+/// Whether the tensor is positive definite, or zero where the range of the parameter has 0.
 bool is_definite(double xx, double yy, double xy, const About& about) {
   if (about.range.low_allowed && xx == 0 && yy == 0 && xy == 0) return true;
   return xx > 0 && yy > 0 && xx * yy > xy * xy;
 }
 
-/// The combination of several data, evaluated at the same place; a constant when they all are.
+/// A function of several data at the same place; a constant when all of them are constants.
 template <class Combine>
 Data combined(const std::vector<Data>& parts, const Combine& combine) {
   bool in_time = false;

@@ -33,6 +33,7 @@ struct EndZones {
   std::map<int, std::vector<int>> cells;  ///< for each end: the cells at it and at the nodes next to it, ascending
 };
 
+/// The zones of all ends of fractures that are tips.
 EndZones end_zones(const Mesh& mesh, const ZoneLimits& limits = {});
 
 }  // namespace sprekk

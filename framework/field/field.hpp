@@ -13,7 +13,7 @@ namespace sprekk {
 /// The entities that carry a field's values. Walls are numbered 2 i + side for fracture cell i; fracture points are the
 /// ends of fracture cells.
 enum class Location { cell, face, node, fracture_cell, fracture_point, wall };
-int entity_count(const Mesh& mesh, Location location);
+int entity_count(const Mesh& mesh, Location location);  ///< in the whole mesh, not of this process
 
 /// What a field is: its owner, name, place on the mesh, components for each entity, role and unit.
 struct FieldSpec {

@@ -7,7 +7,7 @@ namespace sprekk {
 
 /// The rank that owns an entity. Faces belong to that of their first cell, nodes to rank 0.
 int entity_rank(const Mesh& mesh, Location location, int entity);
-bool is_owned(const Mesh& mesh, Location location, int entity);
+bool is_owned(const Mesh& mesh, Location location, int entity);  ///< by this process
 
 /// Makes values that are right on the owned entities right everywhere. Collective; does nothing in a single process.
 void replicate(const Mesh& mesh, Location location, int components, Vector& values);

@@ -12,6 +12,7 @@ enum class BlockKind {
   interface,      ///< on interfaces (fractures and their walls): solved exactly, its constant modes by sums of balances
 };
 
+/// Whether the unknowns are on entities of the rock.
 constexpr bool is_bulk(BlockKind kind) { return kind != BlockKind::interface; }
 
 }  // namespace sprekk

@@ -147,7 +147,7 @@ struct BlasInfo {
   std::string name;
   bool is_reference;
 };
-BlasInfo blas_in_use();
+BlasInfo blas_in_use();  ///< asks the library that is loaded
 /// Limits BLAS to one thread. Solvers call this before their first factorization: threads inside OpenBLAS gain nothing
 /// on the small fronts of two-dimensional problems, and their number would change the rounding.
 void use_one_blas_thread();

@@ -15,7 +15,7 @@ struct Segment {
   double length() const { return (to - from).norm(); }
 };
 
-inline double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+inline double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }  ///< a × b, out of plane
 
 /// Positive when a, b, c turn counter-clockwise.
 inline double signed_area(const Point& a, const Point& b, const Point& c) { return 0.5 * cross(b - a, c - a); }
@@ -23,7 +23,7 @@ inline double signed_area(const Point& a, const Point& b, const Point& c) { retu
 /// Positive when the polygon is counter-clockwise.
 double signed_area(const std::vector<Point>& polygon);
 
-double distance(const Point& point, const Segment& segment);
+double distance(const Point& point, const Segment& segment);  ///< m, to the nearest point of the segment
 
 /// The smallest distance between two segments; 0 when they cross.
 double distance(const Segment& a, const Segment& b);

@@ -5,6 +5,7 @@
 
 namespace sprekk {
 
+/// `text` with & < > " written as entities.
 std::string xml_escaped(const std::string& text);
 /// The inverse.
 std::string xml_unescaped(std::string text);

@@ -12,7 +12,7 @@ namespace interruption {
 /// Asks the run to end. Safe in signal handlers.
 void request();
 bool is_requested();  ///< in this process
-void forget();
+void forget();        ///< takes all requests in this process back
 
 /// A guard: `poll` may throw as long as one of these objects exists.
 class Allowed {

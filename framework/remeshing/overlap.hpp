@@ -29,6 +29,7 @@ class Corners {
   int size_;
 };
 
+/// The corners of a triangle or quadrilateral, in their order.
 inline Corners corners_of(const std::vector<Point>& nodes, const Ring& cell) {
   if (cell.size() == 3) return {nodes[cell[0]], nodes[cell[1]], nodes[cell[2]]};
   return {nodes[cell[0]], nodes[cell[1]], nodes[cell[2]], nodes[cell[3]]};

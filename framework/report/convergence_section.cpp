@@ -27,7 +27,8 @@ std::vector<Sequence> sequences(const CsvTable& coupling) {
   if (schedule < 0 || iteration < 0 || times.empty() || residuals.empty()) return found;
   const std::vector<std::string> names = coupling.texts(schedule);
   const std::vector<double> numbers = coupling.numbers(iteration);
-  std::map<std::string, std::size_t> open;  // nested steps of the schedule alternate
+  std::map<std::string, std::size_t>
+      open;  // the last attempt of each step of the schedule: rows of nested steps alternate
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto same = open.find(names[i]);
     const bool goes_on = same != open.end() && found[same->second].time == times[i] &&
@@ -43,7 +44,7 @@ std::vector<Sequence> sequences(const CsvTable& coupling) {
   return found;
 }
 
-/// Coloured by time, dark to light.
+/// A curve for each attempt, coloured by time from dark to light.
 Panel residual_panel(const std::string& schedule, const std::vector<const Sequence*>& all) {
   Panel panel;
   panel.title = schedule;

@@ -12,7 +12,7 @@ using Position = std::array<double, 2>;
 
 double distance(const Position& a, const Position& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-/// The lines as a graph whose nodes are places.
+/// Line cells as a graph; its nodes are the places where they end.
 class Graph {
  public:
   Graph(const Grid& grid, const std::vector<int>& cells) : grid_(grid) {

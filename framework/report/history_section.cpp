@@ -30,8 +30,8 @@ bool has_numbers(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// Panels of curves that share a unit. What is much smaller than the rest gets a panel of its own, where it can be
-/// seen.
+/// Panels of curves that share a unit. Curves that are much smaller than the rest get a panel of their own, where they
+/// can be seen.
 struct Group {
   std::string unit;
   double largest;  ///< absolute value of the first curve
@@ -108,7 +108,7 @@ std::string history_section(const RunResults& results) {
 std::string tip_section(const RunResults& results) {
   const std::vector<ThingColumn> columns = thing_columns(results.history);
   const std::vector<double> times = results.history.numbers("time[s]");
-  // One panel for each unit and thing; where a unit has one quantity only, one panel for all things.
+  // Each unit and thing (a tip, for example) has a panel. A unit with one quantity only has one panel for all things.
   std::map<std::string, std::set<std::string>> quantities;
   for (const ThingColumn& column : columns) quantities[column.unit].insert(column.quantity);
   struct TipGroup {

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int colour_count = 256;
 
-/// "xx", "yy", "xy" of "rock.stress_xx_yy_xy": names of components at the end of the name; else none.
+/// The components that a name ends with: "xx", "yy", "xy" of "rock.stress_xx_yy_xy"; none for other names.
 std::vector<std::string> named_components(const std::string& quantity, int count) {
   std::vector<std::string> names;
   std::string rest = quantity;
@@ -32,7 +32,7 @@ std::vector<std::string> named_components(const std::string& quantity, int count
   return names;
 }
 
-/// The third component of a vector is there for ParaView only.
+/// Without the third component of vectors, which files have for ParaView only.
 bool is_vector(const RunResults& results, const Grid::Values& sample) {
   if (sample.components != 3) return false;
   for (const RunResults::Written& written : results.written) {
@@ -96,7 +96,7 @@ Json mesh_json(const Grid& grid) {
           {"cells", base64_of(std::vector<std::uint32_t>(grid.cells.begin(), grid.cells.end()))}};
 }
 
-/// Every fracture as a list x, y, x, y, …
+/// The points of each fracture as a list x, y, x, y, …
 Json lines_json(const Grid& fractures) {
   Json lines = Json::array();
   std::vector<int> all(static_cast<std::size_t>(fractures.cell_count()));
@@ -115,7 +115,7 @@ std::size_t bytes_of(const Grid& grid, std::size_t field_count) {
   return (mesh + 2 * field_count * std::max<std::size_t>(grid.points.size(), grid.cells.size() / 3)) * 4 / 3;
 }
 
-/// Evenly chosen, the last among them.
+/// The indices of times that are shown: evenly chosen, the last among them.
 std::vector<const RunResults::Written*> chosen(const RunResults& results, std::size_t field_count, std::size_t most) {
   std::size_t largest = 1;
   for (const auto& written : results.written) largest = std::max(largest, bytes_of(written.matrix, field_count));

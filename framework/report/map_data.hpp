@@ -17,7 +17,7 @@ struct MapField {
   static constexpr int length_of_vector = -1;
 };
 
-/// Scalar fields first. A vector gives its components and its length, a tensor its components.
+/// What can be shown, scalar fields first. A vector gives its components and its length, a tensor its components.
 std::vector<MapField> map_fields(const RunResults& results);
 
 /// The map as JSON: meshes, each once as long as it does not change, fields with their ranges, and the values at each

@@ -12,7 +12,7 @@
 namespace sprekk {
 namespace {
 
-/// Links to the sections that there are.
+/// Links to the sections that are not empty.
 std::string navigation(const std::string& body) {
   static const std::array<std::pair<const char*, const char*>, 8> sections = {{{"summary", "Summary"},
                                                                                {"history", "Against time"},

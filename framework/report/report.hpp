@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// The page as HTML. All of its pictures, styles and scripts are inside; it loads nothing.
+/// The page as HTML. Pictures, styles and scripts are inside; it loads no other file.
 std::string report_page(const RunResults& results);
 
 /// Writes folder/report.html and returns its path. Throws InputError if the folder holds no results.

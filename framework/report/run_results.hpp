@@ -27,7 +27,7 @@ struct RunResults {
   static constexpr std::size_t most_times = 12;
 };
 
-/// Throws InputError when the folder holds no run.json; anything else may be missing.
+/// Reads a folder of results. Throws InputError when it holds no run.json; all other files may be missing.
 RunResults read_results(const std::filesystem::path& folder);
 
 }  // namespace sprekk

@@ -21,6 +21,7 @@ struct ThingColumn {
   std::string thing, quantity, unit;
   int column;
 };
+/// The columns of history.csv whose names have these three parts, in their order.
 std::vector<ThingColumn> thing_columns(const CsvTable& history);
 
 }  // namespace sprekk

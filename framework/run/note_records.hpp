@@ -8,6 +8,7 @@
 
 namespace sprekk {
 
+/// All notes, in their order.
 inline std::vector<NoteRecord> records_of(const Notes& notes) {
   std::vector<NoteRecord> records;
   for (const Notes::Note& note : notes.all())
@@ -15,6 +16,7 @@ inline std::vector<NoteRecord> records_of(const Notes& notes) {
   return records;
 }
 
+/// The inverse, for a run that goes on from a checkpoint.
 inline std::vector<Notes::Note> notes_of(const std::vector<NoteRecord>& records) {
   std::vector<Notes::Note> notes;
   for (const NoteRecord& record : records)

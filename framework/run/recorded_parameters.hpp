@@ -8,6 +8,7 @@
 
 namespace sprekk {
 
+/// Each with its path, value and origin.
 inline std::vector<RunRecord::Parameter> recorded_parameters(const Scene& scene) {
   std::vector<RunRecord::Parameter> parameters;
   for (const Scene::Resolved& r : scene.resolved) parameters.push_back({r.path, r.value, r.origin});

@@ -8,13 +8,13 @@
 namespace sprekk {
 
 /// x_{k+1} = G(x_k) combined with up to `depth` earlier iterates so that the linearized residual G(x) − x is least
-/// (Anderson 1965; in the form of Walker and Ni 2011). Scaled by the caller.
+/// (Anderson 1965; in the form of Walker and Ni 2011). The caller scales x so that its entries are comparable.
 class Anderson {
  public:
   explicit Anderson(int depth) : depth_(depth) {}
   /// The next iterate from x and G(x).
   Vector next(const Vector& x, const Vector& image);
-  void forget();
+  void forget();  ///< drops all earlier iterates
 
  private:
   int depth_;

@@ -1,4 +1,4 @@
-// From the `schedule:` of a scene to what builds its tree of steps.
+// Reads the `schedule:` of a scene into a function that builds its tree of steps.
 #include <algorithm>
 
 #include "framework/schedule/grow_step.hpp"
@@ -61,7 +61,7 @@ Spec with_steps(Options& options, const Node*& inside) {
   return spec;
 }
 
-/// The options of a step that has steps inside, and these steps; `adapt` may change what they are read with.
+/// Reads the options of a step that has steps inside, and these steps; `adapt` may change the context for them.
 template <class Options>
 ScheduleBuilder read_inside(const Node& node, Options& options, ScheduleReading reading,
                             const std::function<void(ScheduleReading&)>& adapt = {}) {

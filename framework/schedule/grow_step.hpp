@@ -41,7 +41,7 @@ class GrowStep : public ScheduleStep {
   const GrowOptions& options() const { return options_; }
   bool grows_within_step() const { return options_.update == "within_step"; }
   Growing& component() const { return *growing_; }
-  bool may_shrink(const StepTime& step) const;
+  bool may_shrink(const StepTime& step) const;  ///< whether the step is longer than the smallest one
   bool repeats_step() const { return options_.update == "repeat_step"; }
   const std::vector<PathExtension>& extensions() const { return extensions_; }
   CavityOptions cavity() const { return growing_->cavity(); }
@@ -60,6 +60,7 @@ class GrowStep : public ScheduleStep {
   SolveStep settle_;
   double smallest_step_;  ///< s; no step is refused below it
   Growing::Load load_;
+  /// A step that was refused since its load came too far above 1.
   struct Refusal {
     double start, dt, load;  ///< s, s, load of the tip for which the step was refused
   };

@@ -55,7 +55,7 @@ void IterateStep::set_scaled_values(const Vector& values) {
 }
 
 void IterateStep::choose_scales() {
-  // Fields of one unit share a scale, as in Newton's test: a jump that is still round-off must not weigh.
+  // Fields of one unit share a scale, as in Newton's test: a jump that is still round-off must not count.
   std::map<std::string, double> largest;
   for (const Field* field : fields_) {
     double& l = largest[field->spec().unit];

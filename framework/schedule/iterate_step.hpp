@@ -41,7 +41,7 @@ class IterateStep : public ScheduleStep {
   BlockSystem system_;
   IterationLog log_;
   Anderson anderson_;
-  std::vector<double> scales_;  ///< one a field, of the first pass
+  std::vector<double> scales_;  ///< one for each field, from the first pass
 };
 
 }  // namespace sprekk

@@ -19,7 +19,7 @@ struct NewtonOptions {
   double update = 1e-8;     ///< largest change of a field over its largest value
   int at_most = 30;         ///< iterations
   int undamped = 8;         ///< iterations before the line search asks for descent
-  int pieces = 300;         ///< that the path of the last attempt may have, 0 for no such attempt
+  int pieces = 300;         ///< most pieces of the path of the last attempt; 0: no such attempt
 };
 
 /// Solves the equations of the given unknowns. Converged means: every residual is small against its own terms, and the
@@ -55,7 +55,7 @@ class Newton {
   /// residual of that field.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization = {});
 
-  /// What assembly and linear solver did since the start.
+  /// What assembly and linear solver have done since the start.
   LinearCounts counts() const;
   void set_preconditioner_stabilization(const Stabilization& stabilization);
 
@@ -108,10 +108,10 @@ class Newton {
   std::unique_ptr<Assembly> assembly_;  ///< of the state that was looked at last
   int assemblies_ = 0;
   std::vector<ResidualCheck> recent_;  ///< the last states
-  bool state_has_changed_ = false;     ///< the discrete one, in this solve
-  bool was_singular_ = false;          ///< the system that the last attempt ended with
-  bool was_left_ = false;              ///< the last attempt, as it came to Until::search
-  StepTime last_failed_path_;          ///< its step; a path is not followed again for one that is hardly shorter
+  bool state_has_changed_ = false;     ///< whether the discrete state has changed in this solve
+  bool was_singular_ = false;          ///< whether the last attempt ended with a singular system
+  bool was_left_ = false;              ///< whether the last attempt ended at Until::search
+  StepTime last_failed_path_;          ///< the last step whose path failed; a hardly shorter step does not try again
   const Stabilization* stabilization_ = nullptr;
   std::map<const Field*, Vector> start_;
 };

@@ -14,8 +14,8 @@
 namespace sprekk {
 namespace {
 
-/// A change of the piece along an update: up to `before` the old piece, at `behind` another one, in lengths of the
-/// update.
+/// A change of the piece along an update: the state is in the old piece up to the length `before`, and in another one
+/// at the length `behind`. Lengths are parts of the update.
 struct Crossing {
   double before = 0, behind = 0;
 };

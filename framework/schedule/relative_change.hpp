@@ -1,4 +1,4 @@
-// How much a step has changed what was solved for.
+// The change of fields over a step.
 #pragma once
 
 #include <vector>

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
 
-/// Checks the sums of balances, which are zero as well: the sum of the balances of a field has more correct digits than
-/// any one of them.
+/// Checks the sums of balances, which have to be zero as well: the sum of the balances of a field has more correct
+/// digits than any one of them.
 void check_sums(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
   const std::size_t unknowns = assembly.unknowns().size();
   check.is_round_off_in_sum.assign(unknowns, 1);

@@ -1,4 +1,4 @@
-// What the steps of a schedule are built from.
+// What the steps of a schedule are read and built from.
 #pragma once
 
 #include <map>
@@ -35,6 +35,7 @@ struct ScheduleReading {
   bool is_iterated = false;  ///< whether the step that is being read is inside an `iterate`
   bool is_substep = false;   ///< whether it is inside a `subcycle` of several substeps
 };
+/// Makes a step once the model is there.
 using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;
 
 /// Reads the steps of a `schedule:` (a list of steps, run one after the other; one step needs no list). Throws
@@ -50,6 +51,6 @@ struct ScheduleKind {
   ScheduleBuilder (*read)(const Node& node, const ScheduleReading& reading);
   Spec (*spec)();  ///< for `explain` and the schema
 };
-const std::vector<ScheduleKind>& schedule_kinds();
+const std::vector<ScheduleKind>& schedule_kinds();  ///< all kinds of steps
 
 }  // namespace sprekk

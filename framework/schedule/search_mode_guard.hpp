@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// A guard: its constructor passes `mode` to all parts, its destructor `after`.
+/// A guard: its constructor gives all parts the mode `mode`, its destructor the mode `after`.
 class SearchModeGuard {
  public:
   SearchModeGuard(SearchMode mode, SearchMode after, const std::vector<Part*>& parts) : after_(after), parts_(parts) {

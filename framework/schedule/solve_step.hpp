@@ -9,10 +9,10 @@ namespace sprekk {
 /// Parameters of a `solve` step.
 struct SolveOptions {
   std::vector<std::string> components;
-  Origin origin;  ///< of their names
+  Origin origin;  ///< of the names of components
   std::string stabilization = "none";
   Origin stabilization_origin;
-  NewtonOptions newton;  ///< the scene's, with what the step overrides
+  NewtonOptions newton;  ///< those of the scene, with what the step overrides
   LinearOptions linear;
   bool overrides_newton = false, overrides_linear = false;
   Spec spec();
@@ -37,7 +37,7 @@ class SolveStep : public ScheduleStep {
   Newton newton_;
 };
 
-Spec newton_spec(NewtonOptions& options);
-Spec solver_spec(LinearOptions& options);
+Spec newton_spec(NewtonOptions& options);  ///< of the section `newton:`
+Spec solver_spec(LinearOptions& options);  ///< of the section `solver:`
 
 }  // namespace sprekk

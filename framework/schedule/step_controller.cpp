@@ -9,14 +9,14 @@ namespace sprekk {
 namespace {
 
 constexpr double rounding = 1e-9;         ///< of the standard step: times nearer than this are the same
-constexpr double least_rise = 1e-2;       ///< of a level; what is less tells no rate
+constexpr double least_rise = 1e-2;       ///< of a level; a smaller rise does not tell its rate
 constexpr double of_failed_size = 0.999;  ///< a step that is shorter by rounding only is as long as the failed one
-constexpr double smallest_part = 1e-6;    ///< of the standard step, where the scene says no smallest one
-constexpr double shortest_part = 0.1;     ///< of the standard step: what is worth waiting for
+constexpr double smallest_part = 1e-6;    ///< of the standard step: the smallest, where the scene does not give it
+constexpr double shortest_part = 0.1;     ///< of the standard step: the shortest wait for a hold
 
 std::string key_of(const char* name) { return std::string("time_steps.") + name; }
 
-/// A value that is not there is an empty vector.
+/// As a vector of one value, or without a value an empty one.
 struct Saving {
   std::map<std::string, Vector>& state;
   void operator()(const char* name, double value) const { state[key_of(name)] = Vector::Constant(1, value); }
@@ -103,7 +103,7 @@ StepController::StepController(const TimeOptions& options, std::vector<double> t
   SPREKK_EXPECT(options_.end > options_.start, options_.start, options_.end);
   targets.push_back(options_.end);
   std::sort(targets.begin(), targets.end());
-  // Targets that differ by round-off (an output time at a switch) are one; of these the end stays what it is.
+  // Targets that differ by round-off (an output time at a switch) count as one. The end keeps its exact value.
   for (const double target : targets) {
     if (targets_.empty() || target - targets_.back() > rounding * options_.step)
       targets_.push_back(target);
@@ -120,8 +120,8 @@ StepTime StepController::next() const {
   const auto target = std::upper_bound(targets_.begin(), targets_.end(), time_);
   StepTime step{time_, size, time_ + size};
   if (target == targets_.end()) return step;
-  // A rest that is a hair longer than the step is taken in one, so that no sliver is left; a rest of less than two
-  // steps of an adaptive run in two equal ones.
+  // A rest that is longer than the step by rounding is taken in one step, so that no tiny step is left. In an adaptive
+  // run a rest of less than two steps is taken in two equal ones.
   const double rest = *target - time_;
   if (rest <= size * (1 + rounding)) {
     step.dt = rest;
@@ -204,7 +204,7 @@ void StepController::release(double level) {
   last.level = level;
   last.patience = 0;
   if (last.pause == 0) return;
-  constexpr double sooner = 0.5, later = 2;  // than the last time
+  constexpr double sooner = 0.5, later = 2;  // pauses over the last one
   const double share = last.rise > least_rise ? std::clamp((1 - level) / last.rise, sooner, later) : 1;
   last.expected = time_ + last.pause * share;
 }
@@ -221,7 +221,7 @@ double StepController::shortest_wait() const {
   return std::max(shortest_part * options_.step, options_.smallest.value_or(0));
 }
 
-/// Each value that a controller keeps, once, with its name in checkpoints.
+/// The list of the values that a controller keeps, each with its name in checkpoints.
 template <class Controller, class Visit>
 void StepController::visit_values(Controller& controller, const Visit& visit) {
   visit("time", controller.time_);

@@ -15,7 +15,7 @@ namespace sprekk {
 struct TimeOptions {
   double start = 0;                ///< s
   double end = 0;                  ///< s
-  double step = 0;                 ///< s, the first and, unless adaptive, the standard one
+  double step = 0;                 ///< s, size of the first step and, unless adaptive, of all
   std::optional<double> smallest;  ///< s; a rejected step is not cut below it
   bool adaptive = false;
   double largest = 0;  ///< s, of adaptive steps
@@ -36,8 +36,8 @@ struct TimeOptions {
 /// The memory of a step that failed: its size is not tried again before `wait` steps have been accepted.
 struct FailedStep {
   double size = 0;   ///< s, 0 for none
-  int wait = 0;      ///< accepted steps until it may be tried again
-  int patience = 3;  ///< what `wait` starts from; doubles each time the size fails again
+  int wait = 0;      ///< accepted steps until the size may be tried again
+  int patience = 3;  ///< the first value of `wait`; it doubles each time the size fails again
 };
 
 /// The prediction of the next hold, for events that recur: steps are held small each time that a level (a load, say)
@@ -48,7 +48,7 @@ struct Recurrence {
   double pause = 0;                               ///< s, from a release to the next hold; 0 as long as unknown
   double rise = 1;                                ///< of the level in that pause
   std::optional<double> expected = std::nullopt;  ///< s, the time of the next hold
-  double patience = 0;                            ///< s, how long a hold that was overdue is waited for
+  double patience = 0;                            ///< s, the last delay of a hold that is overdue
 };
 
 /// Chooses constant or adaptive steps that end exactly at the targets (output times, switches of sources, the end). A
@@ -66,21 +66,22 @@ class StepController {
   StepTime next() const;
 
   void accepted(const StepTime& step, int iterations);
-  /// Cuts the step, to `retry` (s) if that is given; false when it is as small as allowed.
+  /// Makes the next step shorter: `retry` (s), if that is given. Returns false when no shorter step is allowed.
   bool rejected(const StepTime& step, double retry = 0);
   /// Holds all steps at this size (s) until `release`. The standard size then returns, but a step ends at the time at
   /// which the next hold is expected: the last pause (from a release to the next hold), times the rise of the level to
   /// 1 that is left, over the rise in that pause. Such a step has at least a tenth of the standard size.
   void hold(double step, double level);
   void release(double level);
-  /// Tells the level after a step. A hold that is overdue is expected anew, from the rise since the release, but each
+  /// Takes the level after a step. A hold that is overdue is expected anew, from the rise since the release, but each
   /// time after at least twice the time: a level may come to rest below 1.
   void observe(double level);
   double held() const { return held_; }  ///< s, 0 when nothing is held
   const FailedStep& failed() const { return failed_; }
 
-  /// All that it keeps, for checkpoints: adds named values, and takes them back (as Part::save and Part::restore do).
-  /// Throws InputError when one is missing or is no single number; the controller is then of no use.
+  /// For checkpoints: `save` adds all values that the controller keeps, by name, and `restore` takes them back (as
+  /// Part::save and Part::restore do). `restore` throws InputError when a value is missing or is not one number; the
+  /// controller must not be used after that.
   void save(std::map<std::string, Vector>& state) const;
   void restore(const std::map<std::string, Vector>& state);
 

@@ -36,7 +36,7 @@ StepStatus SubcycleStep::run(const StepTime& step) {
   StepStatus status;
   try {
     status = take_substeps(step);
-  } catch (...) {  // data without a value: the step is rewound to its start
+  } catch (...) {  // a datum has no value in a substep: fields are put back to the start of the step
     put_back();
     throw;
   }

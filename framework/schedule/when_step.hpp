@@ -13,8 +13,8 @@ struct WhenOptions {
   Spec spec();
 };
 
-/// Runs the step inside if the condition, at the middle of the time step, is not 0; otherwise the fields inside keep
-/// their values.
+/// Runs the step inside if the condition, at the middle of the time step, is not 0; otherwise the fields that it solves
+/// for keep their values.
 class WhenStep : public ScheduleStep {
  public:
   WhenStep(const WhenOptions& options, std::unique_ptr<ScheduleStep> inside)

@@ -17,7 +17,7 @@ volatile std::sig_atomic_t signals_received = 0;
 
 void count_signal(int) { signals_received = signals_received + 1; }
 
-/// A terminal or a reader that goes away is told of more than once.
+/// When a terminal or a reader goes away, the signal comes more than once.
 void count_loss(int) {
   if (signals_received == 0) signals_received = 1;
 }

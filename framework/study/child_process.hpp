@@ -11,8 +11,8 @@
 
 namespace sprekk {
 
-/// A started program. It has a process group of its own, so that Ctrl-C reaches only its parent, which passes it on
-/// once.
+/// A started program. It has a process group of its own, so that Ctrl-C reaches only its parent, which passes the
+/// signal on once.
 class ChildProcess {
  public:
   /// Starts `program`, whose output is appended to `log`. Its environment is the environment that this process was

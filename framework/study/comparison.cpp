@@ -33,8 +33,8 @@ bool has(const ColumnNames& names, const std::string& wanted) {
                      [&](const std::string& name) { return name == wanted || column_name(name).quantity == wanted; });
 }
 
-/// Runs may differ in their components, and so in their columns. Mostly the first one has them all; the others are
-/// built only while some column has not been found.
+/// Runs may differ in their components, and so in their columns. Mostly the first run has all wanted columns; the
+/// models of the others are built only as long as some column has not been found.
 ColumnNames known_columns(const Study& study) {
   ColumnNames wanted = study.plot, known;
   for (const FigureOptions& figure : study.table) wanted.push_back(figure.of);

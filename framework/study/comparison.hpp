@@ -25,6 +25,7 @@ class Comparison {
   std::string text(const std::filesystem::path& folder, const std::vector<RunState>& states) const;
 
  private:
+  /// The figures of one run.
   struct Row {
     std::vector<double> figures, deviations;  ///< NaN where there is none
   };

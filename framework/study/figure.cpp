@@ -31,7 +31,7 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
   return nothing;
 }
 
-/// Cells may be empty: the value before the next is then the last one that is known.
+/// Cells may be empty: between two known values the history is linear in time, whatever lies between them.
 double first_time_of(const std::vector<double>& times, const std::vector<double>& values, double level) {
   std::optional<std::size_t> before;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -44,7 +44,7 @@ double first_time_of(const std::vector<double>& times, const std::vector<double>
   return nothing;
 }
 
-/// Over the steps whose value is known; nothing without any.
+/// The integral over the steps whose value is known; none when there are no such steps.
 double integral(const std::vector<double>& steps, const std::vector<double>& values) {
   double sum = nothing;
   for (std::size_t i = 0; i < values.size() && i < steps.size(); ++i)

@@ -85,7 +85,7 @@ Action next_action(const StudyRun& run, const std::map<std::string, RunState>& r
                      (state == remembered.end() ? "that this study does not know" : "of other values") +
                      " (results are never overwritten) choose another folder with -o, or remove this one");
   if (state->second.status == RunState::Status::done) return Action::keep;
-  // A run that came to its end while the sweep itself was killed.
+  // A run may have ended well after the sweep was killed.
   const json record = read_json(run_folder / "run.json");
   if (record.is_object() && record.value("/exit/code"_json_pointer, -1) == 0) return Action::keep;
   return fs::exists(run_folder / "checkpoint.h5") ? Action::go_on : Action::start;

@@ -17,10 +17,10 @@ struct RunState {
 
   std::string name, identity;
   Status status = Status::waiting;
-  int exit_code = -1;   ///< of the run; minus the number of a signal that ended it
-  std::string reason;   ///< why it failed
+  int exit_code = -1;   ///< of the run, or minus the number of the signal that ended it
+  std::string reason;   ///< why the run failed
   double seconds = 0;   ///< wall time of all its parts
-  std::string program;  ///< version and commit of the program that ran it
+  std::string program;  ///< version and commit of the program
 };
 
 /// What to do with a run: keep its results, start it, or continue it from its checkpoint.
@@ -37,6 +37,6 @@ Action next_action(const StudyRun& run, const std::map<std::string, RunState>& r
 /// Sets the state of a run that has ended with `code`, from run.json in `run_folder` and from the log.
 void record_end(RunState& state, int code, const std::filesystem::path& run_folder, const std::filesystem::path& log);
 
-std::string status_text(RunState::Status status);
+std::string status_text(RunState::Status status);  ///< "done", "failed", …
 
 }  // namespace sprekk

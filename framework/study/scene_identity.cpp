@@ -9,7 +9,7 @@
 namespace sprekk {
 namespace {
 
-/// A text that names a file stands for its content, too.
+/// Adds the content of the file when the text names one.
 void append_file(const std::filesystem::path& file, std::string& text) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return;

@@ -1,4 +1,4 @@
-// Identities of scenes: they tell whether a run has been done already.
+// Identities of scenes, by which a study knows whether a run has been done already.
 #pragma once
 
 #include <filesystem>

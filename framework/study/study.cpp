@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_runs = 10'000;
-constexpr std::size_t longest_name = 100;  // of a run's folder
+constexpr std::size_t longest_name = 100;  // letters of a run's folder
 
-/// Without blanks, and without what does not belong into the name of a folder.
+/// The text without blanks, and without letters that names of folders should not have.
 std::string folder_text(const std::string& text) {
   std::string result;
   for (const unsigned char c : text) {
@@ -31,7 +31,7 @@ std::string folder_text(const std::string& text) {
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
-/// "step=1h,fracture_size=10mm"; whole paths where last parts are alike.
+/// "step=1h,fracture_size=10mm"; with whole paths where two paths have the same last part.
 std::string grid_name(const std::vector<Setting>& settings) {
   std::string name;
   for (const Setting& setting : settings) {
@@ -73,7 +73,7 @@ void check_names_differ(const std::vector<StudyRun>& runs) {
                        "name them in 'runs:'");
 }
 
-/// The name of a study is that of a folder in results/.
+/// Refuses names that cannot be those of a folder in results/.
 void check_study_name(const std::string& name, const Origin& origin) {
   const bool has_control = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
   if (name.empty() || name[0] == '.' || name.find('/') != std::string::npos || has_control)

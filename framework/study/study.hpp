@@ -51,7 +51,7 @@ struct StudyOptions {
 
 /// A run of a study.
 struct StudyRun {
-  std::string name;                 ///< also of its folder
+  std::string name;                 ///< of the run and of its folder
   std::vector<Setting> settings;    ///< all, in the order in which they are applied
   std::vector<std::string> values;  ///< of the study's keys in the scene of the run
   std::string identity;             ///< changes with anything that the run reads

@@ -35,7 +35,7 @@ StudyOptions::Axis read_axis(const Node::Entry& entry) {
   return axis;
 }
 
-/// Names of runs are names of folders.
+/// Names of runs become names of folders.
 void check_run_name(const Node::Entry& entry) {
   const auto is_allowed = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '='; };
   if (entry.key.empty() || !std::all_of(entry.key.begin(), entry.key.end(), is_allowed))

@@ -123,7 +123,7 @@ void Sweep::start(std::size_t i) {
   arguments.insert(arguments.end(), study_.scene_files.begin(), study_.scene_files.end());
   for (const Setting& setting : run.settings)
     arguments.insert(arguments.end(), {"--set", setting.path + "=" + setting.value});
-  // Results of a run that has no checkpoint yet are of no use.
+  // A run that was stopped before its first checkpoint starts anew.
   if (!goes_on) fs::remove_all(run_folder(i));
   arguments.insert(arguments.end(), {"-o", run_folder(i).string()});
   if (goes_on) arguments.emplace_back("--restart");
@@ -188,7 +188,7 @@ ExitCode Sweep::execute() {
     }
     if (passed_on < signals.count()) {
       passed_on = signals.count();
-      next = states_.size();  // starts no more
+      next = states_.size();  // no further run is started
       for (const Working& working : working_) working.process.signal(SIGINT);
       say("interrupted: the runs end after the steps that they are in");
     }

@@ -9,6 +9,7 @@ namespace sprekk::contact {
 /// The state of a place on the walls: closed and sticking, closed and slipping, or open.
 enum class State { stick, slip, open };
 
+/// The Euclidean length of a tangential vector; in two dimensions the absolute value of its one component.
 template <int n>
 double magnitude(const Eigen::Matrix<double, n, 1>& vector) {
   if constexpr (n == 1)

@@ -104,7 +104,7 @@ class Growth {
     outcomes_[i].arrested = arrested;
   }
 
-  /// Tips between increments that may still grow.
+  /// Renews the outdated factors of tips that may still grow, between two rounds.
   void update_resting() {
     for (int i = 0; i < count(); ++i)
       if (states_[i].is_outdated && !states_[i].is_stopped) update(i);
@@ -120,7 +120,8 @@ class Growth {
     TipOutcome& outcome = outcomes_[i];
     if (state.is_stopped) return false;
     const double ratio = equivalent_sif(state.sifs) / tips_[i].toughness;
-    // After an increment K_eq within its tolerance is arrest; before the first the toughness itself counts.
+    // After an increment the tip is at rest where K_eq is within the tolerance; before the first one the toughness
+    // itself decides.
     const double tolerance = outcome.increments > 0 && options_.seeks_arrest() ? options_.arrest_tolerance : 0;
     if (!(ratio > 1 + tolerance)) {
       outcome.reason = outcome.increments == 0                   ? "K_eq does not exceed the toughness"
@@ -183,7 +184,7 @@ class Growth {
       for (int i = 0; i < count(); ++i)
         if (states_[i].search && states_[i].search->length() > 0 && states_[i].is_outdated)
           found.emplace_back(i, evaluate(i));
-      // All are evaluated with the same paths before any is moved: the order of the tips does not matter.
+      // All tips are evaluated with the same paths before any of them is moved: their order does not matter.
       for (const auto& [i, sifs] : found) {
         learn(i, sifs);
         changed = true;

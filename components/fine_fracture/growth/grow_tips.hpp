@@ -26,7 +26,7 @@ struct GrowingTip {
   double toughness = 0;             ///< K_IC, Pa sqrt(m)
   double youngs_prime = 0;          ///< E' = E/(1 − nu^2), Pa
   TipPath path;                     ///< added before this growth, which starts from its end
-  WarmStart warm_start = {};        ///< with the increment before
+  WarmStart warm_start = {};        ///< as the increment before has left it
 };
 
 /// A tip after growth.
@@ -39,15 +39,15 @@ struct TipOutcome {
   bool arrested = false;
   bool blocked = false;            ///< there is no free length ahead
   Point ahead = Point::Zero();     ///< unit vector, where a blocked tip would go on
-  std::string reason;              ///< why growth ended
+  std::string reason;              ///< why growth ended, as the end of a sentence for notes
   std::vector<std::string> notes;  ///< increments whose direction or length is not what the options ask for
-  WarmStart warm_start;            ///< with the last increment
+  WarmStart warm_start;            ///< as the last increment has left it
   int increments = 0;              ///< added in this call
   double length = 0;               ///< m, added in this call
   long evaluations = 0;            ///< of this tip's stress intensity factors
 };
 
-/// The stress intensity factors of a tip when the paths of all tips are these, in the frame of the last segment.
+/// The stress intensity factors of a tip with the given paths of all tips, in the frame of its last segment.
 using EvaluateSifs = std::function<Sifs(int tip, const std::vector<TipPath>& paths)>;
 /// The distance (m) that a tip may grow from the end of its path towards `to`, up to the boundary or another crack,
 /// less the margin that the mesh needs; at least |to − end| when nothing is in the way.

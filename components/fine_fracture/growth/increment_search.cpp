@@ -25,13 +25,13 @@ bool turns_away(const Sifs& sifs, double length) {
 /// abs(phi) up to which estimates for the right direction hold.
 constexpr double nearly_right = 0.5;
 
-/// Of the toughness: where an increment ends that is more than the tip has grown.
+/// Part of the toughness: an increment that ends below it is longer than the tip would grow.
 constexpr double far_below = 0.9;
 
-/// How often one increment is evaluated in all, over how often it is with one length.
+/// The evaluations that one increment may take in all, over those that it may take with one length.
 constexpr int lengths_tried = 4;
 
-/// Of a length or an angle: what sums of increments differ by rounding.
+/// Relative differences of lengths and angles that sums of increments have by rounding.
 constexpr double rounding = 1e-12;
 
 }  // namespace
@@ -109,7 +109,7 @@ void IncrementSearch::stay() {
 
 bool IncrementSearch::is_direction_met(const Sifs& end) const {
   const double tolerance = options_.direction_tolerance;
-  // A tip that is hardly loaded has no direction.
+  // The direction of a tip that is hardly loaded does not matter.
   return phase_ != Phase::searching || std::abs(end.k2) <= tolerance * end.k1 ||
          equivalent_sif(end) <= tolerance * toughness_;
 }
@@ -117,7 +117,7 @@ bool IncrementSearch::is_direction_met(const Sifs& end) const {
 bool IncrementSearch::is_length_met(double k_eq) const {
   if (!options_.seeks_arrest() || phase_ == Phase::as_it_is) return true;
   const double tolerance = options_.arrest_tolerance * toughness_;
-  // Where no direction is known for twice the length, the next increment goes on from here.
+  // Where no direction was found for twice the length, growth goes on with another increment from this end.
   const bool is_as_long_as_can_be = length_ == full_length_ || 2 * length_ >= ceiling_;
   return k_eq >= toughness_ - tolerance && (is_as_long_as_can_be || k_eq <= toughness_ + tolerance);
 }
@@ -227,7 +227,7 @@ void IncrementSearch::settle_for_less(double k_eq) {
   } else if (phase_ == Phase::searching) {
     fix_direction("K_II did not vanish within the tries");
   } else if (options_.seeks_arrest() && k_eq < far_below * toughness_) {
-    // An increment that ends far below the toughness is more than the tip has grown.
+    // An increment that ends far below the toughness is longer than the tip would grow.
     fall_back();
   } else {
     accept_as_it_is();
@@ -273,7 +273,7 @@ double IncrementSearch::next_length(const std::optional<Length>& third) const {
   return std::clamp(next, shorter_.length + margin * width, longer_->length - margin * width);
 }
 
-/// No increment that is too long is known yet.
+/// The next length to try as long as no increment is known to be too long.
 double IncrementSearch::longer_length() const {
   constexpr double nearly = 0.7;
   const double slope = (shorter_.excess - excess(equivalent_sif(start_))) / shorter_.length;
@@ -296,7 +296,7 @@ void IncrementSearch::change_length(double excess_here) {
     shorter_ = here;
   }
   if (has_closed(here.excess)) {
-    // Nothing to bisect: the last length holds, and the other end of the bracket does not.
+    // There is nothing to bisect: the last length is right, and the other end of the bracket no longer is.
     if (here.excess > 0)
       shorter_ = {0, excess(equivalent_sif(start_)), 0};
     else
@@ -306,8 +306,8 @@ void IncrementSearch::change_length(double excess_here) {
   go_to(longer_ ? std::max(next_length(third), shortest_length()) : longer_length());
 }
 
-/// Whether the bracket is narrower than K_eq allows, as where one of its ends no longer holds: K_eq would change with
-/// more than the fifth power of the length.
+/// Whether the bracket is narrower than K_eq allows, since K_eq would change with more than the fifth power of the
+/// length: then one of its ends is no longer right.
 bool IncrementSearch::has_closed(double excess_here) const {
   constexpr double steepest = 5;
   return phase_ == Phase::searching && longer_ &&
@@ -353,14 +353,14 @@ void IncrementSearch::fall_back() {
   angle_ = shorter_.angle;
 }
 
-/// From here on all lengths are tried in this direction.
+/// Takes a direction in which all further lengths are tried.
 void IncrementSearch::fix_direction(const std::string& why) {
   phase_ = Phase::direction_fixed;
   tries_ = 0;
   const auto best =
       std::min_element(directions_.begin(), directions_.end(),
                        [](const Direction& a, const Direction& b) { return std::abs(a.phi) < std::abs(b.phi); });
-  // Nearly symmetric is better than explicit, which is unstable.
+  // A nearly symmetric direction is better than the explicit one, which is unstable.
   constexpr double good_enough = 10;  // tolerances
   if (best != directions_.end() && std::abs(std::tan(best->phi)) <= good_enough * options_.direction_tolerance &&
       std::cos(best->phi) > 0) {

@@ -10,10 +10,10 @@
 
 namespace sprekk::fine_fracture {
 
-/// What an increment of a tip tells its next one to try first.
+/// What an increment of a tip has measured, from which the search for its next one starts.
 struct WarmStart {
   double stiffness_ratio = 1;  ///< measured over estimated d phi/d angle
-  double release = 0;  ///< 1/m: by how much ln K_eq fell over its length; none is known where this is not positive
+  double release = 0;          ///< 1/m: the fall of ln K_eq over its length; unknown where this is not positive
 };
 
 /// Two conditions at the end of the increment, each met within its tolerance:
@@ -50,15 +50,18 @@ class IncrementSearch {
 
   bool is_settled() const { return is_settled_; }
   const WarmStart& warm_start() const { return warm_start_; }
-  const std::string& note() const { return note_; }  ///< in what the increment falls short of the options, or ""
+  const std::string& note() const { return note_; }  ///< how the increment falls short of the options, or ""
 
  private:
+  /// A direction that was tried, and its phi, rad.
   struct Direction {
     double angle, phi;
   };
+  /// A length (m) that was tried with its angle (rad), and the excess at its end.
   struct Length {
     double length, excess, angle;
   };
+  /// What may still change: angle and length, the length alone, or nothing.
   enum class Phase { searching, direction_fixed, as_it_is };
 
   bool is_direction_met(const Sifs& end) const;
@@ -101,8 +104,8 @@ class IncrementSearch {
   std::vector<Direction> directions_;  ///< tried with the present length
   Length shorter_;                     ///< an increment that is too short
   std::optional<Length> longer_;       ///< an increment that is too long
-  std::optional<Length> good_;  ///< the longest that meets all conditions, but may need another increment after it
-  double ceiling_;              ///< m: no direction was found for this length, and longer ones are not tried
+  std::optional<Length> good_;         ///< the longest that meets the direction and ends at the toughness or above
+  double ceiling_;                     ///< m: no direction was found for this length, and longer ones are not tried
   std::string note_;
 };
 

@@ -9,8 +9,8 @@
 
 namespace sprekk::fine_fracture {
 
-/// l_max (G_i/max G)^exponent, m, for the energy release rates G_i >= 0 of the tips that grow; l_max for a single tip.
-/// The exponent of the paper is 0.35. All lengths are 0 when no tip releases energy.
+/// The lengths l_max (G_i/max G)^exponent, m, for the energy release rates G_i >= 0 of the tips that grow; l_max for a
+/// single tip. The exponent of the paper is 0.35. All lengths are 0 when no tip releases energy.
 inline std::vector<double> increment_lengths(const std::vector<double>& energy_release_rates, double l_max,
                                              double exponent) {
   std::vector<double> lengths(energy_release_rates.size(), 0.0);

@@ -17,7 +17,7 @@ struct Sifs {
   double t_stress = 0;
 };
 
-bool is_finite(const Sifs& sifs);
+bool is_finite(const Sifs& sifs);  ///< K_I, K_II and the T-stress
 
 /// Eq. 10 of the paper times sqrt(2 pi r): the tangential stress in the direction `angle`.
 double tangential_sif(const Sifs& sifs, double angle);

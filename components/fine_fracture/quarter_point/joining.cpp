@@ -42,7 +42,7 @@ std::optional<Tips::Joining> Tips::find_joining(const Tip& tip, const TipOutcome
   const bool is_met = free.met != Met::nothing && free.length < reach;
   // The tip cannot join a side, nor a fracture that it is connected with.
   if (is_met && (free.met == Met::boundary || networks[free.index] == own)) return std::nullopt;
-  // Where another fracture passes by, the nearest point that is not behind.
+  // Where another fracture passes by, its nearest point that is not behind the tip is wanted.
   const Point wanted = is_met ? free.where : from;
   const double to_side = is_met ? reach : distance_to_boundary(mesh_, from);
   constexpr double widest_turn = std::numbers::pi / 3;

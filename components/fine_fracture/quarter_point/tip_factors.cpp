@@ -20,7 +20,7 @@ bool is_same(const FineGeometry& a, const FineGeometry& b) {
 
 Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   Tip& tip = tips_[index];
-  // The square stays where the coarse tip is while the path grows in it.
+  // The square of the fine level stays around the tip of the coarse mesh while the path grows in it.
   const Point center = position(tip, {});
   FineMeshOptions mesh;
   mesh.tip_size = options_.mesh_ratio * tip.coarse_size;

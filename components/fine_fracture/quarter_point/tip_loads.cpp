@@ -1,4 +1,4 @@
-// The loads that the fine level takes from the coarse level: displacements of its boundary, stress, tractions of walls.
+// The loads that the fine level takes from the coarse level: displacements on its outline, stress, tractions on walls.
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
 namespace sprekk::fine_fracture {

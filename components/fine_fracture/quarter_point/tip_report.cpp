@@ -1,4 +1,4 @@
-// What results tell of the tips of fractures.
+// The figures of tips in history.csv and run.json.
 #include <limits>
 
 #include "components/fine_fracture/quarter_point/ends.hpp"
@@ -7,7 +7,7 @@
 namespace sprekk::fine_fracture {
 
 void Tips::report(std::vector<Quantity>& quantities) const {
-  // In the order of ends, so that columns stay when a tip joins a fracture and is none any more.
+  // In the order of ends: columns keep their places when a tip joins another fracture and is no tip any more.
   for (const TipEnd& end : all_ends(mesh_)) {
     for (const Tip& tip : tips_)
       if (is_same(tip.end, end))

@@ -53,7 +53,7 @@ std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) co
 Growing::Load Tips::examine(const StepTime&) {
   surroundings_->update();
   notes_.clear();
-  constexpr double safety = 2;  // of the estimate
+  constexpr double safety = 2;  // the estimate may be too small by this factor
   const bool may_rule_out = options_.toughness && options_.skip_below > 0;
   Load loads;
   const std::vector<TipPath> paths = paths_now();
@@ -77,7 +77,7 @@ Growing::Load Tips::examine(const StepTime&) {
       set_factors(tip, evaluate(i, paths));
       tip.evaluated_for = surroundings_->version();
     }
-    // At the end of an increment the load is 1 to within a tolerance, and the tip should not grow again for that.
+    // At the end of an increment the load is 1 within a tolerance; the tip must not grow again for that difference.
     if (is_followed(tip)) continue;
     const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
     loads.now = std::max(loads.now, tip.now.load / (1 + rest));
@@ -157,8 +157,8 @@ Growing::Growth Tips::grow(const StepTime&) {
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
   }
   stop_refused(extensions, outcomes);
-  // Last, when the paths of all other tips are known. A path that joins another fracture replaces the tip's former
-  // path.
+  // Tips join other fractures last, when the paths of all others are known. A path that joins a fracture replaces the
+  // former path of its tip.
   for (const std::size_t i : blocked) {
     Tip& tip = tips_[i];
     std::vector<PathExtension> others;
@@ -232,7 +232,7 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
       if (!is_same(same.end, tip.end)) continue;
       tip.now = same.now;
       tip.pattern = same.pattern;
-      // Only now: if the path were dropped when it is passed on, a mesh that cannot take it would lose it.
+      // The path is dropped here and not when it is handed over: a mesh that cannot take it would lose it.
       const double taken = new_length(mesh_, tip.end, change) - given_up_length(mesh_, tip.end, change);
       if (taken > 0) {
         tip.now.grown += taken;

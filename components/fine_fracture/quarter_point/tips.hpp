@@ -18,7 +18,7 @@ namespace sprekk::fine_fracture {
 /// Parameters of the tips and their fine levels.
 struct TipsOptions {
   double size = 0;          ///< m, l of sec. 4.3 of the paper
-  double mesh_ratio = 0.5;  ///< epsilon_m
+  double mesh_ratio = 0.5;  ///< epsilon_m of sec. 4.1 of the paper
   int sectors = 16;
   std::optional<double> tolerance;  ///< of the error estimate; without it, meshes have the given sizes
   std::optional<double> toughness;  ///< Pa m^0.5
@@ -64,19 +64,20 @@ class Tips : public Component, public FractureTips, public Growing {
   friend class TipsFront;  // it sets the state of the tips of trial models
   /// The state of a tip that a step may change and a rewind restores.
   struct State {
-    TipPath path;               ///< in the fine level only
-    Sifs sifs;                  ///< if is_evaluated
+    TipPath path;               ///< what the coarse mesh does not have yet
+    Sifs sifs;                  ///< valid if is_evaluated
     double sif_error = 0;       ///< Pa m^0.5, the estimated error by the mesh of the fine level
     bool is_evaluated = false;  ///< whether the factors have been computed for this state
     double load = 0;            ///< K_eq over the toughness, or the estimate by which a fine level was skipped
-    double grown = 0;           ///< m, passed to the coarse level
+    double grown = 0;           ///< m, length that the coarse mesh has taken over
     bool has_started = false;   ///< whether the tip has begun to grow: its onset is over
     WarmStart warm_start;       ///< of the last increment
     bool is_extendable =
         false;                ///< whether the last cell of the fracture is the last segment, which growth may replace
     double speed = 0;         ///< m/s, of growth in the last step
-    bool is_stopped = false;  ///< for good: at or before another fracture, or before the boundary
+    bool is_stopped = false;  ///< for good, at or before another fracture, or before the boundary
   };
+  /// A tip, its state, and what is kept of its fine level.
   struct Tip {
     TipEnd end;
     std::string name;
@@ -116,7 +117,7 @@ class Tips : public Component, public FractureTips, public Growing {
   FineLoads loads_of(const Tip& tip) const;
   /// The factors of this tip in a solution. Sets their estimated error.
   Sifs factors_of(Tip& tip, const FineSolution& solution) const;
-  /// The same, and keeps the factors.
+  /// As factors_of, and keeps the factors for this state of the coarse level.
   Sifs keep_factors(Tip& tip, const FineSolution& solution) const;
   /// The load as estimated from the displacement jump of the coarse level beside the tip, without a fine level.
   double estimated_load(const Tip& tip) const;
@@ -137,6 +138,7 @@ class Tips : public Component, public FractureTips, public Growing {
   bool is_near(const Tip& tip, const Tip& other) const;
   double free_distance(const Tip& tip, const TipPath& path, const Point& to) const;
   std::vector<Point> coarse_path(const Tip& tip, const TipPath& path) const;
+  /// A path that ends at another fracture.
   struct Joining {
     PathExtension extension;
     int other;  ///< the fracture that is joined
@@ -155,9 +157,10 @@ class Tips : public Component, public FractureTips, public Growing {
   std::vector<Joint> joints_;
   bool grows_within_steps_ = false;
   Eigen::MatrixXd slopes_;  ///< of the loads by the lengths of the tips, as the last search has learnt them, 1/m
+  /// A note on how growth has ended.
   struct EndNote {
     std::string topic, text;
-    double measure;  ///< of how bad it is
+    double measure;  ///< how bad it is: of several notes on one topic the worst is kept
   };
   std::vector<EndNote> notes_;                                      ///< of the growth in this step
   std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();  ///< of all fine levels

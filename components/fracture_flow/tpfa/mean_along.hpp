@@ -54,7 +54,7 @@ struct EndRule {
   static constexpr int count = 10;
   std::array<double, count> x, weight;
 };
-const EndRule& end_rule();
+const EndRule& end_rule();  ///< computed at the first call
 
 /// The mean over the piece: exact for polynomials of fifth order, and to 1e-7 for a root or an inverse root of the
 /// distance from one or both ends. The ends themselves are not evaluated.

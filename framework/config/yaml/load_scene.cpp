@@ -57,7 +57,7 @@ void set_origins(Node& node, const Origin& origin) {
   }
 }
 
-/// The origin for messages about the path of an override.
+/// The origin for messages on the path of an override.
 Origin place_of(const Override& change) {
   return change.key_origin.source == "--set" ? Origin{"--set " + change.path} : change.key_origin;
 }
@@ -105,7 +105,7 @@ void apply(Node& root, const Override& change) {
       throw InputError(place_of(change), quoted(node->path) + " has no keys",
                        "it is the value " + quoted(node->scalar) + ", from " + node->origin.text());
     }
-    node->kind = Node::Kind::map;  // what was not there or empty becomes a map
+    node->kind = Node::Kind::map;  // a node that was missing or empty becomes a map
     Node::Entry* entry = entry_of(*node, parts[i]);
     const bool removes = i + 1 == parts.size() && value.is_null();
     if (removes) {

@@ -30,7 +30,7 @@ void merge_missing(Node& map, const Node& from) {
   }
 }
 
-/// YAML's merge key: `<<: *base`, or a list of such, of which the first wins.
+/// Applies YAML's merge key, `<<: *base` or a list of such; of a list the first entry with a key wins.
 void expand_merge_key(Node& map) {
   const auto is_merge = [](const Node::Entry& entry) { return entry.key == "<<"; };
   const auto merge = std::find_if(map.entries.begin(), map.entries.end(), is_merge);

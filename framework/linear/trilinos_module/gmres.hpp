@@ -1,3 +1,4 @@
+// Makes the GMRES of TrilinosModule::gmres, which says what the arguments are.
 #pragma once
 
 #include "framework/linear/trilinos_module/trilinos_module.hpp"

@@ -1,3 +1,4 @@
+// Makes the distributed matrix of TrilinosModule::matrix, which says what the arguments are.
 #pragma once
 
 #include "framework/linear/trilinos_module/trilinos_module.hpp"

@@ -16,8 +16,8 @@ struct Potentials {
   Complex Phi, dPhi, ddPhi, Psi, dPsi;
 };
 
-/// With Psi chosen so that Phi + conj(Phi) + z Phi' + Psi vanishes on both walls.
-/// From 1/z and z^-1/2.
+/// The potentials from 1/z and z^-1/2, with Psi such that Phi + conj(Phi) + z Phi' + Psi, the traction, vanishes on
+/// both walls.
 Potentials potentials(Auxiliary field, const Complex& w, const Complex& root) {
   if (field == Auxiliary::force) {
     const double b = -1 / (4 * std::numbers::pi);

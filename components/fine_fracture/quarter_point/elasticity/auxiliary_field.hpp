@@ -18,9 +18,10 @@ struct AuxiliaryPoint {
 /// point force of 1 N/m at the tip along x1, for the T-stress (Kfouri 1986).
 enum class Auxiliary { opening, sliding, force };
 
-/// At distance r from the tip and angle theta from its direction, -pi to pi: the ends are the lower and the upper wall.
+/// The field at distance r (m) from the tip and angle theta from its direction, from -pi (the lower wall) to pi (the
+/// upper wall).
 AuxiliaryPoint auxiliary_point(Auxiliary field, const Elasticity& rock, double r, double theta);
-/// All three, in the order of Auxiliary, at a place off the walls.
+/// All three fields in the order of Auxiliary, at a place x off the walls.
 std::array<AuxiliaryPoint, 3> auxiliary_points(const Elasticity& rock, const Point& x);
 
 }  // namespace sprekk::fine_fracture

@@ -27,7 +27,7 @@ class BlockCholesky {
  public:
   /// Throws std::runtime_error when the matrix is not positive definite by more than rounding.
   explicit BlockCholesky(const BlockMatrix& matrix);
-  /// Two values a block.
+  /// Solves A x = b; two values for each block.
   Vector solve(Vector b) const;
 
  private:
@@ -37,7 +37,7 @@ class BlockCholesky {
   void invert(int column, const Block& pivot, const Block& diagonal);
 
   std::vector<int> parent_, starts_, rows_;  ///< of L: below the diagonal, by columns
-  std::vector<Block> lower_, inverse_;       ///< inverse: of D
+  std::vector<Block> lower_, inverse_;       ///< of L, and of D^-1
 };
 
 }  // namespace sprekk::fine_fracture

@@ -19,7 +19,7 @@ class ElementLocator {
  public:
   /// The mesh must outlive the locator.
   explicit ElementLocator(const FineMesh& mesh);
-  /// The place of x in its element; std::nullopt outside of the domain. On a crack it may be on either side.
+  /// The place of x in its element; std::nullopt outside of the domain. For x on a crack it may be on either side.
   std::optional<ElementPlace> find(const Point& x) const;
 
  private:

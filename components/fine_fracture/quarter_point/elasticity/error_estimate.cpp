@@ -44,7 +44,7 @@ class Recovery {
   struct Patch {
     Point center = Point::Zero();
     double size = 1;
-    int tip = none;  ///< whose singular fields are taken out
+    int tip = none;  ///< the tip whose singular fields are subtracted
     Coefficients coefficients = Coefficients::Zero();
 
     Eigen::Matrix<double, 6, 1> basis(const Point& x) const {

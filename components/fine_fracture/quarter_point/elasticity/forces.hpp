@@ -19,6 +19,7 @@ class OffsetForces {
   void subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const;
 
  private:
+  /// What the offset at one place adds to the forces of an element.
   struct Share {
     std::array<int, 6> nodes;
     Eigen::Matrix<double, 6, 2> gradient;  ///< of their shape functions, times the area that the place stands for, m

@@ -64,7 +64,7 @@ InteractionIntegrals::InteractionIntegrals(const FineMesh& mesh, const Elasticit
   if (own_wall_ != nullptr && own_wall_->walls == CrackPath::Walls::jump) add_places_of_fit();
 }
 
-/// Where the weight for domain 0, the larger domain, is 0, all other weights are 0.
+/// Domain 0 is the larger one: where its weight is 0, that of the other is 0, too.
 double InteractionIntegrals::weight(int node, int domain) const {
   SPREKK_EXPECT(is_index(node, mesh_.node_count()) && is_index(domain, domains), node, domain);
   const double r = (mesh_.nodes[node] - tip_.room.position).norm(), inner = tip_.room.radius;

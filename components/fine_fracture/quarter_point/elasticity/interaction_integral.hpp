@@ -34,9 +34,10 @@ class InteractionIntegrals {
   /// Keeps references to the mesh and to its tip.
   InteractionIntegrals(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip,
                        const std::array<double, 2>& radii);
-  /// Where the stress offset is asked for.
+  /// The places at which the stress offset is needed.
   const std::vector<Point>& offset_places() const { return offset_places_; }
-  /// `offsets`: (xx, yy, xy) in Pa, a column a place; no columns for none.
+  /// The results for both radii. `offsets`: (xx, yy, xy) in Pa, a column for each place; no columns where there is no
+  /// offset. `displacement`: (x, y) per node, m.
   std::array<InteractionResult, 2> of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
                                       const Vector& displacement) const;
 
@@ -54,6 +55,7 @@ class InteractionIntegrals {
     double weight;    ///< m
     int offset;       ///< its column of the offsets, or none
   };
+  /// What the traction at a place on a wall adds to the integrals.
   struct WallShare {
     WallPoint point;
     Rows<2> of_traction;

@@ -41,13 +41,14 @@ inline ShapePoint shape_point(const FineMesh& mesh, const FineMesh::Element& ele
   return p;
 }
 
-/// The shape functions at a place on an edge.
+/// The quadratic shape functions at a place on an edge.
 struct EdgePoint {
   Point x;
   double jacobian;              ///< ds / dt, m
   std::array<double, 3> value;  ///< of from, to, middle
 };
 
+/// At the parameter t of the edge, 0 at its first node and 1 at its second one.
 inline EdgePoint edge_point(const FineMesh& mesh, const EdgeNodes& nodes, double t) {
   EdgePoint p;
   p.value = {(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)};

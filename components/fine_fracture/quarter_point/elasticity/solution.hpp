@@ -16,11 +16,11 @@ struct FineSolution {
   Vector displacement;               ///< (x, y) per node, m
   std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips, or the wanted tip alone
 
-  /// Places come from an ElementLocator.
+  /// The displacement (m) at a place that an ElementLocator has found.
   Point displacement_at(const ElementPlace& place) const;
   /// du_i/dx_j.
   Tensor gradient_at(const ElementPlace& place) const;
-  /// C eps(u), Pa: without the offset. Infinite at a tip.
+  /// The stress C eps(u), Pa, without the offset; infinite at a tip.
   Tensor elastic_stress_at(const ElementPlace& place) const {
     return rock.stress(0.5 * (gradient_at(place) + gradient_at(place).transpose()));
   }

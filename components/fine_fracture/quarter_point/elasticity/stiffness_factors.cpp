@@ -18,8 +18,8 @@ namespace {
 /// node may have one unknown only, or share the unknowns of another node.
 struct NodeBlocks {
   std::vector<int> first_unknown;              ///< by block
-  std::vector<int> of_node;                    ///< or none
-  std::vector<std::array<int, 6>> of_element;  ///< those of its nodes
+  std::vector<int> of_node;                    ///< the block of each node, or none
+  std::vector<std::array<int, 6>> of_element;  ///< the blocks of its nodes
 
   NodeBlocks(const FineMesh& mesh, const Unknowns& unknowns) : of_node(mesh.node_count(), none) {
     std::vector<int> of_first(unknowns.count(), none);
@@ -41,7 +41,7 @@ struct NodeBlocks {
   int count() const { return static_cast<int>(first_unknown.size()); }
 };
 
-/// Which blocks each block shares an element with.
+/// For each block, the blocks that it shares an element with.
 class Neighbours {
  public:
   explicit Neighbours(const NodeBlocks& blocks)
@@ -76,7 +76,7 @@ class Neighbours {
   std::vector<int> first_, elements_, seen_by_;
 };
 
-/// The blocks at corners of elements, and which of them share an element.
+/// The blocks at corners of elements, and for each those that it shares an element with.
 struct CornerGraph {
   std::vector<int> corners;    ///< blocks
   std::vector<int> number_of;  ///< by block: its number among the corners, or none

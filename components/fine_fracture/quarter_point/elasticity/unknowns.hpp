@@ -8,7 +8,7 @@
 
 namespace sprekk::fine_fracture {
 
-/// The map u = T x + g: every displacement component is an unknown of x (or none) plus a prescribed value.
+/// The map u = T x + g: each component of a displacement is one of the unknowns x (or none) plus a prescribed value.
 class Unknowns {
  public:
   Unknowns(const FineGeometry& geometry, const FineMesh& mesh);
@@ -20,6 +20,7 @@ class Unknowns {
   Vector prescribed_values(const FineMesh& mesh, const FineLoads& loads) const;
 
  private:
+  /// A node whose displacement is prescribed.
   struct Prescribed {
     int node;
     Point inside;  ///< see FineLoads::boundary_displacement

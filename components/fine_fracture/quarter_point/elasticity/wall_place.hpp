@@ -22,8 +22,8 @@ inline WallPlace wall_place(const FineMesh& mesh, const FineMesh::WallEdge& edge
   const std::vector<double>& lengths = mesh.arc_lengths[edge.crack];
   const Point& from = mesh.nodes[edge.nodes[0][0]];
   const double arc = edge.from + std::clamp((x - from).dot(edge.tangent), 0.0, edge.to - edge.from);
-  // Of the way to the middle: an end of the edge must not fall into the next segment.
-  constexpr double rounding = 1e-9;
+  // An end of the edge must not fall into the next segment: it is moved a little towards the middle.
+  constexpr double rounding = 1e-9;  // of the way to the middle
   const double inside = arc + rounding * (0.5 * (edge.from + edge.to) - arc);
   const int last = static_cast<int>(lengths.size()) - 2;
   const auto above = std::upper_bound(lengths.begin(), lengths.end(), inside);
