@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/config/yaml/load_scene.hpp"
-#include "tests/verification/scene_run.hpp"
+#include "tests/verification/same_fields.hpp"
 
 namespace sprekk::testing {
 namespace {
@@ -32,20 +31,6 @@ std::vector<Override> in_time(const std::vector<Override>& more = {}) {
                                      {"components.pore.boundary", "{left: {pressure: 1 MPa}}"}};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return overrides;
-}
-
-void expect_same_fields(SceneRun& a, SceneRun& b, double tolerance) {
-  std::map<std::string, double> scale;
-  for (const auto& field : a.model().fields().all())
-    if (field->size() > 0) {
-      double& s = scale[field->spec().unit];
-      s = std::max(s, field->now().lpNorm<Eigen::Infinity>());
-    }
-  for (const auto& field : a.model().fields().all()) {
-    if (field->size() == 0) continue;
-    EXPECT_LE((field->now() - b.field(field->name())).lpNorm<Eigen::Infinity>(), tolerance * scale[field->spec().unit])
-        << field->name();
-  }
 }
 
 TEST(PropertiesInTime, FluidIsConserved) {

@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 #include "framework/config/yaml/load_scene.hpp"
-#include "tests/verification/scene_run.hpp"
+#include "tests/verification/same_fields.hpp"
 
 namespace sprekk::testing {
 namespace {
@@ -22,21 +21,6 @@ std::vector<Override> small_onset(const std::vector<Override>& more = {}) {
   std::vector<Override> overrides = {{"mesh.size", "0.25 m"}, {"mesh.fracture_size", "0.01 m"}, {"mesh.growth", "0.3"}};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return overrides;
-}
-
-/// Fields of one unit are compared with the largest of them: where a jump is zero, its size is that of displacements.
-void expect_same_fields(SceneRun& a, SceneRun& b, double tolerance) {
-  std::map<std::string, double> scale;
-  for (const auto& field : a.model().fields().all())
-    if (field->size() > 0) {
-      double& s = scale[field->spec().unit];
-      s = std::max(s, field->now().lpNorm<Eigen::Infinity>());
-    }
-  for (const auto& field : a.model().fields().all()) {
-    if (field->size() == 0) continue;
-    const Vector difference = field->now() - b.field(field->name());
-    EXPECT_LE(difference.lpNorm<Eigen::Infinity>(), tolerance * scale[field->spec().unit]) << field->name();
-  }
 }
 
 TEST(Schemes, FixedStressAgreesWithMonolithicOnMandel) {

@@ -7,20 +7,11 @@
 #include "components/matrix_flow/mpfa/mpfa.hpp"
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 #include "components/poromechanics/mpsa/mpsa.hpp"
-#include "framework/meshing/generate_mesh.hpp"
+#include "tests/framework/assembly/small_mesh.hpp"
 
 namespace {
 
 using namespace sprekk;
-
-Mesh square(double size) {
-  Geometry geometry;
-  geometry.box.low = Point(0, 0);
-  geometry.box.high = Point(1, 1);
-  MeshOptions options;
-  options.size = size;
-  return generate_mesh(geometry, options);
-}
 
 template <class Work>
 double seconds(const Work& work) {
@@ -32,7 +23,7 @@ double seconds(const Work& work) {
 /// A square that no fluid enters and whose faces are clamped.
 void time_mesh(double size) {
   Mesh mesh;
-  const double meshing = seconds([&] { mesh = square(size); });
+  const double meshing = seconds([&] { mesh = test::small_mesh(size); });
   std::vector<matrix_flow::FlowCondition> flow(mesh.face_count(), matrix_flow::FlowCondition::none);
   using Mechanical = poromechanics::MechanicalCondition;
   std::vector<poromechanics::FaceConditions> mechanics(mesh.face_count());

@@ -19,28 +19,16 @@
 #include "framework/config/yaml/parse_yaml.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/mesh/cell_sums.hpp"
-#include "framework/mesh/partition.hpp"
-#include "framework/meshing/generate_mesh.hpp"
 #include "framework/scene/model.hpp"
+#include "tests/framework/assembly/small_mesh.hpp"
 
 namespace {
 
 using namespace sprekk;
 
+// The unit square: pressures 1 and 0 on the left and right; rollers on the left and bottom, 1 Pa on the top. Shear
+// modulus and Lame's lambda 1, mobility 1, storage 1.
 constexpr double dt = 0.01;
-
-/// The unit square: pressures 1 and 0 on the left and right; rollers on the left and bottom, 1 Pa on the top. Shear
-/// modulus and Lame's lambda 1, mobility 1, storage 1.
-Mesh square(double size) {
-  Geometry geometry;
-  geometry.box.low = Point(0, 0);
-  geometry.box.high = Point(1, 1);
-  MeshOptions options;
-  options.size = size;
-  Mesh mesh = generate_mesh(geometry, options);
-  partition(mesh, 1);
-  return mesh;
-}
 
 /// Of the processor: others may use the machine too.
 double seconds(const std::function<void()>& work) {
@@ -256,7 +244,7 @@ int main(int count, char** arguments) {
   keep_memory();  // as sprekk does; for both halves
   const double size = count > 1 ? std::atof(arguments[1]) : 0.015;
   const int repeats = count > 2 ? std::atoi(arguments[2]) : 7;
-  const Mesh mesh = square(size);
+  const Mesh mesh = test::small_mesh(size);
   const auto scene = [](const std::string& components, const std::string& rest) {
     return "components: {" + components + "}, " + rest;
   };

@@ -28,17 +28,7 @@ class Condensed : public testing::TestWithParam<const char*> {
 
 const test::FracturedBiot biot{16};
 
-// Unknowns chosen at random, each block in its own unit.
-Vector some_state() {
-  Vector x = test::random_vector(biot.unknowns(), 4);
-  x.head(2 * biot.nodes()) *= 1e-4;                             // m
-  x.segment(2 * biot.nodes(), biot.nodes()) *= 1e6;             // Pa
-  x.segment(biot.traction(0, 0), 2 * biot.columns()) *= 1e6;    // Pa
-  x.segment(biot.jump(0, 0), 2 * biot.columns()) *= 1e-4;       // m
-  x.segment(biot.wall_flux(0, 0), 2 * biot.columns()) *= 1e-6;  // m/s
-  x.segment(biot.fracture_pressure(0), biot.columns()) *= 1e6;  // Pa
-  return x;
-}
+Vector some_state() { return biot.random_state(4); }
 
 // The system after an iteration in which other cells slide: rows on the fracture are multiplied, the bulk is the same.
 LinearSystem with_other_rows_on_fractures(LinearSystem system) {

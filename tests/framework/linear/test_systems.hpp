@@ -131,6 +131,18 @@ struct FracturedBiot {
   int fracture_pressure(int i) const { return first_local() + 6 * columns() + i; }
   int unknowns() const { return first_local() + 7 * columns(); }
 
+  /// Unknowns chosen at random, each block in its own unit.
+  Vector random_state(unsigned seed) const {
+    Vector x = random_vector(unknowns(), seed);
+    x.head(2 * nodes()) *= 1e-4;                        // m
+    x.segment(2 * nodes(), nodes()) *= 1e6;             // Pa
+    x.segment(traction(0, 0), 2 * columns()) *= 1e6;    // Pa
+    x.segment(jump(0, 0), 2 * columns()) *= 1e-4;       // m
+    x.segment(wall_flux(0, 0), 2 * columns()) *= 1e-6;  // m/s
+    x.segment(fracture_pressure(0), columns()) *= 1e6;  // Pa
+    return x;
+  }
+
   LinearSystem build() const {
     std::vector<Triplet> entries;
     for (int half = 0; half < 2; ++half)

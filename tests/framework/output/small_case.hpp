@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
-#include "framework/config/input_error.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/meshing/structured_mesh.hpp"
+#include "tests/framework/config/messages.hpp"
 
 namespace sprekk {
 
@@ -49,18 +49,6 @@ inline std::string read_text(const std::filesystem::path& file) {
 
 inline void write_text(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
-}
-
-/// The message of the InputError that `action` throws; a failure of the test if it throws none.
-template <class Action>
-std::string input_error_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no InputError";
-  return "";
 }
 
 }  // namespace sprekk

@@ -1,10 +1,8 @@
 #include "framework/remeshing/move_tips.hpp"
 
-#include <random>
-
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/meshing/generate_mesh.hpp"
-#include "tests/framework/remeshing/growth_checks.hpp"
+#include "tests/framework/remeshing/random_network.hpp"
 
 namespace sprekk::test {
 namespace {
@@ -261,27 +259,18 @@ TEST(MoveTips, HowFar) {
 TEST(MoveTips, RandomNetworks) {
   int changes = 0, moves = 0;
   for (int network = 0; network < 3; ++network) {
-    std::mt19937 random(network);
-    const auto uniform = [&](double low, double high) {
-      return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
-    };
-    std::vector<FractureGeometry> fractures;
-    for (int i = 0; i < 6; ++i) {
-      const Point middle(0.45 + 0.55 * (i % 3), 0.6 + 0.8 * (i / 3));
-      const Point half = uniform(0.04, 0.1) * turned({1, 0}, uniform(0, 3.1));
-      fractures.push_back(fracture("f" + std::to_string(i), {middle - half, middle + half}));
-    }
+    RandomNetwork random(network);
+    const auto uniform = [&random](double low, double high) { return random.uniform(low, high); };
+    const std::vector<FractureGeometry> fractures = random.fractures();
     std::vector<RegionGeometry> regions;
     if (network == 2) regions.push_back(region("hard", {{0.2, 0.5}, {1.8, 0.55}, {1.8, 0.7}, {0.2, 0.65}}));
     Mesh mesh = with_fractures(fractures, regions);
     for (int change = 0; change < 6; ++change) {
       std::vector<PathExtension> extensions;
-      for (int f = 0; f < 6; ++f) {
+      for (int f = 0; f < RandomNetwork::fracture_count; ++f) {
         for (const bool at_end : {true, false}) {
           if (uniform(0, 1) < 0.4) continue;
-          const auto& [name, first, count] = mesh.fractures[f];
-          const bool has_grown = mesh.fracture_cells[at_end ? first + count - 1 : first].grown;
-          const int replaced = has_grown && uniform(0, 1) < 0.7 ? 1 : 0;
+          const int replaced = grown_cells(mesh, f, at_end) > 0 && uniform(0, 1) < 0.7 ? 1 : 0;
           extensions.push_back(
               replacing(mesh, f, at_end, replaced, uniform(replaced == 1 ? 0.05 : 0.3, 1) * size, uniform(-0.4, 0.4)));
         }

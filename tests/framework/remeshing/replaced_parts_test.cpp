@@ -1,14 +1,12 @@
 // Extensions that begin before the old tip.
 #include "framework/remeshing/replaced_parts.hpp"
 
-#include <random>
-
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
 #include "framework/remeshing/move_tips.hpp"
-#include "tests/framework/remeshing/growth_checks.hpp"
+#include "tests/framework/remeshing/random_network.hpp"
 
 namespace sprekk::test {
 namespace {
@@ -206,29 +204,18 @@ TEST(ReplacedCells, RandomNetworks) {
   int changes = 0, refused = 0;
   double smallest = 10;
   for (int network = 0; network < 4; ++network) {
-    std::mt19937 random(network);
-    const auto uniform = [&](double low, double high) {
-      return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
-    };
-    std::vector<FractureGeometry> fractures;
-    for (int i = 0; i < 6; ++i) {
-      const Point middle(0.45 + 0.55 * (i % 3), 0.6 + 0.8 * (i / 3));
-      const Point half = uniform(0.04, 0.1) * turned({1, 0}, uniform(0, 3.1));
-      fractures.push_back(fracture("f" + std::to_string(i), {middle - half, middle + half}));
-    }
+    RandomNetwork random(network);
+    const auto uniform = [&random](double low, double high) { return random.uniform(low, high); };
+    const std::vector<FractureGeometry> fractures = random.fractures();
     std::vector<RegionGeometry> regions;
     if (network % 3 == 2) regions.push_back(region("hard", {{0.2, 0.95}, {1.8, 1.0}, {1.8, 1.1}, {0.2, 1.05}}));
     Mesh mesh = with_fractures(fractures, regions);
     for (int change = 0; change < 8; ++change) {
       std::vector<PathExtension> extensions;
-      for (int f = 0; f < 6; ++f) {
+      for (int f = 0; f < RandomNetwork::fracture_count; ++f) {
         for (const bool at_end : {true, false}) {
           if (uniform(0, 1) < 0.4) continue;
-          const auto& [name, first, count] = mesh.fractures[f];
-          int grown = 0;
-          while (grown < count && mesh.fracture_cells[at_end ? first + count - 1 - grown : first + grown].grown)
-            ++grown;
-          const int replaced = std::min(grown, static_cast<int>(uniform(0, 2.99)));
+          const int replaced = std::min(grown_cells(mesh, f, at_end), static_cast<int>(uniform(0, 2.99)));
           extensions.push_back(replacing(mesh, f, at_end, replaced,
                                          uniform(0, 1.5) * size + (replaced == 0 ? 0.2 * size : 0),
                                          uniform(-0.6, 0.6)));
