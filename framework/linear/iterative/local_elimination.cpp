@@ -71,7 +71,7 @@ Eigen::MatrixXd inverse_or_zero(Eigen::MatrixXd a) {
 
 // The rows of the local unknowns of all processes.
 SparseMatrix gather_local_rows(const LinearSystem& system, const Partition& partition) {
-  const Part& local = partition.local();
+  const SystemPart& local = partition.local();
   std::vector<Triplet> entries;
   for (std::size_t k = 0; k < local.owned.size(); ++k)
     for (SparseMatrix::InnerIterator entry(system.local, local.owned_rows[k]); entry; ++entry)
@@ -111,7 +111,7 @@ Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), 
     members.push_back(static_cast<int>(unknown));
   }
   for (std::size_t row = 0; row < system.rows.size(); ++row) {
-    Part& part = parts[part_of[system.rows[row]]];
+    SystemPart& part = parts[part_of[system.rows[row]]];
     part.owned.push_back(place_of[system.rows[row]]);
     part.owned_rows.push_back(static_cast<int>(row));
   }
@@ -121,7 +121,7 @@ SparseMatrix sub_matrix(const SparseMatrix& owned_rows, const Partition& partiti
   SPREKK_EXPECT(is_index(rows, static_cast<long>(partition.parts.size())), rows);
   SPREKK_EXPECT(is_index(columns, static_cast<long>(partition.parts.size())), columns);
   SPREKK_EXPECT(are_indices(partition.parts[rows].owned_rows, owned_rows.rows()), owned_rows.rows());
-  const Part& part = partition.parts[rows];
+  const SystemPart& part = partition.parts[rows];
   std::vector<Triplet> entries;
   for (std::size_t k = 0; k < part.owned.size(); ++k)
     for (SparseMatrix::InnerIterator entry(owned_rows, part.owned_rows[k]); entry; ++entry)

@@ -10,7 +10,7 @@
 namespace sprekk {
 
 /// A block of the system for a multigrid cycle, or (the last part of a partition) all local unknowns together.
-struct Part {
+struct SystemPart {
   const UnknownBlock* block = nullptr;  ///< null for the local part
   std::vector<int> unknowns;            ///< global numbers of all unknowns of the part, ascending
   std::vector<int> owned;               ///< places in `unknowns` of those whose rows this process holds
@@ -22,9 +22,9 @@ struct Part {
 /// stabilization approximates the Schur complement, so it is solved before the displacement.
 struct Partition {
   explicit Partition(const LinearSystem& system);
-  std::vector<Part> parts;
+  std::vector<SystemPart> parts;
   std::vector<int> part_of, place_of;  ///< of every unknown
-  const Part& local() const { return parts.back(); }
+  const SystemPart& local() const { return parts.back(); }
 };
 
 /// Rows of this process in part `rows`, columns of all unknowns of part `columns`.
