@@ -20,6 +20,7 @@ def error(out, cells, *settings):
     settings = (f"mesh.cells=[{cells // 10}, {cells}]", *settings)
     run = call("run", str(folder / "heated_column.yaml"), "-q", "-o", str(out), *[a for s in settings for a in ("--set", s)])
     assert run.returncode == 0, run.stderr
+    assert "note:" not in run.stdout + run.stderr, f"a note on a scene without mistakes: {run.stdout}{run.stderr}"
     check = subprocess.run([sys.executable, str(folder / "check.py"), str(out / "history.csv"), str(cells)],
                            capture_output=True, text=True)
     assert check.returncode == 0, check.stdout + check.stderr

@@ -40,6 +40,25 @@ TEST(CumulativeBalance, AreComparedWithTheLargestThroughputSoFar) {
   EXPECT_EQ(notes.all().size(), 1U);
 }
 
+TEST(CumulativeBalance, OfAPartWithoutThroughputAreComparedWithTheirAmounts) {
+  for (const double sign : {1.0, -1.0})
+    for (const double error : {2e-6, 0.5e-6}) {
+      CumulativeBalance balance;
+      Notes notes;
+      balance.note_step(fluid(sign * (2e7 + 5e7 * error), sign * 5e7, sign * 3e7, 0), notes);
+      ASSERT_EQ(notes.all().size(), error > 1e-6 ? 1U : 0U) << error;
+      for (const Notes::Note& note : notes.all()) EXPECT_NEAR(note.measure, error, 1e-12);
+    }
+  // Outflow alone, and storage alone.
+  for (const auto& amounts : {fluid(1e-9, 0, 3, 0), fluid(3, 0, 1e-9, 0)}) {
+    CumulativeBalance balance;
+    Notes notes;
+    balance.note_step(amounts, notes);
+    ASSERT_EQ(notes.all().size(), 1U);
+    for (const Notes::Note& note : notes.all()) EXPECT_NEAR(note.measure, 1, 1e-6);
+  }
+}
+
 TEST(CumulativeBalance, ThatAreNotClosedAreNotTold) {
   CumulativeBalance balance;
   Notes notes;
