@@ -15,7 +15,7 @@ Conductance FractureFlow::conductance(const Link& link) const {
     return {first.value / half, {{link.first, first.by_aperture / half}}};
   }
   const double other_half = 0.5 * mesh_.fracture_cells[link.second].measure;
-  if (options_.transmissivity == "cubic_law") return conductance_by_opening(link, half, other_half);
+  if (!options_.is_constant()) return conductance_by_opening(link, half, other_half);
   const Transmissivity first = transmissivity(link.first, link.point), second = transmissivity(link.second, link.point);
   if (first.value == 0 || second.value == 0) return {0, {}};
   return {1 / (half / first.value + other_half / second.value), {}};
@@ -35,7 +35,7 @@ Conductance FractureFlow::conductance_by_opening(const Link& link, double half, 
   double resistance = 0;
   std::array<double, 2> by_aperture = {0, 0};
   for (int i = 0; i < 2; ++i) {
-    const auto [a, by_present] = cubic_law_aperture(halves[i].value, held[i].value);
+    const auto [a, by_present] = hydraulic_aperture(halves[i].value, held[i].value);
     const double own = 12 * viscosity_[cells[i]] * lengths[i] / (a * a * a);
     resistance += own;
     for (int k = 0; k < 2; ++k) by_aperture[k] -= 3 * own / a * by_present * halves[i].by_aperture[k];
@@ -48,7 +48,7 @@ std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
   std::vector<JunctionFluxes> fluxes;
   for (const Junction& junction : mesh_.junctions) {
     fluxes.emplace_back(junction,
-                        options_.transmissivity == "cubic_law" ? halves_by_opening(junction) : given_halves(junction));
+                        options_.is_constant() ? given_halves(junction) : halves_by_opening(junction));
   }
   return fluxes;
 }
@@ -81,7 +81,7 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
   const std::vector<ArmAperture> held = is_held() ? arms_of(held_aperture_) : arms;
   std::vector<JunctionFluxes::Half> halves;
   for (int i = 0; i < count; ++i) {
-    const auto [a, by_present] = cubic_law_aperture(arms[i].value, held[i].value);
+    const auto [a, by_present] = hydraulic_aperture(arms[i].value, held[i].value);
     const double half = 0.5 * mesh_.fracture_cells[junction.cells[i]].measure;
     const double value = a * a * a / (12 * viscosity_[junction.cells[i]] * half);
     halves.push_back({value, 3 * value / a * by_present * arms[i].by_aperture});

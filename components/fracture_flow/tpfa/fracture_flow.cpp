@@ -52,14 +52,14 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     if (mesh_.fracture_cells[i].grown) initial_aperture_[i] = options_.grown_aperture;
   aperture_.set_both(initial_aperture_);
   pressure_.set_both(property(options_.initial_pressure).values());
+  law_ = options_.law.make(options_.aperture_floor);
   viscosity_ = property(options_.viscosity);
   compressibility_ = property(options_.fluid_compressibility);
   const double start = context.start_time;
-  if (options_.transmissivity_value) {
-    given_transmissivity_ = {*options_.transmissivity_value, whole_cells(mesh_), Mean::of_values, start};
+  if (const std::optional<Data>& given = options_.given_transmissivity()) {
+    given_transmissivity_ = {*given, whole_cells(mesh_), Mean::of_values, start};
     for (int end = 0; end < 2; ++end)
-      transmissivity_of_half_[end] = {*options_.transmissivity_value, half_cells(mesh_, end), Mean::of_reciprocals,
-                                      start};
+      transmissivity_of_half_[end] = {*given, half_cells(mesh_, end), Mean::of_reciprocals, start};
   }
   if (options_.normal_permeability_value)
     given_normal_permeability_ = {*options_.normal_permeability_value, whole_cells(mesh_), Mean::of_values, start};
@@ -67,7 +67,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
 
 std::vector<const Data*> FractureFlow::properties() const {
   std::vector<const Data*> data = {&options_.viscosity, &options_.fluid_compressibility};
-  for (const std::optional<Data>* given : {&options_.transmissivity_value, &options_.normal_permeability_value})
+  for (const std::optional<Data>* given : {&options_.given_transmissivity(), &options_.normal_permeability_value})
     if (*given) data.push_back(&**given);
   return data;
 }
@@ -136,15 +136,15 @@ void FractureFlow::evaluate_data(const StepTime& step) {
   prescribe(step);
 }
 
-FractureFlow::CubicLawAperture FractureFlow::cubic_law_aperture(double present, double held) const {
-  const double floor = options_.aperture_floor, now = std::max(present, floor);
-  if (!is_held()) return {now, present >= floor ? 1.0 : 0.0};
-  const double value = std::pow(std::max(held, floor), 1 - released_share_) * std::pow(now, released_share_);
-  return {value, present >= floor ? released_share_ * value / now : 0.0};
+HydraulicAperture FractureFlow::hydraulic_aperture(double present, double held) const {
+  const auto [now, by_aperture] = law_->at(present);
+  if (!is_held()) return {now, by_aperture};
+  const double value = std::pow(law_->at(held).value, 1 - released_share_) * std::pow(now, released_share_);
+  return {value, released_share_ * value / now * by_aperture};
 }
 
-FractureFlow::CubicLawAperture FractureFlow::cubic_law_aperture(int cell) const {
-  return cubic_law_aperture(aperture_.now()[cell], is_held() ? held_aperture_[cell] : 0);
+HydraulicAperture FractureFlow::hydraulic_aperture(int cell) const {
+  return hydraulic_aperture(aperture_.now()[cell], is_held() ? held_aperture_[cell] : 0);
 }
 
 void FractureFlow::set_search_mode(SearchMode mode) {
@@ -158,12 +158,12 @@ void FractureFlow::release_coefficients(double share) {
 }
 
 FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
-  if (options_.transmissivity == "constant") return {given_transmissivity_[cell] / viscosity_[cell], 0};
+  if (options_.is_constant()) return {given_transmissivity_[cell] / viscosity_[cell], 0};
   return cubic_law(cell);
 }
 
 FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) const {
-  if (options_.transmissivity != "constant") return cubic_law(cell);
+  if (!options_.is_constant()) return cubic_law(cell);
   const FractureCell& at = mesh_.fracture_cells[cell];
   const Point& position = mesh_.fracture_points[point].position;
   const auto away = [&](int end) { return (mesh_.fracture_points[at.points[end]].position - position).squaredNorm(); };
@@ -173,7 +173,7 @@ FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) c
 
 FractureFlow::Transmissivity FractureFlow::cubic_law(int cell) const {
   const double viscosity = viscosity_[cell];
-  const auto [a, by_present] = cubic_law_aperture(cell);
+  const auto [a, by_present] = hydraulic_aperture(cell);
   return {a * a * a / (12 * viscosity), a * a / (4 * viscosity) * by_present};
 }
 
@@ -185,7 +185,7 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
       kappa.value[i] = given_normal_permeability_[i];
       continue;
     }
-    const auto [a, by_present] = cubic_law_aperture(i);
+    const auto [a, by_present] = hydraulic_aperture(i);
     const Transmissivity t = transmissivity(i);
     kappa.value[i] = 2 * t.value / (a * a);
     kappa.by_aperture[i] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a) * by_present;
@@ -290,7 +290,7 @@ void FractureFlow::hold_constants(ConstantModes& modes) const {
 void FractureFlow::report(std::vector<Quantity>& quantities) const {
   int floored = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-    if (aperture_.now()[i] < options_.aperture_floor) ++floored;
+    if (law_->at(aperture_.now()[i]).by_aperture == 0) ++floored;
   quantities.push_back({name() + ".cells_at_aperture_floor", "1", static_cast<double>(floored)});
 }
 

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "components/capabilities/fracture_fluid.hpp"
+#include "components/fracture_flow/laws/hydraulic_law.hpp"
 #include "components/fracture_flow/tpfa/junction_fluxes.hpp"
 #include "components/fracture_flow/tpfa/mean_along.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
@@ -59,13 +61,9 @@ class FractureFlow : public Component, public FractureFluid {
   Transmissivity transmissivity(int cell, int point) const;
   Transmissivity cubic_law(int cell) const;
   bool is_held() const { return held_aperture_.size() > 0; }
-  /// An aperture for the cubic law, and its derivative by the present aperture.
-  struct CubicLawAperture {
-    double value, by_present;
-  };
-  /// The aperture for the cubic law from the present aperture and the held one, if any; both are at least the floor.
-  CubicLawAperture cubic_law_aperture(double present, double held) const;
-  CubicLawAperture cubic_law_aperture(int cell) const;  ///< not below the floor
+  /// By the law, from the present aperture and the held one, if any; the derivative is by the present one.
+  HydraulicAperture hydraulic_aperture(double present, double held) const;
+  HydraulicAperture hydraulic_aperture(int cell) const;
   /// A point through which fluid can flow.
   struct Link {
     int point;
@@ -103,6 +101,7 @@ class FractureFlow : public Component, public FractureFluid {
   Field& aperture_;
   Field& cumulative_;  ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_aperture_;
+  std::unique_ptr<HydraulicLaw> law_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one
   double released_share_ = 0;  ///< share of the change from the held to the present apertures that the cubic law takes
   Property viscosity_, compressibility_;

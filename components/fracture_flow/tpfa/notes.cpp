@@ -40,7 +40,7 @@ void FractureFlow::note_input(Notes& notes) const {
     note("gravity", origin_,
          "gravity has no effect on the flow of '" + name() +
              "' (its fluid_density is 0) give a density, or remove the gravity");
-  if (options_.transmissivity_value && options_.transmissivity != "constant")
+  if (options_.transmissivity_value && !options_.is_constant())
     note("transmissivity_value", origin_,
          "'transmissivity_value' of '" + name() +
              "' has no effect (the transmissivity follows the cubic law) write 'transmissivity: constant', or remove "

@@ -88,6 +88,7 @@ Spec Options::spec() {
              .range = non_negative(),
              .doc = "Of a transmissivity that does not follow from the aperture.",
              .in_time = true});
+  spec.section("law", law.spec(), {.doc = "How well the fracture conducts, instead of transmissivity."}, &has_law);
   spec.choice("normal_permeability", normal_permeability,
               {{"cubic_law", "2 K_i/(mu a^2), which with the cubic law is a/(6 mu)"},
                {"constant", "the value given as normal_permeability_value"}},
@@ -129,7 +130,11 @@ Spec Options::spec() {
                       },
                       {.doc = "Pressures where fractures end on a side; else no fluid flows out there."});
   spec.check([this](const Node& node) {
-    if (transmissivity == "constant" && !transmissivity_value)
+    for (const char* key : {"transmissivity", "transmissivity_value"})
+      if (has_law && node.find(key) && !node.find(key)->is_null())
+        throw InputError(node.find(key)->origin, std::string("'") + key + "' contradicts 'law'",
+                         "both say how the fracture conducts", "remove one of them");
+    if (!has_law && transmissivity == "constant" && !transmissivity_value)
       throw InputError(node.origin, "'transmissivity_value' is missing", "the transmissivity is constant",
                        "give it in m^3");
     if (normal_permeability == "constant" && !normal_permeability_value)

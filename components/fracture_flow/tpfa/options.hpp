@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "components/fracture_flow/laws/law_options.hpp"
 #include "framework/config/spec.hpp"
 
 namespace sprekk::fracture_flow {
@@ -39,6 +40,8 @@ struct Options {
   double aperture_floor = 1e-7;  ///< m
   std::string transmissivity = "cubic_law";
   std::optional<Data> transmissivity_value;  ///< m^3
+  bool has_law = false;                      ///< whether `law` says it, and the two above do not
+  LawOptions law;
   std::string normal_permeability = "cubic_law";
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
   VectorData gravity;                             ///< m/s^2
@@ -48,6 +51,10 @@ struct Options {
   std::map<std::string, Data> boundary;  ///< pressure by side, Pa
   std::map<std::string, Origin> boundary_origins;
   Spec spec();
+
+  /// Whether the transmissivity is given; otherwise it follows from the aperture.
+  bool is_constant() const { return has_law ? law.type == "constant" : transmissivity == "constant"; }
+  const std::optional<Data>& given_transmissivity() const { return has_law ? law.transmissivity : transmissivity_value; }
 };
 
 }  // namespace sprekk::fracture_flow

@@ -1,0 +1,50 @@
+#include "components/fracture_flow/laws/law_options.hpp"
+
+#include <algorithm>
+
+namespace sprekk::fracture_flow {
+
+Spec LawOptions::spec() {
+  Spec spec("law", "How well the fracture conducts, by its aperture a.");
+  std::vector<std::pair<std::string, std::string>> types = hydraulic_law_names();
+  types.emplace_back("constant", "the value given as transmissivity, whatever the aperture is");
+  spec.choice("type", type, std::move(types),
+              {.doc = "How the tangential transmissivity K_i follows from the aperture.",
+               .source = "below the paper's Eq. 8"});
+  spec.quantity("residual", residual,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Hydraulic aperture of a closed fracture, and the least one of any: it conducts, and has no volume."});
+  spec.quantity("roughness", roughness,
+                {.unit = "m",
+                 .range = non_negative(),
+                 .doc = "Height of the asperities of a rough fracture.",
+                 .source = "Lomize 1951; Witherspoon et al. 1980, Eq. 8"});
+  spec.data("transmissivity", transmissivity,
+            {.unit = "m^3", .range = non_negative(), .doc = "Of the constant law.", .in_time = true});
+  spec.check([this](const Node& node) {
+    const bool is_constant = type == "constant";
+    if (is_constant && !transmissivity)
+      throw InputError(node.origin, "'transmissivity' is missing", "the law is constant", "give it in m^3");
+    if (!is_constant && transmissivity)
+      throw InputError(node.origin, "'transmissivity' has no effect", "it follows from the aperture by the " + type + " law",
+                       "write 'type: constant', or remove it");
+    if (is_constant && residual)
+      throw InputError(node.origin, "'residual' has no effect", "a constant transmissivity does not depend on the aperture",
+                       "remove it, or write 'type: cubic'");
+    if (type == "rough" && !roughness)
+      throw InputError(node.origin, "'roughness' is missing", "the law is that of a rough fracture", "give it in m");
+    if (type != "rough" && roughness)
+      throw InputError(node.origin, "'roughness' has no effect", "the " + type + " law has no roughness",
+                       "write 'type: rough', or remove it");
+  });
+  return spec;
+}
+
+std::unique_ptr<HydraulicLaw> LawOptions::make(double floor) const {
+  // Where the transmissivity is given, the aperture across the fracture is that of smooth walls.
+  return make_hydraulic_law(type == "constant" ? "cubic" : type,
+                            {std::max(floor, residual.value_or(0)), roughness.value_or(0)});
+}
+
+}  // namespace sprekk::fracture_flow

@@ -1,0 +1,24 @@
+// The parameters of the laws of fracture flow.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "components/fracture_flow/laws/hydraulic_law.hpp"
+#include "framework/config/spec.hpp"
+
+namespace sprekk::fracture_flow {
+
+/// What a scene writes under `law`.
+struct LawOptions {
+  std::string type = "cubic";          ///< of hydraulic_law_names(), or "constant"
+  std::optional<double> residual;      ///< m
+  std::optional<double> roughness;     ///< m
+  std::optional<Data> transmissivity;  ///< m^3, of a constant one
+  Spec spec();
+  /// `floor`: the hydraulic aperture does not fall below this either, m.
+  std::unique_ptr<HydraulicLaw> make(double floor) const;
+};
+
+}  // namespace sprekk::fracture_flow
