@@ -127,7 +127,12 @@ Growing::Growth Tips::grow(const StepTime&) {
   if (!growth.longest)
     for (const Tip& tip : tips_) growth.longest = std::max(growth.longest.value_or(0), longest_path(tip));
   const std::vector<TipOutcome> outcomes = grow_tips(
-      growing, growth, [this](int tip, const std::vector<TipPath>& paths) { return evaluate(tip, paths); },
+      growing, growth,
+      // What others grow here counts for a tip that the mesh follows from the next step on. Otherwise the topology of its
+      // fine level would change from trial to trial, and its factors with it.
+      [this](int tip, const std::vector<TipPath>& paths) {
+        return is_followed(tips_[tip]) ? tips_[tip].now.sifs : evaluate(tip, paths);
+      },
       [this](int tip, const TipPath& path, const Point& to) {
         return tips_[tip].now.is_stopped ? 0 : free_distance(tips_[tip], path, to);
       },
