@@ -14,16 +14,17 @@ namespace {
 
 constexpr double turn_slope = 0.5;  ///< d(K_II/K_I)/d angle of a short kink (Cotterell and Rice 1980)
 constexpr double least_turn_slope = 0.3, steepest_turn_slope = 20;
-constexpr double first_slope = -0.3;     ///< of ln K_eq over one increment, as long as none is known
-constexpr double shared_slope = -0.2;    ///< the same by the growth of another tip
-constexpr double first_part = 0.25;      ///< of an increment: the first trial of a tip without a known speed
-constexpr double largest_turn = 0.3;     ///< rad, between two trials
-constexpr double largest_factor = 3;     ///< between lengths of a new segment in two trials
-constexpr double largest_advance = 0.6;  ///< of an increment, between two trials
-constexpr int halvings = 40;             ///< of the range of a first length
-constexpr double nearby = 1.01;          ///< of a length: for the slope of the expansion of a kink
-constexpr double at_limit = 1e-9;        ///< of a length that is at its limit, but for rounding
-constexpr double no_motion = 1e-300;     ///< no division by zero
+constexpr double first_slope = -0.3;          ///< of ln K_eq over one increment, as long as none is known
+constexpr double shared_slope = -0.2;         ///< the same by the growth of another tip
+constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one tells no slope between two meshes
+constexpr double first_part = 0.25;           ///< of an increment: the first trial of a tip without a known speed
+constexpr double largest_turn = 0.3;          ///< rad, between two trials
+constexpr double largest_factor = 3;          ///< between lengths of a new segment in two trials
+constexpr double largest_advance = 0.6;       ///< of an increment, between two trials
+constexpr int halvings = 40;                  ///< of the range of a first length
+constexpr double nearby = 1.01;               ///< of a length: for the slope of the expansion of a kink
+constexpr double at_limit = 1e-9;             ///< of a length that is at its limit, but for rounding
+constexpr double no_motion = 1e-300;          ///< no division by zero
 
 double log_load(const FrontState& state) {
   constexpr double least = 1e-3;
@@ -40,6 +41,7 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
       options_(options),
       dt_(dt),
       grows_(tips_.size(), 0),
+      is_laid_(tips_.size(), 0),
       is_stopped_(tips_.size(), 0),
       length_(tips_.size(), 0),
       angle_(tips_.size(), 0),
@@ -55,22 +57,26 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
     if (tips_[i].first_length > 0 || (without_growth[i].is_evaluated && without_growth[i].load > 1))
       begin(i, without_growth[i]);
   if (!any_grows()) verdict_ = Verdict::found;
-  for (int i = 0; i < count(); ++i) {
-    const Sifs& sifs = without_growth[i].sifs;
-    if (!grows_[i] || !(sifs.k1 > 0)) continue;
-    const double slope =
-        turn_slope - 2 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length_[i]) / sifs.k1;
-    jacobian_(2 * i + 1, 2 * i + 1) = std::clamp(slope, least_turn_slope, steepest_turn_slope);
-  }
-  // Where segments go on, the state without growth is the first trial.
   for (int i = 0; i < count(); ++i)
-    if (grows_[i] && is_new(i)) return;
+    if (grows_[i]) set_turn_slope(i, without_growth[i].sifs);
+  if (!learns_from_start()) return;
   const std::vector<double> lengths = length_, angles = angle_;
   for (int i = 0; i < count(); ++i) length_[i] = tips_[i].covered, angle_[i] = tips_[i].angle;
   before_place_ = place();
   before_residual_ = residual(without_growth);
   length_ = lengths;
   angle_ = angles;
+}
+
+/// Whether the state without growth is a trial that Broyden's method may learn from: where segments go on, and by so
+/// much that the difference of K_eq between two meshes does not matter.
+bool Front::learns_from_start() const {
+  double longest = 0;
+  for (int i = 0; i < count(); ++i) {
+    if (grows_[i] && is_new(i)) return false;
+    longest = std::max(longest, length_[i] - tips_[i].covered);
+  }
+  return longest > least_first_advance * options_.increment;
 }
 
 bool Front::any_grows() const {
@@ -80,7 +86,7 @@ bool Front::any_grows() const {
 void Front::stop(int tip) {
   SPREKK_EXPECT(is_index(tip, count()), tip);
   is_stopped_[tip] = 1;
-  grows_[tip] = 0;
+  grows_[tip] = is_laid_[tip] = 0;
   length_[tip] = tips_[tip].covered;
   angle_[tip] = tips_[tip].angle;
   before_place_.resize(0);
@@ -88,7 +94,7 @@ void Front::stop(int tip) {
 
 /// The first trial of a tip: from its speed, or else from the expansion of a short kink.
 void Front::begin(int i, const FrontState& state) {
-  grows_[i] = 1;
+  grows_[i] = is_laid_[i] = 1;
   FrontTip& tip = tips_[i];
   const double half = 0.5 * options_.increment;
   if (tip.first_length > 0) {
@@ -120,6 +126,14 @@ void Front::begin(int i, const FrontState& state) {
   const double near = nearby * low;
   const double slope = std::log(equivalent_sif(end_of(near)) / equivalent_sif(end_of(low))) / (near - low);
   if (std::isfinite(slope)) jacobian_(2 * i, 2 * i) = std::min(slope * options_.increment, first_slope);
+}
+
+/// By the expansion of a kink: compression along the tip makes the direction of long segments stiffer.
+void Front::set_turn_slope(int i, const Sifs& sifs) {
+  if (!(sifs.k1 > 0)) return;
+  const double slope =
+      turn_slope - 2 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length_[i]) / sifs.k1;
+  jacobian_(2 * i + 1, 2 * i + 1) = std::clamp(slope, least_turn_slope, steepest_turn_slope);
 }
 
 void Front::make_jacobian(const Eigen::MatrixXd& slopes) {
@@ -201,15 +215,27 @@ void Front::learn(const std::vector<FrontState>& states) {
   step(found);
 }
 
-/// Newton's step with Broyden's matrix. A tip that would move back to where it was at the start of the step stays
+/// Lets tips above the toughness grow. Whether one of them was not in the last trial: then a trial with the new set
+/// comes before anything is concluded.
+bool Front::free_tips(const Eigen::VectorXd& residual) {
+  for (int i = 0; i < count(); ++i) {
+    if (grows_[i] || is_stopped_[i] || !last_[i].is_evaluated || residual[2 * i] <= options_.load_tolerance) continue;
+    if (is_laid_[i]) {
+      grows_[i] = 1;
+      continue;
+    }
+    before_place_.resize(0);
+    begin(i, last_[i]);
+    set_turn_slope(i, last_[i].sifs);
+    return true;
+  }
+  return false;
+}
+
+/// Newton's step with Broyden's matrix. A tip that would move back to where it was at the start of the step rests
 /// there.
 void Front::step(const Eigen::VectorXd& residual) {
-  for (int i = 0; i < count(); ++i)
-    if (!grows_[i] && !is_stopped_[i] && last_[i].is_evaluated && residual[2 * i] > options_.load_tolerance) {
-      before_place_.resize(0);
-      begin(i, last_[i]);
-      return;  // one trial with the new set before anything is concluded
-    }
+  if (free_tips(residual)) return;
   const Eigen::VectorXd from = place();
   std::vector<int> free;
   for (int i = 0; i < count(); ++i)
@@ -237,7 +263,6 @@ void Front::step(const Eigen::VectorXd& residual) {
   }
   before_place_ = from;
   before_residual_ = residual;
-  bool is_stuck = true;
   for (int a = 0; a < size; a += 2) {
     const int i = free[a] / 2;
     const double wanted = length_[i] + part * move[a] * options_.increment;
@@ -245,10 +270,12 @@ void Front::step(const Eigen::VectorXd& residual) {
     if (is_new(i)) {
       length_[i] = std::max(options_.shortest, wanted);
     } else if (wanted <= tips_[i].covered) {
-      // Back at the start of the step: the tip rests.
-      length_[i] = tips_[i].covered;
+      // Back at the start of the step: the tip rests, unless it is there and above its toughness. Then its load rises
+      // with its length.
+      const bool is_unstable = residual[2 * i] > 0 && length_[i] <= tips_[i].covered * (1 + at_limit);
+      length_[i] = tips_[i].covered + (is_unstable ? first_part * options_.increment : 0);
       angle_[i] = tips_[i].angle;
-      grows_[i] = 0;
+      grows_[i] = is_unstable;
     } else {
       length_[i] = wanted;
     }
@@ -260,11 +287,6 @@ void Front::step(const Eigen::VectorXd& residual) {
       }
       length_[i] = tips_[i].longest;
     }
-    is_stuck = false;
-  }
-  if (is_stuck) {
-    verdict_ = Verdict::failed;
-    reason_ = "no tip is left that may grow";
   }
 }
 

@@ -56,6 +56,9 @@ class Front {
 
   /// Whether the tip has an advance in the trial.
   bool grows(int tip) const { return grows_[tip]; }
+  /// Whether its last segment is laid anew in the trial: it grows, or has come back to where it was. K_eq differs from
+  /// mesh to mesh, so a tip has to rest on the mesh on which it was found to.
+  bool is_laid(int tip) const { return is_laid_[tip]; }
   double length(int tip) const { return length_[tip]; }  ///< m, of the last segment, covered part included
   double angle(int tip) const { return angle_[tip]; }    ///< rad, from the x axis
   bool any_grows() const;
@@ -74,16 +77,19 @@ class Front {
   int count() const { return static_cast<int>(tips_.size()); }
   bool is_new(int tip) const { return tips_[tip].covered == 0; }
   void begin(int tip, const FrontState& state);
+  void set_turn_slope(int tip, const Sifs& sifs);
+  bool learns_from_start() const;
   void make_jacobian(const Eigen::MatrixXd& slopes);
   Eigen::VectorXd residual(const std::vector<FrontState>& states) const;
   Eigen::VectorXd place() const;
   void update_jacobian(const Eigen::VectorXd& residual);
+  bool free_tips(const Eigen::VectorXd& residual);
   void step(const Eigen::VectorXd& residual);
 
   std::vector<FrontTip> tips_;
   FrontOptions options_;
   double dt_;
-  std::vector<char> grows_, is_stopped_;
+  std::vector<char> grows_, is_laid_, is_stopped_;
   std::vector<double> length_, angle_;
   std::vector<FrontState> last_;
   Eigen::MatrixXd jacobian_;  ///< of (ln(K_eq/K_IC), K_II/K_I) by (length/increment, angle), per tip

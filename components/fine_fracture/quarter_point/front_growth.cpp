@@ -54,6 +54,7 @@ class TipsFront : public FrontSearch {
   std::vector<FrontTip> at_start_;
   std::vector<FrontState> states_;  ///< of the last trial
   std::vector<char> is_blocked_;    ///< tips that stop in this step
+  std::vector<char> is_followed_;   ///< by the mesh, from the start of the step on
   std::vector<PathExtension> joinings_;
   std::unique_ptr<Front> front_;
   std::vector<PathExtension> paths_;
@@ -117,6 +118,7 @@ void TipsFront::add(Tips::Tip& tip) {
     start.first_length = 0;
   }
   start.longest = start.covered + std::min(reach, free);
+  is_followed_.push_back(tips_.is_followed(tip));
   at_start_.push_back(start);
   segments_.push_back(segment);
   states_.push_back(state);
@@ -141,7 +143,7 @@ void TipsFront::propose() {
   paths_ = joinings_;
   tip_of_path_.assign(paths_.size(), none);
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
-    if (!front_->grows(i)) continue;
+    if (!front_->is_laid(i)) continue;
     const double angle = front_->angle(i);
     PathExtension extension{tips_.tips_[i].end.fracture, tips_.tips_[i].end.at_end, segments_[i].before};
     extension.points.push_back(at_start_[i].anchor + front_->length(i) * Point(std::cos(angle), std::sin(angle)));
@@ -179,7 +181,8 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
     states_[i] = {{}, 0, false};
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
-    if (!is_blocked_[i]) states_[i] = state_of(there, *same);
+    // A tip that has come to grow on the fine level in a trial is followed from the next step on.
+    if (!is_blocked_[i] && is_followed_[i]) states_[i] = state_of(there, *same);
     tips_.tips_[i].pattern = same->pattern;
   }
   if (front_->verdict() == Front::Verdict::again) front_->learn(states_);

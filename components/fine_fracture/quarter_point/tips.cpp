@@ -128,8 +128,8 @@ Growing::Growth Tips::grow(const StepTime&) {
     for (const Tip& tip : tips_) growth.longest = std::max(growth.longest.value_or(0), longest_path(tip));
   const std::vector<TipOutcome> outcomes = grow_tips(
       growing, growth,
-      // What others grow here counts for a tip that the mesh follows from the next step on. Otherwise the topology of its
-      // fine level would change from trial to trial, and its factors with it.
+      // What others grow here counts for a tip that the mesh follows from the next step on. Otherwise the topology of
+      // its fine level would change from trial to trial, and its factors with it.
       [this](int tip, const std::vector<TipPath>& paths) {
         return is_followed(tips_[tip]) ? tips_[tip].now.sifs : evaluate(tip, paths);
       },

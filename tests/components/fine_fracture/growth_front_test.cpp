@@ -99,6 +99,33 @@ TEST(Front, NothingGrowsBelowTheToughness) {
   EXPECT_FALSE(front.any_grows());
 }
 
+/// On the mesh of the trials K_eq is lower by 0.2 % than on that of the step without growth, where it is above the
+/// toughness.
+TEST(Front, ATipRestsOnTheMeshOfItsTrials) {
+  const ClosedForm form{{-0.001}, {tip(0.4)}}, before{{0.001}, {tip(0.4)}};
+  Front front(form.tips, before.without_growth(), options(), 3600);
+  while (front.verdict() == Front::Verdict::again) front.learn(form.states({front.length(0)}, {front.angle(0)}));
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_EQ(front.length(0), 0.008);
+  EXPECT_TRUE(front.is_laid(0));
+  EXPECT_FALSE(front.grows(0));
+}
+
+/// A tip that came back to where it was, since the load fell too far in the first trials, grows from there.
+TEST(Front, ATipThatCameBackGrowsAgain) {
+  const std::vector<FrontTip> tips{tip(0.4)};
+  Front front(tips, ClosedForm{{0.0005}, tips}.without_growth(), options(), 3600);
+  bool has_rested = false;
+  while (front.verdict() == Front::Verdict::again) {
+    has_rested = has_rested || front.length(0) == 0.008;
+    const ClosedForm form{{has_rested ? 0.002 : -0.1}, tips};
+    front.learn(form.states({front.length(0)}, {front.angle(0)}));
+  }
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_TRUE(has_rested);
+  EXPECT_NEAR(front.length(0), 0.008 + 0.002 / 50, 1e-8);
+}
+
 TEST(Front, DependsSmoothlyOnTheLoad) {
   const auto length = [](double rise) {
     return ClosedForm{{rise, 0.33}, {tip(0.4), tip(-2.0)}}.solved(options()).length(0);
