@@ -6,20 +6,25 @@
 
 namespace sprekk {
 
-FieldOutput::FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures)
-    : folder_(std::move(folder)), matrix_(std::move(matrix)), fractures_(std::move(fractures)) {
+FieldOutput::FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures, TimeSeries paths)
+    : folder_(std::move(folder)),
+      matrix_(std::move(matrix)),
+      fractures_(std::move(fractures)),
+      paths_(std::move(paths)) {
   open_module("vtk");  // throws before the run starts if fields cannot be written
 }
 
 FieldOutput::FieldOutput(const std::filesystem::path& folder)
-    : FieldOutput(folder, TimeSeries(folder / "matrix.pvd"), TimeSeries(folder / "fractures.pvd")) {}
+    : FieldOutput(folder, TimeSeries(folder / "matrix.pvd"), TimeSeries(folder / "fractures.pvd"),
+                  TimeSeries(folder / "paths.pvd")) {}
 
 FieldOutput FieldOutput::continued(const std::filesystem::path& folder, double time) {
   return {folder, TimeSeries::continued(folder / "matrix.pvd", time),
-          TimeSeries::continued(folder / "fractures.pvd", time)};
+          TimeSeries::continued(folder / "fractures.pvd", time), TimeSeries::continued(folder / "paths.pvd", time)};
 }
 
-void FieldOutput::write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields) {
+void FieldOutput::write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields,
+                        const std::vector<OutputLine>& lines) {
   const std::string matrix_file = fmt::format("matrix_{:06}.vtu", step);
   write_matrix_vtu(folder_ / matrix_file, mesh, fields);
   matrix_.add(time, matrix_file);
@@ -27,6 +32,11 @@ void FieldOutput::write(double time, int step, const Mesh& mesh, const std::vect
   const std::string fracture_file = fmt::format("fractures_{:06}.vtu", step);
   write_fracture_vtu(folder_ / fracture_file, mesh, fields);
   fractures_.add(time, fracture_file);
+  // Empty files, too: a picture of this time must not show the lines of an earlier one.
+  if (lines.empty() && paths_.entries().empty()) return;
+  const std::string line_file = fmt::format("paths_{:06}.vtu", step);
+  write_line_vtu(folder_ / line_file, lines);
+  paths_.add(time, line_file);
 }
 
 }  // namespace sprekk

@@ -1,5 +1,6 @@
 #include "framework/output/vtu_writer.hpp"
 
+#include <array>
 #include <stdexcept>
 
 #include "framework/module/module.hpp"
@@ -97,6 +98,22 @@ void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, con
       add_field(grid.on_cells, field, field.name + ".minus", static_cast<int>(Wall::minus), 2);
     }
   }
+  write(file, grid);
+}
+
+void write_line_vtu(const std::filesystem::path& file, const std::vector<OutputLine>& lines) {
+  GridData grid;
+  GridData::Array fracture = integers("fracture");
+  for (const OutputLine& line : lines) {
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const auto point = static_cast<int>(grid.points.size() / 3);
+      add_point(grid, line.points[i]);
+      if (i == 0) continue;
+      add_cell(grid, std::array<int, 2>{point - 1, point});
+      fracture.values.push_back(line.fracture);
+    }
+  }
+  grid.on_cells.push_back(std::move(fracture));
   write(file, grid);
 }
 

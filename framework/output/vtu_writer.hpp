@@ -25,4 +25,13 @@ void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const
 /// out.
 void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
 
+/// A line that goes on from a fracture, and is not in the mesh.
+struct OutputLine {
+  int fracture;
+  std::vector<Point> points;  ///< m
+};
+
+/// Writes the segments of lines, and the number of each segment's fracture.
+void write_line_vtu(const std::filesystem::path& file, const std::vector<OutputLine>& lines);
+
 }  // namespace sprekk

@@ -96,9 +96,8 @@ Json mesh_json(const Grid& grid) {
           {"cells", base64_of(std::vector<std::uint32_t>(grid.cells.begin(), grid.cells.end()))}};
 }
 
-/// The points of each fracture as a list x, y, x, y, …
-Json lines_json(const Grid& fractures) {
-  Json lines = Json::array();
+/// Adds every line of the grid as a list x, y, x, y, …
+void add_lines(const Grid& fractures, Json& lines) {
   std::vector<int> all(static_cast<std::size_t>(fractures.cell_count()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   std::optional<PathOrigin> origin;
@@ -107,6 +106,13 @@ Json lines_json(const Grid& fractures) {
     for (const auto& point : path.points) line.insert(line.end(), {point[0], point[1]});
     lines.push_back(line);
   }
+}
+
+/// All fractures, and what they have grown beyond the mesh.
+Json lines_json(const RunResults::Written& written) {
+  Json lines = Json::array();
+  add_lines(written.fractures, lines);
+  add_lines(written.paths, lines);
   return lines;
 }
 
@@ -174,7 +180,7 @@ std::string map_json(const RunResults& results, std::size_t most_bytes) {
     for (std::size_t i = 0; i < fields.size(); ++i) values.push_back(packed(values_of(grid, fields[i]), ranges[i]));
     data["times"].push_back({{"text", display_text(written->time, "s")},
                              {"mesh", data["meshes"].size() - 1},
-                             {"lines", lines_json(written->fractures)},
+                             {"lines", lines_json(*written)},
                              {"values", values}});
   }
   std::string text = data.dump();

@@ -42,13 +42,17 @@ RunResults read_results(const fs::path& folder) {
     throw InputError({record.string()}, "this is not the record of a run", "it is damaged, or another file");
   results.history = CsvTable::read(folder / "history.csv");
   results.coupling = CsvTable::read(folder / "coupling.csv");
-  const std::vector<Snapshot> matrix = index(results, "matrix.pvd"), fractures = index(results, "fractures.pvd");
+  const std::vector<Snapshot> matrix = index(results, "matrix.pvd"), fractures = index(results, "fractures.pvd"),
+                              paths = index(results, "paths.pvd");
   results.written_count = matrix.size();
   for (const Snapshot& snapshot : evenly_chosen(matrix, RunResults::most_times)) {
     RunResults::Written written{snapshot.time, grid(results, snapshot.file), {}};
-    const auto lines = std::find_if(fractures.begin(), fractures.end(),
-                                    [&](const Snapshot& other) { return other.time == snapshot.time; });
-    if (lines != fractures.end()) written.fractures = grid(results, lines->file);
+    const auto of_this_time = [&](const std::vector<Snapshot>& all) {
+      const auto found = std::ranges::find(all, snapshot.time, &Snapshot::time);
+      return found != all.end() ? grid(results, found->file) : Grid{};
+    };
+    written.fractures = of_this_time(fractures);
+    written.paths = of_this_time(paths);
     if (written.matrix.cell_count() > 0) results.written.push_back(std::move(written));
   }
   return results;

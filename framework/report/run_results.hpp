@@ -16,6 +16,7 @@ struct RunResults {
   struct Written {
     double time;  ///< s
     Grid matrix, fractures;
+    Grid paths = {};  ///< by which fractures have grown further than the mesh knows
   };
 
   std::filesystem::path folder;

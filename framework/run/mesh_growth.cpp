@@ -39,7 +39,7 @@ MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
 StepStatus MeshGrowth::find_front(const StepTime& step, const StepStatus& without_growth) {
   for (std::size_t i = 0; i < model_->growing().size(); ++i) {
     const GrowStep& grow = *model_->growing()[i];
-    if (!grow.grows_within_step()) continue;
+    if (!grow.grows_within_step() || !grow.was_run(step)) continue;
     const std::unique_ptr<FrontSearch> search = grow.component().search_front(step, grow.may_shrink(step));
     if (search) return search_front(i, *search, step);
   }

@@ -95,8 +95,11 @@ void RunOutput::write_iteration(const IterationRecord& record) {
                                       {"step_length[1]", record.step_length}});
 }
 
-void RunOutput::write_fields(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields) {
-  if (parallel::is_root() && fields_) fields_->write(time, step, mesh, fields);
+void RunOutput::write_fields(double time, int step, const Model& model, const std::vector<OutputField>& fields) {
+  if (!parallel::is_root() || !fields_) return;
+  std::vector<OutputLine> lines;
+  for (PendingPath& path : model.pending_paths()) lines.push_back({path.fracture, std::move(path.points)});
+  fields_->write(time, step, model.mesh(), fields, lines);
 }
 
 RunOutput::Rows RunOutput::rows() const { return {history_ ? history_->rows() : 0, coupling_ ? coupling_->rows() : 0}; }

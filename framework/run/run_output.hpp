@@ -40,7 +40,7 @@ class RunOutput {
   void open(const std::optional<Continued>& from, bool with_fields);
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
   void write_iteration(const IterationRecord& record);
-  void write_fields(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields);
+  void write_fields(double time, int step, const Model& model, const std::vector<OutputField>& fields);
   Rows rows() const;  ///< of the tables now; 0 on processes other than the first
   /// `rows`: those of the tables at the state of the checkpoint.
   void write_checkpoint(const Model& model, const Notes& notes, const Rows& rows, std::map<std::string, Vector> extra,

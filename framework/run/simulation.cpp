@@ -165,7 +165,7 @@ void Simulation::accept(const StepTime& step, int iterations) {
   recorder_.accepted(quantities);
   const ScopedTimer timer(profile_, "output");
   output_.write_history(step, iterations, quantities);
-  if (writes_fields) output_.write_fields(step.end, state_.controller.steps(), model.mesh(), fields);
+  if (writes_fields) output_.write_fields(step.end, state_.controller.steps(), model, fields);
 }
 
 bool Simulation::follow_growth() {

@@ -201,6 +201,15 @@ Notes Model::input_notes() const {
   return notes;
 }
 
+std::vector<PendingPath> Model::pending_paths() const {
+  std::vector<PendingPath> paths;
+  for (const GrowStep* grow : growing_) {
+    const std::vector<PendingPath> more = grow->component().pending_paths();
+    paths.insert(paths.end(), more.begin(), more.end());
+  }
+  return paths;
+}
+
 std::vector<OutputField> Model::output() const {
   std::vector<OutputField> fields;
   for (const auto& field : fields_.all())

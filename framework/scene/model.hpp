@@ -50,6 +50,7 @@ class Model {
   std::map<std::string, Balance> balances() const;  ///< of conserved quantities, by name
   std::vector<Quantity> quantities() const;         ///< for history.csv
   std::vector<OutputField> output() const;          ///< for pictures
+  std::vector<PendingPath> pending_paths() const;   ///< of fractures that have grown further than the mesh knows
   Notes input_notes() const;                        ///< of the scene and of all parts
 
  private:

@@ -113,7 +113,7 @@ ScheduleBuilder read_when(const Node& node, const ScheduleReading& reading) {
 ScheduleBuilder read_grow(const Node& node, const ScheduleReading& reading) {
   if (reading.is_iterated || reading.is_substep)
     throw InputError(node.find("grow")->origin, "'grow' stands inside of an 'iterate' or a 'subcycle'",
-                     "the mesh changes between whole time steps only", "put it behind them");
+                     "the mesh changes with whole time steps only", "put it behind them");
   GrowOptions options;
   options.newton = reading.newton;
   options.linear = reading.linear;
@@ -127,7 +127,12 @@ ScheduleBuilder read_grow(const Node& node, const ScheduleReading& reading) {
       throw unknown_name(options.origin, "component", name, known);
   return [options](const ScheduleContext& context) {
     auto step = std::make_unique<GrowStep>(options, context);
-    if (context.growing) context.growing->push_back(step.get());
+    if (!context.growing) return step;
+    for (const GrowStep* other : *context.growing)
+      if (other->options().component == options.component && other->grows_within_step() != step->grows_within_step())
+        throw InputError(options.origin, "'grow: " + options.component + "' is there with and without 'within_step'",
+                         "growth is found in one way for the whole run", "give both the same 'update'");
+    context.growing->push_back(step.get());
     return step;
   };
 }
@@ -156,6 +161,34 @@ const std::vector<ScheduleKind>& schedule_kinds() {
   return kinds;
 }
 
+namespace {
+
+/// The value `within_step` of a `grow` in these steps, or nullptr.
+const Node* growth_within_step(const Node& steps) {
+  const Node* update = steps.find("grow") ? steps.find("update") : nullptr;
+  if (update && update->scalar == within_step) return update;
+  for (const Node& item : steps.items)
+    if (const Node* found = growth_within_step(item)) return found;
+  for (const Node::Entry& entry : steps.entries)
+    if (const Node* found = growth_within_step(entry.value)) return found;
+  return nullptr;
+}
+
+/// Growth within a step belongs to the state at its end: nothing may change this state afterwards. Of several `when`
+/// one may hold at a time; that is up to the scene.
+void require_growth_last(const std::vector<Node>& steps) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Node* growth = growth_within_step(steps[i]);
+    for (std::size_t k = i + 1; growth && k < steps.size(); ++k)
+      for (const char* key : {"solve", "grow"})
+        if (has_step(steps[k], key) && !(steps[i].find("when") && steps[k].find("when")))
+          throw InputError(growth->origin, std::string("a '") + key + "' stands behind growth within steps",
+                           "the advance of the tips belongs to the state at the end of the step", "put 'grow' last");
+  }
+}
+
+}  // namespace
+
 ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading) {
   if (node.is_list()) {
     if (node.items.empty())
@@ -163,6 +196,7 @@ ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading) 
                        "write a step, for example 'solve: [...]'");
     std::vector<ScheduleBuilder> steps;
     for (const Node& item : node.items) steps.push_back(read_schedule(item, reading));
+    require_growth_last(node.items);
     if (steps.size() == 1) return steps.front();
     return [steps](const ScheduleContext& context) {
       std::vector<std::unique_ptr<ScheduleStep>> built;

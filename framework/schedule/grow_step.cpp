@@ -22,11 +22,11 @@ Spec GrowOptions::spec() {
               .required = true});
   spec.choice(
       "update", update,
-      {{"within_step",
+      {{within_step,
         "the advance of the tips is found together with the state at the end of the step; new, for fractures that do "
         "not meet"},
-       {"after_step", "the step is accepted, and the mesh grows between it and the next"},
-       {"repeat_step", "the step is repeated on the mesh that has grown, until nothing grows any more"}},
+       {after_step, "the step is accepted, and the mesh grows between it and the next"},
+       {repeat_step, "the step is repeated on the mesh that has grown, until nothing grows any more"}},
       {.doc = "When the mesh takes over what has grown."});
   spec.integer("passes", passes,
                {.range = between(1, 1000), .doc = "Of repeat_step: how often one step is repeated at most."});
@@ -102,6 +102,7 @@ StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, do
 }
 
 StepStatus GrowStep::run(const StepTime& step) {
+  last_ = step;
   extensions_.clear();
   now_doing("looking at what may grow");
   load_ = growing_->examine(step);

@@ -9,11 +9,13 @@
 
 namespace sprekk {
 
+inline constexpr const char *within_step = "within_step", *after_step = "after_step", *repeat_step = "repeat_step";
+
 /// Parameters of a `grow` step.
 struct GrowOptions {
   std::string component;
   std::vector<std::string> settle;
-  std::string update = "after_step";
+  std::string update = after_step;
   int passes = 20;          ///< of repeat_step
   double cut = 1e-2;        ///< size of the steps after a growth event, over the standard step
   double settled = 1e-2;    ///< relative change over a step at and below which the standard step returns
@@ -39,10 +41,12 @@ class GrowStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override { settle_.add_counts(counts); }
 
   const GrowOptions& options() const { return options_; }
-  bool grows_within_step() const { return options_.update == "within_step"; }
+  bool grows_within_step() const { return options_.update == within_step; }
+  /// Whether the step was run in an attempt at this time step: a `when` may leave it out.
+  bool was_run(const StepTime& step) const { return last_ && last_->start == step.start && last_->dt == step.dt; }
   Growing& component() const { return *growing_; }
   bool may_shrink(const StepTime& step) const;  ///< whether the step is longer than the smallest one
-  bool repeats_step() const { return options_.update == "repeat_step"; }
+  bool repeats_step() const { return options_.update == repeat_step; }
   const std::vector<PathExtension>& extensions() const { return extensions_; }
   CavityOptions cavity() const { return growing_->cavity(); }
   /// Whether a growth event still shows at the tips.
@@ -65,6 +69,7 @@ class GrowStep : public ScheduleStep {
     double start, dt, load;  ///< s, s, load of the tip for which the step was refused
   };
   std::optional<Refusal> refusal_;  ///< the last one
+  std::optional<StepTime> last_;    ///< that it was run for
   std::vector<PathExtension> extensions_;
 };
 

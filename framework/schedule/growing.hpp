@@ -33,6 +33,12 @@ class FrontSearch {
   virtual double retry_dt() const = 0;     ///< s, of the step to try instead; 0: no suggestion
 };
 
+/// A path by which a fracture has grown, and which is not in the mesh yet.
+struct PendingPath {
+  int fracture;
+  std::vector<Point> points;  ///< m, from the end of the fracture in the mesh on
+};
+
 /// What a component with fractures that can grow offers to the schedule: the load of its tips, and growth.
 class Growing {
  public:
@@ -63,6 +69,8 @@ class Growing {
   /// Where the step may not become shorter, growth that is too far or not found to the last digit is taken, with a
   /// note.
   virtual std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) = 0;
+  /// The paths that the mesh has not taken over yet, in the current state.
+  virtual std::vector<PendingPath> pending_paths() const { return {}; }
   /// How the mesh changes around a path that it takes over.
   virtual CavityOptions cavity() const = 0;
   /// Whether the systems that settle a state after growth may be so nearly singular that a solver which is quick for

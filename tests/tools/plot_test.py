@@ -111,6 +111,24 @@ class Results(unittest.TestCase):
             picture = (self.folder / "plots" / f"{name}.png").read_bytes()
             self.assertTrue(picture.startswith(b"\x89PNG"), name)
 
+    def test_paths_beyond_the_mesh_are_drawn(self):
+        def drawn():
+            subprocess.run([ROOT / "tools/plot", self.folder], capture_output=True, check=True)
+            return (self.folder / "plots/matrix_a_pressure.png").read_bytes()
+
+        def add_path(time):
+            write_vtu(self.folder / "paths_1.vtu", (VTK_LINE,), ((0, 1),), {"fracture": np.zeros(1, np.int32)}, {},
+                      np.array([[0.1, 0.3, 0], [0.2, 0.2, 0]]))
+            (self.folder / "paths.pvd").write_text(
+                f'<VTKFile type="Collection"><Collection><DataSet timestep="{time}" file="paths_1.vtu"/></Collection></VTKFile>')
+
+        without = drawn()
+        self.assertEqual(drawn(), without)
+        add_path(0)  # another time than that of the map
+        self.assertEqual(drawn(), without)
+        add_path(7200)
+        self.assertNotEqual(drawn(), without)
+
     def test_a_folder_without_results_is_refused(self):
         done = subprocess.run([ROOT / "tools/plot", ROOT / "tools"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)

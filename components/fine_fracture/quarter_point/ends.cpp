@@ -7,6 +7,10 @@ const FractureCell& end_cell(const Mesh& mesh, const TipEnd& end) {
   return mesh.fracture_cells[cells.first_cell + (end.at_end ? cells.cell_count - 1 : 0)];
 }
 
+Point end_point(const Mesh& mesh, const TipEnd& end) {
+  return mesh.fracture_points[end_cell(mesh, end).points[end.at_end ? 1 : 0]].position;
+}
+
 FracturePoint::Kind kind_of(const Mesh& mesh, const TipEnd& end) {
   return mesh.fracture_points[end_cell(mesh, end).points[end.at_end ? 1 : 0]].kind;
 }

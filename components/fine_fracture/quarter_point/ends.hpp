@@ -17,6 +17,7 @@ std::string name_of(const Mesh& mesh, const TipEnd& end);          ///< "main_fi
 FracturePoint::Kind kind_of(const Mesh& mesh, const TipEnd& end);  ///< a tip, a junction or on the boundary
 inline bool is_same(const TipEnd& a, const TipEnd& b) { return a.fracture == b.fracture && a.at_end == b.at_end; }
 
+Point end_point(const Mesh& mesh, const TipEnd& end);  ///< where the fracture ends in the mesh, m
 /// The last cell of the fracture at this end.
 const FractureCell& end_cell(const Mesh& mesh, const TipEnd& end);
 /// The length of the cell at this end of the fracture as the scene gives it, before any growth, m.

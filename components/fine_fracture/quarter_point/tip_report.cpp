@@ -9,17 +9,20 @@ namespace sprekk::fine_fracture {
 void Tips::report(std::vector<Quantity>& quantities) const {
   // In the order of ends: columns keep their places when a tip joins another fracture and is no tip any more.
   for (const TipEnd& end : all_ends(mesh_)) {
-    for (const Tip& tip : tips_)
-      if (is_same(tip.end, end))
-        report_end(tip.name, tip.now, tip.now.grown + length_of(position(tip, {}), tip.now.path), quantities);
+    for (const Tip& tip : tips_) {
+      if (!is_same(tip.end, end)) continue;
+      const double length = tip.now.grown + length_of(position(tip, {}), tip.now.path);
+      report_end(tip.name, tip.now, {position(tip, tip.now.path), length, tip.length_at_start}, quantities);
+    }
     State at_rest;
     at_rest.is_stopped = true;
     for (const Joint& joint : joints_)
-      if (is_same(joint.end, end)) report_end(joint.name, at_rest, joint.grown, quantities);
+      if (is_same(joint.end, end))
+        report_end(joint.name, at_rest, {end_point(mesh_, end), joint.grown, joint.length_at_start}, quantities);
   }
 }
 
-void Tips::report_end(const std::string& end, const State& state, double length,
+void Tips::report_end(const std::string& end, const State& state, const EndGrowth& growth,
                       std::vector<Quantity>& quantities) const {
   const std::string prefix = name() + "." + end + ".";
   const auto known = [&state](double value) {
@@ -30,7 +33,24 @@ void Tips::report_end(const std::string& end, const State& state, double length,
   quantities.push_back({prefix + "K_eq", "Pa*m^0.5", known(equivalent_sif(state.sifs))});
   quantities.push_back({prefix + "K_error_fine_mesh", "Pa*m^0.5", known(state.sif_error)});
   quantities.push_back({prefix + "stopped", "1", state.is_stopped ? 1.0 : 0.0});
-  quantities.push_back({prefix + "length", "m", length});
+  quantities.push_back({prefix + "length", "m", growth.length});
+  // Where growth is looked for in some of the steps only, nothing grows in the others.
+  const double grown = examined_ == step_.start ? growth.length - growth.length_at_start : 0;
+  quantities.push_back({prefix + "x", "m", growth.position[0]});
+  quantities.push_back({prefix + "y", "m", growth.position[1]});
+  quantities.push_back({prefix + "speed", "m/s", grown > 0 ? grown / step_.dt : 0.0});
+  quantities.push_back({prefix + "grows", "1", grown > 0 ? 1.0 : 0.0});
+}
+
+std::vector<PendingPath> Tips::pending_paths() const {
+  std::vector<PendingPath> paths;
+  for (const Tip& tip : tips_) {
+    if (tip.now.path.added.empty()) continue;
+    paths.push_back({tip.end.fracture, {position(tip, {})}});
+    std::vector<Point>& points = paths.back().points;
+    points.insert(points.end(), tip.now.path.added.begin(), tip.now.path.added.end());
+  }
+  return paths;
 }
 
 std::map<std::string, long> Tips::counts() const {

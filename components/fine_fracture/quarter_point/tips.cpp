@@ -26,7 +26,7 @@ const FractureCell& Tips::last_cell(const TipEnd& end) const { return end_cell(m
 
 Point Tips::position(const Tip& tip, const TipPath& path) const {
   if (!path.added.empty()) return path.added.back();
-  return mesh_.fracture_points[end_cell(mesh_, tip.end).points[tip.end.at_end ? 1 : 0]].position;
+  return end_point(mesh_, tip.end);
 }
 
 Point Tips::direction(const Tip& tip) const {
@@ -50,7 +50,15 @@ std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) co
   return paths;
 }
 
-Growing::Load Tips::examine(const StepTime&) {
+void Tips::note_start(const StepTime& step) {
+  if (examined_ == step.start) return;
+  examined_ = step.start;
+  for (Tip& tip : tips_) tip.length_at_start = tip.accepted.grown + length_of(position(tip, {}), tip.accepted.path);
+  for (Joint& joint : joints_) joint.length_at_start = joint.grown;
+}
+
+Growing::Load Tips::examine(const StepTime& step) {
+  note_start(step);
   surroundings_->update();
   notes_.clear();
   constexpr double safety = 2;  // the estimate may be too small by this factor
@@ -232,10 +240,12 @@ void Tips::rewound() {
 
 void Tips::carry_over(const Part& before, const MeshChange& change) {
   const auto& old = dynamic_cast<const Tips&>(before);
+  examined_ = old.examined_;
   for (Tip& tip : tips_)
     for (const Tip& same : old.tips_) {
       if (!is_same(same.end, tip.end)) continue;
       tip.now = same.now;
+      tip.length_at_start = same.length_at_start;
       tip.pattern = same.pattern;
       // The path is dropped here and not when it is handed over: a mesh that cannot take it would lose it.
       const double taken = new_length(mesh_, tip.end, change) - given_up_length(mesh_, tip.end, change);
@@ -248,9 +258,12 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
     }
   for (Joint& joint : joints_) {
     for (const Joint& same : old.joints_)
-      if (is_same(same.end, joint.end)) joint.grown = same.grown;
-    for (const Tip& same : old.tips_)
-      if (is_same(same.end, joint.end)) joint.grown = same.now.grown + new_length(mesh_, joint.end, change);
+      if (is_same(same.end, joint.end)) joint.grown = same.grown, joint.length_at_start = same.length_at_start;
+    for (const Tip& same : old.tips_) {
+      if (!is_same(same.end, joint.end)) continue;
+      joint.grown = same.now.grown + new_length(mesh_, joint.end, change);
+      joint.length_at_start = same.length_at_start;
+    }
   }
 }
 

@@ -38,7 +38,7 @@ class Tips : public Component, public FractureTips, public Growing {
  public:
   Tips(const ComponentContext& context, const TipsOptions& options);
 
-  void begin_step(const StepTime&) override {}
+  void begin_step(const StepTime& step) override { step_ = step; }
   void assemble(Assembly&, const StepTime&) const override {}
   void accepted() override;
   void rewound() override;
@@ -56,6 +56,7 @@ class Tips : public Component, public FractureTips, public Growing {
   Growth grow(const StepTime& step) override;
   void grow_within_steps() override { grows_within_steps_ = true; }
   std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) override;
+  std::vector<PendingPath> pending_paths() const override;
   CavityOptions cavity() const override;
   /// With cells held closed, UMFPACK loses digits that MUMPS keeps.
   bool settling_costs_digits() const override { return true; }
@@ -83,6 +84,7 @@ class Tips : public Component, public FractureTips, public Growing {
     std::string name;
     double coarse_size;  ///< m, Delta H: the length of the original cell at this end
     State now, accepted;
+    double length_at_start = 0;  ///< m, what had grown at the start of the step that was examined last
     /// The factors for `model`, `domain` and one state of the coarse level.
     struct KeptFactors {
       std::uint64_t version;  ///< of the surroundings
@@ -104,10 +106,19 @@ class Tips : public Component, public FractureTips, public Growing {
   struct Joint {
     TipEnd end;
     std::string name;
-    double grown = 0;  ///< m
+    double grown = 0;            ///< m
+    double length_at_start = 0;  ///< m, as that of a tip
   };
 
-  void report_end(const std::string& name, const State& state, double length, std::vector<Quantity>& quantities) const;
+  /// What results tell of the growth at an end of a fracture.
+  struct EndGrowth {
+    Point position;                  ///< m
+    double length, length_at_start;  ///< m, of what has grown
+  };
+  void report_end(const std::string& end, const State& state, const EndGrowth& growth,
+                  std::vector<Quantity>& quantities) const;
+  /// Where a step is examined for the first time, also by the models of its trials and repetitions.
+  void note_start(const StepTime& step);
   const FractureCell& last_cell(const TipEnd& end) const;
   Point position(const Tip& tip, const TipPath& path) const;
   Point direction(const Tip& tip) const;
@@ -156,6 +167,8 @@ class Tips : public Component, public FractureTips, public Growing {
   std::vector<Tip> tips_;
   std::vector<Joint> joints_;
   bool grows_within_steps_ = false;
+  StepTime step_;                   ///< the present one
+  std::optional<double> examined_;  ///< s, start of the step that was examined last
   Eigen::MatrixXd slopes_;  ///< of the loads by the lengths of the tips, as the last search has learnt them, 1/m
   /// A note on how growth has ended.
   struct EndNote {

@@ -51,6 +51,23 @@ TEST(MapJson, writes_a_mesh_once_and_ranges_over_all_times) {
   EXPECT_EQ(data["times"][1]["values"][0], "ZmaZmf//");
 }
 
+TEST(MapJson, has_fractures_and_what_they_have_grown_beyond_the_mesh) {
+  const auto line = [](std::array<double, 2> from, std::array<double, 2> to) {
+    Grid grid;
+    grid.points = {from, to};
+    grid.cells = {0, 1};
+    grid.points_per_cell = 2;
+    return grid;
+  };
+  RunResults results;
+  results.written = {written(0), written(1)};
+  for (RunResults::Written& at : results.written) at.fractures = line({0, 0}, {0.5, 0});
+  results.written[1].paths = line({0.5, 0}, {0.75, 0.25});
+  const auto data = nlohmann::json::parse(map_json(results));
+  EXPECT_EQ(data["times"][0]["lines"], nlohmann::json::parse("[[0, 0, 0.5, 0]]"));
+  EXPECT_EQ(data["times"][1]["lines"], nlohmann::json::parse("[[0, 0, 0.5, 0], [0.5, 0, 0.75, 0.25]]"));
+}
+
 TEST(MapJson, takes_fewer_times_of_a_large_run) {
   RunResults results;
   for (int i = 0; i < 10; ++i) results.written.push_back(written(i));

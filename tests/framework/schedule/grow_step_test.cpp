@@ -247,6 +247,39 @@ TEST(GrowStep, RefusesToStandInsideOfIterationsAndSubcycles) {
     EXPECT_THAT(refusal(schedule), HasSubstr("'grow' stands inside of an 'iterate' or a 'subcycle'")) << schedule;
 }
 
+TEST(GrowStep, WithinStepsRefusesWhatWouldChangeItsState) {
+  const std::string solve = "{solve: [rock]}", held = "{grow: tips, settle: [rock]}",
+                    within = "{grow: tips, settle: [rock], update: within_step}", late = "{when: 't > 5', steps: [";
+  for (const std::string& schedule :
+       {"[" + within + ", " + solve + "]", "[" + solve + ", " + within + ", " + within + "]",
+        "[" + late + solve + ", " + within + "]}, " + solve + "]", "[" + within + ", " + late + solve + "]}]",
+        "[" + within + ", {subcycle: {count: 2, steps: [" + solve + "]}}]"}) {
+    EXPECT_THAT(refusal(schedule), HasSubstr("stands behind growth within steps")) << schedule;
+    EXPECT_THAT(refusal(schedule), HasSubstr("scene.yaml:1:")) << schedule;
+  }
+  EXPECT_THAT(refusal("[" + late + solve + ", " + held + "]}, " + late + solve + ", " + within + "]}]"),
+              HasSubstr("with and without 'within_step'"));
+  // What may stand: alternatives in time, and the held procedure anywhere.
+  for (const std::string& schedule :
+       {"[" + solve + ", " + within + "]", "[" + held + ", " + solve + "]",
+        "[" + late + solve + ", " + within + "]}, " + late + solve + ", " + within + "]}]",
+        "[{subcycle: {count: 2, steps: [" + solve + "]}}, " + within + "]"})
+    EXPECT_EQ(refusal(schedule), "no error") << schedule;
+}
+
+TEST(GrowStep, KnowsWhetherItWasRunForAStep) {
+  Schedule run("- {when: 't > 150', steps: [{grow: tips, settle: [rock], update: within_step}]}");
+  const StepTime first{0, standard, standard}, second{standard, standard, 2 * standard};
+  run.schedule->run(first);
+  EXPECT_FALSE(run.step().was_run(first));
+  run.schedule->run(second);
+  EXPECT_FALSE(run.step().was_run({standard, 2 * standard, 3 * standard}));
+  EXPECT_FALSE(run.step().was_run(second));  // the condition is taken at the middle, 150 s
+  const StepTime third{2 * standard, standard, 3 * standard};
+  run.schedule->run(third);
+  EXPECT_TRUE(run.step().was_run(third));
+}
+
 TEST(GrowStep, RefusesOptionsWithoutSense) {
   for (const char* option : {"cut: 0", "cut: 1.5", "settled: 0", "overshoot: -1", "passes: 0", "update: never"})
     EXPECT_NE(refusal(std::string("- {grow: tips, settle: [rock], ") + option + "}"), "no error") << option;

@@ -1,0 +1,121 @@
+#!/usr/bin/python3
+"""growth_columns_test.py SPREKK: what history.csv tells of tips that grow, and the paths in the pictures, fit to one another: lengths
+are those of the lines that are drawn, tips are at their ends, and advance by speed times step."""
+
+import csv
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SPREKK = Path(sys.argv.pop(1)).resolve()
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools"))
+import results  # noqa: E402
+
+SCENE = ROOT / "configs/paper/wing_cracks.yaml"
+FRACTURE = 0.1  # m, before growth
+WITHIN = """
+couplers:
+  - {type: biot,          between: [pore, rock]}
+  - {type: wall_exchange, between: [pore, conduit]}
+  - {type: wall_traction, between: [rock, contact, conduit]}
+  - {type: aperture,      between: [contact, conduit]}
+  - {type: two_level,     between: [rock, conduit, tips], propagation_threshold: 0.25}
+schedule:
+  - solve: [pore, rock, conduit, contact]
+  - grow: tips
+    settle: [rock, contact]
+    update: within_step
+"""
+TIPS = ("tips.main_first", "tips.main_last")
+
+
+def segments(grid):
+    """[(x, y), (x, y)] of each line of a file."""
+    return [[tuple(grid.points[point][:2]) for point in cell] for cell in grid.cells]
+
+
+class GrowthColumns(unittest.TestCase):
+    def results_of(self, folder, overlay, *settings):
+        scenes = [SCENE]
+        if overlay:
+            (folder / "overlay.yaml").write_text(overlay)
+            scenes.append(folder / "overlay.yaml")
+        settings = [word for setting in ("time.end=2.5h", "output.every=15min", *settings) for word in ("--set", setting)]
+        run = subprocess.run([SPREKK, "run", "-q", *scenes, "-o", folder / "out", *settings],
+                             capture_output=True, text=True, timeout=200)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(folder / "out/history.csv") as file:
+            rows = list(csv.DictReader(file))
+        for column, unit in (("x", "m"), ("y", "m"), ("speed", "m/s"), ("grows", "1")):
+            for tip in TIPS:
+                self.assertIn(f"{tip}.{column}[{unit}]", rows[0])
+        return [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in rows]
+
+    def check(self, overlay, *settings):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            rows = self.results_of(folder, overlay, *settings)
+            for tip in TIPS:
+                self.advance_is_speed_times_step(rows, tip)
+            return self.lengths_are_those_of_lines(folder / "out", rows)
+
+    def advance_is_speed_times_step(self, rows, tip):
+        sign = 1 if tip.endswith("last") else -1
+        before = [1 + sign * FRACTURE / 2 * math.sqrt(0.5)] * 2
+        length, grown = 0, 0
+        for row in rows:
+            here = [row[tip + ".x"], row[tip + ".y"]]
+            moved, advance = math.dist(here, before), row[tip + ".speed"] * row["step"]
+            self.assertEqual(row[tip + ".grows"], float(row[tip + ".speed"] > 0))
+            if row[tip + ".grows"]:
+                # A step bends the path a little, and the mesh straightens paths that it takes over.
+                self.assertAlmostEqual(moved / advance, 1, delta=0.05)
+                self.assertAlmostEqual((row[tip + ".length"] - length) / advance, 1, delta=0.05)
+                grown += 1
+            else:
+                self.assertEqual(moved, 0)
+            before, length = here, row[tip + ".length"]
+        self.assertGreater(grown, 5)
+        self.assertGreater(length, 0.01)
+
+    def lengths_are_those_of_lines(self, folder, rows):
+        """Returns at how many times there were paths beyond the mesh, and at how many the mesh had grown."""
+        fractures, paths = (dict(results.read_pvd(folder / f"{name}.pvd")) for name in ("fractures", "paths"))
+        beyond = taken_over = 0
+        for row in rows:
+            if row["time"] not in fractures:
+                continue
+            lines = segments(results.read_vtu(fractures[row["time"]]))
+            in_mesh = len(lines)
+            if row["time"] in paths:
+                lines += segments(results.read_vtu(paths[row["time"]]))
+            beyond += len(lines) > in_mesh
+            taken_over += in_mesh > 5
+            self.assertAlmostEqual(sum(math.dist(*line) for line in lines) - FRACTURE,
+                                   sum(row[tip + ".length"] for tip in TIPS), delta=1e-12)
+            ends = [end for line in lines for end in line]
+            for tip in TIPS:
+                self.assertEqual(ends.count((row[tip + ".x"], row[tip + ".y"])), 1, tip)
+        return beyond, taken_over
+
+    def test_of_the_held_procedure(self):
+        beyond, taken_over = self.check("")
+        self.assertGreater(beyond, 3)
+        self.assertGreater(taken_over, 0)
+
+    def test_within_steps(self):
+        beyond, taken_over = self.check(WITHIN)
+        self.assertGreater(beyond, 1)
+        self.assertGreater(taken_over, 3)
+
+    def test_of_repeated_steps(self):
+        self.check("", "schedule.1.update=repeat_step", "time.end=3h")
+
+
+if __name__ == "__main__":
+    unittest.main()
