@@ -31,6 +31,42 @@ Spec Options::spec() {
              .source = "psi below the paper's Eq. 2",
              .material = true,
              .in_time = true});
+  spec.quantity("dilation_limit", dilation_limit,
+                {.unit = "m",
+                 .range = non_negative(),
+                 .doc = "Slip from where on it opens the fracture no further: its asperities are worn. Without it, "
+                        "all slip opens."});
+  spec.quantity("cohesion", weakening.cohesion,
+                {.unit = "Pa",
+                 .range = non_negative(),
+                 .doc = "Shear traction that walls hold without pressure, |f_t| <= cohesion - friction f_n. "
+                        "`weakening` says how it is lost."});
+  spec.quantity("tensile_strength", weakening.tensile_strength,
+                {.unit = "Pa",
+                 .range = non_negative(),
+                 .doc = "Normal traction at which walls part. `weakening` says how it is lost."});
+  Spec lost("weakening", "How walls lose strength: linearly over a path, for good.");
+  lost.quantity("distance", weakening.distance,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Path of slip and opening, both ways counted, over which cohesion and tensile strength are "
+                        "lost and friction falls to that of `friction`.",
+                 .required = true});
+  lost.data("friction", dynamic_friction,
+            {.range = non_negative(),
+             .doc = "Coefficient of friction after that; without it, friction stays.",
+             .source = "linear slip weakening: Ida 1972, Andrews 1976",
+             .in_time = true});
+  spec.section("weakening", lost, {.doc = "How walls lose strength: linearly over a path, for good."}, &weakens);
+  spec.section("closure", closure.spec(), {.doc = "How far walls in contact approach each other under pressure."});
+  spec.check([this](const Node& node) {
+    if (!weakens && weakening.cohesion > 0)
+      throw InputError(node.origin, "'cohesion' is never lost", "the scene has no 'weakening'",
+                       "add weakening: {distance: ...} with the path over which it is lost");
+    if (!weakens && weakening.tensile_strength > 0)
+      throw InputError(node.origin, "'tensile_strength' is never lost", "the scene has no 'weakening'",
+                       "add weakening: {distance: ...} with the path over which it is lost");
+  });
   spec.quantity("large_jump", large_jump,
                 {.range = positive(),
                  .doc = "Jump over the length of its fracture from where on a note says that it is large: the places "
@@ -58,14 +94,23 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
                                 .unit = "m",
                                 .doc = "Displacement jump, normal (opening) and tangential (slip) (the paper's Eq. 1)",
                                 .needs_coupler = "wall_traction"})),
-      options_(options) {
+      options_(options),
+      closure_(options.closure.build()) {
   const int count = mesh_.fracture_cell_count();
   if (count == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
   const std::vector<Place> places = fracture_cell_places(mesh_);
+  if (options_.weakening.is_on())
+    path_ = &context.fields.add(mesh_, {.owner = context.name,
+                                        .name = "path",
+                                        .location = Location::fracture_cell,
+                                        .role = Role::derived(),
+                                        .unit = "m",
+                                        .doc = "Path of slip and opening since the start, forth and back"});
   friction_ = Property(options_.friction, places, context.start_time);
   dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
+  if (options_.dynamic_friction) dynamic_friction_ = Property(*options_.dynamic_friction, places, context.start_time);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
   fracture_measure_.assign(mesh_.fractures.size(), 0);
@@ -74,13 +119,16 @@ Coulomb::Coulomb(const ComponentContext& context, const Options& options)
 
 void Coulomb::evaluate_data(const StepTime& step) {
   friction_.evaluate(step);
+  if (options_.dynamic_friction) dynamic_friction_.evaluate(step);
   if (!dilation_angle_.depends_on_time()) return;
   dilation_angle_.evaluate(step);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
 }
 
 std::vector<double> Coulomb::switch_times() const {
-  return merged_switch_times({&options_.friction, &options_.dilation_angle});
+  std::vector<const Data*> data{&options_.friction, &options_.dilation_angle};
+  if (options_.dynamic_friction) data.push_back(&*options_.dynamic_friction);
+  return merged_switch_times(data);
 }
 
 void Coulomb::set_wall_stiffness(const Vector& stiffness) {
@@ -123,6 +171,33 @@ void Coulomb::settled(const MeshChange&) {
   bonded_jump_.resize(0);
 }
 
+double Coulomb::dilated(int i, double slip) const {
+  return std::min(slip, options_.dilation_limit.value_or(slip)) * dilation_[i];
+}
+
+double Coulomb::dilation_at(int i, double slip) const {
+  return options_.dilation_limit && slip > *options_.dilation_limit ? 0.0 : dilation_[i];
+}
+
+double Coulomb::gap(int i, const Vector& traction, const Vector& jump) const {
+  return jump[dimension * i] - dilated(i, magnitude<dimension - 1>(tangential(jump, i))) +
+         closure(traction[dimension * i]);
+}
+
+double Coulomb::path(int i, double gap) const {
+  const double before = std::max(0.0, this->gap(i, traction_.accepted(), jump_.accepted()));
+  const double slip =
+      magnitude<dimension - 1>(TangentialVector(tangential(jump_.now(), i) - tangential(jump_.accepted(), i)));
+  return path_->accepted()[i] + slip + std::max(0.0, gap - before);
+}
+
+void Coulomb::after_solve(const std::vector<Field*>& solved, const StepTime&) {
+  if (!path_ || std::find(solved.begin(), solved.end(), &traction_) == solved.end()) return;
+  Vector paths(mesh_.fracture_cell_count());
+  for (int i = 0; i < paths.size(); ++i) paths[i] = path(i, gap(i, traction_.now(), jump_.now()));
+  path_->set(std::move(paths));
+}
+
 Coulomb::Trial Coulomb::trial(int i) const {
   SPREKK_EXPECT(is_index(i, mesh_.fracture_cell_count()), i, mesh_.fracture_cell_count());
   const int row = dimension * i;
@@ -131,11 +206,28 @@ Coulomb::Trial Coulomb::trial(int i) const {
   SPREKK_ASSERT(friction_[i] >= 0 && dilation_[i] >= 0, i, friction_[i], dilation_[i]);
   const TangentialVector u_t = tangential(jump_.now(), i);
   Trial t;
-  t.gap = jump_.now()[row] - magnitude<dimension - 1>(u_t) * dilation_[i];
+  const double slip = magnitude<dimension - 1>(u_t);
+  t.gap = gap(i, traction_.now(), jump_.now());
+  t.gap_by_traction = closure_ ? -closure_->at(-traction_.now()[row]).by_pressure : 0.0;
+  t.dilation = dilation_at(i, slip);
+  t.strength.friction = friction_[i];
+  t.path_by_slip.setZero();
+  t.path_by_gap = 0;
+  if (path_) {
+    t.strength = options_.weakening.at(friction_[i], dynamic_friction(i), path(i, t.gap));
+    const double before = std::max(0.0, gap(i, traction_.accepted(), jump_.accepted()));
+    t.path_by_gap = t.gap > before;
+  }
+  t.tension = t.strength.tension;
+  t.holds_open = t.strength.cohesion > 0;
   t.normal = traction_.now()[row] + c_n * t.gap;
   t.tangential = tangential(traction_.now(), i) + c_t * (u_t - tangential(jump_.accepted(), i));
-  t.bound =
-      !kept_.empty() && kept_[i] ? std::numeric_limits<double>::infinity() : -friction_[i] * std::min(0.0, t.normal);
+  if (path_) {
+    const TangentialVector slipped = u_t - tangential(jump_.accepted(), i);
+    t.path_by_slip = direction_of<dimension - 1>(magnitude<dimension - 1>(slipped) > 0 ? slipped : t.tangential);
+  }
+  t.bound = t.strength.cohesion - t.strength.friction * std::min(0.0, t.normal);
+  if (!kept_.empty() && kept_[i] && !t.is_open()) t.bound = std::numeric_limits<double>::infinity();
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
   t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
   constexpr double round_off = 1e-10;  // of the traction that makes the slip
@@ -174,11 +266,14 @@ Coulomb::Trial Coulomb::trial_of_update(int i) const {
   Trial t = trial(i);
   if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
   t.slip_direction = -t.slip_direction;
-  t.gap = jump_.now()[dimension * i] - t.slip_direction.dot(tangential(jump_.now(), i)) * dilation_[i];
+  // The linear function on the other side of the kink, at the same slip: the opening by dilation has the other sign.
+  const double slip = t.slip_direction.dot(tangential(jump_.now(), i));
+  t.gap = jump_.now()[dimension * i] - std::copysign(dilated(i, std::abs(slip)), slip) +
+          closure(traction_.now()[dimension * i]);
   // The walls touch, whatever the sign of the normal trial traction: the linear function passes through the values
   // beyond the kink.
   const double normal = traction_.now()[dimension * i] + stiffness()[dimension * i] * t.gap;
-  t.bound = -friction_[i] * normal;
+  t.bound = t.strength.cohesion - t.strength.friction * normal;
   t.normal = std::min(normal, 0.0);
   return t;
 }
@@ -201,7 +296,8 @@ int Coulomb::piece(int i) const {
   if (!follows_pieces_) return piece;
   if (is_bonded(i)) return 0;
   const bool has_kink = dilation_[i] > 0 && now != State::open;
-  return 2 * piece + (has_kink && is_forward(t.slip_direction));
+  const bool is_worn = has_kink && t.dilation == 0;
+  return 3 * piece + (is_worn ? 2 : has_kink && is_forward(t.slip_direction));
 }
 
 /// Opens all cells by a very small amount. The amount makes no difference, since the conditions of open cells are
@@ -212,8 +308,8 @@ void Coulomb::deactivate_conditions() {
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (is_bonded(i)) continue;
     traction.segment<dimension>(dimension * i).setZero();
-    const double dilated = magnitude<dimension - 1>(tangential(jump, i)) * dilation_[i];
-    jump[dimension * i] = std::max(jump[dimension * i], dilated + opening * mesh_.fracture_cells[i].measure);
+    const double least = dilated(i, magnitude<dimension - 1>(tangential(jump, i))) - closure(0);
+    jump[dimension * i] = std::max(jump[dimension * i], least + opening * mesh_.fracture_cells[i].measure);
   }
   traction_.set(std::move(traction));
   jump_.set(std::move(jump));
@@ -274,26 +370,49 @@ void Coulomb::assemble(Assembly& assembly, const StepTime&) const {
     if (is_bonded(i)) {
       own = bonded_jump_.segment<dimension>(row) - jump_.now().segment<dimension>(row);
       by_u.diagonal().setConstant(-1);
-    } else if (t.is_open()) {
+    } else if (t.is_open() && !path_) {
       own << f_n / c_n, f_t / c_t;
       by_f.diagonal().setConstant(1 / c_t);
       by_f(0, 0) = 1 / c_n;
     } else {
       constexpr int tangents = dimension - 1;
+      using Row = Eigen::Matrix<double, 1, dimension>;
       const ReturnedTraction<tangents> returned = return_to_cone<tangents>(t);
-      const auto gap_by_t = -t.slip_direction.transpose() * dilation_[i];  // d gap / d [u]_t; d gap / d [u]_n is 1
-      own << -t.gap, (f_t - returned.tangential) / c_t;
-      by_u(0, 0) = -1;
-      by_u.topRightCorner<1, tangents>() = -gap_by_t;
-      by_u.bottomRightCorner<tangents, tangents>() = -returned.by_trial;
+      Row gap_by_u;
+      gap_by_u << 1, -t.slip_direction.transpose() * t.dilation;
+      const auto gap_by_t = gap_by_u.template tail<tangents>();
       auto by_f_t = by_f.bottomRightCorner<tangents, tangents>();
+      own[0] = t.is_open() ? (f_n - t.tension) / c_n : -t.gap;
+      own.template tail<tangents>() = (f_t - returned.tangential) / c_t;
+      if (t.is_open()) {
+        by_f(0, 0) = 1 / c_n;
+      } else {
+        by_f(0, 0) = -t.gap_by_traction;
+        by_u.row(0) = -gap_by_u;
+      }
+      by_u.bottomRightCorner<tangents, tangents>() = -returned.by_trial;
       by_f_t.setIdentity();
       by_f_t = (by_f_t - returned.by_trial).eval() / c_t;
-      if (!t.sticks()) {
-        const TangentialVector by_normal = returned.by_bound * friction_[i] / c_t;
-        by_f.bottomLeftCorner<tangents, 1>() = by_normal;
+      if (!t.sticks() && t.normal <= 0) {
+        const TangentialVector by_normal = returned.by_bound * t.strength.friction / c_t;
+        by_f.bottomLeftCorner<tangents, 1>() = by_normal * (1 + c_n * t.gap_by_traction);
         by_u.bottomLeftCorner<tangents, 1>() = by_normal * c_n;
         by_u.bottomRightCorner<tangents, tangents>() += by_normal * c_n * gap_by_t;
+      }
+      if (path_) {
+        // What weakens along the path: the tensile strength in the normal row, the bound in the tangential ones.
+        Row path_by_u = t.path_by_gap * gap_by_u;
+        path_by_u.template tail<tangents>() += t.path_by_slip.transpose();
+        const double path_by_f = t.path_by_gap * t.gap_by_traction;
+        if (t.is_open()) {
+          by_f(0, 0) -= t.strength.tension_by_path * path_by_f / c_n;
+          by_u.row(0) -= t.strength.tension_by_path * path_by_u / c_n;
+        }
+        if (!t.sticks()) {
+          const double by_path = t.strength.cohesion_by_path - t.strength.friction_by_path * std::min(0.0, t.normal);
+          by_f.bottomLeftCorner<tangents, 1>() -= returned.by_bound * by_path * path_by_f / c_t;
+          by_u.bottomRows<tangents>() -= returned.by_bound * by_path * path_by_u / c_t;
+        }
       }
     }
     for (int k = 0; k < dimension; ++k)

@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/contact/coulomb/return_map.hpp"
+#include "components/contact/laws/closure.hpp"
+#include "components/contact/laws/strength.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
@@ -17,8 +20,13 @@ namespace sprekk::contact {
 
 /// Parameters of the contact law.
 struct Options {
-  Data friction;        ///< mu_s
-  Data dilation_angle;  ///< psi, rad
+  Data friction;                         ///< mu_s
+  Data dilation_angle;                   ///< psi, rad
+  std::optional<double> dilation_limit;  ///< m
+  Weakening weakening;
+  bool weakens = false;                  ///< whether the scene has the section
+  std::optional<Data> dynamic_friction;  ///< mu_d
+  ClosureOptions closure;
   /// Jump over the length of its fracture from where on a note says that it is large.
   double large_jump = 0.01;
   Spec spec();
@@ -33,6 +41,11 @@ struct Options {
 /// and divided by c (so that every residual is a length), are solved by a semismooth Newton method. f acts on the plus
 /// wall, [u] = u(minus) − u(plus), so friction makes f_t point along the slip: power −f·[u]' ≤ 0 is drawn from the
 /// walls. (Eq. 3 of the paper has the opposite sign.)
+///
+/// With laws (components/contact/laws) the same equations hold for the gap
+///   h = [u]_n − g(|[u]_t|) + c(−f_n),  g(s) = min(s, s_max) tan psi,
+/// with the closure c of walls under pressure, and for the strength that the walls have left at the path q of slip and
+/// opening: f_n = min(T(q), f_n + c_n h), b = C(q) − mu(q) min(0, f_n + c_n h).
 ///
 /// mu_s and psi are those of the end of the step. The gap knows the slip and not its history: where psi falls, a
 /// fracture that has slipped closes.
@@ -60,6 +73,7 @@ class Coulomb : public Component, public FractureContact, public IterateDependen
   void settled(const MeshChange& change) override;
   void observe_iterate(const std::vector<Field*>& unknowns) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   std::uint64_t discrete_state() const override;
   void set_search_mode(SearchMode mode) override {
     is_without_shortcuts_ = mode != SearchMode::with_shortcuts;
@@ -98,14 +112,30 @@ class Coulomb : public Component, public FractureContact, public IterateDependen
   const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
   struct Trial : TrialTraction<dimension - 1> {
     double gap;
-    TangentialVector slip_direction;  ///< unit; d gap / d [u]_t = −tan psi of it
-    double least_bound;               ///< friction below it does not hold anything: which way it points is round-off
+    double gap_by_traction;           ///< d gap / d f_n, m/Pa
+    TangentialVector slip_direction;  ///< unit
+    double dilation;                  ///< d gap / d [u]_t = −dilation · slip_direction^T
+    Strength strength;
+    TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
+    double path_by_gap;
+    double least_bound;  ///< friction below it does not hold anything: which way it points is round-off
     /// Whether the cell slides towards zero slip, against friction.
     bool slides_back() const {
       return bound > least_bound && !is_open() && !sticks() && tangential.dot(slip_direction) < 0;
     }
   };
   Trial trial(int cell) const;
+  /// The opening by dilation, m, after slip of this size, and its derivative.
+  double dilated(int cell, double slip) const;
+  double dilation_at(int cell, double slip) const;
+  double closure(double normal_traction) const { return closure_ ? closure_->at(-normal_traction).closure : 0.0; }
+  double gap(int cell, const Vector& traction, const Vector& jump) const;
+  /// mu_d; that of the start where friction does not weaken.
+  double dynamic_friction(int cell) const {
+    return dynamic_friction_.version() > 0 ? dynamic_friction_[cell] : friction_[cell];
+  }
+  /// The path q of slip and opening at the end of the step, m, with the gap of the cell then.
+  double path(int cell, double gap) const;
   static TangentialVector tangential(const Vector& values, int cell) {
     return values.segment<dimension - 1>(dimension * cell + 1);
   }
@@ -125,8 +155,11 @@ class Coulomb : public Component, public FractureContact, public IterateDependen
   const Mesh& mesh_;
   Field& traction_;
   Field& jump_;
+  Field* path_ = nullptr;  ///< q, m; null without weakening
   Options options_;
+  std::unique_ptr<Closure> closure_;         ///< null for hard walls
   Property friction_, dilation_angle_;       ///< mu_s, psi
+  Property dynamic_friction_;                ///< mu_d, where friction weakens
   Vector dilation_;                          ///< tan psi
   std::vector<char> bonded_;                 ///< empty for none
   Vector bonded_jump_;                       ///< m, of all cells; empty where none is bonded

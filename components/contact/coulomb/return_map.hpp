@@ -37,8 +37,10 @@ struct TrialTraction {
   double normal;                           ///< negative in contact
   Eigen::Matrix<double, n, 1> tangential;  ///< along the tangents of the cell
   double bound;                            ///< of |f_t|: the radius of the cone of friction at the trial's normal part
+  double tension = 0;                      ///< tensile strength, Pa
+  bool holds_open = false;                 ///< whether open walls still hold `bound` along them: cohesion
 
-  bool is_open() const { return normal > 0; }
+  bool is_open() const { return normal > tension; }
   bool sticks() const { return magnitude<n>(tangential) <= bound; }
   State state() const { return is_open() ? State::open : sticks() ? State::stick : State::slip; }
 };
@@ -52,13 +54,13 @@ struct ReturnedTraction {
 };
 
 /// The projection of the trial onto the disk |f_t| <= bound: itself where it sticks, `bound` along its direction where
-/// it slips, and zero where the walls are open (Eq. 3 of the paper with f_t of any number of components). Where it
-/// slips, a turn of the trial by an angle turns the traction by the same angle: the derivative is
-/// bound / |trial| (I − d d^T), which is zero in a plane.
+/// it slips, and zero where the walls are open without cohesion (Eq. 3 of the paper with f_t of any number of
+/// components). Where it slips, a turn of the trial by an angle turns the traction by the same angle: the derivative
+/// is bound / |trial| (I − d d^T), which is zero in a plane.
 template <int n>
 ReturnedTraction<n> return_to_cone(const TrialTraction<n>& trial) {
   ReturnedTraction<n> returned;
-  if (trial.is_open()) return returned;
+  if (trial.is_open() && !trial.holds_open) return returned;
   if (trial.sticks()) {
     returned.tangential = trial.tangential;
     returned.by_trial.setIdentity();

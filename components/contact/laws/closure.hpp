@@ -1,0 +1,33 @@
+// How far walls in contact approach each other under pressure.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "framework/config/spec.hpp"
+
+namespace sprekk::contact {
+
+/// The closure of walls in contact, m, from zero pressure on.
+class Closure {
+ public:
+  virtual ~Closure() = default;
+  /// m, and m/Pa.
+  struct Value {
+    double closure, by_pressure;
+  };
+  /// Of the normal pressure −f_n of the contact, Pa. Below zero the function goes on linearly.
+  virtual Value at(double pressure) const = 0;
+};
+
+/// Parameters of the closure.
+struct ClosureOptions {
+  std::string law = "hard";
+  double stiffness = 0;  ///< Pa/m, at zero pressure
+  double largest = 0;    ///< m
+  Spec spec();
+  /// Null for hard walls.
+  std::unique_ptr<Closure> build() const;
+};
+
+}  // namespace sprekk::contact

@@ -1,0 +1,94 @@
+// The laws of contact: their own functions against published ones, and the whole Jacobian against differences.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/components/contact/contact_alone.hpp"
+
+namespace sprekk::contact {
+namespace {
+
+TEST(Closure, OfBartonBandisInvertsThePublishedLaw) {
+  ClosureOptions options;
+  options.law = "barton_bandis";
+  options.stiffness = 3e11;
+  options.largest = 2e-5;
+  const auto law = options.build();
+  for (const double pressure : {0.0, 1e3, 1e6, 3e7, 1e12}) {
+    const double c = law->at(pressure).closure;
+    // sigma = k_ni c/(1 − c/V_m), Bandis and others 1983.
+    EXPECT_NEAR(3e11 * c / (1 - c / 2e-5), pressure, 1e-9 * pressure);
+    EXPECT_LE(c, 2e-5);
+    const double step = 1e-4 * std::max(pressure, 1e3);
+    EXPECT_NEAR((law->at(pressure + step).closure - law->at(pressure).closure) / step,
+                law->at(pressure + step / 2).by_pressure, 1e-6 * law->at(pressure).by_pressure);
+  }
+  EXPECT_NEAR(law->at(1e12).closure / 2e-5, 1, 1e-5);
+  EXPECT_EQ(law->at(-1e3).closure, -1e3 / 3e11);  // goes on linearly
+}
+
+TEST(Weakening, IsLinearAndEnds) {
+  const Weakening law{2e-3, 4e6, 1e6};
+  EXPECT_DOUBLE_EQ(law.at(0.6, 0.2, 0).friction, 0.6);
+  EXPECT_DOUBLE_EQ(law.at(0.6, 0.2, 5e-4).friction, 0.5);
+  EXPECT_DOUBLE_EQ(law.at(0.6, 0.2, 5e-4).cohesion, 3e6);
+  EXPECT_DOUBLE_EQ(law.at(0.6, 0.2, 1e-3).tension, 5e5);
+  EXPECT_DOUBLE_EQ(law.at(0.6, 0.2, 1).friction, 0.2);
+  EXPECT_EQ(law.at(0.6, 0.2, 1).cohesion, 0);
+  EXPECT_EQ(law.at(0.6, 0.2, 1).friction_by_path, 0);
+  EXPECT_EQ(law.at(0.1, 0.2, 1).friction, 0.1);  // below the dynamic friction already
+}
+
+/// Units of the stiffness of the walls: tractions and jumps of the same size.
+Options all_laws() {
+  Options options;
+  options.closure.law = "barton_bandis";
+  options.closure.stiffness = 20;
+  options.closure.largest = 0.4;
+  options.weakening = {3, 2, 1};
+  options.dynamic_friction = 0.2;
+  options.dilation_limit = 0.8;
+  return options;
+}
+
+TEST(Laws, HaveTheDerivativesOfTheirConditions) {
+  const Mesh mesh = crossing();
+  Contact contact(mesh, {}, all_laws());
+  const int n = 2 * mesh.fracture_cell_count();
+  contact.law().set_wall_stiffness(Vector::LinSpaced(n, 1, 2));
+  std::mt19937 random(5);
+  int counts[3] = {0, 0, 0};
+  for (int sample = 0; sample < 12; ++sample) {
+    // Tractions and jumps with which cells stick, slip to either side, before and after the limit of dilation, and are
+    // open, with strength left and without.
+    std::uniform_real_distribution<double> any(-1, 1);
+    Vector traction(n), jump(n), before(n);
+    for (int i = 0; i < n / 2; ++i) {
+      const double bias = any(random) < 0.3 ? 3 : -3;
+      traction.segment<2>(2 * i) << bias + 3 * any(random), 4 * any(random);
+      jump.segment<2>(2 * i) << 0.3 * any(random) + (bias > 0), 1.5 * any(random);
+      before.segment<2>(2 * i) << 0, jump[2 * i + 1] + any(random);
+    }
+    contact.law().jump().set_both(before);
+    contact.set(traction, jump);
+    for (int i = 0; i < n / 2; ++i) ++counts[static_cast<int>(contact.law().state(i))];
+    const Eigen::MatrixXd jacobian = contact.jacobian();
+    constexpr double change = 1e-6;
+    for (int column = 0; column < 2 * n; ++column) {
+      const auto residual = [&](double sign) {
+        Vector f = traction, u = jump;
+        (column < n ? f[column] : u[column - n]) += sign * change;
+        contact.set(f, u);
+        return contact.residual();
+      };
+      const Vector difference = (residual(1) - residual(-1)) / (2 * change);
+      EXPECT_LT((jacobian.col(column) - difference).lpNorm<Eigen::Infinity>(), 1e-7)
+          << "sample " << sample << " column " << column;
+    }
+  }
+  for (const int count : counts) EXPECT_GT(count, 10);
+}
+
+}  // namespace
+}  // namespace sprekk::contact

@@ -1,0 +1,147 @@
+// The laws of contact against closed forms: a uniform strain and a rigid jump that fulfil a law on an inclined fracture
+// are the solution.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/verification/contact_patch.hpp"
+#include "tests/verification/scene_run.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+/// A strain in which the fracture has this traction (normal, tangential) on its plus wall, and no stress along it
+/// (lambda = G = 1).
+Tensor strain_of(const Point& traction) {
+  const Point n(0.5, -std::sqrt(3) / 2), t(std::sqrt(3) / 2, 0.5);
+  const Tensor stress = traction[0] * n * n.transpose() + traction[1] * (n * t.transpose() + t * n.transpose());
+  return 0.5 * (stress - 0.25 * stress.trace() * Tensor::Identity());
+}
+
+/// Runs the patch with these jumps and this law, in one step, and compares jumps and tractions with the uniform ones,
+/// to 1e-9 of them or of the strain.
+void expect_uniform(const Point& traction, const Point& jump, double friction, double dilation,
+                    const std::string& laws) {
+  SCOPED_TRACE(laws);
+  SceneRun run = SceneRun::from_text(patch_scene(fmt::format("{:.17g}", jump[0]), fmt::format("{:.17g}", jump[1]),
+                                                 friction, fmt::format("{:.17g} rad", dilation), strain_of(traction),
+                                                 "triangles", ", " + laws));
+  ASSERT_TRUE(run.step());
+  const double pressure = std::max(traction.norm(), 1e-3), length = std::max(jump.norm(), 1e-3);
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_NEAR(run.field("contact.traction")[2 * i + k], traction[k], 1e-9 * pressure) << "cell " << i;
+      EXPECT_NEAR(run.field("contact.jump")[2 * i + k], jump[k], 1e-9 * length) << "cell " << i;
+    }
+}
+
+TEST(ContactLaws, LinearClosure) {
+  expect_uniform({-0.02, 0.003}, {-0.02 / 8, 0}, 1, 0, "closure: {law: linear, stiffness: 8 Pa/m}");
+}
+
+TEST(ContactLaws, BartonBandisClosure) {
+  for (const double pressure : {1e-4, 0.002, 0.02, 0.3}) {
+    const double closure = 0.003 * pressure / (5 * 0.003 + pressure);
+    EXPECT_NEAR(pressure, 5 * closure / (1 - closure / 0.003), 1e-12);
+    expect_uniform({-pressure, 0.1 * pressure}, {-closure, 0}, 1, 0,
+                   "closure: {law: barton_bandis, stiffness: 5 Pa/m, largest: 3 mm}");
+  }
+}
+
+TEST(ContactLaws, ClosureBesideDilation) {
+  for (const double sign : {1.0, -1.0}) {
+    const double slip = 2e-3, opening = slip * std::tan(0.2) - 0.02 / 8;
+    expect_uniform({-0.02, sign * 0.006}, {opening, sign * slip}, 0.3, 0.2,
+                   "closure: {law: linear, stiffness: 8 Pa/m}");
+  }
+}
+
+TEST(ContactLaws, SlipWeakening) {
+  for (const double sign : {1.0, -1.0})
+    for (const double slip : {4e-4, 1e-3, 3e-3}) {  // before the end of the distance of 2 mm, and after it
+      const double lost = std::min(1.0, slip / 2e-3), friction = 0.6 - lost * 0.2;
+      expect_uniform({-0.02, sign * friction * 0.02}, {slip * std::tan(0.1), sign * slip}, 0.6, 0.1,
+                     "weakening: {distance: 2 mm, friction: 0.4}");
+    }
+}
+
+TEST(ContactLaws, CohesionThatIsLost) {
+  for (const double sign : {1.0, -1.0})
+    for (const double slip : {5e-4, 1.5e-3, 3e-3}) {
+      const double held = 0.004 * std::max(0.0, 1 - slip / 2e-3) + 0.5 * 0.02;
+      expect_uniform({-0.02, sign * held}, {0, sign * slip}, 0.5, 0, "cohesion: 4 mPa, weakening: {distance: 2 mm}");
+    }
+}
+
+TEST(ContactLaws, CohesionHoldsWalls) {
+  expect_uniform({-0.02, 0.0139}, {0, 0}, 0.5, 0, "cohesion: 4 mPa, weakening: {distance: 2 mm}");
+}
+
+TEST(ContactLaws, TensileStrengthThatIsLost) {
+  for (const double opening : {1e-4, 1e-3, 3e-3})
+    expect_uniform({0.004 * std::max(0.0, 1 - opening / 2e-3), 0}, {opening, 0}, 0.5, 0.1,
+                   "tensile_strength: 4 mPa, weakening: {distance: 2 mm}");
+}
+
+TEST(ContactLaws, TensileStrengthHoldsWalls) {
+  expect_uniform({0.0039, 0}, {0, 0}, 0.5, 0, "tensile_strength: 4 mPa, weakening: {distance: 2 mm}");
+}
+
+TEST(ContactLaws, DilationThatIsWorn) {
+  for (const double sign : {1.0, -1.0})
+    for (const double slip : {5e-4, 4e-3})
+      expect_uniform({-0.02, sign * 0.01}, {std::min(slip, 1e-3) * std::tan(0.2), sign * slip}, 0.5, 0.2,
+                     "dilation_limit: 1 mm");
+}
+
+TEST(ContactLaws, RefusesLawsWithoutMeaning) {
+  const auto message = [](const std::string& laws) -> std::string {
+    try {
+      SceneRun::from_text(patch_scene("0", "0", 0.5, "0", uniform_strain(), "triangles", ", " + laws));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(message("cohesion: 1 Pa"), HasSubstr("never lost"));
+  EXPECT_THAT(message("tensile_strength: 1 Pa"), HasSubstr("never lost"));
+  EXPECT_THAT(message("weakening: {friction: 0.1}"), HasSubstr("distance"));
+  EXPECT_THAT(message("closure: {law: linear}"), HasSubstr("'stiffness' is missing"));
+  EXPECT_THAT(message("closure: {law: barton_bandis, stiffness: 1 Pa/m}"), HasSubstr("'largest' is missing"));
+  EXPECT_THAT(message("closure: {stiffness: 1 Pa/m}"), HasSubstr("no effect"));
+}
+
+// Friction that weakens linearly by W = (mu_s − mu_d) N/D under a shear load with one maximum: slip spreads stably up
+// to the length 2 a = 1.158 mu*/W, mu* = G/(1 − nu), whatever the load's shape (Uenishi and Rice, J. Geophys. Res. 108
+// (2003) 2042), and then at once all over the fault. Here the strength has the maximum's shape, mu_s + 0.02 x².
+TEST(ContactLaws, SlipThatWeakensNucleatesAtTheLengthOfUenishiAndRice) {
+  const double size = 0.05;
+  const std::string far = R"({displacement: ["(0.01206 + 0.0001*t)*y", "-0.02/3*y"]})";
+  SceneRun run = SceneRun::from_text(
+      "{geometry: {box: {x: [-30 m, 30 m], y: [-30 m, 30 m]}, fractures: {fault: {points: [[-3, 0], [3, 0]]}}}, mesh: "
+      "{size: 6 m, fracture_size: " +
+      fmt::format("{}", size) +
+      ", growth: 0.2}, components: {rock: {type: "
+      "poromechanics/mpsa, young_modulus: 2.5 Pa, poisson_ratio: 0.25, boundary: {left: " +
+      far + ", right: " + far + ", bottom: " + far + ", top: " + far +
+      "}}, contact: {type: contact/coulomb, friction: 0.6 + 0.02*x^2, "
+      "weakening: {distance: 5 mm, friction: 0.4 + 0.02*x^2}}}, couplers: [{type: wall_traction, between: [rock, "
+      "contact]}], schedule: [{solve: [rock, contact]}], time: {end: 1 s, step: 0.01 s}}");
+  const double critical = 1.158 * (1 / (1 - 0.25)) / (0.2 * 0.02 / 5e-3);
+  double stable = 0, length = 0;
+  while (run.time() < 0.99) {
+    ASSERT_TRUE(run.step());
+    int slipped = 0;
+    for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)
+      slipped += std::abs(run.field("contact.jump")[2 * i + 1]) > 1e-9;
+    length = size * slipped;
+    if (length > 1.5 * critical) break;
+    stable = length;
+  }
+  // Stable zones are whole pairs of cells.
+  EXPECT_NEAR(stable + size, critical, 0.05 * critical);
+  EXPECT_NEAR(length, 6, 0.01);  // all of the fault
+}
+
+}  // namespace
+}  // namespace sprekk::testing
