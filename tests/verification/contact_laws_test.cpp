@@ -18,20 +18,27 @@ Tensor strain_of(const Point& traction) {
 }
 
 /// Runs the patch with these jumps and this law, in one step, and compares jumps and tractions with the uniform ones,
-/// to 1e-9 of them or of the strain.
-void expect_uniform(const Point& traction, const Point& jump, double friction, double dilation,
-                    const std::string& laws) {
-  SCOPED_TRACE(laws);
+/// to `tolerance` of them or of the strain.
+void expect_uniform_with(const std::string& type, const Point& traction, const Point& jump, double friction,
+                         double dilation, const std::string& laws, double tolerance = 1e-9) {
+  SCOPED_TRACE(type + " " + laws);
   SceneRun run = SceneRun::from_text(patch_scene(fmt::format("{:.17g}", jump[0]), fmt::format("{:.17g}", jump[1]),
                                                  friction, fmt::format("{:.17g} rad", dilation), strain_of(traction),
-                                                 "triangles", ", " + laws));
+                                                 "triangles", laws, type));
   ASSERT_TRUE(run.step());
   const double pressure = std::max(traction.norm(), 1e-3), length = std::max(jump.norm(), 1e-3);
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)
     for (int k = 0; k < 2; ++k) {
-      EXPECT_NEAR(run.field("contact.traction")[2 * i + k], traction[k], 1e-9 * pressure) << "cell " << i;
-      EXPECT_NEAR(run.field("contact.jump")[2 * i + k], jump[k], 1e-9 * length) << "cell " << i;
+      EXPECT_NEAR(run.field("contact.traction")[2 * i + k], traction[k], tolerance * pressure) << "cell " << i;
+      EXPECT_NEAR(run.field("contact.jump")[2 * i + k], jump[k], tolerance * length) << "cell " << i;
     }
+}
+
+/// The same with both types that fulfil the conditions exactly.
+void expect_uniform(const Point& traction, const Point& jump, double friction, double dilation,
+                    const std::string& laws) {
+  for (const char* type : {"coulomb", "augmented_lagrangian"})
+    expect_uniform_with(type, traction, jump, friction, dilation, ", " + laws);
 }
 
 TEST(ContactLaws, LinearClosure) {
@@ -91,6 +98,33 @@ TEST(ContactLaws, DilationThatIsWorn) {
     for (const double slip : {5e-4, 4e-3})
       expect_uniform({-0.02, sign * 0.01}, {std::min(slip, 1e-3) * std::tan(0.2), sign * slip}, 0.5, 0.2,
                      "dilation_limit: 1 mm");
+}
+
+TEST(ContactTypes, FulfilTheConditions) {
+  const double slope = std::tan(0.1);
+  for (const double sign : {1.0, -1.0})
+    for (const char* type : {"coulomb", "augmented_lagrangian"}) {
+      expect_uniform_with(type, {-0.02, sign * 0.009}, {0, 0}, 0.5, 0.1, "");                      // sticks
+      expect_uniform_with(type, {-0.02, sign * 0.01}, {2e-3 * slope, sign * 2e-3}, 0.5, 0.1, "");  // slips
+      expect_uniform_with(type, {0, 0}, {1e-3, sign * 5e-4}, 0.5, 0.1, "");                        // is open
+      expect_uniform_with(type, {0, 0}, {1e-4, sign * 1e-3}, 0.5, 0, "");
+    }
+}
+
+/// Largest difference of the jumps from the uniform ones where walls stick, in a patch with this penalty.
+double overlap(double factor, const Point& traction) {
+  SceneRun run = SceneRun::from_text(patch_scene("0", "0", 0.5, "0", strain_of(traction), "triangles",
+                                                 fmt::format(", stiffness_factor: {}", factor), "penalty"));
+  EXPECT_TRUE(run.step());
+  return run.field("contact.jump").lpNorm<Eigen::Infinity>();
+}
+
+TEST(ContactTypes, PenaltyIsOfFirstOrderInItsCompliance) {
+  const double coarse = overlap(1e3, {-0.02, 0.007}), fine = overlap(1e4, {-0.02, 0.007});
+  EXPECT_GT(fine, 0);
+  EXPECT_NEAR(coarse / fine, 10, 0.05);
+  // Springs of k in one row: the overlap is traction over k where the rock itself is uniform.
+  EXPECT_LT(fine, 1e-4 * 0.02);
 }
 
 TEST(ContactLaws, RefusesLawsWithoutMeaning) {

@@ -30,7 +30,8 @@ inline Tensor traction_free_strain() {
 /// `laws`: further parameters of the contact, each after a comma.
 inline std::string patch_scene(const std::string& normal_jump, const std::string& tangential_jump, double friction,
                                const std::string& dilation, const Tensor& strain = uniform_strain(),
-                               const std::string& shape = "triangles", const std::string& laws = "") {
+                               const std::string& shape = "triangles", const std::string& laws = "",
+                               const std::string& type = "coulomb") {
   // The fracture runs through (0.5, 0.5) along t = (cos 30, sin 30); n = (sin 30, -cos 30); minus side where n·x > 0.5
   // n·(1,1).
   const std::string side = "(0.5*(x-0.5) - 0.8660254037844386*(y-0.5) > 0)";
@@ -45,9 +46,8 @@ inline std::string patch_scene(const std::string& normal_jump, const std::string
          shape +
          "}, components: {rock: {type: poromechanics/mpsa, "
          "young_modulus: 2.5 Pa, poisson_ratio: 0.25, boundary: {left: " +
-         u + ", right: " + u + ", bottom: " + u + ", top: " + u +
-         "}}, contact: {type: contact/coulomb, friction: " + fmt::format("{:.17g}", friction) +
-         ", dilation_angle: " + dilation + laws +
+         u + ", right: " + u + ", bottom: " + u + ", top: " + u + "}}, contact: {type: contact/" + type +
+         ", friction: " + fmt::format("{:.17g}", friction) + ", dilation_angle: " + dilation + laws +
          "}}, couplers: [{type: wall_traction, between: [rock, contact]}], schedule: [{solve: [rock, contact]}], time: "
          "{end: 1 s, step: 1 s}}";
 }

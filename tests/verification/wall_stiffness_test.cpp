@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "components/capabilities/poroelastic_rock.hpp"
-#include "components/contact/coulomb/coulomb.hpp"
+#include "components/contact/frictional_contact.hpp"
 #include "framework/scene/registry.hpp"
 #include "tests/verification/scene_run.hpp"
 
@@ -17,20 +17,20 @@ namespace {
 struct ScaledOptions : contact::Options {
   double factor = 1;
   Spec spec() {
-    Spec spec = contact::Options::spec();
+    Spec spec = contact::Options::spec("contact/scaled", "Contact with scaled stiffness.");
     spec.quantity("factor", factor, {.doc = "Of the stiffness of walls."});
     return spec;
   }
 };
 
-/// Coulomb's contact with the stiffness of walls times a factor. It keeps what it was given.
-class ScaledContact : public contact::Coulomb {
+/// FrictionalContact's contact with the stiffness of walls times a factor. It keeps what it was given.
+class ScaledContact : public contact::FrictionalContact {
  public:
   ScaledContact(const ComponentContext& context, const ScaledOptions& options)
-      : Coulomb(context, options), factor_(options.factor) {}
+      : FrictionalContact(context, options), factor_(options.factor) {}
   void set_wall_stiffness(const Vector& stiffness) override {
     given = stiffness;
-    Coulomb::set_wall_stiffness(factor_ * stiffness);
+    FrictionalContact::set_wall_stiffness(factor_ * stiffness);
   }
   Vector given;  ///< Pa/m, (normal, tangential) of each cell
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "components/contact/coulomb/coulomb.hpp"
+#include "components/contact/frictional_contact.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::contact {
@@ -26,16 +26,18 @@ struct Law {
 
 class Contact {
  public:
-  explicit Contact(const Mesh& mesh, const Law& law = {}, const Options& laws = {}) {
+  explicit Contact(const Mesh& mesh, const Law& law = {}, const Options& laws = {},
+                   Multiplier multiplier = Multiplier::present) {
     Options options = laws;
     options.friction = law.friction;
     options.dilation_angle = law.dilation_angle;
-    contact_ = std::make_unique<Coulomb>(ComponentContext{"contact", mesh, fields_, 0, {}}, options);
+    contact_ =
+        std::make_unique<FrictionalContact>(ComponentContext{"contact", mesh, fields_, 0, {}}, options, multiplier);
     contact_->evaluate_data(step);
     contact_->begin_step(step);
   }
 
-  Coulomb& law() { return *contact_; }
+  FrictionalContact& law() { return *contact_; }
   /// Tractions and jumps, (normal, tangential) of each cell each.
   void set(const Vector& traction, const Vector& jump) {
     contact_->traction().set(traction);
@@ -63,7 +65,7 @@ class Contact {
 
  private:
   FieldStore fields_;
-  std::unique_ptr<Coulomb> contact_;
+  std::unique_ptr<FrictionalContact> contact_;
 };
 
 }  // namespace sprekk::contact

@@ -1,5 +1,5 @@
 // The return of a trial traction to the cone of friction, with one and two tangents, against closed forms.
-#include "components/contact/coulomb/return_map.hpp"
+#include "components/contact/return_map.hpp"
 
 #include <gtest/gtest.h>
 

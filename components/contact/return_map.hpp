@@ -1,4 +1,4 @@
-// Coulomb's friction at one place: a trial traction is returned to the cone |f_t| <= bound.
+// FrictionalContact's friction at one place: a trial traction is returned to the cone |f_t| <= bound.
 #pragma once
 
 #include <Eigen/Core>

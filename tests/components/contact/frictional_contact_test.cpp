@@ -1,5 +1,5 @@
 // The conditions of contact, cell by cell: states, and the whole Jacobian against differences in each of them.
-#include "components/contact/coulomb/coulomb.hpp"
+#include "components/contact/frictional_contact.hpp"
 
 #include <gtest/gtest.h>
 

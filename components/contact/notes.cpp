@@ -1,11 +1,11 @@
 // The notes of the contact.
 #include <fmt/format.h>
 
-#include "components/contact/coulomb/coulomb.hpp"
+#include "components/contact/frictional_contact.hpp"
 
 namespace sprekk::contact {
 
-void Coulomb::note_step(Notes& notes, const StepTime&) const {
+void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
   for (const Fracture& fracture : mesh_.fractures) {
     double length = 0, jump = 0;
     bool all_open = true, was_in_contact = false;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
-#include "components/contact/coulomb/return_map.hpp"
 #include "components/contact/laws/closure.hpp"
 #include "components/contact/laws/strength.hpp"
+#include "components/contact/return_map.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
@@ -29,8 +29,13 @@ struct Options {
   ClosureOptions closure;
   /// Jump over the length of its fracture from where on a note says that it is large.
   double large_jump = 0.01;
-  Spec spec();
+  Spec spec(const std::string& type, const std::string& doc);
 };
+
+/// The traction to which c times the gap and the slip of the step are added (the trial). `present`: that of the
+/// iterate, an unknown like the jump. `last`: that of the iterate before, held while the next one is found. `none`: no
+/// normal traction, and the tangential one from before the step: c is a stiffness of the walls then, and they overlap.
+enum class Multiplier { present, last, none };
 
 /// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. In space
 /// the tangential part has two components, |·| is its norm and the interval [−b, b] a disk (return_map.hpp). With the
@@ -58,14 +63,17 @@ struct Options {
 /// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
 /// Where friction does not hold anything there is nothing to lose, and none of this: the direction in which such a cell
 /// is about to slide at the start of a step, that of f_t = 0, is round-off.
-class Coulomb : public Component, public FractureContact, public IterateDependent {
+class FrictionalContact : public Component, public FractureContact, public IterateDependent {
  public:
-  Coulomb(const ComponentContext& context, const Options& options);
+  /// `stiffness_factor`: c over the stiffness of the rock against a jump of the cell.
+  FrictionalContact(const ComponentContext& context, const Options& options,
+                    Multiplier multiplier = Multiplier::present, double stiffness_factor = 1);
 
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime&) override {
     back_slip_.clear();
     kept_.clear();
+    last_.resize(0);
   }
   /// Cells that have grown are bonded, [u] = 0, until the equilibrium on the new mesh with bonded cells has been found.
   /// Cells that cover given-up ones are held meanwhile at the jump of these, with the same volume.
@@ -125,6 +133,13 @@ class Coulomb : public Component, public FractureContact, public IterateDependen
     }
   };
   Trial trial(int cell) const;
+  /// Whether the trial's traction is that of the iterate.
+  bool trial_has_present() const {
+    return multiplier_ == Multiplier::present ||
+           (multiplier_ == Multiplier::last && (is_without_shortcuts_ || last_.size() == 0));
+  }
+  double multiplier(int cell) const;                       ///< Pa, normal
+  TangentialVector tangential_multiplier(int cell) const;  ///< Pa
   /// The opening by dilation, m, after slip of this size, and its derivative.
   double dilated(int cell, double slip) const;
   double dilation_at(int cell, double slip) const;
@@ -157,6 +172,9 @@ class Coulomb : public Component, public FractureContact, public IterateDependen
   Field& jump_;
   Field* path_ = nullptr;  ///< q, m; null without weakening
   Options options_;
+  Multiplier multiplier_;
+  double stiffness_factor_;
+  Vector last_;                              ///< Pa, the traction of the iterate before; empty at the start of a step
   std::unique_ptr<Closure> closure_;         ///< null for hard walls
   Property friction_, dilation_angle_;       ///< mu_s, psi
   Property dynamic_friction_;                ///< mu_d, where friction weakens

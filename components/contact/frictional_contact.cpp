@@ -1,0 +1,464 @@
+#include "components/contact/frictional_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "framework/invariants.hpp"
+#include "framework/mesh/mesh_change.hpp"
+
+namespace sprekk::contact {
+
+Spec Options::spec(const std::string& type, const std::string& doc) {
+  Spec spec(type, doc);
+  spec.ignore("type");
+  spec.data("friction", friction,
+            {.range = non_negative(),
+             .doc = "Coefficient of friction.",
+             .source = "mu_s of the paper's Eq. 3",
+             .required = true,
+             .material = true,
+             .in_time = true});
+  spec.data("dilation_angle", dilation_angle,
+            {.unit = "rad",
+             .range = between(0, 1.5),
+             .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
+             .source = "psi below the paper's Eq. 2",
+             .material = true,
+             .in_time = true});
+  spec.quantity("dilation_limit", dilation_limit,
+                {.unit = "m",
+                 .range = non_negative(),
+                 .doc = "Slip from where on it opens the fracture no further: its asperities are worn. Without it, "
+                        "all slip opens."});
+  spec.quantity("cohesion", weakening.cohesion,
+                {.unit = "Pa",
+                 .range = non_negative(),
+                 .doc = "Shear traction that walls hold without pressure, |f_t| <= cohesion - friction f_n. "
+                        "`weakening` says how it is lost."});
+  spec.quantity("tensile_strength", weakening.tensile_strength,
+                {.unit = "Pa",
+                 .range = non_negative(),
+                 .doc = "Normal traction at which walls part. `weakening` says how it is lost."});
+  Spec lost("weakening", "How walls lose strength: linearly over a path, for good.");
+  lost.quantity("distance", weakening.distance,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Path of slip and opening, both ways counted, over which cohesion and tensile strength are "
+                        "lost and friction falls to that of `friction`.",
+                 .required = true});
+  lost.data("friction", dynamic_friction,
+            {.range = non_negative(),
+             .doc = "Coefficient of friction after that; without it, friction stays.",
+             .source = "linear slip weakening: Ida 1972, Andrews 1976",
+             .in_time = true});
+  spec.section("weakening", lost, {.doc = "How walls lose strength: linearly over a path, for good."}, &weakens);
+  spec.section("closure", closure.spec(), {.doc = "How far walls in contact approach each other under pressure."});
+  spec.check([this](const Node& node) {
+    if (!weakens && weakening.cohesion > 0)
+      throw InputError(node.origin, "'cohesion' is never lost", "the scene has no 'weakening'",
+                       "add weakening: {distance: ...} with the path over which it is lost");
+    if (!weakens && weakening.tensile_strength > 0)
+      throw InputError(node.origin, "'tensile_strength' is never lost", "the scene has no 'weakening'",
+                       "add weakening: {distance: ...} with the path over which it is lost");
+  });
+  spec.quantity("large_jump", large_jump,
+                {.range = positive(),
+                 .doc = "Jump over the length of its fracture from where on a note says that it is large: the places "
+                        "and the shapes of fractures are taken to stay."});
+  return spec;
+}
+
+FrictionalContact::FrictionalContact(const ComponentContext& context, const Options& options, Multiplier multiplier,
+                                     double stiffness_factor)
+    : Component(context.name),
+      mesh_(context.mesh),
+      traction_(context.fields.add(
+          mesh_, {.owner = context.name,
+                  .name = "traction",
+                  .location = Location::fracture_cell,
+                  .components = dimension,
+                  .role = Role::unknown(BlockKind::interface),
+                  .unit = "Pa",
+                  .doc = "Contact traction on the plus wall, normal and tangential (f of the paper's Eqs. 2-4)"})),
+      jump_(context.fields.add(mesh_,
+                               {.owner = context.name,
+                                .name = "jump",
+                                .location = Location::fracture_cell,
+                                .components = dimension,
+                                .role = Role::input(BlockKind::interface),
+                                .unit = "m",
+                                .doc = "Displacement jump, normal (opening) and tangential (slip) (the paper's Eq. 1)",
+                                .needs_coupler = "wall_traction"})),
+      options_(options),
+      multiplier_(multiplier),
+      stiffness_factor_(stiffness_factor),
+      closure_(options.closure.build()) {
+  const int count = mesh_.fracture_cell_count();
+  if (count == 0)
+    throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
+                     "add fractures to `geometry:` or remove the component");
+  const std::vector<Place> places = fracture_cell_places(mesh_);
+  if (options_.weakening.is_on())
+    path_ = &context.fields.add(mesh_, {.owner = context.name,
+                                        .name = "path",
+                                        .location = Location::fracture_cell,
+                                        .role = Role::derived(),
+                                        .unit = "m",
+                                        .doc = "Path of slip and opening since the start, forth and back"});
+  friction_ = Property(options_.friction, places, context.start_time);
+  dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
+  if (options_.dynamic_friction) dynamic_friction_ = Property(*options_.dynamic_friction, places, context.start_time);
+  dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
+  stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
+  fracture_measure_.assign(mesh_.fractures.size(), 0);
+  for (const FractureCell& cell : mesh_.fracture_cells) fracture_measure_[cell.fracture] += cell.measure;
+}
+
+void FrictionalContact::evaluate_data(const StepTime& step) {
+  friction_.evaluate(step);
+  if (options_.dynamic_friction) dynamic_friction_.evaluate(step);
+  if (!dilation_angle_.depends_on_time()) return;
+  dilation_angle_.evaluate(step);
+  dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
+}
+
+std::vector<double> FrictionalContact::switch_times() const {
+  std::vector<const Data*> data{&options_.friction, &options_.dilation_angle};
+  if (options_.dynamic_friction) data.push_back(&*options_.dynamic_friction);
+  return merged_switch_times(data);
+}
+
+void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
+  stiffness_of_walls_ = stiffness_factor_ * stiffness;
+  stiffness_of_fractures_ = stiffness_of_walls_;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const FractureCell& cell = mesh_.fracture_cells[i];
+    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *=
+        cell.measure / fracture_measure_[cell.fracture];
+    constexpr double at_most = 0.5;  // times the tangential stiffness over mu_s tan psi
+    const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
+    for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_}) {
+      // The same stiffness for all tangents: the return to the cone then does not depend on the directions of the
+      // tangents.
+      auto tangential = c->segment<dimension - 1>(dimension * i + 1);
+      const double least = tangential.minCoeff();
+      tangential.setConstant(least);
+      (*c)[dimension * i] = std::min((*c)[dimension * i], at_most * least / wedge);
+    }
+  }
+}
+
+void FrictionalContact::carry_over(const Part&, const MeshChange& change) {
+  SPREKK_EXPECT(static_cast<int>(change.fracture_cell.size()) == mesh_.fracture_cell_count(),
+                change.fracture_cell.size());
+  const Vector covered = covered_parts(change, mesh_);
+  bonded_.resize(change.fracture_cell.size());
+  Vector jump = jump_.accepted();
+  for (std::size_t i = 0; i < bonded_.size(); ++i) {
+    bonded_[i] = change.fracture_cell[i] == none;
+    // A jump on a part of the cell is spread over its length: the volume stays.
+    if (bonded_[i]) jump.segment<dimension>(dimension * i) *= covered[i];
+  }
+  bonded_jump_ = jump;
+  jump_.set_both(std::move(jump));
+}
+
+void FrictionalContact::settled(const MeshChange&) {
+  bonded_.clear();
+  bonded_jump_.resize(0);
+}
+
+double FrictionalContact::dilated(int i, double slip) const {
+  return std::min(slip, options_.dilation_limit.value_or(slip)) * dilation_[i];
+}
+
+double FrictionalContact::dilation_at(int i, double slip) const {
+  return options_.dilation_limit && slip > *options_.dilation_limit ? 0.0 : dilation_[i];
+}
+
+double FrictionalContact::gap(int i, const Vector& traction, const Vector& jump) const {
+  return jump[dimension * i] - dilated(i, magnitude<dimension - 1>(tangential(jump, i))) +
+         closure(traction[dimension * i]);
+}
+
+double FrictionalContact::path(int i, double gap) const {
+  const double before = std::max(0.0, this->gap(i, traction_.accepted(), jump_.accepted()));
+  const double slip =
+      magnitude<dimension - 1>(TangentialVector(tangential(jump_.now(), i) - tangential(jump_.accepted(), i)));
+  return path_->accepted()[i] + slip + std::max(0.0, gap - before);
+}
+
+void FrictionalContact::after_solve(const std::vector<Field*>& solved, const StepTime&) {
+  if (!path_ || std::find(solved.begin(), solved.end(), &traction_) == solved.end()) return;
+  Vector paths(mesh_.fracture_cell_count());
+  for (int i = 0; i < paths.size(); ++i) paths[i] = path(i, gap(i, traction_.now(), jump_.now()));
+  path_->set(std::move(paths));
+}
+
+double FrictionalContact::multiplier(int i) const {
+  if (trial_has_present()) return traction_.now()[dimension * i];
+  return multiplier_ == Multiplier::last ? last_[dimension * i] : 0.0;
+}
+
+TangentialVector FrictionalContact::tangential_multiplier(int i) const {
+  if (trial_has_present()) return tangential(traction_.now(), i);
+  return tangential(multiplier_ == Multiplier::last ? last_ : traction_.accepted(), i);
+}
+
+FrictionalContact::Trial FrictionalContact::trial(int i) const {
+  SPREKK_EXPECT(is_index(i, mesh_.fracture_cell_count()), i, mesh_.fracture_cell_count());
+  const int row = dimension * i;
+  const double c_n = stiffness()[row], c_t = stiffness()[row + 1];
+  SPREKK_ASSERT(c_n > 0 && c_t > 0, i, c_n, c_t);
+  SPREKK_ASSERT(friction_[i] >= 0 && dilation_[i] >= 0, i, friction_[i], dilation_[i]);
+  const TangentialVector u_t = tangential(jump_.now(), i);
+  Trial t;
+  const double slip = magnitude<dimension - 1>(u_t);
+  t.gap = gap(i, traction_.now(), jump_.now());
+  t.gap_by_traction = closure_ ? -closure_->at(-traction_.now()[row]).by_pressure : 0.0;
+  t.dilation = dilation_at(i, slip);
+  t.strength.friction = friction_[i];
+  t.path_by_slip.setZero();
+  t.path_by_gap = 0;
+  if (path_) {
+    t.strength = options_.weakening.at(friction_[i], dynamic_friction(i), path(i, t.gap));
+    const double before = std::max(0.0, gap(i, traction_.accepted(), jump_.accepted()));
+    t.path_by_gap = t.gap > before;
+  }
+  t.tension = t.strength.tension;
+  t.holds_open = t.strength.cohesion > 0;
+  t.normal = multiplier(i) + c_n * t.gap;
+  t.tangential = tangential_multiplier(i) + c_t * (u_t - tangential(jump_.accepted(), i));
+  if (path_) {
+    const TangentialVector slipped = u_t - tangential(jump_.accepted(), i);
+    t.path_by_slip = direction_of<dimension - 1>(magnitude<dimension - 1>(slipped) > 0 ? slipped : t.tangential);
+  }
+  t.bound = t.strength.cohesion - t.strength.friction * std::min(0.0, t.normal);
+  if (!kept_.empty() && kept_[i] && !t.is_open()) t.bound = std::numeric_limits<double>::infinity();
+  // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
+  t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
+  constexpr double round_off = 1e-10;  // of the traction that makes the slip
+  t.least_bound = round_off * c_t * magnitude<dimension - 1>(u_t);
+  return t;
+}
+
+void FrictionalContact::observe_iterate(const std::vector<Field*>& unknowns) {
+  is_solved_for_ = std::find(unknowns.begin(), unknowns.end(), &traction_) != unknowns.end();
+  if (is_solved_for_ && multiplier_ == Multiplier::last) last_ = traction_.now();
+  if (follows_pieces_ || !is_solved_for_) return;
+  const std::array<std::uint64_t, 2> values{traction_.version(), jump_.version()};
+  if (!back_slip_.empty() && values == followed_) return;  // this update has been considered already
+  followed_ = values;
+  back_slip_.resize(mesh_.fracture_cell_count());
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    BackSlip& cell = back_slip_[i];
+    const Trial t = trial(i);
+    SPREKK_ASSERT(is_index(i, static_cast<long>(back_slip_.size())), i, back_slip_.size());
+    TangentialVector direction = TangentialVector::Zero();
+    if (t.state() == State::slip) direction = direction_of<dimension - 1>(t.tangential);
+    const bool slides_back = dilation_[i] > 0 && t.slides_back();
+    if (cell.taken == BackSlip::Piece::before_kink && direction.dot(cell.direction) <= 0) {
+      const TangentialVector slip = tangential(jump_.now(), i) - tangential(jump_.accepted(), i);
+      cell.is_beyond = cell.is_beyond || slip.dot(cell.direction) < 0;
+    } else if (cell.taken == BackSlip::Piece::beyond_kink && slides_back) {
+      cell.is_beyond = false;  // the kink was not reached, or no solution lies beyond it
+    }
+    cell.taken = !slides_back     ? BackSlip::Piece::none
+                 : cell.is_beyond ? BackSlip::Piece::beyond_kink
+                                  : BackSlip::Piece::before_kink;
+    cell.direction = direction;
+  }
+}
+
+FrictionalContact::Trial FrictionalContact::trial_of_update(int i) const {
+  Trial t = trial(i);
+  if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
+  t.slip_direction = -t.slip_direction;
+  // The linear function on the other side of the kink, at the same slip: the opening by dilation has the other sign.
+  const double slip = t.slip_direction.dot(tangential(jump_.now(), i));
+  t.gap = jump_.now()[dimension * i] - std::copysign(dilated(i, std::abs(slip)), slip) +
+          closure(traction_.now()[dimension * i]);
+  // The walls touch, whatever the sign of the normal trial traction: the linear function passes through the values
+  // beyond the kink.
+  const double normal = multiplier(i) + stiffness()[dimension * i] * t.gap;
+  t.bound = t.strength.cohesion - t.strength.friction * normal;
+  t.normal = std::min(normal, 0.0);
+  return t;
+}
+
+State FrictionalContact::state(int i) const { return trial(i).state(); }
+
+namespace {
+
+/// Whether slip has the positive one of the two directions in a plane. In space the direction changes without a kink,
+/// and all directions are one piece.
+bool is_forward(const TangentialVector& vector) { return dimension == 2 && vector[0] > 0; }
+
+}  // namespace
+
+int FrictionalContact::piece(int i) const {
+  const Trial t = trial(i);
+  const State now = state(i);
+  const bool knows_direction = now == State::slip && friction_[i] > 0;
+  const int piece = 2 * static_cast<int>(now) + (knows_direction && is_forward(t.tangential));
+  if (!follows_pieces_) return piece;
+  if (is_bonded(i)) return 0;
+  const bool has_kink = dilation_[i] > 0 && now != State::open;
+  const bool is_worn = has_kink && t.dilation == 0;
+  return 3 * piece + (is_worn ? 2 : has_kink && is_forward(t.slip_direction));
+}
+
+/// Opens all cells by a very small amount. The amount makes no difference, since the conditions of open cells are
+/// linear.
+void FrictionalContact::deactivate_conditions() {
+  constexpr double opening = 1e-9;  // of the length of a cell
+  Vector traction = traction_.now(), jump = jump_.now();
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    if (is_bonded(i)) continue;
+    traction.segment<dimension>(dimension * i).setZero();
+    const double least = dilated(i, magnitude<dimension - 1>(tangential(jump, i))) - closure(0);
+    jump[dimension * i] = std::max(jump[dimension * i], least + opening * mesh_.fracture_cells[i].measure);
+  }
+  traction_.set(std::move(traction));
+  jump_.set(std::move(jump));
+}
+
+int FrictionalContact::keep_states() {
+  constexpr double least = 1e-6;  // of the largest jump; smaller jumps are round-off
+  if (!is_solved_for_) return 0;
+  kept_.assign(mesh_.fracture_cell_count(), 0);
+  int count = 0;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const TangentialVector before = tangential(jump_.accepted(), i), slip = tangential(jump_.now(), i) - before;
+    const bool slides_back = dilation_[i] > 0 && friction_[i] > 0 && slip.dot(before) < 0;
+    if (is_bonded(i) || !slides_back || magnitude<dimension - 1>(slip) < least * jump_.now().lpNorm<Eigen::Infinity>())
+      continue;
+    if (state(i) == State::open || traction_.accepted()[dimension * i] >= 0) continue;
+    kept_[i] = 1;
+    ++count;
+  }
+  if (count == 0) kept_.clear();
+  return count;
+}
+
+int FrictionalContact::release_violated() {
+  int count = 0;
+  const std::vector<char> kept = std::exchange(kept_, {});
+  std::vector<char> rest = kept;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i] || state(static_cast<int>(i)) == State::stick) continue;
+    rest[i] = 0;
+    ++count;
+  }
+  kept_ = std::move(rest);
+  return count;
+}
+
+std::uint64_t FrictionalContact::discrete_state() const {
+  std::uint64_t hash = 0;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) hash = hash * 1000003 + piece(i);
+  return hash;
+}
+
+void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
+  if (!assembly.has_row(traction_)) return;
+  const int count = mesh_.fracture_cell_count();
+  const bool has_present = trial_has_present();
+  const bool guesses = assembly.wants_derivatives() && !follows_pieces_;
+  Vector residual(dimension * count);
+  SPREKK_ASSERT(residual.size() == traction_.size(), residual.size(), traction_.size());
+  // The blocks have the same pattern in every state, so that the sparsity of the system never changes.
+  std::vector<Triplet> by_traction, by_jump;
+  for (int i = 0; i < count; ++i) {
+    const Trial t = guesses ? trial_of_update(i) : trial(i);
+    const int row = dimension * i;
+    const double f_n = traction_.now()[row], c_n = stiffness()[row], c_t = stiffness()[row + 1];
+    const TangentialVector f_t = tangential(traction_.now(), i);
+    auto own = residual.segment<dimension>(row);
+    Tensor by_f = Tensor::Zero(), by_u = Tensor::Zero();  // derivatives of the residual, the normal row first
+    if (is_bonded(i)) {
+      own = bonded_jump_.segment<dimension>(row) - jump_.now().segment<dimension>(row);
+      by_u.diagonal().setConstant(-1);
+    } else if (t.is_open() && !path_) {
+      own << f_n / c_n, f_t / c_t;
+      by_f.diagonal().setConstant(1 / c_t);
+      by_f(0, 0) = 1 / c_n;
+    } else {
+      constexpr int tangents = dimension - 1;
+      using Row = Eigen::Matrix<double, 1, dimension>;
+      const ReturnedTraction<tangents> returned = return_to_cone<tangents>(t);
+      Row gap_by_u;
+      gap_by_u << 1, -t.slip_direction.transpose() * t.dilation;
+      const auto gap_by_t = gap_by_u.template tail<tangents>();
+      auto by_f_t = by_f.bottomRightCorner<tangents, tangents>();
+      own[0] = t.is_open() ? (f_n - t.tension) / c_n : has_present ? -t.gap : (f_n - t.normal) / c_n;
+      own.template tail<tangents>() = (f_t - returned.tangential) / c_t;
+      if (t.is_open()) {
+        by_f(0, 0) = 1 / c_n;
+      } else {
+        by_f(0, 0) = (has_present ? 0 : 1 / c_n) - t.gap_by_traction;
+        by_u.row(0) = -gap_by_u;
+      }
+      by_u.bottomRightCorner<tangents, tangents>() = -returned.by_trial;
+      by_f_t.setIdentity();
+      if (has_present) by_f_t -= returned.by_trial;
+      by_f_t /= c_t;
+      if (!t.sticks() && t.normal <= 0) {
+        const TangentialVector by_normal = returned.by_bound * t.strength.friction / c_t;
+        by_f.bottomLeftCorner<tangents, 1>() = by_normal * (has_present + c_n * t.gap_by_traction);
+        by_u.bottomLeftCorner<tangents, 1>() = by_normal * c_n;
+        by_u.bottomRightCorner<tangents, tangents>() += by_normal * c_n * gap_by_t;
+      }
+      if (path_) {
+        // What weakens along the path: the tensile strength in the normal row, the bound in the tangential ones.
+        Row path_by_u = t.path_by_gap * gap_by_u;
+        path_by_u.template tail<tangents>() += t.path_by_slip.transpose();
+        const double path_by_f = t.path_by_gap * t.gap_by_traction;
+        if (t.is_open()) {
+          by_f(0, 0) -= t.strength.tension_by_path * path_by_f / c_n;
+          by_u.row(0) -= t.strength.tension_by_path * path_by_u / c_n;
+        }
+        if (!t.sticks()) {
+          const double by_path = t.strength.cohesion_by_path - t.strength.friction_by_path * std::min(0.0, t.normal);
+          by_f.bottomLeftCorner<tangents, 1>() -= returned.by_bound * by_path * path_by_f / c_t;
+          by_u.bottomRows<tangents>() -= returned.by_bound * by_path * path_by_u / c_t;
+        }
+      }
+    }
+    for (int k = 0; k < dimension; ++k)
+      for (int l = 0; l < dimension; ++l) {
+        if (k > 0 || l == 0) by_traction.emplace_back(row + k, row + l, by_f(k, l));
+        by_jump.emplace_back(row + k, row + l, by_u(k, l));
+      }
+  }
+  assembly.add(traction_, residual);
+  // The residual is compared with the jumps, or, where all cells stick, with the jumps that the tractions would make.
+  assembly.compare_with(traction_, traction_.now().cwiseQuotient(stiffness()).lpNorm<Eigen::Infinity>());
+  assembly.compare_with(traction_, jump_.now().lpNorm<Eigen::Infinity>());
+  if (!assembly.wants_derivatives()) return;
+  const int rows = dimension * count;
+  SparseMatrix tractions(rows, rows), jumps(rows, rows);
+  tractions.setFromTriplets(by_traction.begin(), by_traction.end());
+  jumps.setFromTriplets(by_jump.begin(), by_jump.end());
+  assembly.derivative(traction_, traction_, std::move(tractions));
+  assembly.derivative(traction_, jump_, std::move(jumps));
+}
+
+void FrictionalContact::report(std::vector<Quantity>& quantities) const {
+  int counts[3] = {0, 0, 0};
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) ++counts[static_cast<int>(state(i))];
+  quantities.push_back({name() + ".cells_stick", "1", static_cast<double>(counts[0])});
+  quantities.push_back({name() + ".cells_slip", "1", static_cast<double>(counts[1])});
+  quantities.push_back({name() + ".cells_open", "1", static_cast<double>(counts[2])});
+}
+
+void FrictionalContact::output(std::vector<OutputField>& fields) const {
+  Vector states(mesh_.fracture_cell_count());
+  for (int i = 0; i < states.size(); ++i) states[i] = static_cast<double>(state(i));
+  fields.push_back({name() + ".state_0_stick_1_slip_2_open", "1", Location::fracture_cell, 1, std::move(states)});
+}
+
+}  // namespace sprekk::contact
