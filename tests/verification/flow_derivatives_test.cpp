@@ -90,6 +90,16 @@ TEST(FlowDerivatives, OfTheCubicLawThatIsReleasedInPart) {
   }
 }
 
+TEST(FlowDerivatives, OfTheLawOfRoughWallsAboveAndBelowItsResidual) {
+  for (const char* residual : {"1 mm", "0.5 m"}) {
+    SceneRun run =
+        SceneRun::from_text(scene(std::string("    law: {type: rough, roughness: 0.4 m, residual: ") + residual + "}"));
+    expect_derivatives(
+        run, spreads, rows,
+        with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
+  }
+}
+
 TEST(FlowDerivatives, OfAGivenTransmissivity) {
   // kappa = 2 K / (mu a^2) depends on the aperture.
   SceneRun run = SceneRun::from_text(scene("    transmissivity: constant\n    transmissivity_value: 2 + x"));

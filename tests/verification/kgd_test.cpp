@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "tests/verification/scene_run.hpp"
 
@@ -80,6 +82,52 @@ TEST_P(KgdByTheCubicLaw, OpensIntoCellsThatAreClosed) {
   EXPECT_NEAR(first / due, 1, 0.03);
   EXPECT_GT(last, end - 3);  // an increment takes 1.5 s
 }
+
+/// The volume of the fluid is that of the fracture: what has been injected, and what it had at first. The fluid is as
+/// good as incompressible. A cell that has grown has room of its own in the first case, and covers the one before it,
+/// which was shorter, in the second one; neither makes fluid.
+class KgdVolume : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(KgdVolume, IsWhatHasBeenInjected) {
+  const bool within = GetParam() == "within_step";
+  std::vector<Override> settings = {{"geometry.fractures.main.points", "[[0 m, 0 m], [2.5 m, 0 m]]"},
+                                    {"mesh.size", "40 m"},
+                                    {"components.rock.initial_stress.xx", "-20 MPa"},
+                                    {"components.rock.boundary.right.normal_stress", "-20 MPa"},
+                                    {"components.conduit.transmissivity", "cubic_law"},
+                                    {"components.conduit.transmissivity_value", "null"},
+                                    {"components.conduit.fluid_compressibility", "1e-13 1/Pa"},
+                                    {"components.conduit.initial_aperture", "1 um"},
+                                    {"components.conduit.injection.well.rate", "0.5e-3 m^2/s"},
+                                    {"components.conduit.grown.fluid", "drawn"},
+                                    {"components.conduit.grown.aperture", within ? "0 m" : "0.1 mm"},
+                                    {"components.tips.toughness", "5.6 MPa*m^0.5"},
+                                    {"components.tips.growth.increment", "0.5 m"},
+                                    {"time.step", "0.15 s"}};
+  if (within) {
+    settings.push_back(
+        {"schedule",
+         "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: within_step}]"});
+    settings.push_back(
+        {"couplers",
+         "[{type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, "
+         "{type: two_level, between: [rock, conduit, tips], propagation_threshold: 0.25}]"});
+  }
+  SceneRun run("verification/kgd.yaml", settings);
+  constexpr double before = 2.5 * 1e-6;
+  run.run_until(3.6, [&] {
+    double volume = 0;
+    const Vector aperture = run.field("conduit.aperture");
+    for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)
+      volume += run.mesh().fracture_cells[i].measure * aperture[i];
+    const double injected = 0.5e-3 * run.time();
+    EXPECT_NEAR((volume - before) / injected, 1, 1e-5) << run.time();
+  });
+  EXPECT_GT(run.quantity("tips.main_last.length"), 0.6);
+  EXPECT_GT(run.mesh_changes(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kgd, KgdVolume, ::testing::Values("within_step", "after_step"));
 
 INSTANTIATE_TEST_SUITE_P(Kgd, KgdByTheCubicLaw, ::testing::Values("0 m", "1 um"));
 

@@ -38,7 +38,8 @@ SceneRun::SceneRun(const Scene& scene) {
 bool SceneRun::step() {
   for (;;) {
     const StepTime step = controller_->next();
-    const StepStatus status = model_->attempt(step);
+    StepStatus status = model_->attempt(step);
+    if (status.converged) status = growth_->find_front(step, status);
     if (status.converged && growth_->before_acceptance() == MeshGrowth::Outcome::changed) continue;
     if (status.converged) {
       iterations_ = status.iterations;

@@ -8,13 +8,14 @@ Spec LawOptions::spec() {
   Spec spec("law", "How well the fracture conducts, by its aperture a.");
   std::vector<std::pair<std::string, std::string>> types = hydraulic_law_names();
   types.emplace_back("constant", "the value given as transmissivity, whatever the aperture is");
-  spec.choice("type", type, std::move(types),
-              {.doc = "How the tangential transmissivity K_i follows from the aperture.",
-               .source = "below the paper's Eq. 8"});
-  spec.quantity("residual", residual,
-                {.unit = "m",
-                 .range = positive(),
-                 .doc = "Hydraulic aperture of a closed fracture, and the least one of any: it conducts, and has no volume."});
+  spec.choice(
+      "type", type, std::move(types),
+      {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below the paper's Eq. 8"});
+  spec.quantity(
+      "residual", residual,
+      {.unit = "m",
+       .range = positive(),
+       .doc = "Hydraulic aperture of a closed fracture, and the least one of any: it conducts, and has no volume."});
   spec.quantity("roughness", roughness,
                 {.unit = "m",
                  .range = non_negative(),
@@ -27,10 +28,11 @@ Spec LawOptions::spec() {
     if (is_constant && !transmissivity)
       throw InputError(node.origin, "'transmissivity' is missing", "the law is constant", "give it in m^3");
     if (!is_constant && transmissivity)
-      throw InputError(node.origin, "'transmissivity' has no effect", "it follows from the aperture by the " + type + " law",
-                       "write 'type: constant', or remove it");
+      throw InputError(node.origin, "'transmissivity' has no effect",
+                       "it follows from the aperture by the " + type + " law", "write 'type: constant', or remove it");
     if (is_constant && residual)
-      throw InputError(node.origin, "'residual' has no effect", "a constant transmissivity does not depend on the aperture",
+      throw InputError(node.origin, "'residual' has no effect",
+                       "a constant transmissivity does not depend on the aperture",
                        "remove it, or write 'type: cubic'");
     if (type == "rough" && !roughness)
       throw InputError(node.origin, "'roughness' is missing", "the law is that of a rough fracture", "give it in m");

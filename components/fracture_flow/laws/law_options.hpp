@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "components/fracture_flow/laws/hydraulic_law.hpp"
+#include "components/fracture_flow/laws/known_laws.hpp"
 #include "framework/config/spec.hpp"
 
 namespace sprekk::fracture_flow {

@@ -47,8 +47,7 @@ Conductance FractureFlow::conductance_by_opening(const Link& link, double half, 
 std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
   std::vector<JunctionFluxes> fluxes;
   for (const Junction& junction : mesh_.junctions) {
-    fluxes.emplace_back(junction,
-                        options_.is_constant() ? given_halves(junction) : halves_by_opening(junction));
+    fluxes.emplace_back(junction, options_.is_constant() ? given_halves(junction) : halves_by_opening(junction));
   }
   return fluxes;
 }

@@ -97,7 +97,8 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
   for (int i = 0; i < aperture.size(); ++i)
     if (covered[i] < 1) aperture[i] = covered[i] * aperture[i] + (1 - covered[i]) * filled;
   pressure_.set_both(std::move(pressure));
-  aperture_.set_accepted(std::move(aperture));
+  // Both, since the settled state is accepted as a whole: the fluid of the next step is counted from here.
+  aperture_.set_both(std::move(aperture));
 }
 
 void FractureFlow::make_links(const StepTime& step) {

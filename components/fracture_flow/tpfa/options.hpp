@@ -54,7 +54,9 @@ struct Options {
 
   /// Whether the transmissivity is given; otherwise it follows from the aperture.
   bool is_constant() const { return has_law ? law.type == "constant" : transmissivity == "constant"; }
-  const std::optional<Data>& given_transmissivity() const { return has_law ? law.transmissivity : transmissivity_value; }
+  const std::optional<Data>& given_transmissivity() const {
+    return has_law ? law.transmissivity : transmissivity_value;
+  }
 };
 
 }  // namespace sprekk::fracture_flow

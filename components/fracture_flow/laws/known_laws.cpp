@@ -1,4 +1,4 @@
-#include "components/fracture_flow/laws/hydraulic_law.hpp"
+#include "components/fracture_flow/laws/known_laws.hpp"
 
 #include "components/fracture_flow/laws/cubic_law.hpp"
 #include "components/fracture_flow/laws/rough_law.hpp"
@@ -14,15 +14,14 @@ struct Entry {
 };
 
 const std::vector<Entry>& laws() {
-  static const std::vector<Entry> entries = {
-      {"cubic", "a^3/12 of smooth walls",
-       [](const HydraulicLawParameters& p) -> std::unique_ptr<HydraulicLaw> {
-         return std::make_unique<CubicLaw>(p.lowest);
-       }},
-      {"rough", "a^3/12/(1 + 6 (roughness/a)^1.5) of rough walls (Lomize 1951)",
-       [](const HydraulicLawParameters& p) -> std::unique_ptr<HydraulicLaw> {
-         return std::make_unique<RoughLaw>(p.lowest, p.roughness);
-       }}};
+  static const std::vector<Entry> entries = {{"cubic", "a^3/12 of smooth walls",
+                                              [](const HydraulicLawParameters& p) -> std::unique_ptr<HydraulicLaw> {
+                                                return std::make_unique<CubicLaw>(p.lowest);
+                                              }},
+                                             {"rough", "a^3/12/(1 + 6 (roughness/a)^1.5) of rough walls (Lomize 1951)",
+                                              [](const HydraulicLawParameters& p) -> std::unique_ptr<HydraulicLaw> {
+                                                return std::make_unique<RoughLaw>(p.lowest, p.roughness);
+                                              }}};
   return entries;
 }
 

@@ -1,0 +1,24 @@
+// The laws for the hydraulic aperture by name.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/fracture_flow/laws/hydraulic_law.hpp"
+
+namespace sprekk::fracture_flow {
+
+/// The parameters of all laws; each takes what it needs.
+struct HydraulicLawParameters {
+  double lowest = 0;     ///< m, lower bound of the hydraulic aperture; positive
+  double roughness = 0;  ///< m, height of the asperities
+};
+
+/// The names that a scene may write for laws of the aperture, each with what it says.
+std::vector<std::pair<std::string, std::string>> hydraulic_law_names();
+/// The law of this name.
+std::unique_ptr<HydraulicLaw> make_hydraulic_law(const std::string& name, const HydraulicLawParameters& parameters);
+
+}  // namespace sprekk::fracture_flow
