@@ -6,6 +6,7 @@ from . import physics
 
 HOUR = 3600.0
 SIDE = 2.0
+UPDATES = ("after_step", "within_step", "repeat_step")  # of `grow`
 ITERATED = 1e-8  # of iterated schemes: what residuals may be of their terms
 
 
@@ -111,7 +112,8 @@ def schedule(p):
         solve = f"{{subcycle: {{count: 2, steps: [{all_at_once}]}}}}"
     else:
         solve = all_at_once
-    return ["schedule:", f"  - {solve}", "  - {grow: tips, settle: [rock, contact]}"]
+    update = "" if p["update"] == UPDATES[0] else f", update: {p['update']}"
+    return ["schedule:", f"  - {solve}", f"  - {{grow: tips, settle: [rock, contact]{update}}}"]
 
 
 def write(p, path):
@@ -143,7 +145,8 @@ def write(p, path):
             f"growth: {growth}}}",
             "couplers:", "  - {type: biot, between: [pore, rock]}", "  - {type: wall_exchange, between: [pore, conduit]}",
             "  - {type: wall_traction, between: [rock, contact, conduit]}", "  - {type: aperture, between: [contact, conduit]}",
-            "  - {type: two_level, between: [rock, conduit, tips]}", *schedule(p),
+            f"  - {{type: two_level, between: [rock, conduit, tips]{', propagation_threshold: 0.25' if p['update'] == 'within_step' else ''}}}",
+            *schedule(p),
             f"time: {{end: {p['steps'] * HOUR!r} s, step: {HOUR!r} s}}", f"output: {{every: {HOUR!r} s}}", ""]
     path.write_text("\n".join(text))
     return path

@@ -74,4 +74,5 @@ def stresses(p, t):
 
 def family_option(p):
     """Of tools/stress."""
-    return "" if p["family"] == "separate" else f" --family {p['family']}"
+    family = "" if p["family"] == "separate" else f" --family {p['family']}"
+    return family if p.get("update", "after_step") == "after_step" else f"{family} --update {p['update']}"

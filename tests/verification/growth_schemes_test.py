@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""growth_schemes_test.py SPREKK: growth within steps in every scheme: an iterated scheme finds the advance of the monolithic one, and
+substeps tend to the same answer with the step, and a step in which a `when` leaves `grow` out has no growth."""
+
+import csv
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SPREKK = Path(sys.argv.pop(1)).resolve()
+SCENE = ROOT / "configs/paper/wing_cracks.yaml"
+HOUR = 3600
+SWITCH, END = 4400, 6400  # s: both wings have grown within steps before, and the step in between is not cut
+COUPLERS = """
+couplers:
+  - {type: biot,          between: [pore, rock]}
+  - {type: wall_exchange, between: [pore, conduit]}
+  - {type: wall_traction, between: [rock, contact, conduit]}
+  - {type: aperture,      between: [contact, conduit]}
+  - {type: two_level,     between: [rock, conduit, tips], propagation_threshold: 0.25}
+"""
+TOGETHER = "[{solve: [pore, rock, conduit, contact]}]"
+FIXED_STRESS = """[{iterate: {until: {relative: 1e-8}, accelerate: {anderson: 5}, steps: [{solve: [pore, conduit], stabilize: fixed_stress},
+  {solve: [rock, contact]}]}}]"""
+SUBSTEPS = "[{subcycle: {count: 4, steps: [{solve: [pore, rock, conduit, contact]}]}}]"
+GROW = "{grow: tips, settle: [rock, contact], update: within_step}"
+LENGTHS = ("tips.main_first.length", "tips.main_last.length")
+
+
+def then(first, second):
+    """A schedule that is `first` before the switch and `second` from then on."""
+    return f"{{when: 't < {SWITCH}', steps: {first}}}, {{when: 't >= {SWITCH}', steps: {second}}}"
+
+
+class GrowthSchemes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.together = cls.rows(f"{then(TOGETHER, TOGETHER)}, {GROW}")
+        cls.first = next(i for i, row in enumerate(cls.together) if row["time"] > SWITCH)
+
+    @classmethod
+    def rows(cls, schedule, end=END, at=()):
+        """history.csv of a run with this schedule; steps end `at` these times (s), too."""
+        times = ", ".join(f"{time} s" for time in (SWITCH, *at))
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "scheme.yaml").write_text(f"{COUPLERS}schedule: [{schedule}]\ntime: {{end: {end} s}}\n"
+                                                f"output: {{fields: false, times: [{times}]}}\n")
+            run = subprocess.run([SPREKK, "run", "-q", SCENE, folder / "scheme.yaml", "-o", folder / "out"],
+                                 capture_output=True, text=True, timeout=200)
+            if run.returncode:
+                raise RuntimeError(run.stderr)
+            with open(folder / "out/history.csv") as file:
+                return [{key.split("[")[0]: float(value or "nan") for key, value in row.items()}
+                        for row in csv.DictReader(file)]
+
+    def test_an_iterated_scheme_finds_the_advance_of_the_monolithic_one(self):
+        together, first = self.together, self.first
+        iterated = self.rows(f"{then(TOGETHER, FIXED_STRESS)}, {GROW}")
+        # From the same state on: afterwards meshes of the fine levels may differ in their topology.
+        self.assertEqual(together[:first], iterated[:first])
+        one, other = together[first], iterated[first]
+        self.assertEqual(one["time"], other["time"])
+        self.assertNotEqual(one["iterations"], other["iterations"])
+        for length in LENGTHS:
+            advance = one[length] - together[first - 1][length]
+            self.assertGreater(advance, 1e-3)
+            # The front is found to 1e-7 in K_eq, the coupled state to 1e-8.
+            self.assertLess(abs(other[length] - one[length]), 1e-5 * advance)
+        self.assertLess(abs(other["fracture_pressure"] / one["fracture_pressure"] - 1), 1e-6)
+        for tip in ("tips.main_first.", "tips.main_last."):
+            self.assertLess(abs(other[tip + "K_eq"] / one[tip + "K_eq"] - 1), 2e-7)
+
+    def test_substeps_tend_to_the_same_answer(self):
+        # Over the same time in one step and in two, with and without substeps: a difference of first order in the step is halved.
+        self.assertEqual(len(self.together), self.first + 1)
+        half = [0.5 * (SWITCH + END)]
+        pairs = [(self.together, self.rows(f"{then(TOGETHER, SUBSTEPS)}, {GROW}")),
+                 (self.rows(f"{then(TOGETHER, TOGETHER)}, {GROW}", at=half), self.rows(f"{then(TOGETHER, SUBSTEPS)}, {GROW}", at=half))]
+        for whole, parts in pairs:
+            self.assertEqual([row["time"] for row in whole], [row["time"] for row in parts])
+        self.assertEqual(len(pairs[1][0]), self.first + 2)
+        apart = [abs(parts[-1]["fracture_pressure"] - whole[-1]["fracture_pressure"]) for whole, parts in pairs]
+        self.assertGreater(apart[0], 1e3)  # Pa
+        self.assertLess(apart[1], 0.75 * apart[0])
+
+    def test_nothing_grows_where_growth_is_left_out(self):
+        rows = self.rows(f"{{solve: [pore, rock, conduit, contact]}}, {{when: 't < {SWITCH}', steps: [{GROW}]}}", 2 * HOUR)
+        self.assertEqual(rows[-1]["time"], 2 * HOUR)
+        before, after = ([row for row in rows if (row["time"] - 0.5 * row["step"] < SWITCH) == early] for early in (True, False))
+        self.assertGreater(len(after), 0)
+        for tip in ("tips.main_first.", "tips.main_last."):
+            self.assertGreater(before[-1][tip + "grows"], 0)
+            for row in after:
+                self.assertEqual(row[tip + "length"], before[-1][tip + "length"])
+                self.assertEqual((row[tip + "grows"], row[tip + "speed"]), (0, 0))
+
+
+if __name__ == "__main__":
+    unittest.main()
