@@ -81,20 +81,27 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
       try {
         MeshChangeResult changed = change_mesh(*model_, grow_step, trial_mesh(made, grow_step, search.paths()),
                                                {time - standard, standard, time}, log_);
-        if (!changed.settling.converged)
+        if (!changed.settling.converged) {
+          if (search.retreat()) continue;
           return {false, "the state could not be settled on the mesh that has grown: " + changed.settling.reason, 0};
+        }
         smallest_angle_ = std::min(smallest_angle_, changed.smallest_angle);
         grown = std::move(changed.model);
       } catch (const ExtensionError& error) {
         search.give_up(error.extension(), error.what());
         continue;
       } catch (const std::runtime_error& error) {
+        if (search.retreat()) continue;
         return {false, std::string("the mesh cannot follow a fracture: ") + error.what(), 0};
       }
       trial = grown.get();
     }
     const StepStatus status = trial->attempt(step);
-    if (!status.converged) return status;
+    if (!status.converged) {
+      if (!grown) model_->rewind();
+      if (search.retreat()) continue;
+      return status;
+    }
     const FrontSearch::Verdict verdict = search.learn(trial->growing()[grow_step]->component(), step);
     if (verdict == FrontSearch::Verdict::found) {
       if (!grown) return status;

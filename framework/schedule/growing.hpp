@@ -29,6 +29,8 @@ class FrontSearch {
   virtual Verdict learn(Growing& trial, const StepTime& step) = 0;
   /// The mesh cannot take a path, an index into paths(): its tip stops for good. The next trial is without it.
   virtual void give_up(int path, const std::string& why) = 0;
+  /// The step with the last paths could not be solved. Whether there are others, with less growth, to try instead.
+  virtual bool retreat() = 0;
   virtual std::string reason() const = 0;  ///< why the step was refused
   virtual double retry_dt() const = 0;     ///< s, of the step to try instead; 0: no suggestion
 };

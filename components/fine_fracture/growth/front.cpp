@@ -92,6 +92,13 @@ void Front::stop(int tip) {
   before_place_.resize(0);
 }
 
+void Front::begin_with(int tip, double length, double angle) {
+  SPREKK_EXPECT(is_index(tip, count()), tip);
+  if (is_laid_[tip] || !is_new(tip)) return;
+  tips_[tip].first_length = length;
+  tips_[tip].first_angle = angle;
+}
+
 /// The first trial of a tip: from its speed, or else from the expansion of a short kink.
 void Front::begin(int i, const FrontState& state) {
   grows_[i] = is_laid_[i] = 1;
@@ -198,7 +205,7 @@ void Front::learn(const std::vector<FrontState>& states) {
       if (!is_stopped_[i] && states[i].is_evaluated && load > options_.load_tolerance) is_met = false;
       continue;
     }
-    const bool is_shortest = is_new(i) && length_[i] <= options_.shortest * (1 + at_limit);
+    const bool is_shortest = is_new(i) && length_[i] <= shortest(i) * (1 + at_limit);
     const bool is_done = std::abs(load) <= options_.load_tolerance || (is_shortest && load < 0);
     worst_ = std::max(worst_, is_shortest && load < 0 ? 0.0 : std::abs(load));
     if (!is_done || std::abs(found[2 * i + 1]) > options_.direction_tolerance) is_met = false;
@@ -268,7 +275,7 @@ void Front::step(const Eigen::VectorXd& residual) {
     const double wanted = length_[i] + part * move[a] * options_.increment;
     angle_[i] += part * move[a + 1];
     if (is_new(i)) {
-      length_[i] = std::max(options_.shortest, wanted);
+      length_[i] = std::max(shortest(i), wanted);
     } else if (wanted <= tips_[i].covered) {
       // Back at the start of the step: the tip rests, unless it is there and above its toughness. Then its load rises
       // with its length.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct FrontTip {
   double angle = 0;              ///< rad, of the segment from the x axis; of the direction ahead where a new one begins
   double toughness = 0;          ///< K_IC, Pa sqrt(m)
   double longest = 0;            ///< m, most that the segment may become in this step
+  double least = 0;              ///< m, of a new segment: what has parted in earlier steps does not heal
   double speed = 0;              ///< m/s, of the last step; 0 where the tip did not grow
   /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
   double first_length = 0, first_angle = 0;
@@ -65,6 +67,8 @@ class Front {
 
   /// The tip stays where it was at the start of the step, whatever its load.
   void stop(int tip);
+  /// A tip that has no segment in the trials yet begins with this one (m, rad from the x axis) once it is to grow.
+  void begin_with(int tip, double length, double angle);
   void learn(const std::vector<FrontState>& states);
   Verdict verdict() const { return verdict_; }
   int trials() const { return trials_; }
@@ -76,6 +80,7 @@ class Front {
  private:
   int count() const { return static_cast<int>(tips_.size()); }
   bool is_new(int tip) const { return tips_[tip].covered == 0; }
+  double shortest(int tip) const { return std::max(options_.shortest, tips_[tip].least); }
   void begin(int tip, const FrontState& state);
   void set_turn_slope(int tip, const Sifs& sifs);
   bool learns_from_start() const;

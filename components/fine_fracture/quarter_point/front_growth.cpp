@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/fine_fracture/growth/front.hpp"
+#include "components/fine_fracture/growth/jump.hpp"
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/invariants.hpp"
 
@@ -12,10 +13,9 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double full_segment = 1.5;      ///< of an increment: a longer segment is divided
-constexpr double longest_advance = 1.5;   ///< of an increment, in one step
-constexpr double acceptable_load = 0.02;  ///< of K_eq/K_IC, where the step may not become shorter
-constexpr double shorter_step = 0.5;      ///< the next attempt at a step that is too long
+constexpr double full_segment = 1.5;     ///< of an increment: a longer segment is divided
+constexpr double longest_advance = 1.5;  ///< of an increment, in one step
+constexpr double shorter_step = 0.5;     ///< the next attempt at a step that is too long
 
 double angle_of(const Point& direction) { return std::atan2(direction[1], direction[0]); }
 
@@ -30,6 +30,7 @@ class TipsFront : public FrontSearch {
   const std::vector<PathExtension>& paths() const override { return paths_; }
   Verdict learn(Growing& trial, const StepTime& step) override;
   void give_up(int path, const std::string& why) override;
+  bool retreat() override;
   /// Tips that are blocked stop; everything else stays.
   void finish_without_growth() { finish(tips_); }
   std::string reason() const override { return reason_; }
@@ -48,15 +49,20 @@ class TipsFront : public FrontSearch {
   Tips::Tip* same_tip(Tips& there, int tip) const;
   Verdict finish(Tips& there);
   Verdict settle_for_less(Tips& there);
+  bool begin_jump();
+  void note_rest(double worst);
+  Verdict end_jump(Tips& there);
 
   Tips& tips_;
   std::vector<Segment> segments_;
   std::vector<FrontTip> at_start_;
-  std::vector<FrontState> states_;  ///< of the last trial
-  std::vector<char> is_blocked_;    ///< tips that stop in this step
-  std::vector<char> is_followed_;   ///< by the mesh, from the start of the step on
+  std::vector<FrontState> states_, without_growth_;  ///< of the last trial; of the step without growth
+  std::vector<char> is_blocked_;                     ///< tips that stop in this step
+  std::vector<char> is_followed_;                    ///< by the mesh, from the start of the step on
   std::vector<PathExtension> joinings_;
+  FrontOptions options_;
   std::unique_ptr<Front> front_;
+  std::unique_ptr<FrontJump> jump_;  ///< where the front was not found in the shortest step
   std::vector<PathExtension> paths_;
   std::vector<int> tip_of_path_;
   std::vector<Tips::EndNote> notes_;
@@ -74,10 +80,10 @@ TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink)
     : tips_(tips), dt_(step.dt), may_shrink_(may_shrink) {
   for (Tips::Tip& tip : tips_.tips_) add(tip);
   find_joinings();
-  FrontOptions options;
-  options.increment = tips_.options_.growth.increment;
-  options.shortest = tips_.options_.growth.smallest_length();
-  front_ = std::make_unique<Front>(at_start_, states_, options, step.dt, tips_.slopes_);
+  options_.increment = tips_.options_.growth.increment;
+  options_.shortest = tips_.options_.growth.smallest_length();
+  without_growth_ = states_;
+  front_ = std::make_unique<Front>(at_start_, states_, options_, step.dt, tips_.slopes_);
   propose();
 }
 
@@ -106,6 +112,7 @@ void TipsFront::add(Tips::Tip& tip) {
     const Point way = tips_.position(tip, tip.now.path) - end;
     start.first_length = way.norm();
     start.first_angle = angle_of(way);
+    start.least = (tips_.position(tip, tip.accepted.path) - end).norm();
   }
   // A tip that is at another fracture or at the boundary grows no more by increments.
   const bool wants = start.first_length > 0 || state.load > 1;
@@ -118,7 +125,6 @@ void TipsFront::add(Tips::Tip& tip) {
     start.first_length = 0;
   }
   start.longest = start.covered + std::min(reach, free);
-  is_followed_.push_back(tips_.is_followed(tip));
   at_start_.push_back(start);
   segments_.push_back(segment);
   states_.push_back(state);
@@ -143,10 +149,11 @@ void TipsFront::propose() {
   paths_ = joinings_;
   tip_of_path_.assign(paths_.size(), none);
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
-    if (!front_->is_laid(i)) continue;
-    const double angle = front_->angle(i);
+    if (jump_ ? !jump_->is_laid(i) : !front_->is_laid(i)) continue;
+    const double angle = jump_ ? jump_->angle(i) : front_->angle(i),
+                 length = jump_ ? jump_->length(i) : front_->length(i);
     PathExtension extension{tips_.tips_[i].end.fracture, tips_.tips_[i].end.at_end, segments_[i].before};
-    extension.points.push_back(at_start_[i].anchor + front_->length(i) * Point(std::cos(angle), std::sin(angle)));
+    extension.points.push_back(at_start_[i].anchor + length * Point(std::cos(angle), std::sin(angle)));
     extension.replaced = segments_[i].replaced;
     extension.whole_segments = true;
     paths_.push_back(std::move(extension));
@@ -161,6 +168,7 @@ void TipsFront::give_up(int path, const std::string& why) {
   } else {
     is_blocked_[tip] = 1;
     front_->stop(tip);
+    if (jump_) jump_->stop(tip);
     const std::string name = tips_.name() + "." + tips_.tips_[tip].name;
     notes_.push_back({name + " is stopped: the mesh cannot follow",
                       fmt::format("{} stays where it is for good (the mesh cannot follow it: {})", name, why), 0});
@@ -181,9 +189,19 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
     states_[i] = {{}, 0, false};
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
-    // A tip that has come to grow on the fine level in a trial is followed from the next step on.
-    if (!is_blocked_[i] && is_followed_[i]) states_[i] = state_of(there, *same);
+    if (!is_blocked_[i]) states_[i] = state_of(there, *same);
+    // A tip that has grown on the fine level in this trial is followed from now on.
+    if (!same->now.path.added.empty()) {
+      const Point way = there.position(*same, same->now.path) - there.position(*same, {});
+      front_->begin_with(static_cast<int>(i), way.norm(), angle_of(way));
+    }
     tips_.tips_[i].pattern = same->pattern;
+  }
+  if (jump_) {
+    jump_->learn(states_);
+    if (jump_->verdict() != Front::Verdict::again) return end_jump(there);
+    propose();
+    return Verdict::again;
   }
   if (front_->verdict() == Front::Verdict::again) front_->learn(states_);
   switch (front_->verdict()) {
@@ -200,22 +218,63 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
   return may_shrink_ ? Verdict::refused : settle_for_less(there);
 }
 
-/// The shortest step is taken as it is where tips grow further than one increment, or nearly rest.
+/// In the shortest step there is no stable growth, or none that was found: tips advance until they are below their
+/// toughness.
 FrontSearch::Verdict TipsFront::settle_for_less(Tips& there) {
-  if (front_->verdict() == Front::Verdict::failed && front_->worst() > acceptable_load) return Verdict::refused;
+  if (begin_jump()) return Verdict::again;
+  note_rest(front_->worst());
+  return finish(there);
+}
+
+void TipsFront::note_rest(double worst) {
   const std::string name = tips_.name();
-  notes_.push_back(
-      front_->verdict() == Front::Verdict::too_far
-          ? Tips::EndNote{name + " jumps",
-                          fmt::format("tips of {} grow on without a rise of the load: they "
-                                      "advance by increments in the shortest steps",
-                                      name),
-                          front_->worst()}
-          : Tips::EndNote{name + " is off its toughness",
-                          fmt::format("tips of {} end a step with K_eq/K_IC off by {:.2g} (the advance was "
-                                      "not found more precisely)",
-                                      name, front_->worst()),
-                          front_->worst()});
+  notes_.push_back({name + " is off its toughness",
+                    fmt::format("tips of {} end a step with K_eq/K_IC off by {:.2g} (the advance was not found more "
+                                "precisely)",
+                                name, worst),
+                    worst});
+}
+
+/// False where no tip can advance.
+bool TipsFront::begin_jump() {
+  jump_ = std::make_unique<FrontJump>(at_start_, without_growth_, options_);
+  for (std::size_t i = 0; i < at_start_.size(); ++i)
+    if (is_blocked_[i]) jump_->stop(static_cast<int>(i));
+  if (jump_->verdict() != Front::Verdict::again) jump_.reset();
+  if (jump_) propose();
+  return jump_ != nullptr;
+}
+
+bool TipsFront::retreat() {
+  if (may_shrink_) return false;
+  if (!jump_) return begin_jump();
+  if (!jump_->retreat()) return false;
+  propose();
+  return true;
+}
+
+FrontSearch::Verdict TipsFront::end_jump(Tips& there) {
+  bool is_jump = false;
+  for (std::size_t i = 0; i < at_start_.size(); ++i) {
+    const FrontJump::Record& record = jump_->record(static_cast<int>(i));
+    if (!(record.advance > 0) || (jump_->verdict() == Front::Verdict::found && !record.is_unstable)) continue;
+    is_jump = true;
+    const std::string name = tips_.name() + "." + tips_.tips_[i].name;
+    const LameParameters lame = tips_.surroundings_->stiffness(at_start_[i].anchor);
+    const double toughness = at_start_[i].toughness;
+    const double energy = record.surplus * toughness * toughness / Elasticity{lame.lambda, lame.shear}.plane_modulus();
+    notes_.push_back(
+        {name + " jumps",
+         fmt::format("{} jumps by {:.3g} mm in one step ({}) and {}; K_eq/K_IC is up to {:.4g} on the way, and {:.3g} "
+                     "J/m of energy are left over",
+                     name, 1e3 * record.advance,
+                     record.is_unstable ? "its load rises with its length: growth is unstable"
+                                        : "its load does not fall to the toughness nearby",
+                     jump_->verdict() == Front::Verdict::found ? "comes to rest" : "goes on in the next one",
+                     record.largest_load, energy),
+         energy});
+  }
+  if (!is_jump) note_rest(jump_->worst());
   return finish(there);
 }
 
@@ -224,7 +283,7 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
     same->now.speed = (same->now.grown - tips_.tips_[i].now.grown) / dt_;
-    same->now.has_started = same->now.has_started || front_->grows(i);
+    same->now.has_started = same->now.has_started || (jump_ ? jump_->is_laid(i) : front_->grows(i));
     same->now.is_stopped = same->now.is_stopped || is_blocked_[i];
   }
   there.notes_.insert(there.notes_.end(), notes_.begin(), notes_.end());

@@ -1,0 +1,155 @@
+#include "components/fine_fracture/growth/jump.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/invariants.hpp"
+
+namespace sprekk::fine_fracture {
+
+namespace {
+
+constexpr double part_of_increment = 0.25;  ///< that the leading tip advances from trial to trial
+constexpr double length_power = 0.35;       ///< Eq. 13 of the paper
+constexpr double largest_turn = 0.3;        ///< rad, between two trials
+constexpr double turn_slope = 0.5;          ///< of K_II/K_I by the direction of a short kink, as in Front
+constexpr double close_enough = 1e-3;       ///< |ln(K_eq/K_IC)| of the leading tip where a jump ends
+constexpr int most_closings = 6;            ///< trials of regula falsi
+constexpr double least_part = 0.1;          ///< of the last part that regula falsi leaves
+constexpr double shortest_retreat = 1e-2;   ///< of an increment: what cannot be solved is not made shorter than that
+constexpr double at_limit = 1e-9;           ///< of a length that is at its limit, but for rounding
+constexpr double least_load = 1e-3;         ///< for the logarithm
+
+double log_load(double load) { return std::log(std::max(least_load, load)); }
+
+/// The change of direction that makes K_II vanish at the end of a segment, by the expansion of a kink.
+double turn_of(const Sifs& sifs, double length) {
+  if (!(sifs.k1 > 0)) return 0;
+  const double slope = turn_slope + std::max(0.0, -sifs.t_stress) * std::sqrt(length) / sifs.k1;
+  return std::clamp(-std::atan2(sifs.k2, sifs.k1) / slope, -largest_turn, largest_turn);
+}
+
+}  // namespace
+
+FrontJump::FrontJump(std::vector<FrontTip> tips, const std::vector<FrontState>& without_growth,
+                     const FrontOptions& options)
+    : tips_(std::move(tips)),
+      options_(options),
+      is_laid_(tips_.size(), 0),
+      is_stopped_(tips_.size(), 0),
+      records_(tips_.size()) {
+  SPREKK_EXPECT(without_growth.size() == tips_.size(), without_growth.size(), tips_.size());
+  SPREKK_EXPECT(options_.increment > 0 && options_.shortest > 0, options_.increment, options_.shortest);
+  for (int i = 0; i < count(); ++i) {
+    const FrontTip& tip = tips_[i];
+    now_.length.push_back(tip.covered);
+    now_.angle.push_back(tip.angle);
+    now_.load.push_back(without_growth[i].is_evaluated ? without_growth[i].load : 0);
+    records_[i].largest_load = now_.load.back();
+    if (!(tip.first_length > 0)) continue;
+    is_laid_[i] = 1;
+    now_.length[i] = tip.first_length;
+    now_.angle[i] = tip.first_angle;
+  }
+  from_ = now_;
+  advance(without_growth);
+}
+
+void FrontJump::stop(int tip) {
+  SPREKK_EXPECT(is_index(tip, count()), tip);
+  is_stopped_[tip] = 1;
+  is_laid_[tip] = 0;
+  for (Place* place : {&from_, &to_, &now_}) {
+    if (place->length.empty()) continue;
+    place->length[tip] = tips_[tip].covered;
+    place->angle[tip] = tips_[tip].angle;
+  }
+}
+
+/// From the last trial, `from_`, to the next one.
+void FrontJump::advance(const std::vector<FrontState>& states) {
+  now_ = from_;
+  double largest = 0;
+  for (int i = 0; i < count(); ++i)
+    if (counts(i, states)) largest = std::max(largest, states[i].load);
+  bool has_advanced = false;
+  for (int i = 0; i < count(); ++i) {
+    if (!counts(i, states)) continue;
+    const FrontTip& tip = tips_[i];
+    const bool grows = states[i].load > 1 && from_.length[i] < tip.longest * (1 - at_limit);
+    if (grows) {
+      const double part = part_of_increment * std::pow(states[i].load / largest, 2 * length_power);
+      now_.length[i] = std::min(tip.longest, from_.length[i] + part * options_.increment);
+      has_advanced = true;
+    }
+    if (!grows && !is_laid_[i]) continue;
+    now_.angle[i] += turn_of(states[i].sifs, now_.length[i]);
+    is_laid_[i] = 1;
+  }
+  if (!has_advanced) verdict_ = Front::Verdict::too_far;
+}
+
+/// The next trial between one above the toughness and one below it.
+void FrontJump::interpolate() {
+  const double part =
+      std::clamp(from_.excess / (from_.excess - to_.excess), closings_ > 1 ? least_part : 0.0, 1 - least_part);
+  for (int i = 0; i < count(); ++i) {
+    now_.length[i] = from_.length[i] + part * (to_.length[i] - from_.length[i]);
+    now_.angle[i] = from_.angle[i] + part * (to_.angle[i] - from_.angle[i]);
+  }
+}
+
+bool FrontJump::retreat() {
+  double longest = 0;
+  for (int i = 0; i < count(); ++i) {
+    now_.length[i] = 0.5 * (from_.length[i] + now_.length[i]);
+    longest = std::max(longest, now_.length[i] - from_.length[i]);
+  }
+  return longest > shortest_retreat * options_.increment;
+}
+
+void FrontJump::learn(const std::vector<FrontState>& states) {
+  SPREKK_EXPECT(verdict_ == Front::Verdict::again);
+  SPREKK_EXPECT(static_cast<int>(states.size()) == count(), states.size(), count());
+  ++trials_;
+  now_.excess = log_load(0);
+  for (int i = 0; i < count(); ++i) {
+    now_.load[i] = counts(i, states) ? states[i].load : 0;
+    if (counts(i, states)) now_.excess = std::max(now_.excess, log_load(states[i].load));
+  }
+  worst_ = now_.excess;
+  const bool is_near = std::abs(now_.excess) <= close_enough;
+  if (is_near || closings_ >= most_closings) {
+    conclude();
+    verdict_ = Front::Verdict::found;
+  } else if (now_.excess > 0) {
+    conclude();
+    from_ = now_;
+    if (is_closing_)
+      interpolate();
+    else
+      advance(states);
+  } else {
+    to_ = now_;
+    is_closing_ = true;
+    interpolate();
+  }
+  if (is_closing_) ++closings_;
+}
+
+/// Adds the part from `from_` to the trial to what is known of the jump.
+void FrontJump::conclude() {
+  for (int i = 0; i < count(); ++i) {
+    Record& record = records_[i];
+    const double advance = now_.length[i] - from_.length[i];
+    if (!(advance > 0)) continue;
+    const auto excess = [](double load) { return load * load - 1; };
+    record.surplus += 0.5 * (excess(from_.load[i]) + excess(now_.load[i])) * advance;
+    record.largest_load = std::max(record.largest_load, now_.load[i]);
+    // The first part begins on another mesh.
+    if (record.advance > 0 && now_.load[i] > from_.load[i]) record.is_unstable = true;
+    record.advance += advance;
+  }
+}
+
+}  // namespace sprekk::fine_fracture
