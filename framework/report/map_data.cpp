@@ -71,7 +71,7 @@ std::vector<double> values_of(const Grid& grid, const MapField& field) {
   return result;
 }
 
-struct Range {
+struct ColourRange {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   void include(const std::vector<double>& values) {
     for (const double value : values)
@@ -79,7 +79,7 @@ struct Range {
   }
 };
 
-std::string packed(const std::vector<double>& values, const Range& range) {
+std::string packed(const std::vector<double>& values, const ColourRange& range) {
   std::vector<std::uint16_t> fractions;
   const double size = range.high - range.low;
   for (const double value : values) {
@@ -155,9 +155,9 @@ std::string map_json(const RunResults& results, std::size_t most_bytes) {
       {"colours", Json::array()}, {"fields", Json::array()}, {"meshes", Json::array()}, {"times", Json::array()}};
   for (int i = 0; i < colour_count; ++i) data["colours"].push_back(viridis(i / (colour_count - 1.0)));
   const auto times = chosen(results, fields.size(), most_bytes);
-  std::vector<Range> ranges;
+  std::vector<ColourRange> ranges;
   for (const MapField& field : fields) {
-    Range range;
+    ColourRange range;
     for (const RunResults::Written* written : times) range.include(values_of(written->matrix, field));
     if (range.low > range.high) range = {0, 0};
     const DisplayUnit unit = display_unit(field.unit, std::max(std::abs(range.low), std::abs(range.high)));
