@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "components/fracture_flow/laws/hydraulic_law.hpp"
+#include "components/fracture_flow/laws/known_laws.hpp"
 
 namespace sprekk::fracture_flow {
 namespace {
