@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <sstream>
 
+#include "framework/config/csv_rows.hpp"
 #include "framework/config/number.hpp"
 #include "framework/config/quantity_scale.hpp"
 #include "framework/config/text_file.hpp"
@@ -14,70 +14,16 @@
 namespace sprekk {
 namespace {
 
-struct Row {
-  int line = 0;
-  std::vector<std::string> cells;
-};
-
-struct Heading {
-  std::string name;
-  std::string unit;
-};
-
-Row split_row(const std::string& text, int line) {
-  Row row{line, {}};
-  std::istringstream stream(text + ",");
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    cell = trimmed(cell);
-    const bool in_quotes = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
-    row.cells.push_back(in_quotes ? trimmed(cell.substr(1, cell.size() - 2)) : cell);
-  }
-  return row;
-}
-
-std::vector<Row> split_rows(const std::string& content) {
-  std::vector<Row> rows;
-  std::istringstream stream(content);
-  int line = 0;
-  for (std::string text; std::getline(stream, text);) {
-    ++line;
-    if (line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // byte order mark
-    text = trimmed(text);
-    if (!text.empty() && text[0] != '#') rows.push_back(split_row(text, line));
-  }
-  return rows;
-}
-
-bool is_number(const std::string& cell) {
-  const auto number = leading_number(cell);
-  return number && number->length == cell.size();
-}
-
-std::vector<Heading> headings_of(const Row& row) {
-  std::vector<Heading> headings;
-  for (const std::string& cell : row.cells) {
-    const std::size_t bracket = cell.find('[');
-    if (bracket == std::string::npos || cell.back() != ']') {
-      headings.push_back({cell, ""});
-    } else {
-      headings.push_back({trimmed(cell.substr(0, bracket)), cell.substr(bracket + 1, cell.size() - bracket - 2)});
-    }
-  }
-  return headings;
-}
-
 class TableReader {
  public:
   explicit TableReader(const TableRequest& request) : request_(request) {}
 
   Table read() {
-    rows_ = split_rows(content());
-    if (rows_.empty()) refuse_empty("it has no row of numbers");
-    columns_ = rows_.front().cells.size();
-    if (std::none_of(rows_.front().cells.begin(), rows_.front().cells.end(), is_number)) {
-      headings_ = headings_of(rows_.front());
-      rows_.erase(rows_.begin());
-    }
+    CsvRows csv = split_csv(content());
+    rows_ = std::move(csv.rows);
+    headings_ = std::move(csv.headings);
+    if (rows_.empty() && headings_.empty()) refuse_empty("it has no row of numbers");
+    columns_ = headings_.empty() ? rows_.front().cells.size() : headings_.size();
     if (rows_.empty()) refuse_empty("it has headings only");
     const std::size_t abscissa = abscissa_column();
     const std::size_t ordinate = ordinate_column(abscissa);
@@ -86,7 +32,7 @@ class TableReader {
         request_.unit ? scale_to_si(*request_.unit, request_.needed_unit, *request_.unit, request_.where, request_.name)
                       : heading_scale(ordinate, request_.needed_unit);
     Table table;
-    for (const Row& row : rows_) {
+    for (const CsvRow& row : rows_) {
       const double value = abscissa_scale * number(row, abscissa);
       if (!table.abscissa.empty() && !(value > table.abscissa.back())) {
         throw InputError({request_.file, row.line}, quoted(row.cells[abscissa]) + " does not follow the row before",
@@ -116,7 +62,7 @@ class TableReader {
 
   std::vector<std::string> names() const {
     std::vector<std::string> result;
-    for (const Heading& heading : headings_) result.push_back(heading.name);
+    for (const CsvHeading& heading : headings_) result.push_back(heading.name);
     return result;
   }
 
@@ -157,7 +103,7 @@ class TableReader {
                        headings_[column].name);
   }
 
-  double number(const Row& row, std::size_t column) const {
+  double number(const CsvRow& row, std::size_t column) const {
     if (column >= row.cells.size()) {
       throw InputError({request_.file, row.line}, fmt::format("the row has no column {}", column + 1),
                        fmt::format("it has {}", row.cells.size()));
@@ -170,9 +116,9 @@ class TableReader {
   }
 
   const TableRequest& request_;
-  std::vector<Row> rows_;
+  std::vector<CsvRow> rows_;
   std::size_t columns_ = 0;
-  std::vector<Heading> headings_;
+  std::vector<CsvHeading> headings_;
 };
 
 }  // namespace

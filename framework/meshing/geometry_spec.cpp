@@ -1,9 +1,11 @@
 #include "framework/meshing/geometry_spec.hpp"
-#include "framework/mesh/medium.hpp"
 
 #include <cmath>
 #include <filesystem>
 #include <memory>
+
+#include "framework/mesh/medium.hpp"
+#include "framework/meshing/fracture_table.hpp"
 
 namespace sprekk {
 namespace {
@@ -35,15 +37,19 @@ Spec box_spec(const std::shared_ptr<BoxInput>& input, Box& box) {
 }
 
 struct FractureInput {
+  std::string table;
   std::vector<Point> points;
   std::optional<Point> center;
   std::optional<double> length, size, angle;
 };
 
-/// `keep` receives the fracture once it is read.
-Spec fracture_spec(const std::string& name, const Origin& origin, std::function<void(FractureGeometry)> keep) {
+/// `keep` receives each fracture once it is read.
+Spec fracture_spec(const std::string& name, const Origin& origin, const std::string& folder,
+                   std::function<void(FractureGeometry)> keep) {
   const auto input = std::make_shared<FractureInput>();
-  Spec spec("fracture", "A polyline, given by its points or as a straight line by center, length and angle.");
+  Spec spec("fracture",
+            "A polyline, given by its points or as a straight line by center, length and angle; or a set of fractures "
+            "from a table.");
   spec.points("points", input->points,
               {.unit = "m", .doc = "The points of the polyline; the plus side is to its left."});
   spec.point("center", input->center, {.unit = "m", .doc = "The middle of a straight fracture."});
@@ -54,7 +60,19 @@ Spec fracture_spec(const std::string& name, const Origin& origin, std::function<
       {.unit = "rad", .doc = "The direction of a straight fracture, counter-clockwise from the x axis; by default 0."});
   spec.quantity("size", input->size,
                 {.unit = "m", .range = positive(), .doc = "The length of its cells; else the mesh's fracture_size."});
-  spec.check([input, name, origin, keep = std::move(keep)](const Node& whole) {
+  spec.text("table", input->table,
+            {.doc = "A CSV file beside the scene with many fractures: a row for each with the columns x1, y1, x2, y2, "
+                    "or for each point of a polyline with name, x, y; also name and size. They are called NAME_1, "
+                    "NAME_2, … where they have no names."});
+  spec.check([input, name, origin, folder, keep = std::move(keep)](const Node& whole) {
+    if (!input->table.empty()) {
+      if (whole.keys().size() > 1)
+        throw InputError(whole.origin, "the fractures '" + name + "' are given twice",
+                         "they come from a table and have further parameters", "keep the table alone");
+      for (FractureGeometry& fracture : read_fracture_table({input->table, folder, name, origin}))
+        keep(std::move(fracture));
+      return;
+    }
     FractureGeometry fracture{name, input->points, input->size, origin};
     const bool has_points = !input->points.empty(), has_center = input->center.has_value();
     const bool has_line = has_center || input->length || input->angle;
@@ -96,10 +114,11 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
       "file", geometry.file,
       {.doc = "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: groups "
               "of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."});
+  // Tables are written shorter by expand_fracture_table.
   spec.named_sections(
-      "fractures", fracture_spec("", {}, [](FractureGeometry) {}),
-      [&geometry](const std::string& name, const Origin& origin) {
-        return fracture_spec(name, origin,
+      "fractures", fracture_spec("", {}, "", [](FractureGeometry) {}),
+      [&geometry, folder](const std::string& name, const Origin& origin) {
+        return fracture_spec(name, origin, folder,
                              [&geometry](FractureGeometry f) { geometry.fractures.push_back(std::move(f)); });
       },
       {.doc = "The fractures, by name; they may cross and touch one another inside of the " + medium_name() + "."});

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "framework/config/units.hpp"
+#include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/geometry_spec.hpp"
 #include "framework/meshing/validate_geometry.hpp"
@@ -251,7 +252,9 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   read.material_used = [&materials_used](const std::string& key) { materials_used.insert(key); };
   const auto read_section = [&](const char* key, const Spec& spec) { spec.read(section(whole, key), read); };
   read_name(scene, default_name, read);
-  read_section("geometry", geometry_spec(scene.geometry, folder));
+  Node geometry = section(whole, "geometry");
+  expand_fracture_table(geometry);
+  geometry_spec(scene.geometry, folder).read(geometry, read);
   read_section("mesh", mesh_spec(scene.mesh));
   validate_geometry(scene.geometry, scene.mesh);
   read_section("time", scene.time.spec());

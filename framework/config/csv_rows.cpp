@@ -1,0 +1,65 @@
+#include "framework/config/csv_rows.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "framework/config/number.hpp"
+
+namespace sprekk {
+namespace {
+
+CsvRow split_row(const std::string& text, int line) {
+  CsvRow row{line, {}};
+  std::istringstream stream(text + ",");
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    cell = trimmed(cell);
+    const bool in_quotes = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+    row.cells.push_back(in_quotes ? trimmed(cell.substr(1, cell.size() - 2)) : cell);
+  }
+  return row;
+}
+
+std::vector<CsvRow> split_rows(const std::string& content) {
+  std::vector<CsvRow> rows;
+  std::istringstream stream(content);
+  int line = 0;
+  for (std::string text; std::getline(stream, text);) {
+    ++line;
+    if (line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // byte order mark
+    text = trimmed(text);
+    if (!text.empty() && text[0] != '#') rows.push_back(split_row(text, line));
+  }
+  return rows;
+}
+
+bool is_number(const std::string& cell) {
+  const auto number = leading_number(cell);
+  return number && number->length == cell.size();
+}
+
+std::vector<CsvHeading> headings_of(const CsvRow& row) {
+  std::vector<CsvHeading> headings;
+  for (const std::string& cell : row.cells) {
+    const std::size_t bracket = cell.find('[');
+    if (bracket == std::string::npos || cell.back() != ']') {
+      headings.push_back({cell, ""});
+    } else {
+      headings.push_back({trimmed(cell.substr(0, bracket)), cell.substr(bracket + 1, cell.size() - bracket - 2)});
+    }
+  }
+  return headings;
+}
+
+}  // namespace
+
+CsvRows split_csv(const std::string& content) {
+  CsvRows csv{{}, split_rows(content)};
+  if (csv.rows.empty()) return csv;
+  const std::vector<std::string>& first = csv.rows.front().cells;
+  if (std::any_of(first.begin(), first.end(), is_number)) return csv;
+  csv.headings = headings_of(csv.rows.front());
+  csv.rows.erase(csv.rows.begin());
+  return csv;
+}
+
+}  // namespace sprekk

@@ -1,0 +1,31 @@
+// The rows of a CSV file as texts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+/// The cells of a row.
+struct CsvRow {
+  int line = 0;  ///< in the file, from 1
+  std::vector<std::string> cells;
+};
+
+/// A heading "name" or "name[unit]".
+struct CsvHeading {
+  std::string name;
+  std::string unit;  ///< "" for none
+};
+
+/// Headings are the first row, if none of its cells is a number; else there are none.
+struct CsvRows {
+  std::vector<CsvHeading> headings;
+  std::vector<CsvRow> rows;
+};
+
+/// The rows of comma-separated cells without the white space and the quotes around them; empty lines and lines that
+/// begin with '#' are skipped.
+CsvRows split_csv(const std::string& content);
+
+}  // namespace sprekk

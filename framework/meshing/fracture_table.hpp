@@ -1,0 +1,29 @@
+// Fractures from a table, as mappings of outcrops and generators of networks write them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/config/node.hpp"
+#include "framework/meshing/geometry.hpp"
+
+namespace sprekk {
+
+/// The file of a table of fractures.
+struct FractureTable {
+  std::string file;    ///< as the user gave it
+  std::string folder;  ///< of the scene: the file is relative to it
+  std::string set;     ///< fractures without a name are called set_1, set_2, … by their row
+  Origin where;        ///< of the request
+};
+
+/// The fractures of a CSV file with headings (split_csv). Either each row is a straight fracture with the columns x1,
+/// y1, x2, y2; or each row is a point of a polyline with the columns name, x, y, and successive rows of one name are
+/// one fracture. Further columns: `name`, and `size`, the length of its cells. Lengths are in m, or in the unit that a
+/// heading says, like x1[mm]. Throws InputError with the file's line for what is missing, unknown or no finite number.
+std::vector<FractureGeometry> read_fracture_table(const FractureTable& table);
+
+/// Lets `fractures: {table: network.csv}` mean the same as `fractures: {table: {table: network.csv}}`.
+void expand_fracture_table(Node& geometry);
+
+}  // namespace sprekk

@@ -1,0 +1,73 @@
+#include "framework/meshing/fracture_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace sprekk {
+namespace {
+
+class FractureTables : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::vector<FractureGeometry> read(const std::string& content) {
+    std::ofstream(folder_ / "f.csv") << content;
+    return read_fracture_table({"f.csv", folder_.string(), "set", {"scene.yaml", 3}});
+  }
+  std::string mistake(const std::string& content) {
+    try {
+      read(content);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(FractureTables, HaveARowForEachSegment) {
+  const auto fractures = read("# mapped\nx1, y1[mm], x2, y2, size[cm]\n0.5,250,1.5,0.75,2\n-1,0,1e-1,3,5\n");
+  ASSERT_EQ(fractures.size(), 2u);
+  EXPECT_EQ(fractures[0].name, "set_1");
+  EXPECT_EQ(fractures[1].name, "set_2");
+  EXPECT_EQ(fractures[0].points, (std::vector<Point>{Point(0.5, 0.25), Point(1.5, 0.75)}));
+  EXPECT_DOUBLE_EQ(*fractures[0].size, 0.02);
+  EXPECT_EQ(fractures[1].points, (std::vector<Point>{Point(-1, 0), Point(0.1, 3)}));
+  EXPECT_EQ(fractures[1].origin.line, 4);
+}
+
+TEST_F(FractureTables, OrOneForEachPointOfAPolyline) {
+  const auto fractures = read("name,x,y\na,0,1\na,2,1\na,3,4\n\"b c\",9,9\n\"b c\",8,9\n");
+  ASSERT_EQ(fractures.size(), 2u);
+  EXPECT_EQ(fractures[0].name, "a");
+  EXPECT_EQ(fractures[0].points, (std::vector<Point>{Point(0, 1), Point(2, 1), Point(3, 4)}));
+  EXPECT_EQ(fractures[1].name, "b c");
+  EXPECT_FALSE(fractures[1].size);
+}
+
+TEST_F(FractureTables, TellWhatIsWrongAndWhere) {
+  using ::testing::AllOf;
+  using ::testing::HasSubstr;
+  EXPECT_THAT(mistake("0,0,1,1\n"), AllOf(HasSubstr("scene.yaml:3"), HasSubstr("no headings")));
+  EXPECT_THAT(mistake("x1,y1,x2,y2\n"), HasSubstr("headings only"));
+  EXPECT_THAT(mistake("x1,y1,x2\n1,2,3\n"), HasSubstr("lacks columns"));
+  EXPECT_THAT(mistake("x1,y1,x2,y2,sise\n1,2,3,4,5\n"),
+              AllOf(HasSubstr("f.csv:1"), HasSubstr("'sise'"), HasSubstr("size")));
+  EXPECT_THAT(mistake("x1,y1,x2,y2\n1,2,3,4\n1,2,3\n"), AllOf(HasSubstr("f.csv:3"), HasSubstr("no y2")));
+  EXPECT_THAT(mistake("x1,y1,x2,y2\n1,2,3 m,4\n"), AllOf(HasSubstr("f.csv:2"), HasSubstr("'3 m' for x2")));
+  EXPECT_THAT(mistake("x1[s],y1,x2,y2\n1,2,3,4\n"), HasSubstr("f.csv:1"));
+  EXPECT_THAT(mistake("x1,y1,x2,y2,size\n1,2,3,4,0\n"), HasSubstr("not positive"));
+  EXPECT_THAT(mistake("name,x,y,x1,y1,x2,y2\na,1,2,1,2,3,4\n"), HasSubstr("ends and points"));
+}
+
+}  // namespace
+}  // namespace sprekk
