@@ -13,9 +13,6 @@
 namespace sprekk {
 namespace {
 
-/// Largest ratio of a node's distance from the line of the end to that from the end for a fracture that keeps its line.
-constexpr double off_line = 1e-3;
-
 /// Falls smoothly from 1 at 1 - width to 0 at 1.
 double fading(double part, double width) {
   const double s = std::clamp((1 - part) / width, 0.0, 1.0);
@@ -36,7 +33,7 @@ struct Obstacle {
   bool is_other_tip = false;                                  ///< of the fracture, which is straight
 };
 
-Obstacle nearest_obstacle(const Mesh& mesh, int end, const std::vector<int>& outer) {
+Obstacle nearest_obstacle(const Mesh& mesh, int end, const std::vector<int>& outer, const ZoneLimits& limits) {
   const EndFrame frame(mesh, end);
   SPREKK_ASSERT(is_fracture_end(mesh, end), end);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
@@ -45,7 +42,7 @@ Obstacle nearest_obstacle(const Mesh& mesh, int end, const std::vector<int>& out
     if (node == end) continue;
     const Point from_end = mesh.nodes[node] - mesh.nodes[end];
     if (from_end.squaredNorm() >= nearest.distance * nearest.distance) continue;
-    const bool is_on_line = std::abs(frame.axes().col(1).dot(from_end)) <= off_line * from_end.norm();
+    const bool is_on_line = std::abs(frame.axes().col(1).dot(from_end)) <= limits.off_line * from_end.norm();
     const bool ends = is_fracture_end(mesh, node), goes_on = is_on_line && is_field_undisturbed(mesh, node, last);
     if (ends || !goes_on) nearest = {from_end.norm(), ends && goes_on};
   }
@@ -96,7 +93,7 @@ EndZones end_zones(const Mesh& mesh, const ZoneLimits& limits) {
   for (int end = 0; end < mesh.node_count(); ++end) {
     if (!is_fracture_end(mesh, end)) continue;
     zones.cells[end] = cells_next_to(mesh, end);
-    for (const auto& [node, weight] : nodes_of_zone(mesh, end, nearest_obstacle(mesh, end, outer), limits)) {
+    for (const auto& [node, weight] : nodes_of_zone(mesh, end, nearest_obstacle(mesh, end, outer, limits), limits)) {
       if (zones.end[node] != none) continue;
       zones.end[node] = end;
       SPREKK_ASSERT(weight > 0 && weight <= 1, node, weight);

@@ -13,6 +13,9 @@ struct MpfaLimits {
   /// Largest amount of a mode (times the root of the edge length) for cell pressures that differ by 1: 5 to 8 on good
   /// meshes.
   double largest_share = 20;
+  /// Largest difference of the permeability of a cell from that at a tip, relative: the tip's flow is that in even
+  /// rock.
+  double alike = 0.2;
   EndLimits near = {};
 };
 

@@ -34,7 +34,7 @@ class TipFlows {
       if (found == flows_.end()) continue;
       const auto& cells = mesh.node_cells[node];
       if (std::all_of(cells.begin(), cells.end(),
-                      [&](int cell) { return resembles(mobility[cell], found->second.mobility()); }))
+                      [&](int cell) { return resembles(mobility[cell], found->second.mobility(), limits.alike); }))
         of_node_[node] = &found->second;
     }
     std::map<const TipFlow*, std::vector<int>> nodes;

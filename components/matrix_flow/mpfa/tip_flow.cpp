@@ -17,8 +17,7 @@ bool is_isotropic(const Tensor& mobility) {
   return mobility.trace() > 0 && deviator.lpNorm<Eigen::Infinity>() <= rounding * mobility.trace();
 }
 
-bool resembles(const Tensor& mobility, const Tensor& other) {
-  constexpr double alike = 0.2;
+bool resembles(const Tensor& mobility, const Tensor& other, double alike) {
   return (mobility - other).lpNorm<Eigen::Infinity>() <= alike * other.lpNorm<Eigen::Infinity>();
 }
 
@@ -43,7 +42,7 @@ std::optional<TipFlow> TipFlow::find(const Mesh& mesh, int tip, const std::vecto
   Tensor mean = Tensor::Zero();
   for (const int cell : at_tip) mean += mobility[cell] / static_cast<double>(at_tip.size());
   for (const int cell : cells)
-    if (!resembles(mobility[cell], mean)) return std::nullopt;
+    if (!resembles(mobility[cell], mean, limits.alike)) return std::nullopt;
   if (!is_isotropic(mean)) return std::nullopt;
   TipFlow flow(mesh, tip, cells, mean);
   if (!flow.fit(mesh, limits)) return std::nullopt;

@@ -55,8 +55,8 @@ class TipFlow {
 /// Whether a mobility is isotropic, to 1e-9 of its trace; false where it is zero.
 bool is_isotropic(const Tensor& mobility);
 
-/// Whether the entries of two mobilities differ by at most 20 % of the largest entry of `other`.
-bool resembles(const Tensor& mobility, const Tensor& other);
+/// Whether the entries of two mobilities differ by at most `alike` times the largest entry of `other`.
+bool resembles(const Tensor& mobility, const Tensor& other, double alike = MpfaLimits().alike);
 
 /// For every tip the cells of the fit of its flow, ascending: the cells at its node, and the cells at those corners of
 /// them that are near the tip. `tips`: see ends_nearby.

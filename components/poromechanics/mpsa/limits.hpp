@@ -22,6 +22,8 @@ struct MpsaLimits {
   /// Least ratio of the smallest singular value of the fit of a tip's field to the largest; below, the modes are too
   /// similar to linear displacements.
   double well_posed = 1e-3;
+  /// Largest difference of the stiffness of a cell from that at a tip, relative: the tip's field is that in even rock.
+  double alike = 0.2;
   ZoneLimits zones = {};
 };
 

@@ -89,18 +89,18 @@ struct Coefficients {
 /// The fields of all tips, for the nodes near them.
 class TipFields {
  public:
-  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const EndZones& zones, double well_posed)
-      : mesh_(mesh), stiffness_(stiffness), zones_(zones), well_posed_(well_posed) {}
+  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const EndZones& zones, const MpsaLimits& limits)
+      : mesh_(mesh), stiffness_(stiffness), zones_(zones), limits_(limits) {}
 
   /// Null where there is none, or the rock is not like the tip's.
   const TipField* at(int node) {
     const int tip = zones_.end[node];
     if (tip == none) return nullptr;
     const auto [found, is_new] = fields_.try_emplace(tip);
-    if (is_new) found->second = TipField::find(mesh_, tip, zones_.cells.at(tip), stiffness_, well_posed_);
+    if (is_new) found->second = TipField::find(mesh_, tip, zones_.cells.at(tip), stiffness_, limits_);
     if (!found->second) return nullptr;
     for (const int cell : mesh_.node_cells[node])
-      if (!resembles(stiffness_[cell], found->second->rock())) return nullptr;
+      if (!resembles(stiffness_[cell], found->second->rock(), limits_.alike)) return nullptr;
     return &*found->second;
   }
 
@@ -108,7 +108,7 @@ class TipFields {
   const Mesh& mesh_;
   const std::vector<Stiffness>& stiffness_;
   const EndZones& zones_;
-  double well_posed_;
+  MpsaLimits limits_;
   std::map<int, std::optional<TipField>> fields_;
 };
 
@@ -132,7 +132,7 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
 
   InteractionRegion region;
   LocalStresses local(limits);
-  TipFields fields(mesh, stiffness, zones, limits.well_posed);
+  TipFields fields(mesh, stiffness, zones, limits);
   std::vector<Triplet> moments;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;

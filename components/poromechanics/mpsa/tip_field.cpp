@@ -27,24 +27,24 @@ bool is_isotropic(const Stiffness& c) {
          std::abs(c(0, 0) - c(0, 1) - 2 * c(2, 2)) < near;
 }
 
-bool resembles(const Stiffness& rock, const Stiffness& other) {
-  constexpr double alike = 0.2;
+bool resembles(const Stiffness& rock, const Stiffness& other, double alike) {
   return (rock - other).lpNorm<Eigen::Infinity>() <= alike * other.lpNorm<Eigen::Infinity>();
 }
 
 std::optional<TipField> TipField::find(const Mesh& mesh, int tip, std::span<const int> cells,
-                                       const std::vector<Stiffness>& stiffness, double well_posed) {
+                                       const std::vector<Stiffness>& stiffness, const MpsaLimits& limits) {
   const auto at_tip = mesh.node_cells[tip];
   Stiffness rock = Stiffness::Zero();
   for (const int cell : at_tip) rock += stiffness[cell] / static_cast<double>(at_tip.size());
   for (const int cell : at_tip)
-    if (!resembles(stiffness[cell], rock)) return std::nullopt;
+    if (!resembles(stiffness[cell], rock, limits.alike)) return std::nullopt;
   if (!is_isotropic(rock)) return std::nullopt;
-  std::vector<int> alike;
-  std::ranges::copy_if(cells, std::back_inserter(alike), [&](int cell) { return resembles(stiffness[cell], rock); });
-  TipField field(mesh, tip, std::move(alike), rock);
+  std::vector<int> of_fit;
+  std::ranges::copy_if(cells, std::back_inserter(of_fit),
+                       [&](int cell) { return resembles(stiffness[cell], rock, limits.alike); });
+  TipField field(mesh, tip, std::move(of_fit), rock);
   for (const int count : {terms, terms / 2})
-    if (field.fit(mesh, count, well_posed)) return field;
+    if (field.fit(mesh, count, limits.well_posed)) return field;
   return std::nullopt;
 }
 

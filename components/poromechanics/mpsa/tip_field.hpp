@@ -15,8 +15,8 @@ namespace sprekk::poromechanics {
 /// Whether a stiffness is isotropic, to 1e-9 of its entries.
 bool is_isotropic(const Stiffness& stiffness);
 
-/// Whether the entries of two stiffnesses differ by at most 20 % of the largest entry of `other`.
-bool resembles(const Stiffness& rock, const Stiffness& other);
+/// Whether the entries of two stiffnesses differ by at most `alike` times the largest entry of `other`.
+bool resembles(const Stiffness& rock, const Stiffness& other, double alike = MpsaLimits().alike);
 
 /// Displacement and stress of modes I and II around the tip of a straight crack with free walls, in even isotropic rock
 /// under plane strain: Williams' terms of the orders r^(1/2) and r^(3/2), by Muskhelishvili's potentials phi = a z^o
@@ -35,8 +35,7 @@ class TipField {
   /// the tip is isotropic and nearly the same all around (resembles), and there are enough cells to tell the modes from
   /// linear displacements. If the cells determine only the modes of order r^(1/2), the others are taken to be zero.
   static std::optional<TipField> find(const Mesh& mesh, int tip, std::span<const int> cells,
-                                      const std::vector<Stiffness>& stiffness,
-                                      double well_posed = MpsaLimits().well_posed);
+                                      const std::vector<Stiffness>& stiffness, const MpsaLimits& limits = {});
 
   const EndFrame& frame() const { return frame_; }
   /// The displacement, m.
