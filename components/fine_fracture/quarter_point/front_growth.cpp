@@ -6,6 +6,7 @@
 
 #include "components/fine_fracture/growth/front.hpp"
 #include "components/fine_fracture/growth/jump.hpp"
+#include "components/fine_fracture/growth/way_of_tip.hpp"
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/invariants.hpp"
 
@@ -13,8 +14,10 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double full_segment = 1.5;     ///< of an increment: a longer segment is divided
-constexpr double longest_advance = 1.5;  ///< of an increment, in one step
+constexpr double full_segment = 1;       ///< of an increment: a longer segment is divided
+constexpr double rest_of_segment = 0.5;  ///< of an increment: what of a divided segment is laid anew
+constexpr double longest_advance = 1;    ///< of an increment, in one step
+constexpr double on_the_way = 1e-6;      ///< of an increment: a place of a tip nearer to the anchor is at the anchor
 constexpr double shorter_step = 0.5;     ///< the next attempt at a step that is too long
 
 double angle_of(const Point& direction) { return std::atan2(direction[1], direction[0]); }
@@ -47,6 +50,7 @@ class TipsFront : public FrontSearch {
   void find_joinings();
   void propose();
   Tips::Tip* same_tip(Tips& there, int tip) const;
+  std::vector<Point> way_to(const Tips& there, const Tips::Tip& tip, const std::vector<Point>& before) const;
   Verdict finish(Tips& there);
   Verdict settle_for_less(Tips& there);
   bool begin_jump();
@@ -101,9 +105,11 @@ void TipsFront::add(Tips::Tip& tip) {
     start.covered = tips_.last_cell(tip.end).measure;
     segment.replaced = 1;
     start.anchor = end - start.covered * ahead;
-    if (start.covered > full_segment * increment) {
-      start.anchor += increment * ahead;
-      start.covered -= increment;
+    if (start.covered > full_segment * increment && !tip.now.way.empty()) {
+      // What stays leads to where the tip has been. The segment has turned since, as it grew.
+      start.anchor = place_on_way(start.anchor, tip.now.way, start.covered - rest_of_segment * increment);
+      start.covered = (end - start.anchor).norm();
+      start.angle = angle_of(end - start.anchor);
       segment.before.push_back(start.anchor);
     }
   }
@@ -278,11 +284,25 @@ FrontSearch::Verdict TipsFront::end_jump(Tips& there) {
   return finish(there);
 }
 
+/// The places of the tip in the last segment of the new mesh. `before`: in that of the mesh before the step.
+std::vector<Point> TipsFront::way_to(const Tips& there, const Tips::Tip& tip, const std::vector<Point>& before) const {
+  if (!tip.now.is_extendable) return {};
+  const double least = on_the_way * tips_.options_.growth.increment;
+  const Point end = there.position(tip, {}), ahead = there.direction(tip);
+  const Point anchor = end - there.last_cell(tip.end).measure * ahead;
+  std::vector<Point> way;
+  for (const Point& place : before)
+    if ((place - anchor).dot(ahead) > least && (place - end).norm() > least) way.push_back(place);
+  way.push_back(end);
+  return way;
+}
+
 FrontSearch::Verdict TipsFront::finish(Tips& there) {
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
     same->now.speed = (same->now.grown - tips_.tips_[i].now.grown) / dt_;
+    same->now.way = way_to(there, *same, tips_.tips_[i].now.way);
     same->now.has_started = same->now.has_started || (jump_ ? jump_->is_laid(i) : front_->grows(i));
     same->now.is_stopped = same->now.is_stopped || is_blocked_[i];
   }

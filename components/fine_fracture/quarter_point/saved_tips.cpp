@@ -6,18 +6,20 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int state_size = 13;  ///< numbers of a state, without its path
+constexpr int state_size = 14;  ///< numbers of a state, without its way and its path
 
 }  // namespace
 
 void Tips::save(std::map<std::string, Vector>& state) const {
   for (const Tip& tip : tips_) {
     const State& kept = tip.accepted;
-    Vector values(state_size + 2 * kept.path.added.size());
+    std::vector<Point> places = kept.way;
+    places.insert(places.end(), kept.path.added.begin(), kept.path.added.end());
+    Vector values(state_size + 2 * places.size());
     values.head<state_size>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped,
         kept.has_started, kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated,
-        kept.load, kept.is_extendable, kept.speed;
-    for (std::size_t i = 0; i < kept.path.added.size(); ++i) values.segment<2>(state_size + 2 * i) = kept.path.added[i];
+        kept.load, kept.is_extendable, kept.speed, static_cast<double>(kept.way.size());
+    for (std::size_t i = 0; i < places.size(); ++i) values.segment<2>(state_size + 2 * i) = places[i];
     state[name() + "." + tip.name] = std::move(values);
   }
   state[name() + ".slopes"] = Eigen::Map<const Vector>(slopes_.data(), slopes_.size());
@@ -40,7 +42,8 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.load = values[10];
     kept.is_extendable = values[11] != 0;
     kept.speed = values[12];
-    for (int i = state_size; i + 1 < values.size(); i += 2) kept.path.added.emplace_back(values[i], values[i + 1]);
+    for (int i = state_size; i + 1 < values.size(); i += 2)
+      (i < state_size + 2 * values[13] ? kept.way : kept.path.added).emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
   }
   if (const auto found = state.find(name() + ".slopes"); found != state.end()) {

@@ -76,6 +76,7 @@ class Tips : public Component, public FractureTips, public Growing {
     bool is_extendable =
         false;                ///< whether the last cell of the fracture is the last segment, which growth may replace
     double speed = 0;         ///< m/s, of growth in the last step
+    std::vector<Point> way;   ///< m, where the tip was at ends of steps while its last segment grew, the last one here
     bool is_stopped = false;  ///< for good, at or before another fracture, or before the boundary
   };
   /// A tip, its state, and what is kept of its fine level.

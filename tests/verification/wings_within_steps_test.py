@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""wings_within_steps_test.py SPREKK: the path of wings that grow within steps in sealed rock, and the pressure that they need,
+against boundary elements (references/sealed_wings.csv), for a fracture and its mirror image."""
+
+import csv
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools/benchmark")]
+
+from run_results import RunResults  # noqa: E402
+
+SPREKK = Path(sys.argv.pop(1)).resolve()
+TIP = 0.05 * math.sqrt(0.5)  # m, x and y of the fracture's tip
+CHANGES = {
+    """    prescribed:
+      everywhere: {fracture: main, pressure: "(t/3600) MPa"}""": "    injection: {well: {fracture: main, rate: {value: 2.6e-10 m^2/s}}}",
+    "  - {type: two_level,     between: [rock, conduit, tips]}":
+        "  - {type: aperture, between: [contact, conduit]}\n"
+        "  - {type: two_level, between: [rock, conduit, tips], propagation_threshold: 0.25}",
+    "    settle: [rock, contact]": "    settle: [rock, contact]\n    update: within_step",
+    "fracture_size: 10 mm": "fracture_size: 20 mm",
+    "start: 7.5 h": "start: 0 h",
+    "step: 0.05 h": "step: 0.4 h",
+    "reaches: 0.25 m": "reaches: 0.05 m",
+}
+
+
+def boundary_elements():
+    """Rows of the limit of short increments, as numbers by column."""
+    lines = [line for line in (ROOT / "tests/verification/references/sealed_wings.csv").read_text().splitlines() if line[0] != "#"]
+    return [{key: float(value) for key, value in row.items() if key != "scene"}
+            for row in csv.DictReader(lines) if row["scene"] == "limit" and float(row["length_m"]) > 0]
+
+
+def through(points, x):
+    """The cubic through the four points (x, y) around x."""
+    first = min(max(sum(at <= x for at, _ in points) - 2, 0), len(points) - 4)
+    near = points[first:first + 4]
+    return sum(y * math.prod((x - other) / (at - other) for other, _ in near if other != at) for at, y in near)
+
+
+class WingsWithinSteps(unittest.TestCase):
+    def run_scene(self, folder, angle):
+        scene = (ROOT / "configs/verification/wings_sealed.yaml").read_text()
+        for old, new in {**CHANGES, "angle: 45 deg": f"angle: {angle} deg"}.items():
+            self.assertEqual(scene.count(old), 1, old)
+            scene = scene.replace(old, new)
+        (Path(folder) / "scene.yaml").write_text(scene)
+        run = subprocess.run([SPREKK, "run", Path(folder) / "scene.yaml", "-q", "-o", Path(folder) / "run"],
+                             capture_output=True, text=True, timeout=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(Path(folder) / "run/history.csv") as file:
+            return [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def test_wings_are_those_of_boundary_elements(self):
+        limit = boundary_elements()
+        pressures = [(math.log(row["length_m"]), row["pressure_MPa"]) for row in limit]
+        lengths_along_x = [(math.log(row["x_m"] - TIP), row["y_m"]) for row in limit]
+        for angle in (45, -45):
+            with tempfile.TemporaryDirectory() as folder, self.subTest(angle=angle):
+                rows = self.run_scene(folder, angle)
+                followed = [row for row in rows if row["tips.main_last.length"] > 5e-3]
+                self.assertGreater(len(followed), 5)
+                for row in followed:
+                    length = 0.5 * (row["tips.main_first.length"] + row["tips.main_last.length"])
+                    needed = 1e6 * through(pressures, math.log(length))
+                    self.assertLess(abs(row["fracture_pressure"] / needed - 1), 6.5e-3, length)
+                # The ends of both wings are where the tips were with K_II = 0.
+                points = RunResults(Path(folder) / "run").fractures.points
+                for end, sign in ((points[:, 0].argmin(), -1), (points[:, 0].argmax(), 1)):
+                    x, y = sign * points[end, 0], sign * math.copysign(1, angle) * points[end, 1]
+                    self.assertGreater(x, TIP + 0.045)
+                    self.assertLess(abs(y - through(lengths_along_x, math.log(x - TIP))), 2e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
