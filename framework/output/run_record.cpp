@@ -48,6 +48,13 @@ Json notes_json(const std::vector<NoteRecord>& notes) {
   return list;
 }
 
+Json topologies_json(const std::vector<RunRecord::Topology>& topologies) {
+  Json list = Json::array();
+  for (const RunRecord::Topology& topology : topologies)
+    list.push_back({{"time", topology.time}, {"hash", topology.hash}});
+  return list;
+}
+
 }  // namespace
 
 std::string RunRecord::json(const Profile& profile) const {
@@ -57,6 +64,7 @@ std::string RunRecord::json(const Profile& profile) const {
       {"results", results},
       {"notes", notes_json(notes)},
       {"counters", counters},
+      {"meshes", topologies_json(topologies)},
       {"seconds", seconds},
       {"timings", timings},
       {"profile", profile_json(profile)},

@@ -35,6 +35,12 @@ struct RunRecord {
   std::map<std::string, long> counters;   ///< "steps accepted", "steps cut", "newton iterations"
   std::map<std::string, double> results;  ///< "quantity[unit]": the result figures
   std::vector<NoteRecord> notes;          ///< see Notes
+  /// The topology of the mesh, and of meshes that parts have of their own, from an accepted step on.
+  struct Topology {
+    double time;       ///< s
+    std::string hash;  ///< 16 hexadecimal digits; runs with the same digits have the same topology
+  };
+  std::vector<Topology> topologies;  ///< one for each change
 
   /// The record as JSON text, with the versions of the program and its libraries, the kind of host, and the profile.
   /// Numbers that are not finite become null, as JSON has none.

@@ -14,6 +14,8 @@ struct CavityOptions {
   /// Where the outer boundary or another fracture is nearer than `size` times this, the edges of the path are as long
   /// as the width of the gap over this; 0 does not refine in gaps.
   double gap_edges = 0.5;
+  /// Whether the topology of new cells must not depend on the last digits of coordinates (fill_rounded_cavity).
+  bool rounds = false;
 };
 
 }  // namespace sprekk

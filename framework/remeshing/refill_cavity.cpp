@@ -7,9 +7,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "framework/mesh/original_end.hpp"
 #include "framework/meshing/graded_division.hpp"
 #include "framework/remeshing/cavity.hpp"
 #include "framework/remeshing/fill_cavity.hpp"
+#include "framework/remeshing/rounded_filling.hpp"
 
 namespace sprekk {
 namespace {
@@ -182,7 +184,7 @@ class Refilling {
         refill.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, edge.side});
       }
     }
-    const Triangulation filling = fill_cavity(outline.get(), size_factor, options_.growth);
+    const Triangulation filling = filled(outline.get(), size_factor, part, part_of_path);
     refill.smallest_angle = std::min(refill.smallest_angle, smallest_angle(filling));
     refill.single_corners += single_corner_count(filling);
     std::vector<int> node_of = outline.nodes();
@@ -191,6 +193,31 @@ class Refilling {
       refill.nodes.push_back(filling.points[i]);
     }
     for (const auto& [a, b, c] : filling.triangles) refill.triangles.push_back({node_of[a], node_of[b], node_of[c]});
+  }
+
+  Triangulation filled(const CavityOutline& outline, double size_factor, int part,
+                       const std::vector<int>& part_of_path) const {
+    if (options_.rounds)
+      if (auto filling = fill_rounded_cavity(outline, size_factor, options_.growth, anchor(part, part_of_path)))
+        return std::move(*filling);
+    return fill_cavity(outline, size_factor, options_.growth);
+  }
+
+  /// The mean of where the fractures that grow in a cavity have ended before any growth.
+  Point anchor(int part, const std::vector<int>& part_of_path) const {
+    Point sum = Point::Zero();
+    int count = 0;
+    for (std::size_t p = 0; p < part_of_path.size(); ++p) {
+      if (part_of_path[p] != part) continue;
+      for (int f = 0; f < static_cast<int>(raw_.fractures.size()); ++f)
+        for (const bool at_end : {false, true}) {
+          const std::vector<int>& chain = raw_.fractures[f].nodes;
+          if ((at_end ? chain.back() : chain.front()) != path_nodes_.paths[p].front()) continue;
+          sum += original_end(mesh_, f, at_end);
+          ++count;
+        }
+    }
+    return count == 0 ? sum : Point(sum / count);
   }
 
   /// The node a, the new nodes on the face in their order, and b.

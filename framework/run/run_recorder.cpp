@@ -1,9 +1,12 @@
 #include "framework/run/run_recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <ctime>
 
 #include "framework/linear/direct/blas_memory.hpp"
 #include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/topology_hash.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -54,6 +57,15 @@ void RunRecorder::accepted(const std::vector<Quantity>& quantities) {
   ++steps_;
   for (const Quantity& q : quantities) record_.results[labelled(q.name, q.unit)] = q.value;
   last_quantities_ = quantities;
+}
+
+void RunRecorder::note_topology(const Model& model, double time) {
+  TopologyHash hash;
+  hash.add(topology_hash(model.mesh()));
+  for (const auto& grow : model.growing()) hash.add(grow->component().topology());
+  std::string digits = fmt::format("{:016x}", hash.value());
+  if (record_.topologies.empty() || record_.topologies.back().hash != digits)
+    record_.topologies.push_back({time, std::move(digits)});
 }
 
 void RunRecorder::end(ExitCode code, const std::string& reason, const Scene& scene, const EarlyEnd& early) {

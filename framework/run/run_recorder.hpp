@@ -22,6 +22,7 @@ class RunRecorder {
   /// Records what is known before the first step: the scene, the mesh, the unknowns, the notes.
   void begin(const Model& model);
   void accepted(const std::vector<Quantity>& quantities);  ///< at the end of a step
+  void note_topology(const Model& model, double time);     ///< at the end of a step, before it is accepted
   /// Records how the run has ended. `reason`: why it has not come to its end; "" when it has.
   void end(ExitCode code, const std::string& reason, const Scene& scene, const EarlyEnd& early);
   void add(const MeshGrowth& growth);

@@ -160,6 +160,7 @@ void Simulation::accept(const StepTime& step, int iterations) {
   early_end_.check(model, step, quantities);
   const bool writes_fields = early_end_.is_reached() || output_times_.contains(step.end);
   const std::vector<OutputField> fields = writes_fields ? model.output() : std::vector<OutputField>();
+  recorder_.note_topology(model, step.end);
   model.accept();
   state_.controller.accepted(step, iterations);
   recorder_.accepted(quantities);

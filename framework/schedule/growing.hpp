@@ -1,6 +1,7 @@
 // The interface of a component with fractures that can grow, for `grow` steps.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -75,6 +76,8 @@ class Growing {
   virtual std::vector<PendingPath> pending_paths() const { return {}; }
   /// How the mesh changes around a path that it takes over.
   virtual CavityOptions cavity() const = 0;
+  /// A number that tells whether the meshes that the component has of its own have the same topology; 0 if it has none.
+  virtual std::uint64_t topology() const { return 0; }
   /// Whether the systems that settle a state after growth may be so nearly singular that a solver which is quick for
   /// small systems loses digits.
   virtual bool settling_costs_digits() const { return false; }

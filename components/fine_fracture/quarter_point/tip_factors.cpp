@@ -6,6 +6,8 @@
 #include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
 #include "components/fine_fracture/quarter_point/ends.hpp"
 #include "components/fine_fracture/quarter_point/tips.hpp"
+#include "framework/mesh/original_end.hpp"
+#include "framework/mesh/topology_hash.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
@@ -14,6 +16,13 @@ bool is_same(const FineGeometry& a, const FineGeometry& b) {
   return a.outline == b.outline &&
          std::equal(a.cracks.begin(), a.cracks.end(), b.cracks.begin(), b.cracks.end(),
                     [](const CrackPath& x, const CrackPath& y) { return x.points == y.points && x.walls == y.walls; });
+}
+
+std::uint64_t topology_of(const FineMesh& mesh) {
+  TopologyHash hash;
+  for (const FineMesh::Element& element : mesh.elements)
+    for (const int node : element.nodes) hash.add(node);
+  return hash.value();
 }
 
 }  // namespace
@@ -29,7 +38,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   mesh.sectors = options_.sectors;
   const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
   FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls,
-                                  tip.pattern ? &tip.pattern->geometry.outline : nullptr);
+                                  tip.pattern ? &tip.pattern->outline : nullptr);
   const LameParameters lame = surroundings_->stiffness(center);
   const Elasticity rock{lame.lambda, lame.shear};
   if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
@@ -45,9 +54,13 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
       return keep_factors(tip, adapted.solution);
     }
     const bool keeps_pattern = is_followed(tip);
+    TriangulationKeeper keeper{original_end(mesh_, tip.end.fracture, tip.end.at_end),
+                               keeps_pattern ? tip.pattern : nullptr};
     tip.model.emplace(tip.domain.geometry, mesh, rock, TipPlace{tip.domain.crack, tip.domain.is_last}, profile_,
-                      keeps_pattern ? &tip.pattern : nullptr);
+                      grows_within_steps_ ? &keeper : nullptr);
     tip.has_pattern = keeps_pattern;
+    tip.topology = topology_of(tip.model->mesh());
+    if (keeps_pattern) tip.pattern = keeper.kept;
     ++meshes_;
   } else {
     tip.domain = std::move(domain);

@@ -5,6 +5,7 @@
 
 #include "components/fine_fracture/quarter_point/ends.hpp"
 #include "framework/mesh/mesh_change.hpp"
+#include "framework/mesh/topology_hash.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::fine_fracture {
@@ -210,7 +211,14 @@ std::vector<Point> Tips::coarse_path(const Tip& tip, const TipPath& path) const 
 CavityOptions Tips::cavity() const {
   double size = 0;
   for (const Tip& tip : tips_) size = std::max(size, tip.coarse_size);
-  return {options_.cavity * size, size, options_.cavity_growth};
+  return {
+      .radius = options_.cavity * size, .size = size, .growth = options_.cavity_growth, .rounds = grows_within_steps_};
+}
+
+std::uint64_t Tips::topology() const {
+  TopologyHash hash;
+  for (const Tip& tip : tips_) hash.add(tip.topology);
+  return hash.value();
 }
 
 void Tips::accepted() {
@@ -247,6 +255,7 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
       tip.now = same.now;
       tip.length_at_start = same.length_at_start;
       tip.pattern = same.pattern;
+      tip.topology = same.topology;
       // The path is dropped here and not when it is handed over: a mesh that cannot take it would lose it.
       const double taken = new_length(mesh_, tip.end, change) - given_up_length(mesh_, tip.end, change);
       if (taken > 0) {

@@ -58,6 +58,7 @@ class Tips : public Component, public FractureTips, public Growing {
   std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) override;
   std::vector<PendingPath> pending_paths() const override;
   CavityOptions cavity() const override;
+  std::uint64_t topology() const override;
   /// With cells held closed, UMFPACK loses digits that MUMPS keeps.
   bool settling_costs_digits() const override { return true; }
 
@@ -100,7 +101,8 @@ class Tips : public Component, public FractureTips, public Growing {
     std::uint64_t evaluated_for = 0;
     /// The triangulation of the trials within a step: it moves along, so that factors depend smoothly on the advance.
     std::shared_ptr<const Triangulated> pattern;
-    bool has_pattern = false;  ///< whether `model` was made with it
+    bool has_pattern = false;    ///< whether `model` was made with it
+    std::uint64_t topology = 0;  ///< of the mesh of the last fine level that was made
   };
 
   /// An end of a fracture at another fracture; it may have been a tip.

@@ -8,6 +8,7 @@
 #include "components/fine_fracture/quarter_point/domain/outside_mesh.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/triangulation/rounded_drawing.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
@@ -25,23 +26,24 @@ void validate(const FineMeshOptions& options) {
 /// walls changes.
 class SizeField {
  public:
-  SizeField(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, const FineMeshOptions& options)
+  /// `bends`: as bends_of.
+  SizeField(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, const FineMeshOptions& options,
+            const std::vector<std::vector<double>>& bends)
       : options_(options) {
     for (const TipRoom& room : rooms) {
       const double edge = 2 * room.radius * std::sin(std::numbers::pi / options.sectors);
       sources_.push_back({room.position, edge - options.growth * room.radius});
     }
     const double kink_size = options.kink_size > 0 ? options.kink_size : options.tip_size / 4;
-    for (const CrackPath& crack : geometry.cracks) {
+    for (std::size_t c = 0; c < geometry.cracks.size(); ++c) {
+      const CrackPath& crack = geometry.cracks[c];
       for (std::size_t i = 1; i + 1 < crack.points.size(); ++i) {
-        const Point a = crack.points[i] - crack.points[i - 1], b = crack.points[i + 1] - crack.points[i];
         // Stresses are nearly regular at points where the walls hardly bend, but singular where prescribed jumps begin.
         const bool changes = crack.walls[i - 1] != crack.walls[i];
-        const double bend = std::abs(std::atan2(cross(a, b), a.dot(b)));
         constexpr double right_angle = std::numbers::pi / 2;
         sources_.push_back(
             {crack.points[i],
-             changes ? kink_size : std::max(kink_size, options.far_size * (1 - 4 * bend / right_angle))});
+             changes ? kink_size : std::max(kink_size, options.far_size * (1 - 4 * bends[c][i] / right_angle))});
       }
     }
     for (const CrackJunction& junction : junctions(geometry)) sources_.push_back({junction.position, kink_size});
@@ -183,24 +185,59 @@ class Builder {
   FineMesh fine_;
 };
 
+/// The options in a frame whose unit has the length `unit` (m), without their last digits.
+FineMeshOptions rounded_options(FineMeshOptions options, double unit) {
+  constexpr int sizes_in_octave = 64;
+  for (double* size : {&options.tip_size, &options.far_size, &options.kink_size})
+    if (*size > 0) *size = rounded_in_octave(*size / unit, sizes_in_octave);
+  return options;
+}
+
+Triangulated triangulate(const DrawingFrame& frame, const FineGeometry& geometry, const std::vector<TipRoom>& rooms,
+                         const std::vector<std::vector<double>>& bends, const FineMeshOptions& options) {
+  const SizeField sizes(geometry, rooms, options, bends);
+  Triangulated made{frame, geometry, rooms, {}, {}};
+  made.mesh = mesh_outside(geometry, rooms, options.sectors, [&sizes](const Point& x) { return sizes.at(x); });
+  add_rosettes(rooms, made.mesh);
+  return made;
+}
+
+/// A triangulation for the rounded geometry, if it can be moved to the geometry itself; and this moved one.
+std::optional<OutsideMesh> made_by_rounding(const FineGeometry& geometry, const std::vector<TipRoom>& rooms,
+                                            const FineMeshOptions& options, const Point& anchor, Triangulated& made) {
+  if (options.size_limit) return std::nullopt;
+  const std::optional<RoundedGeometry> rounded = rounded_geometry(geometry, rooms, anchor);
+  if (!rounded) return std::nullopt;
+  try {
+    made = triangulate(rounded->frame, rounded->geometry, rounded->rooms, rounded->bends,
+                       rounded_options(options, rounded->frame.unit()));
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+  return moved_mesh(made, geometry, rooms);
+}
+
 }  // namespace
 
-FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options,
-                        std::shared_ptr<const Triangulated>* pattern) {
+FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options, TriangulationKeeper* keeper) {
   validate(geometry);
   validate(options);
   const std::vector<TipRoom> rooms = tip_rooms(geometry, options.tip_size);
-  if (pattern && *pattern) {
-    const std::optional<OutsideMesh> moved = moved_mesh(**pattern, geometry, rooms);
-    if (moved) return Builder(geometry, rooms, options.sectors, build_mesh(moved->raw)).take();
+  const auto built = [&](const OutsideMesh& mesh) {
+    return Builder(geometry, rooms, options.sectors, build_mesh(mesh.raw)).take();
+  };
+  if (!keeper) return built(triangulate({}, geometry, rooms, bends_of(geometry), options).mesh);
+  if (keeper->kept)
+    if (const std::optional<OutsideMesh> moved = moved_mesh(*keeper->kept, geometry, rooms)) return built(*moved);
+  Triangulated made;
+  std::optional<OutsideMesh> mesh = made_by_rounding(geometry, rooms, options, keeper->anchor, made);
+  if (!mesh) {
+    made = triangulate({}, geometry, rooms, bends_of(geometry), options);
+    mesh = made.mesh;
   }
-  const SizeField sizes(geometry, rooms, options);
-  OutsideMesh outside =
-      mesh_outside(geometry, rooms, options.sectors, [&sizes](const Point& x) { return sizes.at(x); });
-  add_rosettes(rooms, outside);
-  const Mesh mesh = build_mesh(outside.raw);
-  if (pattern) *pattern = std::make_shared<const Triangulated>(Triangulated{geometry, rooms, std::move(outside)});
-  return Builder(geometry, rooms, options.sectors, mesh).take();
+  made.outline = geometry.outline;
+  keeper->kept = std::make_shared<const Triangulated>(std::move(made));
+  return built(*mesh);
 }
 
 }  // namespace sprekk::fine_fracture

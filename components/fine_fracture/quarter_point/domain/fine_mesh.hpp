@@ -71,10 +71,17 @@ struct FineMesh {
   int node_count() const { return static_cast<int>(nodes.size()); }
 };
 
+/// Keeps a triangulation, so that meshes depend continuously on the geometry.
+struct TriangulationKeeper {
+  Point anchor = Point::Zero();              ///< m, a place that stays while cracks grow
+  std::shared_ptr<const Triangulated> kept;  ///< of an earlier geometry, or null
+};
+
 /// Makes the mesh of a fine level. Throws std::invalid_argument for a geometry or options that are not valid, and
-/// std::runtime_error where the mesh cannot follow the lines of the geometry. `pattern`: if not null, a triangulation
-/// that is moved to this geometry where that is possible; otherwise it becomes the one that is made.
+/// std::runtime_error where the mesh cannot follow the lines of the geometry. `keeper`: if not null, the triangulation
+/// that it keeps is moved to this geometry where that is possible. Otherwise one is made for the rounded geometry
+/// (rounded_geometry), moved, and kept: geometries that differ by round-off have the same topology.
 FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options,
-                        std::shared_ptr<const Triangulated>* pattern = nullptr);
+                        TriangulationKeeper* keeper = nullptr);
 
 }  // namespace sprekk::fine_fracture

@@ -93,11 +93,11 @@ std::optional<OutsideMesh> moved_mesh(const Triangulated& made, const FineGeomet
     for (int k = 0; k < 3; ++k)
       edges.insert({std::min(cell[k], cell[(k + 1) % 3]), std::max(cell[k], cell[(k + 1) % 3])});
   std::vector<MovedNode> moved;
-  for (const auto& [node, place] : places) moved.push_back({node, place - raw.nodes[node]});
+  for (const auto& [node, place] : places) moved.push_back({node, made.frame.inward(place) - raw.nodes[node]});
   const std::vector<Point> motion =
       spread_motion(raw.nodes, {edges.begin(), edges.end()}, std::vector<bool>(raw.nodes.size()), moved);
   OutsideMesh result = made.mesh;
-  for (std::size_t i = 0; i < motion.size(); ++i) result.raw.nodes[i] += motion[i];
+  for (std::size_t i = 0; i < motion.size(); ++i) result.raw.nodes[i] = made.frame.outward(raw.nodes[i] + motion[i]);
   for (const auto& [node, place] : places) result.raw.nodes[node] = place;
   constexpr double least = 0.5;  // of the smallest angle
   if (!(smallest_angle(result.raw.nodes, raw.cells) > least * smallest_angle(raw.nodes, raw.cells)))

@@ -7,14 +7,17 @@
 #include "components/fine_fracture/quarter_point/domain/geometry.hpp"
 #include "components/fine_fracture/quarter_point/domain/outside_mesh.hpp"
 #include "components/fine_fracture/quarter_point/domain/room.hpp"
+#include "components/fine_fracture/quarter_point/domain/rounded_geometry.hpp"
 
 namespace sprekk::fine_fracture {
 
-/// A triangulation with its rosettes, and what it was made for.
+/// A triangulation with its rosettes, and what it was made for, in its own frame.
 struct Triangulated {
+  DrawingFrame frame;
   FineGeometry geometry;
   std::vector<TipRoom> rooms;
-  OutsideMesh mesh;  ///< with the triangles of the rosettes and the tips
+  OutsideMesh mesh;            ///< with the triangles of the rosettes and the tips
+  std::vector<Point> outline;  ///< m, of the geometry that was first wanted
 };
 
 /// The triangulation `made` with its nodes moved to another geometry, whose rooms are given: nodes of the outline and

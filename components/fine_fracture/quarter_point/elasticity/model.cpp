@@ -56,12 +56,12 @@ ElementVector gather(const FineMesh::Element& element, const Vector& values) {
 
 FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
                      const std::optional<TipPlace>& wanted, std::shared_ptr<Profile> profile,
-                     std::shared_ptr<const Triangulated>* pattern)
+                     TriangulationKeeper* keeper)
     : profile_(std::move(profile)),
       geometry_(std::move(geometry)),
       rock_(rock),
       mesh_(timed(*profile_, "mesh",
-                  [&] { return std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options, pattern)); })),
+                  [&] { return std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options, keeper)); })),
       unknowns_(geometry_, *mesh_),
       stiffness_(timed(*profile_, "assembly", [&] { return stiffness_by_element(*mesh_, rock_); })),
       factors_(*mesh_, unknowns_, stiffness_, *profile_),

@@ -20,11 +20,11 @@ namespace sprekk::fine_fracture {
 class FineModel {
  public:
   /// Solutions will have the factors of all tips, or of the `wanted` one. Times in `profile`: mesh, assembly, ordering,
-  /// factorization, loads, back-solves, factors. `pattern` as for make_fine_mesh. Throws as make_fine_mesh does, and
+  /// factorization, loads, back-solves, factors. `keeper` as for make_fine_mesh. Throws as make_fine_mesh does, and
   /// std::runtime_error when the matrix is singular.
   FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
             const std::optional<TipPlace>& wanted = {}, std::shared_ptr<Profile> profile = std::make_shared<Profile>(),
-            std::shared_ptr<const Triangulated>* pattern = nullptr);
+            TriangulationKeeper* keeper = nullptr);
 
   const FineGeometry& geometry() const { return geometry_; }
   const FineMesh& mesh() const { return *mesh_; }

@@ -1,0 +1,34 @@
+// A number that tells whether two meshes have the same topology.
+#pragma once
+
+#include <cstdint>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// A sum over numbers in their order (FNV-1a, 64 bits): two that differ have different sums, but for an accident.
+class TopologyHash {
+ public:
+  template <class Number>
+  void add(Number number) {
+    auto rest = static_cast<std::uint64_t>(number);
+    for (std::size_t i = 0; i < sizeof(rest); ++i, rest >>= 8) value_ = (value_ ^ (rest & 0xff)) * 1099511628211u;
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037u;
+};
+
+/// Of the cells with their corners and of the fractures; neither places nor processes matter.
+inline std::uint64_t topology_hash(const Mesh& mesh) {
+  TopologyHash hash;
+  for (const Ring& corners : mesh.cell_nodes)
+    for (const int node : corners) hash.add(node);
+  for (const FractureCell& cell : mesh.fracture_cells)
+    for (const int number : {cell.fracture, cell.points[0], cell.points[1]}) hash.add(number);
+  return hash.value();
+}
+
+}  // namespace sprekk

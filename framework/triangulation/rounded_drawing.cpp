@@ -1,0 +1,69 @@
+#include "framework/triangulation/rounded_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/invariants.hpp"
+
+namespace sprekk {
+namespace {
+
+constexpr double up_from = 0.6180339887498949;  ///< of the spacing that is added before rounding down
+constexpr int finer = 5;                        ///< powers of two between the local length and the spacing
+constexpr double no_round_number = 1.2345678;   ///< times a length: powers of two are no ties
+constexpr double not_centred = 1e-6;            ///< of the frame: what is nearer to its origin does not turn it
+
+/// The least distances between points, or lines that end there, and what they do not touch.
+std::vector<double> local_lengths(const std::vector<Point>& points, const std::vector<std::array<int, 2>>& lines,
+                                  double largest) {
+  std::vector<double> least(points.size(), largest);
+  const auto note = [&](int point, double length) { least[point] = std::min(least[point], length); };
+  for (const auto& [a, b] : lines) {
+    const Segment line{points[a], points[b]};
+    note(a, line.length());
+    note(b, line.length());
+    for (int p = 0; p < static_cast<int>(points.size()); ++p) {
+      if (p == a || p == b) continue;
+      const double away = distance(points[p], line);
+      for (const int point : {p, a, b}) note(point, away);
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+double rounded(double value, double spacing) { return std::floor(value / spacing + up_from) * spacing; }
+
+double rounded_in_octave(double value, int steps) {
+  SPREKK_EXPECT(value > 0 && steps > 0, value, steps);
+  return std::exp2(rounded(std::log2(value) * steps, 1) / steps);
+}
+
+DrawingFrame drawing_frame(double extent, const std::vector<Segment>& lines, const Point& anchor) {
+  DrawingFrame frame{anchor, std::exp2(std::floor(std::log2(no_round_number * extent)))};
+  Point mean = Point::Zero();
+  double length = 0;
+  for (const Segment& line : lines) {
+    mean += line.length() * frame.inward(0.5 * (line.from + line.to));
+    length += line.length();
+  }
+  if (length > 0) mean /= length;
+  if (mean.x() < -not_centred || (mean.x() < not_centred && mean.y() < -not_centred)) frame.scale = -frame.scale;
+  return frame;
+}
+
+std::vector<Point> rounded_points(const std::vector<Point>& points, const std::vector<std::array<int, 2>>& lines,
+                                  double largest) {
+  const std::vector<double> lengths = local_lengths(points, lines, largest);
+  std::vector<Point> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    result.push_back(points[i]);
+    if (!(lengths[i] > 0)) continue;  // lines that cross: a mesh generator will say so
+    const double spacing = std::exp2(std::floor(std::log2(no_round_number * lengths[i])) - finer);
+    for (double& coordinate : result.back()) coordinate = rounded(coordinate, spacing);
+  }
+  return result;
+}
+
+}  // namespace sprekk
