@@ -41,7 +41,7 @@ RUNS = {
     "as it is": ([], 1),
     "rate 1e-9": (["--set", rate(1 + 1e-9)], 1),
     "rate 1e-7": (["--set", rate(1 + 1e-7)], 1),
-    "MUMPS": (["--set", "solver.type=mumps"], 1),
+    "UMFPACK": (["--set", "solver.type=umfpack"], 1),
     "residual 1e-8": (["--set", "newton.residual=1e-8"], 1),
     "two processes": ([], 2),
 }
