@@ -20,14 +20,11 @@ Spec GrowOptions::spec() {
              {.doc = "The components whose unknowns are put into equilibrium on the new mesh, everything else held: "
                      "those that determine the deformation.",
               .required = true});
-  spec.choice(
-      "update", update,
-      {{within_step,
-        "the advance of the tips is found together with the state at the end of the step; new, for fractures that do "
-        "not meet"},
-       {after_step, "the step is accepted, and the mesh grows between it and the next"},
-       {repeat_step, "the step is repeated on the mesh that has grown, until nothing grows any more"}},
-      {.doc = "When the mesh takes over what has grown."});
+  spec.choice("update", update,
+              {{within_step, "the advance of the tips is found together with the state at the end of the step; new"},
+               {after_step, "the step is accepted, and the mesh grows between it and the next"},
+               {repeat_step, "the step is repeated on the mesh that has grown, until nothing grows any more"}},
+              {.doc = "When the mesh takes over what has grown."});
   spec.integer("passes", passes,
                {.range = between(1, 1000), .doc = "Of repeat_step: how often one step is repeated at most."});
   spec.quantity("cut", cut,
