@@ -84,6 +84,8 @@ EXEMPT_ONES = (
     ("components/fine_fracture/quarter_point/growth_ends.cpp", "1e3", "m to mm in a text"),
     ("components/fine_fracture/quarter_point/saved_tips.cpp", "state_size", "a count"),
     ("components/fracture_flow/tpfa/mean_along.cpp", "place", "points of a quadrature"),
+    ("components/fine_fracture/growth/viscous_tip.cpp", "place", "points of a quadrature"),
+    ("components/fine_fracture/growth/viscous_tip.cpp", "weight", "its weights"),
     ("components/fracture_flow/tpfa/mean_along.cpp", "weight", "its weights"),
     ("components/fracture_flow/tpfa/mean_along.cpp", "0.75", "a substitution in it"),
     ("components/fracture_flow/tpfa/mean_along.hpp", "count", "a quadrature"),

@@ -140,9 +140,11 @@ TEST(Joining, ATipMayBeAskedToStopInstead) {
   EXPECT_LT(run.quantity("tips.main_last.length"), 0.065 - 0.01 + 1e-12);
 }
 
-/// The scene of section 5.2 of the paper with a second fracture in the way of its right wing.
+/// The scene of section 5.2 of the paper with a second fracture in the way of its right wing. What has just parted
+/// conducts before it opens.
 SceneRun wings(const std::string& wall) {
-  return SceneRun("paper/wing_cracks.yaml", {{"geometry.fractures.wall", wall}});
+  return SceneRun("paper/wing_cracks.yaml",
+                  {{"geometry.fractures.wall", wall}, {"components.conduit.law", "{type: cubic, residual: 20 um}"}});
 }
 
 TEST(Joining, FluidIsConservedAndFillsTheOtherFracture) {

@@ -70,7 +70,8 @@ Spec Options::spec() {
   grown.quantity("aperture", grown_aperture,
                  {.unit = "m",
                   .range = non_negative(),
-                  .doc = "Initial aperture of cells that have grown; opening adds to it.",
+                  .doc = "Initial aperture of cells that have grown; opening adds to it. It has a volume; see `law` "
+                         "for one that conducts only.",
                   .source = "a0 of a_i = a0 + [u]_n, below the paper's Eq. 8"});
   grown.choice("fluid", grown_fluid,
                {{"drawn", "they are empty, and draw their fluid from what is around them"},

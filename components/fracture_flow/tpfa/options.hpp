@@ -31,11 +31,11 @@ struct PrescribedPressure {
 
 /// Parameters of the flow in fractures.
 struct Options {
-  Data viscosity;                ///< Pa s
-  Data fluid_compressibility;    ///< 1/Pa
-  Data initial_aperture;         ///< m
-  Data initial_pressure;         ///< Pa
-  double grown_aperture = 1e-5;  ///< m
+  Data viscosity;              ///< Pa s
+  Data fluid_compressibility;  ///< 1/Pa
+  Data initial_aperture;       ///< m
+  Data initial_pressure;       ///< Pa
+  double grown_aperture = 0;   ///< m
   std::string grown_fluid = "drawn";
   double aperture_floor = 1e-7;  ///< m
   std::string transmissivity = "cubic_law";
