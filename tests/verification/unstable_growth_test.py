@@ -141,17 +141,16 @@ class UnstableGrowth(unittest.TestCase):
         for before, after in zip(grown, grown[1:]):
             for tip in tips:
                 self.assertGreater(after[tip + "K_eq"], before[tip + "K_eq"])
-                self.assertGreater(after[tip + "length"], before[tip + "length"] + INCREMENT)
+                self.assertGreater(after[tip + "length"], before[tip + "length"] + 0.99 * INCREMENT)
         # What is left over of (K^2 - K_IC^2)/E' in the last step, where it is the largest.
         before, after = grown[-2:]
         for tip in tips:
             note = next(note for note in notes if note["topic"] == tip[:-1] + " jumps")
             self.assertIn("growth is unstable", note["text"])
             energy = float(re.search(r"and ([-+.0-9e]+) J/m", note["text"]).group(1))
-            middle = 0.5 * (half_length(before) + half_length(after))
-            excess = (after["fracture_pressure"] - STRESS) ** 2 * math.pi * middle - TOUGHNESS**2
+            excess = 0.5 * (before[tip + "K_eq"] ** 2 + after[tip + "K_eq"] ** 2) - TOUGHNESS**2
             advance = after[tip + "length"] - before[tip + "length"]
-            self.assertAlmostEqual(energy / (excess / MODULUS * advance), 1, delta=0.08)
+            self.assertAlmostEqual(energy / (excess / MODULUS * advance), 1, delta=0.02)
 
     def test_a_wing_that_joins_another_fracture(self):
         (self.folder / "joining.yaml").write_text(JOINING)
