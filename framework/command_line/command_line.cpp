@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <string_view>
+#include <utility>
 
 #include "framework/command_line/completion.hpp"
 #include "framework/command_line/explain_command.hpp"
@@ -87,6 +89,13 @@ void require_command(const CLI::App& app, int argc, char** argv) {
     throw unknown_name({"sprekk", 0, 0}, "command", argv[1], names);
 }
 
+/// After `--restart`, what ends like a scene is one, and no checkpoint: the option moves behind it.
+void let_restart_follow_scenes(int argc, char** argv) {
+  const auto is_scene = [](std::string_view name) { return name.ends_with(".yaml") || name.ends_with(".yml"); };
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::string_view(argv[i]) == "--restart" && is_scene(argv[i + 1])) std::swap(argv[i], argv[i + 1]);
+}
+
 /// Every process has found the wrong input, so the first one tells it; a folder that cannot be written may be known to
 /// the first process only.
 int answer_wrong_input(const InputError& error) {
@@ -148,6 +157,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   } catch (const InputError& error) {
     return answer_wrong_input(error);
   }
+  let_restart_follow_scenes(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

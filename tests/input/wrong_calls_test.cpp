@@ -101,6 +101,10 @@ TEST(Checkpoints, ThatCannotBeContinuedAreRefused) {
   const std::string before = text_of(folder / "done/history.csv");
 
   expect_refused({"run", flow, "-o", "nowhere", "--restart"}, {"there is no such file"}, folder);
+  // Wherever the option stands, a scene is no checkpoint.
+  expect_refused({"run", "--restart", flow, "-o", "nowhere"}, {"there is no such file"}, folder);
+  expect_refused({"run", "-o", "nowhere", "--restart", flow, "--set", "time.step=1 s"}, {"there is no such file"},
+                 folder);
   expect_refused({"run", flow, "--restart", "cut/checkpoint.h5"}, {"cut/checkpoint.h5", "cut short"}, folder);
   expect_refused({"run", flow, "--restart", "text/checkpoint.h5"}, {"text/checkpoint.h5", "not an HDF5 file"}, folder);
   expect_refused({"run", flow, "--restart", "done"}, {"cannot restart from done"}, folder);
