@@ -99,5 +99,17 @@ class GrowthSchemes(unittest.TestCase):
                 self.assertEqual((row[tip + "grows"], row[tip + "speed"]), (0, 0))
 
 
+class RulesOfTheHeldProcedure(unittest.TestCase):
+    def test_they_are_refused(self):
+        for update, option, is_refused in (("within_step", "length=fixed", True), ("within_step", "direction=explicit", True),
+                                           ("after_step", "length=fixed", False), ("within_step", "length=arrest", False)):
+            schedule = f"schedule=[{{solve: [pore, rock, conduit, contact]}}, {{grow: tips, settle: [rock, contact], update: {update}}}]"
+            check = subprocess.run([SPREKK, "check", SCENE, "--set", schedule, "--set", f"components.tips.growth.{option}"],
+                                   capture_output=True, text=True, timeout=60)
+            name, _, value = option.partition("=")
+            self.assertEqual(f"'growth.{name}: {value}' has no meaning" in check.stderr, is_refused, check.stderr)
+            self.assertEqual(check.returncode != 0, is_refused)
+
+
 if __name__ == "__main__":
     unittest.main()

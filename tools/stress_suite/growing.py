@@ -121,7 +121,8 @@ def write(p, path):
     tensor = lambda k: f"{{along: {k[0]!r} m^2, across: {k[0] / k[1]!r} m^2, angle: {k[2]!r} deg}}"
     by_region = lambda values, unit="": f"{{regions: {{layer: {values[1]!r}{unit}, default: {values[0]!r}{unit}}}}}"
     rates = ", ".join(f"{{value: {rate!r} m^2/s, from: {first!r} s, to: {last!r} s}}" for rate, first, last in p["source"])
-    growth = f"{{increment: {0.8 * p['fracture_size']:.6g}{', length: fixed' if p['length_rule'] == 'fixed' else ''}}}"
+    whole = p["length_rule"] == "fixed" and p["update"] != "within_step"  # which finds lengths itself
+    growth = f"{{increment: {0.8 * p['fracture_size']:.6g}{', length: fixed' if whole else ''}}}"
     boundary = f", boundary: {{left: {{pressure: {p['initial']!r} Pa}}}}" if p["open_side"] else ""
     text = [f"name: growing_{p['number']}", "geometry:", f"  box: {{x: [0, {SIDE}], y: [0, {SIDE}]}}", "  fractures:",
             *(f"    {name}: {{points: {corners(line)}}}" for name, line in p["lines"].items()),

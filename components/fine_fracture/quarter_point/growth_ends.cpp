@@ -62,6 +62,25 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
 
 void Tips::note_step(Notes& notes, const StepTime&) const {
   for (const EndNote& note : notes_) notes.add(note.topic, note.text, note.measure);
+  if (!options_.toughness) return;
+  for (const Tip& tip : tips_) note_shear(tip, notes);
+}
+
+/// Where walls touch at the tip of a wing they carry the load, and K_I = 0; those of the fine level are open there.
+void Tips::note_shear(const Tip& tip, Notes& notes) const {
+  constexpr double near = 0.9;  // to growth
+  const Sifs &sifs = tip.now.sifs, touching{0, sifs.k2, sifs.t_stress};
+  const double load = equivalent_sif(touching) / *options_.toughness;
+  if (!tip.now.has_started || !tip.now.is_evaluated || tip.now.is_stopped || sifs.k1 > 0 || load < near) return;
+  const std::string name = this->name() + "." + tip.name;
+  notes.add(
+      name + " is closed and sheared",
+      fmt::format("{} is closed and sheared, with K_I = {:.3g} and K_II = {:.3g} of the toughness: where walls touch "
+                  "K_I is 0, and K_eq/K_IC = {:.3g} instead of {:.3g}; from there it turns out of its plane (Eq. 12 "
+                  "of the paper), growth in its plane by shear is not modelled",
+                  name, sifs.k1 / *options_.toughness, sifs.k2 / *options_.toughness, load,
+                  equivalent_sif(sifs) / *options_.toughness),
+      load);
 }
 
 void Tips::stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes) {

@@ -11,7 +11,7 @@
 namespace sprekk::fine_fracture {
 
 Tips::Tips(const ComponentContext& context, const TipsOptions& options)
-    : Component(context.name), mesh_(context.mesh), options_(options) {
+    : Component(context.name), mesh_(context.mesh), origin_(context.origin), options_(options) {
   for (const TipEnd& end : all_ends(mesh_)) {
     if (kind_of(mesh_, end) == FracturePoint::Kind::junction) joints_.push_back({end, name_of(mesh_, end)});
     if (kind_of(mesh_, end) != FracturePoint::Kind::tip) continue;
@@ -86,6 +86,7 @@ Growing::Load Tips::examine(const StepTime& step) {
       set_factors(tip, evaluate(i, paths));
       tip.evaluated_for = surroundings_->version();
     }
+    if (turns_sharply(tip)) tip.now.is_extendable = false;
     // At the end of an increment the load is 1 within a tolerance; the tip must not grow again for that difference.
     if (is_followed(tip)) continue;
     const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
@@ -96,6 +97,22 @@ Growing::Load Tips::examine(const StepTime& step) {
     loads.onset_accepted = std::max(loads.onset_accepted, tip.accepted.load);
   }
   return loads;
+}
+
+void Tips::grow_within_steps() {
+  for (const auto& [is_wrong, option] : {std::pair(!options_.growth.seeks_arrest(), "'growth.length: fixed'"),
+                                         std::pair(!options_.growth.is_implicit(), "'growth.direction: explicit'")})
+    if (is_wrong)
+      throw InputError(origin_, std::string(option) + " has no meaning with growth within steps",
+                       "lengths and directions follow from K_eq = K_IC and K_II = 0 at the end of each step",
+                       "leave it out, or choose 'update: after_step'");
+  grows_within_steps_ = true;
+}
+
+bool Tips::turns_sharply(const Tip& tip) const {
+  constexpr double sharp = 0.5;  // rad
+  return tip.now.is_extendable && tip.now.is_evaluated && tip.now.load > 1 && tip.taken_over != examined_ &&
+         std::abs(maximum_tangential_angle(tip.now.sifs)) > sharp;
 }
 
 bool Tips::is_near(const Tip& tip, const Tip& other) const {
@@ -254,6 +271,7 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
       if (!is_same(same.end, tip.end)) continue;
       tip.now = same.now;
       tip.length_at_start = same.length_at_start;
+      tip.taken_over = same.taken_over;
       tip.pattern = same.pattern;
       tip.topology = same.topology;
       // The path is dropped here and not when it is handed over: a mesh that cannot take it would lose it.
@@ -261,6 +279,7 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
       if (taken > 0) {
         tip.now.grown += taken;
         tip.now.is_extendable = grows_within_steps_;
+        tip.taken_over = examined_;
         tip.now.path.added.clear();
       }
       tip.accepted = tip.now;

@@ -54,7 +54,7 @@ class Tips : public Component, public FractureTips, public Growing {
 
   Load examine(const StepTime& step) override;
   Growth grow(const StepTime& step) override;
-  void grow_within_steps() override { grows_within_steps_ = true; }
+  void grow_within_steps() override;
   std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) override;
   std::vector<PendingPath> pending_paths() const override;
   CavityOptions cavity() const override;
@@ -86,7 +86,8 @@ class Tips : public Component, public FractureTips, public Growing {
     std::string name;
     double coarse_size;  ///< m, Delta H: the length of the original cell at this end
     State now, accepted;
-    double length_at_start = 0;  ///< m, what had grown at the start of the step that was examined last
+    double length_at_start = 0;        ///< m, what had grown at the start of the step that was examined last
+    std::optional<double> taken_over;  ///< s, start of the step in which the mesh took growth over last
     /// The factors for `model`, `domain` and one state of the coarse level.
     struct KeptFactors {
       std::uint64_t version;  ///< of the surroundings
@@ -138,6 +139,7 @@ class Tips : public Component, public FractureTips, public Growing {
   double load(const Sifs& sifs) const;
   void set_factors(Tip& tip, const Sifs& sifs) const;
   void note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined);
+  void note_shear(const Tip& tip, Notes& notes) const;
   /// Stops tips whose path the mesh cannot take: they stay for good where they were at the start of the step.
   void stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes);
   /// Whether the path of a tip is so long that the mesh follows it.
@@ -146,6 +148,8 @@ class Tips : public Component, public FractureTips, public Growing {
   bool is_followed(const Tip& tip) const {
     return grows_within_steps_ && (tip.now.is_extendable || is_long_enough(tip, tip.now.path));
   }
+  /// Whether the path of a tip turns so sharply that it begins anew at the tip: what has parted stays where it is.
+  bool turns_sharply(const Tip& tip) const;
   /// The longest path that a tip may have in the fine level alone, m.
   double longest_path(const Tip& tip) const;
   /// Whether an increment of the other tip affects this tip at once; farther increments do so from the next step on.
@@ -165,6 +169,7 @@ class Tips : public Component, public FractureTips, public Growing {
   bool continues_elsewhere(const FracturePoint& point) const;
 
   const Mesh& mesh_;
+  Origin origin_;  ///< of the component in the scene
   TipsOptions options_;
   TipSurroundings* surroundings_ = nullptr;
   std::vector<Tip> tips_;
