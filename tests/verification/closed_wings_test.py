@@ -124,5 +124,36 @@ class ClosedWings(unittest.TestCase):
         self.assertTrue(any("closed and sheared" in note["topic"] and "is not modelled" in note["text"] for note in self.notes))
 
 
+class WithinSteps(unittest.TestCase):
+    def test_a_sheared_wing_at_rest_leaves_what_has_parted_where_it_is(self):
+        changes = """
+components: {conduit: {injection: {well: {rate: [{value: 1.5e-9 m^2/s, from: 0 s, to: 985 s}, {value: -8.0e-10 m^2/s, from: 985 s, to: 4000 s}]}}},
+  rock: {boundary: {right: {normal_stress: "(t < 5400 ? -10 : -10 - 8*(t-5400)/1800) MPa"}}}}
+couplers: [{type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]},
+  {type: two_level, between: [rock, conduit, tips], propagation_threshold: 0.25}]
+schedule: [{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: within_step}]
+"""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "scene.yaml").write_text(SCENE)
+            (folder / "within.yaml").write_text(changes)
+            run = subprocess.run([SPREKK, "run", "-q", folder / "scene.yaml", folder / "within.yaml", "-o", folder / "out"],
+                                 capture_output=True, text=True, timeout=100)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with open(folder / "out/history.csv") as file:
+                rows = [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
+        last, tip = rows[-1], TIPS[1]  # the one that has grown before
+        before = next(row for row in rows if row["time"] == 5400)
+        self.assertGreater(before[tip + "length"], 0.005)
+        self.assertGreater(last[tip + "length"], before[tip + "length"] + 1e-3)
+        self.assertEqual(last[tip + "grows"], 1)
+        self.assertAlmostEqual(last[tip + "K_eq"] / TOUGHNESS, 1, delta=2e-7)
+        self.assertLess(abs(last[tip + "K_II"]), 2e-6 * last[tip + "K_I"])
+        # The wing goes on from where it was: its advance is the way between the two places.
+        way = [last[tip + c] - before[tip + c] for c in "xy"]
+        self.assertAlmostEqual(math.hypot(*way) / (last[tip + "length"] - before[tip + "length"]), 1, delta=0.02)
+        self.assertAlmostEqual(abs(math.atan2(way[1], way[0]) - ANGLE), math.radians(70), delta=0.12)
+
+
 if __name__ == "__main__":
     unittest.main()
