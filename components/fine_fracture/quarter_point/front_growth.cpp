@@ -16,7 +16,7 @@ namespace {
 
 constexpr double full_segment = 1;       ///< of an increment: a longer segment is divided
 constexpr double rest_of_segment = 0.5;  ///< of an increment: what of a divided segment is laid anew
-constexpr double longest_advance = 1;    ///< of an increment, in one step
+constexpr double longest_advance = 1.5;  ///< of an increment, in one step
 constexpr double on_the_way = 1e-6;      ///< of an increment: a place of a tip nearer to the anchor is at the anchor
 constexpr double shorter_step = 0.5;     ///< the next attempt at a step that is too long
 
