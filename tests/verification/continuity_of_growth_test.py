@@ -28,7 +28,7 @@ schedule:
     settle: [rock, contact]
     update: within_step
 mesh: {size: 0.4 m, fracture_size: 20 mm, growth: 0.5}
-time: {end: 4 h}
+time: {end: 5 h}
 output: {fields: false}
 """
 
