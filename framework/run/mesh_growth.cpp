@@ -1,9 +1,11 @@
 #include "framework/run/mesh_growth.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "framework/invariants.hpp"
+#include "framework/linear/direct/kept_orderings.hpp"
 #include "framework/remeshing/move_tips.hpp"
 #include "framework/scene/change_mesh.hpp"
 
@@ -36,11 +38,36 @@ MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
   return Outcome::changed;
 }
 
+StepStatus MeshGrowth::attempt(const StepTime& step) {
+  const std::vector<GrowStep*>& growing = model_->growing();
+  // The shortest step may end in a jump, which begins from the step without growth.
+  if (growing.size() == 1 && growing[0]->grows_within_step() && growing[0]->may_shrink(step) &&
+      growing[0]->component().grows_on()) {
+    const std::unique_ptr<FrontSearch> search = growing[0]->component().search_front(step, true, true);
+    was_left_out_ = false;
+    const StepStatus status = search ? search_front(0, *search, step) : StepStatus{};
+    if (search && !was_left_out_) return status;
+    model_->rewind();
+  }
+  const StepStatus status = model_->attempt(step);
+  return status.converged ? find_front(step, status) : status;
+}
+
+double MeshGrowth::longest_step() const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const GrowStep* grow : model_->growing()) {
+    if (!grow->grows_within_step()) continue;
+    const double smallest = grow->options().cut * model_->scene().time.step;  // as GrowStep::may_shrink
+    longest = std::min(longest, std::max(smallest, grow->component().longest_step()));
+  }
+  return longest;
+}
+
 StepStatus MeshGrowth::find_front(const StepTime& step, const StepStatus& without_growth) {
   for (std::size_t i = 0; i < model_->growing().size(); ++i) {
     const GrowStep& grow = *model_->growing()[i];
     if (!grow.grows_within_step() || !grow.was_run(step)) continue;
-    const std::unique_ptr<FrontSearch> search = grow.component().search_front(step, grow.may_shrink(step));
+    const std::unique_ptr<FrontSearch> search = grow.component().search_front(step, grow.may_shrink(step), false);
     if (search) return search_front(i, *search, step);
   }
   return without_growth;
@@ -72,6 +99,7 @@ GrownMesh MeshGrowth::trial_mesh(std::optional<TrialMesh>& made, std::size_t gro
 StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, const StepTime& step) {
   const double time = step.start, standard = model_->scene().time.step;
   model_->rewind();
+  const KeptOrderings kept_orderings;  // the trial meshes have one topology
   std::optional<TrialMesh> made;
   for (;;) {
     ++trials_;
@@ -100,6 +128,11 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
     if (!status.converged) {
       if (!grown) model_->rewind();
       if (search.retreat()) continue;
+      return status;
+    }
+    was_left_out_ = !trial->growing()[grow_step]->was_run(step);
+    if (was_left_out_) {
+      if (grown && retire_) retire_(*grown, nullptr);
       return status;
     }
     const FrontSearch::Verdict verdict = search.learn(trial->growing()[grow_step]->component(), step);

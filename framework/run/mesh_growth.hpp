@@ -28,11 +28,12 @@ class MeshGrowth {
   /// To be called after a step that has converged, before it is accepted. `changed`: the step is to be repeated on the
   /// new mesh (GrowStep::repeats_step).
   Outcome before_acceptance();
-  /// To be called after a step has been solved without growth, where growth belongs to the step (GrowStep::
-  /// grows_within_step): finds the advance of the tips in the state at the end of the step. The model then is at the
-  /// end of the step on the mesh with this advance; otherwise, or where nothing grows, it is as it was. Returns the
-  /// status of the step.
-  StepStatus find_front(const StepTime& step, const StepStatus& without_growth);
+  /// Solves a step. Where growth belongs to it (GrowStep::grows_within_step), finds the advance of the tips in the
+  /// state at the end of the step: the model then is at the end of the step on the mesh with this advance. Returns the
+  /// status of the step; without convergence the model is not rewound.
+  StepStatus attempt(const StepTime& step);
+  /// s, the longest step in which the growth of the last one would be followed; infinity where nothing grew.
+  double longest_step() const;
   /// To be called after a step that has been accepted. The mesh takes growth over, and steps are held small until the
   /// state has settled.
   Outcome after_acceptance();
@@ -49,6 +50,7 @@ class MeshGrowth {
     GrownMesh mesh;
   };
   GrownMesh trial_mesh(std::optional<TrialMesh>& made, std::size_t grow_step, const std::vector<PathExtension>& paths);
+  StepStatus find_front(const StepTime& step, const StepStatus& without_growth);
   StepStatus search_front(std::size_t grow_step, FrontSearch& search, const StepTime& step);
 
   std::unique_ptr<Model>& model_;
@@ -60,6 +62,7 @@ class MeshGrowth {
   long changes_ = 0, trials_ = 0;
   double smallest_angle_ = above_all_triangles;
   int passes_ = 0;
+  bool was_left_out_ = false;  ///< by a `when`: growth in the trial that was solved last
 };
 
 }  // namespace sprekk

@@ -12,7 +12,7 @@ namespace sprekk {
 
 StepAttempts::Outcome StepAttempts::run() {
   for (bool has_grown = false;;) {
-    step_ = state_.controller.next();
+    step_ = next_step();
     progress_.phase(fmt::format("step {} from {} over {}", state_.controller.steps() + 1, duration_text(step_.start),
                                 duration_text(step_.dt)));
     // On a mesh that has grown within the step the attempt must come to its end: a restart would not know of the
@@ -35,8 +35,7 @@ std::optional<StepAttempts::Outcome> StepAttempts::attempt(bool may_be_interrupt
     const ScopedTimer timer(profile_, "steps");
     std::optional<interruption::Allowed> allowed;
     if (may_be_interrupted) allowed.emplace();
-    status_ = state_.model->attempt(step_);
-    if (status_.converged) status_ = growth_.find_front(step_, status_);
+    status_ = growth_.attempt(step_);
     return std::nullopt;
   } catch (const DataError& error) {
     return give_up(name() + " has no data: " + error.what());
@@ -62,6 +61,16 @@ MeshGrowth::Outcome StepAttempts::follow_growth() {
   return outcome;
 }
 
+/// The step that is due, unless growth at the speed of the last one needs a shorter one.
+StepTime StepAttempts::next_step() const {
+  StepTime step = state_.controller.next();
+  if (const double longest = growth_.longest_step(); longest < step.dt) {
+    step.dt = longest;
+    step.end = step.start + step.dt;
+  }
+  return step;
+}
+
 /// False when the step is as small as allowed.
 bool StepAttempts::cut() {
   state_.model->rewind();
@@ -73,7 +82,7 @@ bool StepAttempts::cut() {
     reason_ += " (the step is as small as allowed)";
     return false;
   }
-  const std::string next = duration_text(state_.controller.next().dt);
+  const std::string next = duration_text(next_step().dt);
   progress_.event(has_failed ? fmt::format("step cut: {}; again over {}", reason_, next)
                              : fmt::format("step from {} shortened from {} to {}: {}", duration_text(step_.start),
                                            duration_text(step_.dt), next, status_.reason));

@@ -33,6 +33,7 @@ class StepAttempts {
  private:
   /// Makes one attempt and sets the status. Returns the outcome of the step when no other attempt is to follow.
   std::optional<Outcome> attempt(bool may_be_interrupted);
+  StepTime next_step() const;
   MeshGrowth::Outcome follow_growth();
   bool cut();
   Outcome give_up(const std::string& why);

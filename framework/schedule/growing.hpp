@@ -67,11 +67,17 @@ class Growing {
   virtual Growth grow(const StepTime& step) = 0;
   /// To be called once, where growth is to be found within steps (search_front) as far as the mesh can follow it.
   virtual void grow_within_steps() = 0;
-  /// The search for growth within a step that has been solved without growth (examine() has been called), or none when
-  /// no tip is to grow. The search remembers what it needs of the present state; it must not outlive this component.
-  /// Where the step may not become shorter, growth that is too far or not found to the last digit is taken, with a
-  /// note.
-  virtual std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) = 0;
+  /// Whether tips that grew in the last step are to be taken to grow in this one, so that it need not be solved without
+  /// growth first.
+  virtual bool grows_on() const = 0;
+  /// s, the longest step over which growth at the speed of the last one is followed; infinity where nothing grew.
+  virtual double longest_step() const = 0;
+  /// The search for growth within a step, or none when no tip is to grow. `goes_on`: the present state is that at the
+  /// start of the step, and tips that grew in the last step grow in the first trial (grows_on()); otherwise the step
+  /// has been solved without growth, and examine() has been called. The search remembers what it needs of the present
+  /// state; it must not outlive this component. Where the step may not become shorter, growth that is too far or not
+  /// found to the last digit is taken, with a note.
+  virtual std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink, bool goes_on) = 0;
   /// The paths that the mesh has not taken over yet, in the current state.
   virtual std::vector<PendingPath> pending_paths() const { return {}; }
   /// How the mesh changes around a path that it takes over.

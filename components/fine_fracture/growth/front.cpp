@@ -18,6 +18,12 @@ constexpr double first_slope = -0.3;          ///< of ln K_eq over one increment
 constexpr double shared_slope = -0.2;         ///< the same by the growth of another tip
 constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one tells no slope between two meshes
 constexpr double first_part = 0.25;           ///< of an increment: the first trial of a tip without a known speed
+constexpr double least_fresh = 0.1;           ///< of a move: what is left of it across earlier ones, to learn from
+constexpr double gain = 0.5;                  ///< of the norm of the best trial: what counts as progress
+constexpr int patience = 8;                   ///< trials without progress
+constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
+constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
+constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
 constexpr double largest_turn = 0.3;          ///< rad, between two trials
 constexpr double largest_factor = 3;          ///< between lengths of a new segment in two trials
 constexpr double largest_advance = 0.6;       ///< of an increment, between two trials
@@ -52,11 +58,20 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
     length_[i] = tips_[i].covered;
     angle_[i] = tips_[i].angle;
   }
-  make_jacobian(slopes);
+  make_jacobian();
   for (int i = 0; i < count(); ++i)
-    if (tips_[i].first_length > 0 || (without_growth[i].is_evaluated && without_growth[i].load > 1))
+    if (tips_[i].goes_on || tips_[i].first_length > 0 || (without_growth[i].is_evaluated && without_growth[i].load > 1))
       begin(i, without_growth[i]);
   if (!any_grows()) verdict_ = Verdict::found;
+  if (slopes.rows() == 2 * count()) {
+    is_experienced_ = true;
+    jacobian_ = slopes;
+    std::vector<double> factor(count(), turn_slope);
+    for (int i = 0; i < count(); ++i)
+      if (grows_[i]) factor[i] = turn_slope_of(without_growth[i].sifs, length_[i]);
+    scale_turns(jacobian_, factor);
+    return;
+  }
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) set_turn_slope(i, without_growth[i].sifs);
   if (!learns_from_start()) return;
@@ -73,7 +88,7 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
 bool Front::learns_from_start() const {
   double longest = 0;
   for (int i = 0; i < count(); ++i) {
-    if (grows_[i] && is_new(i)) return false;
+    if (tips_[i].goes_on || (grows_[i] && is_new(i))) return false;
     longest = std::max(longest, length_[i] - tips_[i].covered);
   }
   return longest > least_first_advance * options_.increment;
@@ -112,6 +127,7 @@ void Front::begin(int i, const FrontState& state) {
   if (!is_new(i)) {
     const double expected = tip.speed > 0 ? tip.speed * dt_ : first_part * options_.increment;
     length_[i] = std::min(tip.longest, tip.covered + std::min(expected, options_.increment));
+    angle_[i] = tip.angle + std::clamp(tip.turning * (length_[i] - tip.covered), -largest_turn, largest_turn);
     return;
   }
   // The longest kink at whose end K_eq has not come down to the toughness, as long as the loads stay.
@@ -136,30 +152,39 @@ void Front::begin(int i, const FrontState& state) {
 }
 
 /// By the expansion of a kink: compression along the tip makes the direction of long segments stiffer.
-void Front::set_turn_slope(int i, const Sifs& sifs) {
-  if (!(sifs.k1 > 0)) return;
-  const double slope =
-      turn_slope - 2 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length_[i]) / sifs.k1;
-  jacobian_(2 * i + 1, 2 * i + 1) = std::clamp(slope, least_turn_slope, steepest_turn_slope);
+double Front::turn_slope_of(const Sifs& sifs, double length) {
+  if (!(sifs.k1 > 0)) return turn_slope;
+  const double slope = turn_slope - 2 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) / sifs.k1;
+  return std::clamp(slope, least_turn_slope, steepest_turn_slope);
 }
 
-void Front::make_jacobian(const Eigen::MatrixXd& slopes) {
+void Front::set_turn_slope(int i, const Sifs& sifs) {
+  jacobian_(2 * i + 1, 2 * i + 1) = turn_slope_of(sifs, length_[i]);
+}
+
+void Front::make_jacobian() {
   jacobian_ = Eigen::MatrixXd::Zero(2 * count(), 2 * count());
   for (int i = 0; i < count(); ++i) {
-    for (int j = 0; j < count(); ++j) {
-      const bool is_known = slopes.rows() == count() && slopes(i, j) != 0;
-      jacobian_(2 * i, 2 * j) = is_known ? slopes(i, j) * options_.increment
-                                : i == j ? first_slope + shared_slope
-                                         : shared_slope;
-    }
+    for (int j = 0; j < count(); ++j) jacobian_(2 * i, 2 * j) = i == j ? first_slope + shared_slope : shared_slope;
     jacobian_(2 * i + 1, 2 * i + 1) = turn_slope;
   }
 }
 
+void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<double>& factor) {
+  for (int i = 0; i < jacobian.rows(); ++i)
+    for (int j = 0; j < jacobian.cols(); ++j)
+      if (j % 2 == 1)
+        jacobian(i, j) *= factor[j / 2];
+      else if (i % 2 == 1)
+        jacobian(i, j) *= factor[i / 2];
+}
+
 Eigen::MatrixXd Front::slopes() const {
-  Eigen::MatrixXd slopes(count(), count());
+  std::vector<double> factor(count(), 1 / turn_slope);
   for (int i = 0; i < count(); ++i)
-    for (int j = 0; j < count(); ++j) slopes(i, j) = jacobian_(2 * i, 2 * j) / options_.increment;
+    if (grows_[i] && last_[i].is_evaluated) factor[i] = 1 / turn_slope_of(last_[i].sifs, length_[i]);
+  Eigen::MatrixXd slopes = jacobian_;
+  scale_turns(slopes, factor);
   return slopes;
 }
 
@@ -181,13 +206,23 @@ Eigen::VectorXd Front::place() const {
   return values;
 }
 
-/// Broyden's update in the unknowns that were changed.
+/// Broyden's update in the unknowns that were changed, projected: what was learnt from other moves of this step stays.
 void Front::update_jacobian(const Eigen::VectorXd& residual) {
-  if (before_place_.size() == 0) return;
-  const Eigen::VectorXd moved = place() - before_place_, change = residual - before_residual_;
-  const double square = moved.squaredNorm();
-  if (square == 0) return;
-  jacobian_ += (change - jacobian_ * moved) * moved.transpose() / square;
+  if (before_place_.size() == 0) {
+    learnt_.clear();
+    return;
+  }
+  const Eigen::VectorXd moved = place() - before_place_;
+  if (moved.squaredNorm() == 0) return;
+  Eigen::VectorXd fresh = moved;
+  for (const Eigen::VectorXd& direction : learnt_) fresh -= fresh.dot(direction) * direction;
+  if (fresh.norm() < least_fresh * moved.norm()) {
+    learnt_.clear();
+    fresh = moved;
+  }
+  const Eigen::VectorXd missed = residual - before_residual_ - jacobian_ * moved;
+  jacobian_ += missed * fresh.transpose() / fresh.dot(moved);
+  learnt_.push_back(fresh.normalized());
 }
 
 void Front::learn(const std::vector<FrontState>& states) {
@@ -214,12 +249,44 @@ void Front::learn(const std::vector<FrontState>& states) {
     verdict_ = Verdict::found;
     return;
   }
-  if (trials_ >= options_.most_trials) {
+  const Eigen::VectorXd from = return_to_best(found);
+  if (trials_ >= options_.most_trials || trials_ - last_gain_ >= patience) {
     verdict_ = Verdict::failed;
     reason_ = "the advance of the tips was not found";
     return;
   }
-  step(found);
+  step(from);
+}
+
+/// After a trial that is much worse than the best one, the experience of an earlier search is dropped, or else the next
+/// step is shorter.
+Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
+  double norm = 0;
+  for (int i = 0; i < count(); ++i)
+    if (grows_[i]) norm = std::max({norm, std::abs(residual[2 * i]), of_direction * std::abs(residual[2 * i + 1])});
+  if (!best_ || norm <= much_worse * best_->norm) {
+    if (!best_ || norm < gain * best_->norm) last_gain_ = trials_;
+    if (!best_ || norm < best_->norm) best_ = Best{place(), residual, norm};
+    part_ = 1;
+    return residual;
+  }
+  if (is_experienced_) {
+    make_jacobian();
+    for (int i = 0; i < count(); ++i)
+      if (grows_[i] && last_[i].is_evaluated) set_turn_slope(i, last_[i].sifs);
+    is_experienced_ = false;
+    learnt_.clear();
+    before_place_ = best_->place;
+    before_residual_ = best_->residual;
+    update_jacobian(residual);
+  } else {
+    part_ *= shorter;
+  }
+  for (int i = 0; i < count(); ++i) {
+    length_[i] = best_->place[2 * i] * options_.increment;
+    angle_[i] = best_->place[2 * i + 1];
+  }
+  return best_->residual;
 }
 
 /// Lets tips above the toughness grow. Whether one of them was not in the last trial: then a trial with the new set
@@ -227,6 +294,7 @@ void Front::learn(const std::vector<FrontState>& states) {
 bool Front::free_tips(const Eigen::VectorXd& residual) {
   for (int i = 0; i < count(); ++i) {
     if (grows_[i] || is_stopped_[i] || !last_[i].is_evaluated || residual[2 * i] <= options_.load_tolerance) continue;
+    best_.reset();
     if (is_laid_[i]) {
       grows_[i] = 1;
       continue;
@@ -255,7 +323,7 @@ void Front::step(const Eigen::VectorXd& residual) {
     for (int b = 0; b < size; ++b) matrix(a, b) = jacobian_(free[a], free[b]);
   }
   Eigen::VectorXd move = matrix.fullPivLu().solve(right);
-  double part = 1;
+  double part = part_;
   for (int a = 0; a < size; a += 2) {
     const int i = free[a] / 2;
     if (!std::isfinite(move[a]) || !std::isfinite(move[a + 1]))
@@ -283,6 +351,7 @@ void Front::step(const Eigen::VectorXd& residual) {
       length_[i] = tips_[i].covered + (is_unstable ? first_part * options_.increment : 0);
       angle_[i] = tips_[i].angle;
       grows_[i] = is_unstable;
+      best_.reset();
     } else {
       length_[i] = wanted;
     }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct FrontTip {
   double longest = 0;            ///< m, most that the segment may become in this step
   double least = 0;              ///< m, of a new segment: what has parted in earlier steps does not heal
   double speed = 0;              ///< m/s, of the last step; 0 where the tip did not grow
+  double turning = 0;            ///< rad/m, of the segment by its growth in the last step
+  bool goes_on = false;          ///< grows in the first trial, whatever its load
   /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
   double first_length = 0, first_angle = 0;
 };
@@ -43,7 +46,8 @@ struct FrontOptions {
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
 ///   K_eq = K_IC and K_II = 0 at tips that grow,    K_eq <= K_IC at tips that do not,
-/// by Broyden's method (Math. Comput. 19 (1965) 577) for the tips that grow; which do is decided anew after each trial.
+/// by Broyden's method (Math. Comput. 19 (1965) 577), projected (Gay and Schnabel, Nonlin. Progr. 3 (1978) 245), for
+/// the tips that grow; which do is decided anew after each trial.
 /// Of several solutions it seeks the one next to the start of the step.
 ///
 ///   Front front(…, states of the trial without growth, …);
@@ -52,7 +56,8 @@ class Front {
  public:
   /// What follows from the last trial: another one, the end, or why there is none.
   enum class Verdict { again, found, too_far, failed };
-  /// `slopes`: d ln K_eq/d length between tips, 1/m, of an earlier step, or an empty matrix.
+  /// `without_growth`: of the step without growth; for tips that go on that at its start. `slopes`: what an earlier
+  /// search has learnt (see slopes()), or an empty matrix.
   Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_growth, const FrontOptions& options,
         double dt, const Eigen::MatrixXd& slopes = {});
 
@@ -74,7 +79,8 @@ class Front {
   int trials() const { return trials_; }
   double worst() const { return worst_; }  ///< the largest |ln(K_eq/K_IC)| of growing tips in the last trial
   const std::string& reason() const { return reason_; }
-  /// d ln K_eq/d length between tips, 1/m, as it was learnt; for the next step.
+  /// The derivative of (ln(K_eq/K_IC), K_II/K_I) by (length/increment, angle), per tip, as it was learnt, without the
+  /// part that depends on the length of the segment that turns; for the next step.
   Eigen::MatrixXd slopes() const;
 
  private:
@@ -84,11 +90,17 @@ class Front {
   void begin(int tip, const FrontState& state);
   void set_turn_slope(int tip, const Sifs& sifs);
   bool learns_from_start() const;
-  void make_jacobian(const Eigen::MatrixXd& slopes);
+  void make_jacobian();
+  /// Multiplies what depends on how a segment turns by a factor for each tip.
+  static void scale_turns(Eigen::MatrixXd& jacobian, const std::vector<double>& factor);
+  /// d(K_II/K_I)/d angle of a segment of this length (m), by the expansion of a kink.
+  static double turn_slope_of(const Sifs& sifs, double length);
   Eigen::VectorXd residual(const std::vector<FrontState>& states) const;
   Eigen::VectorXd place() const;
   void update_jacobian(const Eigen::VectorXd& residual);
   bool free_tips(const Eigen::VectorXd& residual);
+  /// The residual to go on from: that of the last trial, or of the best one if the last was much worse.
+  Eigen::VectorXd return_to_best(const Eigen::VectorXd& residual);
   void step(const Eigen::VectorXd& residual);
 
   std::vector<FrontTip> tips_;
@@ -99,8 +111,17 @@ class Front {
   std::vector<FrontState> last_;
   Eigen::MatrixXd jacobian_;  ///< of (ln(K_eq/K_IC), K_II/K_I) by (length/increment, angle), per tip
   Eigen::VectorXd before_place_, before_residual_;
+  std::vector<Eigen::VectorXd> learnt_;  ///< orthonormal: the directions in which the Jacobian is that of this step
+  /// The best trial so far with the tips that grow now.
+  struct Best {
+    Eigen::VectorXd place, residual;
+    double norm;
+  };
+  std::optional<Best> best_;
+  bool is_experienced_ = false;  ///< whether the Jacobian comes from an earlier search
+  double part_ = 1;              ///< of steps, smaller after trials that were worse
   Verdict verdict_ = Verdict::again;
-  int trials_ = 0;
+  int trials_ = 0, last_gain_ = 0;
   double worst_ = 0;
   std::string reason_;
 };

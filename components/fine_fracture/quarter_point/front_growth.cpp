@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/fine_fracture/growth/front.hpp"
 #include "components/fine_fracture/growth/jump.hpp"
@@ -18,6 +19,7 @@ constexpr double full_segment = 1;       ///< of an increment: a longer segment 
 constexpr double rest_of_segment = 0.5;  ///< of an increment: what of a divided segment is laid anew
 constexpr double longest_advance = 1.5;  ///< of an increment, in one step
 constexpr double on_the_way = 1e-6;      ///< of an increment: a place of a tip nearer to the anchor is at the anchor
+constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
 constexpr double shorter_step = 0.5;     ///< the next attempt at a step that is too long
 
 double angle_of(const Point& direction) { return std::atan2(direction[1], direction[0]); }
@@ -27,7 +29,7 @@ double angle_of(const Point& direction) { return std::atan2(direction[1], direct
 /// The search for the tips of one model. The model may be rewound meanwhile.
 class TipsFront : public FrontSearch {
  public:
-  TipsFront(Tips& tips, const StepTime& step, bool may_shrink);
+  TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goes_on);
 
   bool is_needed() const { return !paths_.empty(); }
   const std::vector<PathExtension>& paths() const override { return paths_; }
@@ -73,6 +75,7 @@ class TipsFront : public FrontSearch {
   std::string reason_;
   double dt_;
   bool may_shrink_;
+  bool goes_on_;  ///< tips that grew in the last step do so in the first trial: the step has not been solved without
 };
 
 FrontState TipsFront::state_of(const Tips& tips, const Tips::Tip& tip) {
@@ -80,8 +83,8 @@ FrontState TipsFront::state_of(const Tips& tips, const Tips::Tip& tip) {
   return {tip.now.sifs, tip.now.load, tip.now.is_evaluated};
 }
 
-TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink)
-    : tips_(tips), dt_(step.dt), may_shrink_(may_shrink) {
+TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goes_on)
+    : tips_(tips), dt_(step.dt), may_shrink_(may_shrink), goes_on_(goes_on) {
   for (Tips::Tip& tip : tips_.tips_) add(tip);
   find_joinings();
   options_.increment = tips_.options_.growth.increment;
@@ -101,6 +104,8 @@ void TipsFront::add(Tips::Tip& tip) {
   start.angle = angle_of(ahead);
   start.toughness = *tips_.options_.toughness;
   start.speed = tip.now.speed;
+  start.turning = tip.now.turning;
+  start.goes_on = goes_on_ && tip.now.is_extendable && !tip.now.is_stopped && tip.now.speed > 0;
   if (tip.now.is_extendable) {
     start.covered = tips_.last_cell(tip.end).measure;
     segment.replaced = 1;
@@ -121,7 +126,7 @@ void TipsFront::add(Tips::Tip& tip) {
     start.least = (tips_.position(tip, tip.accepted.path) - end).norm();
   }
   // A tip that is at another fracture or at the boundary grows no more by increments.
-  const bool wants = start.first_length > 0 || state.load > 1;
+  const bool wants = start.goes_on || start.first_length > 0 || state.load > 1;
   const double reach = start.first_length + longest_advance * increment;
   const double free = wants ? tips_.free_distance(tip, {}, end + reach * ahead) : reach;
   is_blocked_.push_back(wants && state.is_evaluated &&
@@ -129,6 +134,7 @@ void TipsFront::add(Tips::Tip& tip) {
   if (is_blocked_.back()) {
     state.is_evaluated = false;
     start.first_length = 0;
+    start.goes_on = false;
   }
   start.longest = start.covered + std::min(reach, free);
   at_start_.push_back(start);
@@ -301,19 +307,43 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
-    same->now.speed = (same->now.grown - tips_.tips_[i].now.grown) / dt_;
+    // A path that the fine level had found before this step is no growth in it.
+    const double grown = same->now.grown - tips_.tips_[i].now.grown - at_start_[i].first_length;
+    same->now.speed = std::max(0.0, grown) / dt_;
+    const double advance = front_->length(static_cast<int>(i)) - at_start_[i].covered;
+    same->now.turning = !jump_ && at_start_[i].covered > 0 && advance > 0
+                            ? (front_->angle(static_cast<int>(i)) - at_start_[i].angle) / advance
+                            : 0;
     same->now.way = way_to(there, *same, tips_.tips_[i].now.way);
     same->now.has_started = same->now.has_started || (jump_ ? jump_->is_laid(i) : front_->grows(i));
     same->now.is_stopped = same->now.is_stopped || is_blocked_[i];
   }
   there.notes_.insert(there.notes_.end(), notes_.begin(), notes_.end());
-  there.slopes_ = front_->slopes();
+  if (!jump_ && front_->trials() > 0) there.slopes_ = front_->slopes();
   return Verdict::found;
 }
 
-std::unique_ptr<FrontSearch> Tips::search_front(const StepTime& step, bool may_shrink) {
+bool Tips::grows_on() const {
+  if (!options_.toughness || !grows_within_steps_ || slopes_.size() == 0) return false;
+  const auto is_settled = [](const Tip& tip) { return tip.now.is_stopped || tip.now.is_extendable; };
+  return std::ranges::all_of(tips_, is_settled) &&
+         std::ranges::any_of(tips_, [](const Tip& tip) { return !tip.now.is_stopped && tip.now.speed > 0; });
+}
+
+double Tips::longest_step() const {
+  double fastest = 0;
+  for (const Tip& tip : tips_)
+    if (grows_within_steps_ && !tip.now.is_stopped) fastest = std::max(fastest, tip.now.speed);
+  return fastest > 0 ? wanted_advance * options_.growth.increment / fastest : std::numeric_limits<double>::infinity();
+}
+
+std::unique_ptr<FrontSearch> Tips::search_front(const StepTime& step, bool may_shrink, bool goes_on) {
   if (!options_.toughness || !grows_within_steps_) return nullptr;
-  auto search = std::make_unique<TipsFront>(*this, step, may_shrink);
+  if (goes_on) {
+    notes_.clear();
+    note_start(step);
+  }
+  auto search = std::make_unique<TipsFront>(*this, step, may_shrink, goes_on);
   if (search->is_needed()) return search;
   search->finish_without_growth();
   return nullptr;

@@ -6,7 +6,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int state_size = 14;  ///< numbers of a state, without its way and its path
+constexpr int state_size = 15;  ///< numbers of a state, without its way and its path
 
 }  // namespace
 
@@ -18,7 +18,7 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     Vector values(state_size + 2 * places.size());
     values.head<state_size>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped,
         kept.has_started, kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated,
-        kept.load, kept.is_extendable, kept.speed, static_cast<double>(kept.way.size());
+        kept.load, kept.is_extendable, kept.speed, kept.turning, static_cast<double>(kept.way.size());
     for (std::size_t i = 0; i < places.size(); ++i) values.segment<2>(state_size + 2 * i) = places[i];
     state[name() + "." + tip.name] = std::move(values);
   }
@@ -42,12 +42,13 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.load = values[10];
     kept.is_extendable = values[11] != 0;
     kept.speed = values[12];
+    kept.turning = values[13];
     for (int i = state_size; i + 1 < values.size(); i += 2)
-      (i < state_size + 2 * values[13] ? kept.way : kept.path.added).emplace_back(values[i], values[i + 1]);
+      (i < state_size + 2 * values[14] ? kept.way : kept.path.added).emplace_back(values[i], values[i + 1]);
     tip.now = tip.accepted = kept;
   }
   if (const auto found = state.find(name() + ".slopes"); found != state.end()) {
-    const auto size = static_cast<Eigen::Index>(tips_.size());
+    const auto size = 2 * static_cast<Eigen::Index>(tips_.size());
     if (found->second.size() == size * size) slopes_ = found->second.reshaped(size, size);
   }
   for (Joint& joint : joints_) {

@@ -55,7 +55,9 @@ class Tips : public Component, public FractureTips, public Growing {
   Load examine(const StepTime& step) override;
   Growth grow(const StepTime& step) override;
   void grow_within_steps() override;
-  std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink) override;
+  bool grows_on() const override;
+  double longest_step() const override;
+  std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink, bool goes_on) override;
   std::vector<PendingPath> pending_paths() const override;
   CavityOptions cavity() const override;
   std::uint64_t topology() const override;
@@ -77,6 +79,7 @@ class Tips : public Component, public FractureTips, public Growing {
     bool is_extendable =
         false;                ///< whether the last cell of the fracture is the last segment, which growth may replace
     double speed = 0;         ///< m/s, of growth in the last step
+    double turning = 0;       ///< rad/m, of the last segment by growth in the last step
     std::vector<Point> way;   ///< m, where the tip was at ends of steps while its last segment grew, the last one here
     bool is_stopped = false;  ///< for good, at or before another fracture, or before the boundary
   };
@@ -177,7 +180,7 @@ class Tips : public Component, public FractureTips, public Growing {
   bool grows_within_steps_ = false;
   StepTime step_;                   ///< the present one
   std::optional<double> examined_;  ///< s, start of the step that was examined last
-  Eigen::MatrixXd slopes_;  ///< of the loads by the lengths of the tips, as the last search has learnt them, 1/m
+  Eigen::MatrixXd slopes_;          ///< Front::slopes of the last search
   /// A note on how growth has ended.
   struct EndNote {
     std::string topic, text;

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <vector>
 
 #include "framework/invariants.hpp"
+#include "framework/linear/direct/kept_orderings.hpp"
 #include "framework/linear/direct/near_singular.hpp"
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/refined_solve.hpp"
@@ -46,6 +48,7 @@ struct MumpsSolver::Instance {
   std::vector<double> values;      ///< of the matrix and its border
   std::vector<int> border;         ///< the numbers of the unknowns that are not eliminated
   std::vector<double> schur;       ///< their Schur complement, by rows
+  bool is_ordered = false;         ///< for these entries
 
   Instance() {
     parallel::start_mpi();
@@ -82,8 +85,43 @@ struct MumpsSolver::Instance {
   }
 };
 
+/// The instances of solvers that are no more, for those who have the same pattern.
+struct MumpsSolver::Orderings {
+  static constexpr std::size_t most = 3;         ///< the newest: of a state that is settled, and of a step
+  static constexpr int largest_system = 10'000;  ///< rows; the factors are kept, too, and their memory
+  int scopes = 0;                                ///< objects of KeptOrderings
+  std::deque<std::unique_ptr<Instance>> kept;
+
+  void keep(std::unique_ptr<Instance> instance) {
+    if (scopes == 0 || parallel::size() > 1 || !instance->is_ordered || instance->data.n > largest_system) return;
+    kept.push_back(std::move(instance));
+    if (kept.size() > most) kept.pop_front();
+  }
+  /// Replaces an instance by one that has been ordered for the same entries, if there is one.
+  bool take_for(std::unique_ptr<Instance>& instance) {
+    const auto same = std::ranges::find_if(kept, [&](const auto& other) {
+      return other->border == instance->border && other->rows == instance->rows && other->columns == instance->columns;
+    });
+    if (same == kept.end()) return false;
+    instance = std::move(*same);
+    kept.erase(same);
+    return true;
+  }
+};
+
+KeptOrderings::KeptOrderings() { ++MumpsSolver::orderings().scopes; }
+
+KeptOrderings::~KeptOrderings() {
+  if (--MumpsSolver::orderings().scopes == 0) MumpsSolver::orderings().kept.clear();
+}
+
+MumpsSolver::Orderings& MumpsSolver::orderings() {
+  static thread_local Orderings orderings;
+  return orderings;
+}
+
 MumpsSolver::MumpsSolver() : mumps_(std::make_unique<Instance>()) { use_one_blas_thread(); }
-MumpsSolver::~MumpsSolver() = default;
+MumpsSolver::~MumpsSolver() { orderings().keep(std::move(mumps_)); }
 
 LinearReport MumpsSolver::factor(const LinearSystem& system) {
   expect_sound(system);
@@ -162,6 +200,7 @@ LinearReport MumpsSolver::factor_scaled(bool has_new_pattern) {
   // After an error an instance of MUMPS must not be used again. A singular matrix is no error in this sense, and its
   // ordering is kept.
   if (!last_report_.solved && (mumps_->status() < 0 || !scaled_.mistake.empty())) {
+    mumps_->is_ordered = false;
     last_.forget();
     border_ = {};
   }
@@ -208,9 +247,13 @@ double* MumpsSolver::list_values() {
 LinearReport MumpsSolver::order() {
   const Stopwatch watch(counts_.seconds_ordering);
   list_entries();
+  const int size = static_cast<int>(scaled_.matrix.cols()) + border_.size();
+  if (!mumps_->is_ordered && parallel::size() == 1 && orderings().take_for(mumps_) && mumps_->data.n == size)
+    return LinearReport::success();
+  mumps_->is_ordered = false;
   auto& data = mumps_->data;
   SPREKK_ASSERT(mumps_->rows.size() == mumps_->columns.size(), mumps_->rows.size(), mumps_->columns.size());
-  data.n = static_cast<int>(scaled_.matrix.cols()) + border_.size();
+  data.n = size;
   if (parallel::size() > 1) {
     data.nnz_loc = static_cast<int>(mumps_->rows.size());
     data.irn_loc = mumps_->rows.data();
@@ -231,6 +274,7 @@ LinearReport MumpsSolver::order() {
   data.a = nullptr;  // the analysis needs no values, and those of the last matrix may not exist any more
   mumps_->run(analyse);
   ++counts_.orderings;
+  mumps_->is_ordered = mumps_->status() >= 0;
   if (mumps_->status() == -6) return LinearReport::failure("the matrix is singular (its pattern alone shows it)");
   if (mumps_->status() < 0)
     return LinearReport::failure("the analysis of MUMPS failed with status " + std::to_string(mumps_->status()));

@@ -27,7 +27,10 @@ class MumpsSolver final : public LinearSolver {
   std::string name() const override { return "mumps"; }
 
  private:
-  struct Instance;  ///< MUMPS's own data
+  struct Instance;   ///< MUMPS's own data
+  struct Orderings;  ///< instances whose solvers are no more
+  static Orderings& orderings();
+  friend class KeptOrderings;
   /// Columns and rows around the matrix that are not eliminated, scaled.
   struct Border {
     SparseMatrix columns, rows;

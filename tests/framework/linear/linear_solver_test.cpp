@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "framework/linear/direct/kept_orderings.hpp"
 #include "tests/framework/linear/test_systems.hpp"
 
 namespace sprekk {
@@ -276,6 +277,30 @@ TEST_P(EveryDirectSolver, DoesNotTakeContrastsForSingularity) {
 
 INSTANTIATE_TEST_SUITE_P(Types, EveryDirectSolver, testing::Values("umfpack", "mumps"),
                          [](const auto& info) { return std::string(info.param); });
+
+/// Systems of one pattern have one ordering, and with it the bits that they have with one of their own.
+TEST(KeptOrderings, ServeLaterSolversOfTheSamePattern) {
+  const LinearSystem first = test::poisson(12);
+  LinearSystem second = first;
+  second.local.coeffs() *= 3;
+  second.local.coeffRef(5, 5) = 17;
+  const auto solution = [&](const LinearSystem& system, int orderings) {
+    LinearOptions options;
+    options.type = "mumps";
+    const auto solver = make_linear_solver(options);
+    const Vector x = solve(*solver, system, Vector::Ones(system.local.rows()));
+    EXPECT_EQ(solver->counts().orderings, orderings);
+    return x;
+  };
+  const Vector alone = solution(second, 1);
+  {
+    const KeptOrderings kept;
+    solution(first, 1);
+    EXPECT_EQ(solution(second, 0), alone);
+    solution(test::poisson(11), 1);
+  }
+  EXPECT_EQ(solution(second, 1), alone);
+}
 
 TEST(MakeLinearSolver, RefusesAnUnknownTypeAndListsTheKnown) {
   LinearOptions options;

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "tests/framework/config/messages.hpp"
@@ -29,7 +31,9 @@ class Tips : public Still, public Growing {
     return growth;
   }
   void grow_within_steps() override {}
-  std::unique_ptr<FrontSearch> search_front(const StepTime&, bool) override { return nullptr; }
+  bool grows_on() const override { return false; }
+  double longest_step() const override { return std::numeric_limits<double>::infinity(); }
+  std::unique_ptr<FrontSearch> search_front(const StepTime&, bool, bool) override { return nullptr; }
   CavityOptions cavity() const override { return {.radius = 0.3, .size = 0.1, .growth = 0.4}; }
 
   Load load;
