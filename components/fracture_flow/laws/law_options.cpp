@@ -20,7 +20,7 @@ Spec LawOptions::spec() {
                 {.unit = "m",
                  .range = non_negative(),
                  .doc = "Height of the asperities of a rough fracture.",
-                 .source = "Lomize 1951; Witherspoon et al. 1980, Eq. 8"});
+                 .source = "Lomize 1951; Witherspoon et al. 1980"});
   spec.data("transmissivity", transmissivity,
             {.unit = "m^3", .range = non_negative(), .doc = "Of the constant law.", .in_time = true});
   spec.check([this](const Node& node) {

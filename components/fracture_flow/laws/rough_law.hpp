@@ -8,7 +8,7 @@
 namespace sprekk::fracture_flow {
 
 /// h^3 = a^3/(1 + 6 (e/a)^1.5), but not below the residual hydraulic aperture, for asperities of the height e (Lomize,
-/// Flow in Fractured Rocks, Gosenergoizdat, Moscow 1951; Witherspoon et al., Water Resour. Res. 16 (1980) 1016, Eq. 8).
+/// Flow in Fractured Rocks, Gosenergoizdat, Moscow 1951; Witherspoon et al., Water Resour. Res. 16 (1980) 1016).
 class RoughLaw : public HydraulicLaw {
  public:
   RoughLaw(double lowest, double roughness) : lowest_(lowest), roughness_(roughness) {}
