@@ -38,8 +38,7 @@ SceneRun::SceneRun(const Scene& scene) {
 bool SceneRun::step() {
   for (;;) {
     const StepTime step = controller_->next();
-    StepStatus status = model_->attempt(step);
-    if (status.converged) status = growth_->find_front(step, status);
+    const StepStatus status = growth_->attempt(step);
     if (status.converged && growth_->before_acceptance() == MeshGrowth::Outcome::changed) continue;
     if (status.converged) {
       iterations_ = status.iterations;
