@@ -73,7 +73,7 @@ def check_bash(folder, known):
             (("report", ""), {"study"}),
             (("schema", ""), {"scene", "study"}),
             (("completion", "z"), {"zsh"}),
-            (("explain", "contact/"), {"contact/coulomb"}),
+            (("explain", "contact/"), {"contact/augmented_lagrangian", "contact/coulomb", "contact/penalty"}),
             (("explain", "it"), {"iterate"})):
         found = proposed(folder, *words)
         expect(f"after {' '.join(words)!r}", found == wanted, found)

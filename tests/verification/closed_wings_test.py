@@ -67,7 +67,7 @@ schedule:
   - solve: [rock, conduit, contact]
   - grow: tips
     settle: [rock, contact]
-time: {end: 7200 s, step: 300 s}
+time: {end: 7200 s, step: 150 s}
 output:
   every: 2 h
   times: [5400 s, 6900 s]
@@ -132,6 +132,7 @@ components: {conduit: {injection: {well: {rate: [{value: 1.5e-9 m^2/s, from: 0 s
 couplers: [{type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]},
   {type: two_level, between: [rock, conduit, tips], propagation_threshold: 0.25}]
 schedule: [{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: within_step}]
+time: {step: 300 s}
 """
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)

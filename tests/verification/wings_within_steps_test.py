@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """wings_within_steps_test.py SPREKK: the path of wings that grow within steps in sealed rock, and the pressure that they need,
 against boundary elements (references/sealed_wings.csv), for a fracture and its mirror image."""
 

@@ -68,10 +68,13 @@ void Tips::note_step(Notes& notes, const StepTime&) const {
 
 /// Where walls touch at the tip of a wing they carry the load, and K_I = 0; those of the fine level are open there.
 void Tips::note_shear(const Tip& tip, Notes& notes) const {
-  constexpr double near = 0.9;  // to growth
+  constexpr double near = 0.9;     // to growth
+  constexpr double closed = 0.01;  // of the toughness: walls that touch have a K_I of this size from round-off
   const Sifs &sifs = tip.now.sifs, touching{0, sifs.k2, sifs.t_stress};
   const double load = equivalent_sif(touching) / *options_.toughness;
-  if (!tip.now.has_started || !tip.now.is_evaluated || tip.now.is_stopped || sifs.k1 > 0 || load < near) return;
+  if (!tip.now.has_started || !tip.now.is_evaluated || tip.now.is_stopped || sifs.k1 > closed * *options_.toughness ||
+      load < near)
+    return;
   const std::string name = this->name() + "." + tip.name;
   notes.add(
       name + " is closed and sheared",
