@@ -78,7 +78,9 @@ FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, cons
 
 Vector FineModel::right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const {
   Vector f = traction_forces(geometry_, *mesh_, loads);
-  if (offsets.cols() > 0) offset_forces_.subtract_from(f, offsets);
+  // Behind those of the elements stand those of the tips' evaluation.
+  const auto of_elements = static_cast<Eigen::Index>(offset_forces_.places().size());
+  if (offsets.cols() > 0) offset_forces_.subtract_from(f, offsets.leftCols(of_elements));
   for (std::size_t e = 0; e < stiffness_.size(); ++e) {
     const auto& element = mesh_->elements[e];
     const ElementVector local = gather(element, u);
