@@ -11,66 +11,6 @@
 
 namespace sprekk::contact {
 
-Spec Options::spec(const std::string& type, const std::string& doc) {
-  Spec spec(type, doc);
-  spec.ignore("type");
-  spec.data("friction", friction,
-            {.range = non_negative(),
-             .doc = "Coefficient of friction.",
-             .source = "mu_s of the paper's Eq. 3",
-             .required = true,
-             .material = true,
-             .in_time = true});
-  spec.data("dilation_angle", dilation_angle,
-            {.unit = "rad",
-             .range = between(0, 1.5),
-             .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
-             .source = "psi below the paper's Eq. 2",
-             .material = true,
-             .in_time = true});
-  spec.quantity("dilation_limit", dilation_limit,
-                {.unit = "m",
-                 .range = non_negative(),
-                 .doc = "Slip from where on it opens the fracture no further: its asperities are worn. Without it, "
-                        "all slip opens."});
-  spec.quantity("cohesion", weakening.cohesion,
-                {.unit = "Pa",
-                 .range = non_negative(),
-                 .doc = "Shear traction that walls hold without pressure, |f_t| <= cohesion - friction f_n. "
-                        "`weakening` says how it is lost."});
-  spec.quantity("tensile_strength", weakening.tensile_strength,
-                {.unit = "Pa",
-                 .range = non_negative(),
-                 .doc = "Normal traction at which walls part. `weakening` says how it is lost."});
-  Spec lost("weakening", "How walls lose strength: linearly over a path, for good.");
-  lost.quantity("distance", weakening.distance,
-                {.unit = "m",
-                 .range = positive(),
-                 .doc = "Path of slip and opening, both ways counted, over which cohesion and tensile strength are "
-                        "lost and friction falls to that of `friction`.",
-                 .required = true});
-  lost.data("friction", dynamic_friction,
-            {.range = non_negative(),
-             .doc = "Coefficient of friction after that; without it, friction stays.",
-             .source = "linear slip weakening: Ida 1972, Andrews 1976",
-             .in_time = true});
-  spec.section("weakening", lost, {.doc = "How walls lose strength: linearly over a path, for good."}, &weakens);
-  spec.section("closure", closure.spec(), {.doc = "How far walls in contact approach each other under pressure."});
-  spec.check([this](const Node& node) {
-    if (!weakens && weakening.cohesion > 0)
-      throw InputError(node.origin, "'cohesion' is never lost", "the scene has no 'weakening'",
-                       "add weakening: {distance: ...} with the path over which it is lost");
-    if (!weakens && weakening.tensile_strength > 0)
-      throw InputError(node.origin, "'tensile_strength' is never lost", "the scene has no 'weakening'",
-                       "add weakening: {distance: ...} with the path over which it is lost");
-  });
-  spec.quantity("large_jump", large_jump,
-                {.range = positive(),
-                 .doc = "Jump over the length of its fracture from where on a note says that it is large: the places "
-                        "and the shapes of fractures are taken to stay."});
-  return spec;
-}
-
 FrictionalContact::FrictionalContact(const ComponentContext& context, const Options& options, Multiplier multiplier,
                                      double stiffness_factor)
     : Component(context.name),
@@ -171,78 +111,11 @@ void FrictionalContact::settled(const MeshChange&) {
   bonded_jump_.resize(0);
 }
 
-double FrictionalContact::dilated(int i, double slip) const {
-  return std::min(slip, options_.dilation_limit.value_or(slip)) * dilation_[i];
-}
-
-double FrictionalContact::dilation_at(int i, double slip) const {
-  return options_.dilation_limit && slip > *options_.dilation_limit ? 0.0 : dilation_[i];
-}
-
-double FrictionalContact::gap(int i, const Vector& traction, const Vector& jump) const {
-  return jump[dimension * i] - dilated(i, magnitude<dimension - 1>(tangential(jump, i))) +
-         closure(traction[dimension * i]);
-}
-
-double FrictionalContact::path(int i, double gap) const {
-  const double before = std::max(0.0, this->gap(i, traction_.accepted(), jump_.accepted()));
-  const double slip =
-      magnitude<dimension - 1>(TangentialVector(tangential(jump_.now(), i) - tangential(jump_.accepted(), i)));
-  return path_->accepted()[i] + slip + std::max(0.0, gap - before);
-}
-
 void FrictionalContact::after_solve(const std::vector<Field*>& solved, const StepTime&) {
   if (!path_ || std::find(solved.begin(), solved.end(), &traction_) == solved.end()) return;
   Vector paths(mesh_.fracture_cell_count());
   for (int i = 0; i < paths.size(); ++i) paths[i] = path(i, gap(i, traction_.now(), jump_.now()));
   path_->set(std::move(paths));
-}
-
-double FrictionalContact::multiplier(int i) const {
-  if (trial_has_present()) return traction_.now()[dimension * i];
-  return multiplier_ == Multiplier::last ? last_[dimension * i] : 0.0;
-}
-
-TangentialVector FrictionalContact::tangential_multiplier(int i) const {
-  if (trial_has_present()) return tangential(traction_.now(), i);
-  return tangential(multiplier_ == Multiplier::last ? last_ : traction_.accepted(), i);
-}
-
-FrictionalContact::Trial FrictionalContact::trial(int i) const {
-  SPREKK_EXPECT(is_index(i, mesh_.fracture_cell_count()), i, mesh_.fracture_cell_count());
-  const int row = dimension * i;
-  const double c_n = stiffness()[row], c_t = stiffness()[row + 1];
-  SPREKK_ASSERT(c_n > 0 && c_t > 0, i, c_n, c_t);
-  SPREKK_ASSERT(friction_[i] >= 0 && dilation_[i] >= 0, i, friction_[i], dilation_[i]);
-  const TangentialVector u_t = tangential(jump_.now(), i);
-  Trial t;
-  const double slip = magnitude<dimension - 1>(u_t);
-  t.gap = gap(i, traction_.now(), jump_.now());
-  t.gap_by_traction = closure_ ? -closure_->at(-traction_.now()[row]).by_pressure : 0.0;
-  t.dilation = dilation_at(i, slip);
-  t.strength.friction = friction_[i];
-  t.path_by_slip.setZero();
-  t.path_by_gap = 0;
-  if (path_) {
-    t.strength = options_.weakening.at(friction_[i], dynamic_friction(i), path(i, t.gap));
-    const double before = std::max(0.0, gap(i, traction_.accepted(), jump_.accepted()));
-    t.path_by_gap = t.gap > before;
-  }
-  t.tension = t.strength.tension;
-  t.holds_open = t.strength.cohesion > 0;
-  t.normal = multiplier(i) + c_n * t.gap;
-  t.tangential = tangential_multiplier(i) + c_t * (u_t - tangential(jump_.accepted(), i));
-  if (path_) {
-    const TangentialVector slipped = u_t - tangential(jump_.accepted(), i);
-    t.path_by_slip = direction_of<dimension - 1>(magnitude<dimension - 1>(slipped) > 0 ? slipped : t.tangential);
-  }
-  t.bound = t.strength.cohesion - t.strength.friction * std::min(0.0, t.normal);
-  if (!kept_.empty() && kept_[i] && !t.is_open()) t.bound = std::numeric_limits<double>::infinity();
-  // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
-  t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
-  constexpr double round_off = 1e-10;  // of the traction that makes the slip
-  t.least_bound = round_off * c_t * magnitude<dimension - 1>(u_t);
-  return t;
 }
 
 void FrictionalContact::observe_iterate(const std::vector<Field*>& unknowns) {
@@ -271,22 +144,6 @@ void FrictionalContact::observe_iterate(const std::vector<Field*>& unknowns) {
                                   : BackSlip::Piece::before_kink;
     cell.direction = direction;
   }
-}
-
-FrictionalContact::Trial FrictionalContact::trial_of_update(int i) const {
-  Trial t = trial(i);
-  if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
-  t.slip_direction = -t.slip_direction;
-  // The linear function on the other side of the kink, at the same slip: the opening by dilation has the other sign.
-  const double slip = t.slip_direction.dot(tangential(jump_.now(), i));
-  t.gap = jump_.now()[dimension * i] - std::copysign(dilated(i, std::abs(slip)), slip) +
-          closure(traction_.now()[dimension * i]);
-  // The walls touch, whatever the sign of the normal trial traction: the linear function passes through the values
-  // beyond the kink.
-  const double normal = multiplier(i) + stiffness()[dimension * i] * t.gap;
-  t.bound = t.strength.cohesion - t.strength.friction * normal;
-  t.normal = std::min(normal, 0.0);
-  return t;
 }
 
 State FrictionalContact::state(int i) const { return trial(i).state(); }
