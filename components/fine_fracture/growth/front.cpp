@@ -12,7 +12,8 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double turn_slope = 0.5;  ///< d(K_II/K_I)/d angle of a short kink (Cotterell and Rice 1980)
+constexpr double turn_slope = 0.5;   ///< d(K_II/K_I)/d angle of a short kink (Cotterell and Rice 1980)
+constexpr double of_bend = 8.0 / 3;  ///< int theta/sqrt(x) dx over the root of the length, along an arc
 constexpr double least_turn_slope = 0.3, steepest_turn_slope = 20;
 constexpr double first_slope = -0.3;          ///< of ln K_eq over one increment, as long as none is known
 constexpr double shared_slope = -0.2;         ///< the same by the growth of another tip
@@ -68,7 +69,7 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
     jacobian_ = slopes;
     std::vector<double> factor(count(), turn_slope);
     for (int i = 0; i < count(); ++i)
-      if (grows_[i]) factor[i] = turn_slope_of(without_growth[i].sifs, length_[i]);
+      if (grows_[i]) factor[i] = turn_slope_of(i, without_growth[i].sifs, length_[i]);
     scale_turns(jacobian_, factor);
     return;
   }
@@ -151,15 +152,19 @@ void Front::begin(int i, const FrontState& state) {
   if (std::isfinite(slope)) jacobian_(2 * i, 2 * i) = std::min(slope * options_.increment, first_slope);
 }
 
-/// By the expansion of a kink: compression along the tip makes the direction of long segments stiffer.
-double Front::turn_slope_of(const Sifs& sifs, double length) {
-  if (!(sifs.k1 > 0)) return turn_slope;
-  const double slope = turn_slope - 2 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) / sifs.k1;
+/// By the expansion of a kink: compression along the tip makes the direction of long segments stiffer. K_II is
+/// theta(0)/2 K_I - sqrt(2/pi) T int theta/sqrt(x) dx, x behind the tip: theta = 1 along a straight segment, and
+/// 2 - 2x/length along an arc.
+double Front::turn_slope_of(int tip, const Sifs& sifs, double length) const {
+  const bool is_bent = tips_[tip].is_bent;
+  const double end_turn = is_bent ? 2 * turn_slope : turn_slope, along = is_bent ? of_bend : 2;
+  if (!(sifs.k1 > 0)) return end_turn;
+  const double slope = end_turn - along * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) / sifs.k1;
   return std::clamp(slope, least_turn_slope, steepest_turn_slope);
 }
 
 void Front::set_turn_slope(int i, const Sifs& sifs) {
-  jacobian_(2 * i + 1, 2 * i + 1) = turn_slope_of(sifs, length_[i]);
+  jacobian_(2 * i + 1, 2 * i + 1) = turn_slope_of(i, sifs, length_[i]);
 }
 
 void Front::make_jacobian() {
@@ -182,7 +187,7 @@ void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<double>& fa
 Eigen::MatrixXd Front::slopes() const {
   std::vector<double> factor(count(), 1 / turn_slope);
   for (int i = 0; i < count(); ++i)
-    if (grows_[i] && last_[i].is_evaluated) factor[i] = 1 / turn_slope_of(last_[i].sifs, length_[i]);
+    if (grows_[i] && last_[i].is_evaluated) factor[i] = 1 / turn_slope_of(i, last_[i].sifs, length_[i]);
   Eigen::MatrixXd slopes = jacobian_;
   scale_turns(slopes, factor);
   return slopes;

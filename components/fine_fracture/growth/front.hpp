@@ -23,7 +23,9 @@ struct FrontTip {
   double least = 0;              ///< m, of a new segment: what has parted in earlier steps does not heal
   double speed = 0;              ///< m/s, of the last step; 0 where the tip did not grow
   double turning = 0;            ///< rad/m, of the segment by its growth in the last step
-  bool goes_on = false;          ///< grows in the first trial, whatever its load
+  bool is_bent =
+      false;  ///< whether the segment begins in a fixed direction, so that its end turns twice as much as its chord
+  bool goes_on = false;  ///< grows in the first trial, whatever its load
   /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
   double first_length = 0, first_angle = 0;
 };
@@ -93,8 +95,8 @@ class Front {
   void make_jacobian();
   /// Multiplies what depends on how a segment turns by a factor for each tip.
   static void scale_turns(Eigen::MatrixXd& jacobian, const std::vector<double>& factor);
-  /// d(K_II/K_I)/d angle of a segment of this length (m), by the expansion of a kink.
-  static double turn_slope_of(const Sifs& sifs, double length);
+  /// d(K_II/K_I)/d angle of the last segment of a tip, of this length (m), by the expansion of a kink.
+  double turn_slope_of(int tip, const Sifs& sifs, double length) const;
   Eigen::VectorXd residual(const std::vector<FrontState>& states) const;
   Eigen::VectorXd place() const;
   void update_jacobian(const Eigen::VectorXd& residual);

@@ -23,10 +23,10 @@ constexpr double least_load = 1e-3;         ///< for the logarithm
 double log_load(double load) { return std::log(std::max(least_load, load)); }
 
 /// The change of direction that makes K_II vanish at the end of a segment, by the expansion of a kink.
-double turn_of(const Sifs& sifs, double length) {
+double turn_of(const Sifs& sifs, double length, bool is_bent) {
   if (!(sifs.k1 > 0)) return 0;
   const double slope = turn_slope + std::max(0.0, -sifs.t_stress) * std::sqrt(length) / sifs.k1;
-  return std::clamp(-std::atan2(sifs.k2, sifs.k1) / slope, -largest_turn, largest_turn);
+  return std::clamp(-std::atan2(sifs.k2, sifs.k1) / (is_bent ? 2 * slope : slope), -largest_turn, largest_turn);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ void FrontJump::advance(const std::vector<FrontState>& states) {
       has_advanced = true;
     }
     if (!grows && !is_laid_[i]) continue;
-    now_.angle[i] += turn_of(states[i].sifs, now_.length[i]);
+    now_.angle[i] += turn_of(states[i].sifs, now_.length[i], tips_[i].is_bent);
     is_laid_[i] = 1;
   }
   if (!has_advanced) verdict_ = Front::Verdict::too_far;

@@ -4,26 +4,50 @@
 #include <cmath>
 
 #include "framework/invariants.hpp"
+#include "framework/mesh/planar.hpp"
 
 namespace sprekk::fine_fracture {
+namespace {
 
-Point place_on_way(const Point& anchor, const std::vector<Point>& way, double length) {
+constexpr double half_of_largest_turn = 0.4;  ///< rad, between an arc and its chord
+
+/// From one direction to the other: nothing depends on where angles begin.
+double turn_between(const Point& from, const Point& to) { return std::atan2(cross(from, to), from.dot(to)); }
+
+Point turned(const Point& direction, double by) {
+  return {std::cos(by) * direction[0] - std::sin(by) * direction[1],
+          std::sin(by) * direction[0] + std::cos(by) * direction[1]};
+}
+
+}  // namespace
+
+PlaceOnWay place_on_way(const Point& anchor, const std::optional<Point>& start, const std::vector<PlaceOnWay>& way,
+                        double length) {
   SPREKK_EXPECT(!way.empty() && length > 0, way.size(), length);
-  const auto next =
-      std::find_if(way.begin(), way.end() - 1, [&](const Point& x) { return (x - anchor).norm() >= length; });
-  const Point to = *next - anchor;
+  const auto next = std::find_if(way.begin(), way.end() - 1,
+                                 [&](const PlaceOnWay& place) { return (place.position - anchor).norm() >= length; });
+  const Point to = next->position - anchor;
   const double far = to.norm();
   SPREKK_EXPECT(far > 0, far);
-  double turn = 0;  // from `to`, so that nothing depends on where angles begin
+  const Point chord = to / far;
+  double near = 0;
+  Point near_chord = start.value_or(chord), near_direction = start.value_or(next->direction);
   if (next != way.begin()) {
-    const Point from = *(next - 1) - anchor;
-    const double near = from.norm();
-    if (near < far)
-      turn = std::atan2(to[0] * from[1] - to[1] * from[0], to.dot(from)) * std::max(0.0, far - length) / (far - near);
+    const Point from = (next - 1)->position - anchor;
+    near = from.norm();
+    near_chord = from / near;
+    near_direction = (next - 1)->direction;
   }
-  const Point direction = to / far;
-  return anchor + length * Point(std::cos(turn) * direction[0] - std::sin(turn) * direction[1],
-                                 std::sin(turn) * direction[0] + std::cos(turn) * direction[1]);
+  const double back = near < far ? std::max(0.0, far - length) / (far - near) : 0;
+  return {anchor + length * turned(chord, back * turn_between(chord, near_chord)),
+          turned(next->direction, back * turn_between(next->direction, near_direction))};
+}
+
+Point middle_of_arc(const Point& anchor, const Point& start, const Point& end) {
+  const Point chord = end - anchor;
+  SPREKK_EXPECT(chord.norm() > 0, chord.norm());
+  const double turn = std::clamp(turn_between(chord, start), -half_of_largest_turn, half_of_largest_turn);
+  return anchor + 0.5 / std::cos(turn) * turned(chord, turn);
 }
 
 }  // namespace sprekk::fine_fracture

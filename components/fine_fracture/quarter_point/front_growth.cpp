@@ -15,9 +15,11 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double full_segment = 1;       ///< of an increment: a longer segment is divided
-constexpr double rest_of_segment = 0.5;  ///< of an increment: what of a divided segment is laid anew
-constexpr double longest_advance = 1.5;  ///< of an increment, in one step
+constexpr double full_segment = 1;           ///< of an increment: a longer segment is divided
+constexpr double rest_of_segment = 0.5;      ///< of an increment: what of a divided segment is laid anew
+constexpr double least_first_part = 0.2;     ///< of an increment: what stays of a first segment behind a kink
+constexpr double largest_first_part = 0.65;  ///< of a first segment: the same
+constexpr double longest_advance = 1.5;      ///< of an increment, in one step
 constexpr double on_the_way = 1e-6;      ///< of an increment: a place of a tip nearer to the anchor is at the anchor
 constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
 constexpr double shorter_step = 0.5;     ///< the next attempt at a step that is too long
@@ -48,11 +50,12 @@ class TipsFront : public FrontSearch {
     int replaced = 0;           ///< fracture cells that are given up
   };
   static FrontState state_of(const Tips& tips, const Tips::Tip& tip);
+  double what_stays(const Tips::Tip& tip, const FrontTip& start) const;
   void add(Tips::Tip& tip);
   void find_joinings();
   void propose();
   Tips::Tip* same_tip(Tips& there, int tip) const;
-  std::vector<Point> way_to(const Tips& there, const Tips::Tip& tip, const std::vector<Point>& before) const;
+  std::vector<PlaceOnWay> way_to(const Tips& there, const Tips::Tip& tip, const std::vector<PlaceOnWay>& before) const;
   Verdict finish(Tips& there);
   Verdict settle_for_less(Tips& there);
   bool begin_jump();
@@ -94,10 +97,26 @@ TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goe
   propose();
 }
 
+/// m, the part of the last segment that is not laid anew any more. The first segment behind a kink, where the path is
+/// most curved and nothing tells how it begins, ends where the tip was when the mesh began to follow it.
+double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const {
+  const std::vector<PlaceOnWay>& way = tip.now.way;
+  const double increment = tips_.options_.growth.increment;
+  if (way.empty()) return 0;
+  if (!tip.now.segment_start)
+    for (const PlaceOnWay& place : way) {
+      const double length = (place.position - start.anchor).norm();
+      if (length > least_first_part * increment && length < largest_first_part * start.covered) return length;
+    }
+  return start.covered > full_segment * increment ? start.covered - rest_of_segment * increment : 0;
+}
+
 void TipsFront::add(Tips::Tip& tip) {
   tip.pattern.reset();
+  tip.next_start.reset();
   const double increment = tips_.options_.growth.increment;
-  const Point end = tips_.position(tip, {}), ahead = tips_.direction(tip);
+  const Point end = tips_.position(tip, {});
+  const Point ahead = tip.now.is_extendable ? tips_.direction(tip) : tips_.end_direction(tip);
   FrontTip start;
   Segment segment;
   start.anchor = end;
@@ -110,13 +129,17 @@ void TipsFront::add(Tips::Tip& tip) {
     start.covered = tips_.last_cell(tip.end).measure;
     segment.replaced = 1;
     start.anchor = end - start.covered * ahead;
-    if (start.covered > full_segment * increment && !tip.now.way.empty()) {
+    tip.next_start = tip.now.segment_start;
+    if (const double stays = what_stays(tip, start); stays > 0) {
       // What stays leads to where the tip has been. The segment has turned since, as it grew.
-      start.anchor = place_on_way(start.anchor, tip.now.way, start.covered - rest_of_segment * increment);
+      const PlaceOnWay place = place_on_way(start.anchor, tip.now.segment_start, tip.now.way, stays);
+      start.anchor = place.position;
       start.covered = (end - start.anchor).norm();
       start.angle = angle_of(end - start.anchor);
       segment.before.push_back(start.anchor);
+      tip.next_start = place.direction;
     }
+    start.is_bent = tip.next_start.has_value();
   }
   FrontState state = state_of(tips_, tip);
   if (state.is_evaluated && !tip.now.path.added.empty()) {
@@ -291,15 +314,16 @@ FrontSearch::Verdict TipsFront::end_jump(Tips& there) {
 }
 
 /// The places of the tip in the last segment of the new mesh. `before`: in that of the mesh before the step.
-std::vector<Point> TipsFront::way_to(const Tips& there, const Tips::Tip& tip, const std::vector<Point>& before) const {
+std::vector<PlaceOnWay> TipsFront::way_to(const Tips& there, const Tips::Tip& tip,
+                                          const std::vector<PlaceOnWay>& before) const {
   if (!tip.now.is_extendable) return {};
   const double least = on_the_way * tips_.options_.growth.increment;
   const Point end = there.position(tip, {}), ahead = there.direction(tip);
   const Point anchor = end - there.last_cell(tip.end).measure * ahead;
-  std::vector<Point> way;
-  for (const Point& place : before)
-    if ((place - anchor).dot(ahead) > least && (place - end).norm() > least) way.push_back(place);
-  way.push_back(end);
+  std::vector<PlaceOnWay> way;
+  for (const PlaceOnWay& place : before)
+    if ((place.position - anchor).dot(ahead) > least && (place.position - end).norm() > least) way.push_back(place);
+  way.push_back({end, there.end_direction(tip)});
   return way;
 }
 

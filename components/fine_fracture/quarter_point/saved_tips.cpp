@@ -6,20 +6,25 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int state_size = 15;  ///< numbers of a state, without its way and its path
+constexpr int state_size = 17;  ///< numbers of a state, without its way and its path
+
+void append(Vector& values, const Point& point) {
+  values.conservativeResize(values.size() + 2);
+  values.tail<2>() = point;
+}
 
 }  // namespace
 
 void Tips::save(std::map<std::string, Vector>& state) const {
   for (const Tip& tip : tips_) {
     const State& kept = tip.accepted;
-    std::vector<Point> places = kept.way;
-    places.insert(places.end(), kept.path.added.begin(), kept.path.added.end());
-    Vector values(state_size + 2 * places.size());
-    values.head<state_size>() << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped,
-        kept.has_started, kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated,
-        kept.load, kept.is_extendable, kept.speed, kept.turning, static_cast<double>(kept.way.size());
-    for (std::size_t i = 0; i < places.size(); ++i) values.segment<2>(state_size + 2 * i) = places[i];
+    const Point start = kept.segment_start.value_or(Point::Zero());
+    Vector values(state_size);
+    values << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started,
+        kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated, kept.load,
+        kept.is_extendable, kept.speed, kept.turning, static_cast<double>(kept.way.size()), start;
+    for (const PlaceOnWay& place : kept.way) append(values, place.position), append(values, place.direction);
+    for (const Point& place : kept.path.added) append(values, place);
     state[name() + "." + tip.name] = std::move(values);
   }
   state[name() + ".slopes"] = Eigen::Map<const Vector>(slopes_.data(), slopes_.size());
@@ -43,8 +48,17 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.is_extendable = values[11] != 0;
     kept.speed = values[12];
     kept.turning = values[13];
-    for (int i = state_size; i + 1 < values.size(); i += 2)
-      (i < state_size + 2 * values[14] ? kept.way : kept.path.added).emplace_back(values[i], values[i + 1]);
+    if (const Point start(values[15], values[16]); start != Point::Zero()) kept.segment_start = start;
+    int at = state_size;
+    const auto next = [&] {
+      at += 2;
+      return Point(values[at - 2], values[at - 1]);
+    };
+    for (int i = 0; i < values[14] && at + 3 < values.size(); ++i) {
+      const Point position = next();
+      kept.way.push_back({position, next()});
+    }
+    while (at + 1 < values.size()) kept.path.added.push_back(next());
     tip.now = tip.accepted = kept;
   }
   if (const auto found = state.find(name() + ".slopes"); found != state.end()) {

@@ -1,7 +1,25 @@
 // The loads that the fine level takes from the coarse level: displacements on its outline, stress, tractions on walls.
 #include "components/fine_fracture/quarter_point/tips.hpp"
+#include "framework/mesh/planar.hpp"
 
 namespace sprekk::fine_fracture {
+
+namespace {
+
+/// A cell in whose place the fine level has an arc.
+struct Arc {
+  int fracture;
+  double from, to;  ///< m, along the fracture
+  Point along;      ///< of the cell
+};
+
+/// The vector, turned as the second direction is from the first one.
+Point turned(const Point& vector, const Point& from, const Point& to) {
+  const double c = from.dot(to), s = cross(from, to);
+  return {c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]};
+}
+
+}  // namespace
 
 FineLoads Tips::loads_of(const Tip& tip) const {
   std::vector<double> lengths;
@@ -9,6 +27,13 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     double length = 0;
     for (int i = 0; i < fracture.cell_count; ++i) length += mesh_.fracture_cells[fracture.first_cell + i].measure;
     lengths.push_back(length);
+  }
+  std::vector<Arc> arcs;
+  for (const Tip& other : tips_) {
+    if (!other.now.segment_start) continue;
+    const FractureCell& cell = last_cell(other.end);
+    const double from = other.end.at_end ? lengths[other.end.fracture] - cell.measure : 0;
+    arcs.push_back({other.end.fracture, from, from + cell.measure, cell.tangents});
   }
   const FineDomain& domain = tip.domain;
   const auto arc = [&domain](int crack, int segment, double s) {
@@ -20,7 +45,7 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     return surroundings_->displacement(x, inside);
   };
   loads.stress_offset = [this](const std::vector<Point>& places) { return surroundings_->stress_offsets(places)(); };
-  loads.wall_traction = [this, &domain, arc, lengths](int crack, int segment, double s) -> Point {
+  loads.wall_traction = [this, &domain, arc, lengths, arcs](int crack, int segment, double s) -> Point {
     const int fracture = domain.sources[crack].fracture;
     const double at = arc(crack, segment, s);
     // Walls that have grown in the fine level are open, and carry the pressure of the fluid.
@@ -30,7 +55,12 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     const double middle = arc(crack, segment, 0.5);
     if (middle < 0) return -surroundings_->fluid_pressure(fracture, false) * normal;
     if (middle > lengths[fracture]) return -surroundings_->fluid_pressure(fracture, true) * normal;
-    return surroundings_->wall_traction(fracture, at);
+    const Point traction = surroundings_->wall_traction(fracture, at);
+    // Pieces of an arc have the tractions of the straight cell in their own directions.
+    for (const Arc& bent : arcs)
+      if (bent.fracture == fracture && middle > bent.from && middle < bent.to)
+        return turned(traction, bent.along, along);
+    return traction;
   };
   // Jumps are asked for at the ends of segments, too. At a junction each segment has its own jump: the place is moved
   // into the segment by a rounding error.

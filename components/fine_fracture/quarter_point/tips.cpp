@@ -35,6 +35,17 @@ Point Tips::direction(const Tip& tip) const {
   return tip.end.at_end ? tangent : Point(-tangent);
 }
 
+std::optional<Point> Tips::middle_of_last_segment(const Tip& tip) const {
+  if (!tip.now.segment_start) return std::nullopt;
+  const Point end = position(tip, {});
+  return middle_of_arc(end - last_cell(tip.end).measure * direction(tip), *tip.now.segment_start, end);
+}
+
+Point Tips::end_direction(const Tip& tip) const {
+  const std::optional<Point> middle = middle_of_last_segment(tip);
+  return middle ? Point((position(tip, {}) - *middle).normalized()) : direction(tip);
+}
+
 std::vector<TipPath> Tips::paths_now() const {
   std::vector<TipPath> paths;
   for (const Tip& tip : tips_) paths.push_back(tip.now.path);
@@ -44,10 +55,15 @@ std::vector<TipPath> Tips::paths_now() const {
 std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) const {
   const TipPath nothing;
   std::vector<const TipPath*> of_end(2 * mesh_.fractures.size(), &nothing);
-  for (std::size_t i = 0; i < tips_.size(); ++i) of_end[2 * tips_[i].end.fracture + tips_[i].end.at_end] = &added[i];
+  std::vector<std::optional<Point>> middles(of_end.size());
+  for (std::size_t i = 0; i < tips_.size(); ++i) {
+    const std::size_t end = 2 * tips_[i].end.fracture + tips_[i].end.at_end;
+    of_end[end] = &added[i];
+    middles[end] = middle_of_last_segment(tips_[i]);
+  }
   std::vector<FracturePath> paths;
   for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f)
-    paths.push_back(fracture_path(mesh_, f, *of_end[2 * f], *of_end[2 * f + 1]));
+    paths.push_back(fracture_path(mesh_, f, *of_end[2 * f], *of_end[2 * f + 1], middles[2 * f], middles[2 * f + 1]));
   return paths;
 }
 
@@ -275,7 +291,8 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
       tip.pattern = same.pattern;
       tip.topology = same.topology;
       // The path is dropped here and not when it is handed over: a mesh that cannot take it would lose it.
-      const double taken = new_length(mesh_, tip.end, change) - given_up_length(mesh_, tip.end, change);
+      const double made = new_length(mesh_, tip.end, change), taken = made - given_up_length(mesh_, tip.end, change);
+      if (made > 0) tip.now.segment_start = same.next_start;
       if (taken > 0) {
         tip.now.grown += taken;
         tip.now.is_extendable = grows_within_steps_;

@@ -7,6 +7,7 @@
 
 #include "components/capabilities/fracture_tips.hpp"
 #include "components/fine_fracture/growth/grow_tips.hpp"
+#include "components/fine_fracture/growth/way_of_tip.hpp"
 #include "components/fine_fracture/quarter_point/domain/fine_domain.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/model.hpp"
 #include "framework/config/spec.hpp"
@@ -77,10 +78,14 @@ class Tips : public Component, public FractureTips, public Growing {
     bool has_started = false;   ///< whether the tip has begun to grow: its onset is over
     WarmStart warm_start;       ///< of the last increment
     bool is_extendable =
-        false;                ///< whether the last cell of the fracture is the last segment, which growth may replace
-    double speed = 0;         ///< m/s, of growth in the last step
-    double turning = 0;       ///< rad/m, of the last segment by growth in the last step
-    std::vector<Point> way;   ///< m, where the tip was at ends of steps while its last segment grew, the last one here
+        false;           ///< whether the last cell of the fracture is the last segment, which growth may replace
+    double speed = 0;    ///< m/s, of growth in the last step
+    double turning = 0;  ///< rad/m, of the last segment by growth in the last step
+    /// Where the tip was at ends of steps while its last segment grew; the last one is here.
+    std::vector<PlaceOnWay> way;
+    /// The direction of the path at the beginning of the last segment. With one the fine level has an arc in place of
+    /// the segment.
+    std::optional<Point> segment_start;
     bool is_stopped = false;  ///< for good, at or before another fracture, or before the boundary
   };
   /// A tip, its state, and what is kept of its fine level.
@@ -105,8 +110,9 @@ class Tips : public Component, public FractureTips, public Growing {
     std::uint64_t evaluated_for = 0;
     /// The triangulation of the trials within a step: it moves along, so that factors depend smoothly on the advance.
     std::shared_ptr<const Triangulated> pattern;
-    bool has_pattern = false;    ///< whether `model` was made with it
-    std::uint64_t topology = 0;  ///< of the mesh of the last fine level that was made
+    bool has_pattern = false;         ///< whether `model` was made with it
+    std::optional<Point> next_start;  ///< State::segment_start on the trial meshes of this step
+    std::uint64_t topology = 0;       ///< of the mesh of the last fine level that was made
   };
 
   /// An end of a fracture at another fracture; it may have been a tip.
@@ -128,7 +134,11 @@ class Tips : public Component, public FractureTips, public Growing {
   void note_start(const StepTime& step);
   const FractureCell& last_cell(const TipEnd& end) const;
   Point position(const Tip& tip, const TipPath& path) const;
-  Point direction(const Tip& tip) const;
+  Point direction(const Tip& tip) const;  ///< of the last cell
+  Point end_direction(
+      const Tip& tip) const;  ///< of the path in the fine level that the mesh has taken over, at its end
+  std::optional<Point> middle_of_last_segment(
+      const Tip& tip) const;  ///< m, where the fine level has an arc in its place
   std::vector<FracturePath> paths_with(const std::vector<TipPath>& added) const;
   std::vector<TipPath> paths_now() const;
   Sifs evaluate(std::size_t tip, const std::vector<TipPath>& paths);

@@ -19,29 +19,70 @@ TEST(WayOfTip, IsExactWhereTheDirectionIsLinearInTheDistance) {
   for (const double turned : {0.0, 0.7, 2.9, 3.14159, -1.3})
     for (const double bend : {4.0, -7.0}) {
       const auto on_spiral = [&](double length) { return at(length, turned + bend * length); };
-      const std::vector<Point> way = {on_spiral(4e-3), on_spiral(9e-3), on_spiral(9.5e-3), on_spiral(17e-3)};
+      const Point start = at(1, turned) - anchor;
+      std::vector<PlaceOnWay> way;
+      for (const double length : {4e-3, 9e-3, 9.5e-3, 17e-3}) way.push_back({on_spiral(length), start});
       for (const double length : {4e-3, 6e-3, 9e-3, 9.2e-3, 12e-3, 17e-3})
-        EXPECT_LT((place_on_way(anchor, way, length) - on_spiral(length)).norm(), 1e-15) << turned << " " << length;
-      // Up to the first place the segment is straight.
-      EXPECT_LT((place_on_way(anchor, way, 1e-3) - at(1e-3, turned + bend * 4e-3)).norm(), 1e-15);
+        EXPECT_LT((place_on_way(anchor, {}, way, length).position - on_spiral(length)).norm(), 1e-15) << turned;
+      // Up to the first place the segment is straight, or turns from where it started.
+      EXPECT_LT((place_on_way(anchor, {}, way, 1e-3).position - at(1e-3, turned + bend * 4e-3)).norm(), 1e-15);
+      EXPECT_LT((place_on_way(anchor, start, way, 1e-3).position - on_spiral(1e-3)).norm(), 1e-15) << turned;
     }
 }
 
-/// On a circle the error falls with the square of the distances between places.
-TEST(WayOfTip, IsOfSecondOrderOnACurve) {
-  const double radius = 0.02;
-  const auto on_curve = [&](double length) { return at(length, std::pow(length / radius, 1.5)); };
-  std::vector<double> errors;
-  for (const int steps : {2, 4, 8}) {
-    std::vector<Point> way;
-    for (int i = 0; i <= steps; ++i) way.push_back(on_curve(8e-3 + 8e-3 * i / steps));
-    double worst = 0;
-    for (double length = 8e-3; length < 16e-3; length += 0.05e-3)
-      worst = std::max(worst, (place_on_way(anchor, way, length) - on_curve(length)).norm());
-    errors.push_back(worst);
+/// A circle that begins at the anchor in some direction, and its direction after an arc.
+struct Circle {
+  double curvature, begins;
+  double angle(double arc) const { return begins + curvature * arc; }
+  PlaceOnWay after(double arc) const {
+    return {anchor + (Point(std::sin(angle(arc)), -std::cos(angle(arc))) - Point(std::sin(begins), -std::cos(begins))) /
+                         curvature,
+            {std::cos(angle(arc)), std::sin(angle(arc))}};
   }
-  EXPECT_GT(errors[0] / errors[1], 3.5);
-  EXPECT_GT(errors[1] / errors[2], 3.5);
+};
+
+/// On a circle the place is exact but for the third order, and so is the direction but for the second one.
+TEST(WayOfTip, IsOfSecondOrderOnACircle) {
+  for (const Circle circle : {Circle{40, 3.0}, Circle{-25, -0.4}}) {
+    std::vector<double> places, directions;
+    for (const int steps : {4, 8, 16, 32}) {
+      std::vector<PlaceOnWay> way;
+      for (int i = 1; i <= steps; ++i) way.push_back(circle.after(16e-3 * i / steps));
+      double worst = 0, most = 0;
+      for (double arc = 1e-3; arc < 15.9e-3; arc += 0.05e-3) {
+        const PlaceOnWay exact = circle.after(arc);
+        const PlaceOnWay found = place_on_way(anchor, circle.after(0).direction, way, (exact.position - anchor).norm());
+        worst = std::max(worst, (found.position - exact.position).norm());
+        most = std::max(most, (found.direction - exact.direction).norm());
+      }
+      places.push_back(worst);
+      directions.push_back(most);
+    }
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_GT(places[i] / places[i + 1], 3.4) << i;
+      EXPECT_GT(directions[i] / directions[i + 1], 3.4) << i;
+    }
+  }
+}
+
+TEST(MiddleOfArc, HasTheTangentsOfACircleAtBothEnds) {
+  for (const Circle circle : {Circle{40, 3.0}, Circle{-25, -0.4}, Circle{1e-4, 0.2}}) {
+    const PlaceOnWay start = circle.after(0), end = circle.after(0.012);
+    const Point middle = middle_of_arc(anchor, start.direction, end.position);
+    EXPECT_LT(((middle - anchor).normalized() - start.direction).norm(), 1e-6);
+    EXPECT_LT(((end.position - middle).normalized() - end.direction).norm(), 1e-6);
+    EXPECT_NEAR((middle - anchor).norm(), (end.position - middle).norm(), 1e-9);
+  }
+}
+
+/// A start that leads elsewhere: the arc does not become a loop.
+TEST(MiddleOfArc, TurnsByNoMoreThanSoMuch) {
+  const Point end = anchor + Point(0.01, 0);
+  for (const double angle : {0.5, 1.6, 3.1, -0.6, -2.5}) {
+    const Point middle = middle_of_arc(anchor, {std::cos(angle), std::sin(angle)}, end);
+    EXPECT_NEAR((middle - anchor)[0], 0.005, 1e-12);
+    EXPECT_NEAR((middle - anchor)[1], std::copysign(0.005 * std::tan(0.4), angle), 1e-12);
+  }
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ constexpr double same_place = 1e-10;  ///< of the rock's extent: ends of fractur
 constexpr double rounding = 1e-9;     ///< of a domain, or of a segment: what lies in it by less does not
 }  // namespace
 
-FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last) {
+FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last,
+                           const std::optional<Point>& middle_of_first, const std::optional<Point>& middle_of_last) {
   FracturePath path;
   const Fracture& cells = mesh.fractures[fracture];
   std::vector<char> is_kept;  // where the coarse level begins or ends, and where fractures meet
@@ -55,9 +56,11 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
   append(end_point(false).position, 0, true);
   for (int i = 0; i < cells.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
+    const bool is_last = i + 1 == cells.cell_count;
+    for (const std::optional<Point>* middle : {&middle_of_first, &middle_of_last})
+      if (*middle && (middle == &middle_of_first ? i == 0 : is_last)) append(**middle, arc + 0.5 * cell.measure, true);
     arc += cell.measure;
     const FracturePoint& point = mesh.fracture_points[cell.points[1]];
-    const bool is_last = i + 1 == cells.cell_count;
     append(point.position, is_last ? path.length : arc, is_last || point.kind == FracturePoint::Kind::junction);
   }
   arc = path.length;

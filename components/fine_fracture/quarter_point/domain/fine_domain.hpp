@@ -1,6 +1,7 @@
 // The part of the coarse level around a tip, as the fine level needs it (sec. 3.1 and Fig. 2 of the paper).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "components/fine_fracture/growth/grow_tips.hpp"
@@ -23,7 +24,11 @@ struct FracturePath {
   double length;              ///< m, of the coarse level
   bool first_is_tip, last_is_tip;
 };
-FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last);
+/// `middle_of_first`, `middle_of_last`: a point (m) by which the first or the last cell bends; in arc length it is the
+/// middle.
+FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last,
+                           const std::optional<Point>& middle_of_first = {},
+                           const std::optional<Point>& middle_of_last = {});
 
 /// The geometry of a fine level, and how it relates to the fractures of the coarse level.
 struct FineDomain {

@@ -78,6 +78,24 @@ TEST(FracturePath, KeepsTheEndsOfTheCoarseLevelWhereGrowthIsStraight) {
   expect_lengths(path.arc, {-0.3, 0, 0.5, 0.8});
 }
 
+TEST(FracturePath, BendsItsLastCellsByTheirMiddles) {
+  const Mesh mesh = rock_with({kinked});
+  const Fracture& cells = mesh.fractures[0];
+  const FractureCell &first = mesh.fracture_cells[cells.first_cell],
+                     &last = mesh.fracture_cells[cells.first_cell + cells.cell_count - 1];
+  const Point bent_first = first.center + Point(0, 1e-3), bent_last = last.center + Point(2e-3, 0);
+  const FracturePath path = fracture_path(mesh, 0, {}, TipPath{{Point(1.4, 0.85)}}, bent_first, bent_last);
+  ASSERT_GE(path.points.size(), 6u);
+  EXPECT_EQ(path.points[0], kinked[0]);
+  EXPECT_EQ(path.points[1], bent_first);
+  EXPECT_NEAR(path.arc[1], 0.5 * first.measure, rounding);
+  const std::size_t n = path.points.size();
+  EXPECT_EQ(path.points[n - 3], bent_last);
+  EXPECT_NEAR(path.arc[n - 3], path.length - 0.5 * last.measure, rounding);
+  EXPECT_NEAR(path.arc[n - 2], path.length, rounding);
+  EXPECT_NEAR(path.length, 1, rounding);
+}
+
 TEST(FracturePath, KnowsEndsOnTheOuterBoundary) {
   const Mesh mesh = rock_with({{Point(0, 0.4), Point(0.5, 0.5)}, {Point(1.5, 0.4), Point(2, 0.5)}});
   const auto paths = paths_of(mesh);
