@@ -67,10 +67,7 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
   if (slopes.rows() == 2 * count()) {
     is_experienced_ = true;
     jacobian_ = slopes;
-    std::vector<double> factor(count(), turn_slope);
-    for (int i = 0; i < count(); ++i)
-      if (grows_[i]) factor[i] = turn_slope_of(i, without_growth[i].sifs, length_[i]);
-    scale_turns(jacobian_, factor);
+    scale_turns(jacobian_, without_growth, false);
     return;
   }
   for (int i = 0; i < count(); ++i)
@@ -128,7 +125,7 @@ void Front::begin(int i, const FrontState& state) {
   if (!is_new(i)) {
     const double expected = tip.speed > 0 ? tip.speed * dt_ : first_part * options_.increment;
     length_[i] = std::min(tip.longest, tip.covered + std::min(expected, options_.increment));
-    angle_[i] = tip.angle + std::clamp(tip.turning * (length_[i] - tip.covered), -largest_turn, largest_turn);
+    angle_[i] = tip.ahead + std::clamp(tip.turning * (length_[i] - tip.covered), -largest_turn, largest_turn);
     return;
   }
   // The longest kink at whose end K_eq has not come down to the toughness, as long as the loads stay.
@@ -175,21 +172,23 @@ void Front::make_jacobian() {
   }
 }
 
-void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<double>& factor) {
-  for (int i = 0; i < jacobian.rows(); ++i)
-    for (int j = 0; j < jacobian.cols(); ++j)
-      if (j % 2 == 1)
-        jacobian(i, j) *= factor[j / 2];
-      else if (i % 2 == 1)
-        jacobian(i, j) *= factor[i / 2];
+/// Where a tip lies changes K, and an angle moves the tip across by the length of its segment; K_II follows the
+/// direction as at a kink.
+void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const {
+  for (int j = 0; j < count(); ++j) {
+    if (!(length_[j] > 0)) continue;
+    const double across = length_[j] / options_.increment,
+                 turn = grows_[j] && states[j].is_evaluated ? turn_slope_of(j, states[j].sifs, length_[j]) : turn_slope;
+    for (int i = 0; i < count(); ++i) {
+      jacobian(2 * i, 2 * j + 1) *= inverse ? 1 / across : across;
+      jacobian(2 * i + 1, 2 * j + 1) *= inverse ? 1 / turn : turn;
+    }
+  }
 }
 
 Eigen::MatrixXd Front::slopes() const {
-  std::vector<double> factor(count(), 1 / turn_slope);
-  for (int i = 0; i < count(); ++i)
-    if (grows_[i] && last_[i].is_evaluated) factor[i] = 1 / turn_slope_of(i, last_[i].sifs, length_[i]);
   Eigen::MatrixXd slopes = jacobian_;
-  scale_turns(slopes, factor);
+  scale_turns(slopes, last_, true);
   return slopes;
 }
 
@@ -197,7 +196,11 @@ Eigen::VectorXd Front::residual(const std::vector<FrontState>& states) const {
   Eigen::VectorXd values(2 * count());
   for (int i = 0; i < count(); ++i) {
     values[2 * i] = log_load(states[i]);
-    values[2 * i + 1] = states[i].is_evaluated && grows_[i] ? shear(states[i]) : 0;
+    values[2 * i + 1] = 0;
+    if (!states[i].is_evaluated || !grows_[i]) continue;
+    const Sifs& k = states[i].sifs;
+    values[2 * i + 1] = shear(states[i]);
+    if (k.k1 > std::abs(k.k2)) values[2 * i] += std::log(std::hypot(k.k1, k.k2) / equivalent_sif(k));
   }
   return values;
 }
@@ -240,7 +243,7 @@ void Front::learn(const std::vector<FrontState>& states) {
   worst_ = 0;
   bool is_met = true;
   for (int i = 0; i < count(); ++i) {
-    const double load = found[2 * i];
+    const double load = log_load(states[i]);
     if (!grows_[i]) {
       if (!is_stopped_[i] && states[i].is_evaluated && load > options_.load_tolerance) is_met = false;
       continue;

@@ -22,9 +22,10 @@ struct FrontTip {
   double longest = 0;            ///< m, most that the segment may become in this step
   double least = 0;              ///< m, of a new segment: what has parted in earlier steps does not heal
   double speed = 0;              ///< m/s, of the last step; 0 where the tip did not grow
-  double turning = 0;            ///< rad/m, of the segment by its growth in the last step
-  bool is_bent =
-      false;  ///< whether the segment begins in a fixed direction, so that its end turns twice as much as its chord
+  /// rad from the x axis: of the path at the tip, and not of a segment that was divided; for a bent one its chord
+  double ahead = 0;
+  double turning = 0;    ///< rad/m, of `ahead` by the growth in the last step
+  bool is_bent = false;  ///< whether the segment begins in a fixed direction: its end turns twice as much as its chord
   bool goes_on = false;  ///< grows in the first trial, whatever its load
   /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
   double first_length = 0, first_angle = 0;
@@ -81,7 +82,7 @@ class Front {
   int trials() const { return trials_; }
   double worst() const { return worst_; }  ///< the largest |ln(K_eq/K_IC)| of growing tips in the last trial
   const std::string& reason() const { return reason_; }
-  /// The derivative of (ln(K_eq/K_IC), K_II/K_I) by (length/increment, angle), per tip, as it was learnt, without the
+  /// The derivative of (ln(K/K_IC), K_II/K_I) by (length/increment, angle), per tip, as it was learnt, without the
   /// part that depends on the length of the segment that turns; for the next step.
   Eigen::MatrixXd slopes() const;
 
@@ -93,10 +94,13 @@ class Front {
   void set_turn_slope(int tip, const Sifs& sifs);
   bool learns_from_start() const;
   void make_jacobian();
-  /// Multiplies what depends on how a segment turns by a factor for each tip.
-  static void scale_turns(Eigen::MatrixXd& jacobian, const std::vector<double>& factor);
+  /// Puts the part of the derivatives by angles that depends on the lengths of segments in, or takes it out
+  /// (`inverse`). `states`: those at which the slopes of turns are taken.
+  void scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const;
   /// d(K_II/K_I)/d angle of the last segment of a tip, of this length (m), by the expansion of a kink.
   double turn_slope_of(int tip, const Sifs& sifs, double length) const;
+  /// (ln(K/K_IC), K_II/K_I), per tip. For a tip that grows K² = K_I² + K_II², the energy release rate: its roots are
+  /// those of K_eq, and it depends less on squares of the error of a direction. For others K = K_eq.
   Eigen::VectorXd residual(const std::vector<FrontState>& states) const;
   Eigen::VectorXd place() const;
   void update_jacobian(const Eigen::VectorXd& residual);
@@ -111,7 +115,7 @@ class Front {
   std::vector<char> grows_, is_laid_, is_stopped_;
   std::vector<double> length_, angle_;
   std::vector<FrontState> last_;
-  Eigen::MatrixXd jacobian_;  ///< of (ln(K_eq/K_IC), K_II/K_I) by (length/increment, angle), per tip
+  Eigen::MatrixXd jacobian_;  ///< of residual() by (length/increment, angle), per tip
   Eigen::VectorXd before_place_, before_residual_;
   std::vector<Eigen::VectorXd> learnt_;  ///< orthonormal: the directions in which the Jacobian is that of this step
   /// The best trial so far with the tips that grow now.

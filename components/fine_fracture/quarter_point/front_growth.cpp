@@ -120,7 +120,7 @@ void TipsFront::add(Tips::Tip& tip) {
   FrontTip start;
   Segment segment;
   start.anchor = end;
-  start.angle = angle_of(ahead);
+  start.angle = start.ahead = angle_of(ahead);
   start.toughness = *tips_.options_.toughness;
   start.speed = tip.now.speed;
   start.turning = tip.now.turning;
@@ -140,6 +140,7 @@ void TipsFront::add(Tips::Tip& tip) {
       tip.next_start = place.direction;
     }
     start.is_bent = tip.next_start.has_value();
+    if (start.is_bent) start.ahead = start.angle;
   }
   FrontState state = state_of(tips_, tip);
   if (state.is_evaluated && !tip.now.path.added.empty()) {
@@ -336,7 +337,7 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     same->now.speed = std::max(0.0, grown) / dt_;
     const double advance = front_->length(static_cast<int>(i)) - at_start_[i].covered;
     same->now.turning = !jump_ && at_start_[i].covered > 0 && advance > 0
-                            ? (front_->angle(static_cast<int>(i)) - at_start_[i].angle) / advance
+                            ? (front_->angle(static_cast<int>(i)) - at_start_[i].ahead) / advance
                             : 0;
     same->now.way = way_to(there, *same, tips_.tips_[i].now.way);
     same->now.has_started = same->now.has_started || (jump_ ? jump_->is_laid(i) : front_->grows(i));

@@ -2,14 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "components/fine_fracture/growth/front.hpp"
+#include "components/fine_fracture/growth/mixed_mode.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
 
-/// Tips with K_eq = K_IC exp(rise - own (s_i - c_i) - shared sum_j (s_j - c_j)), whose right direction turns with their
-/// length. K_eq does not depend on the direction.
+/// Tips with K = K_IC exp(rise - own (s_i - c_i) - shared sum_j (s_j - c_j)), K² = K_I² + K_II², whose right direction
+/// turns with their length. K does not depend on the direction.
 struct ClosedForm {
   std::vector<double> rise;
   std::vector<FrontTip> tips;
@@ -23,9 +25,9 @@ struct ClosedForm {
     for (std::size_t i = 0; i < tips.size(); ++i) {
       const double added = lengths[i] - tips[i].covered, wrong = angles[i] - tips[i].angle - turn * added;
       FrontState state;
-      state.load = std::exp(rise[i] - own * added - shared * sum);
-      const double k = tips[i].toughness * state.load;
+      const double k = tips[i].toughness * std::exp(rise[i] - own * added - shared * sum);
       state.sifs = {k * std::cos(0.7 * wrong), k * std::sin(0.7 * wrong), -1e6};
+      state.load = equivalent_sif(state.sifs) / tips[i].toughness;
       states.push_back(state);
     }
     return states;
@@ -59,7 +61,7 @@ FrontOptions options() {
 FrontTip tip(double angle) {
   FrontTip tip;
   tip.covered = 0.008;
-  tip.angle = angle;
+  tip.angle = tip.ahead = angle;
   tip.toughness = 7e5;
   tip.longest = tip.covered + 0.015;
   return tip;
@@ -108,6 +110,48 @@ TEST(Front, NeedsFewTrialsAfterASimilarStep) {
   ASSERT_EQ(front.verdict(), Front::Verdict::found);
   const double sum = 0.635 / (form.own + 2 * form.shared);
   EXPECT_NEAR(front.length(0) - 0.008, (0.31 - form.shared * sum) / form.own, 2e-8);
+  EXPECT_LE(front.trials(), 4);
+}
+
+/// One tip on a curved path in its whole frame: an angle moves the tip across by the length of its segment, which
+/// changes K, and K_II follows the direction as at a kink. K_eq depends on the square of K_II.
+struct CurvedPath {
+  double rise, right_angle;  ///< of ln K at the start of the step; rad, of the path there
+  FrontTip tip;
+
+  FrontState state(double length, double angle) const {
+    const double added = length - tip.covered, wrong = angle - right_angle - 8 * added;
+    const double k = tip.toughness * std::exp(rise - 30 * added + 20 * length * wrong), t_stress = -2e7;
+    const double direction = wrong * (0.5 - 2 * std::sqrt(2 / std::numbers::pi) * t_stress * std::sqrt(length) / 7e5);
+    FrontState state{{k * std::cos(direction), k * std::sin(direction), t_stress}, 0};
+    state.load = equivalent_sif(state.sifs) / tip.toughness;
+    return state;
+  }
+  Front solved(const Eigen::MatrixXd& slopes = {}) const {
+    Front front({tip}, {state(tip.covered, tip.angle)}, options(), 3600, slopes);
+    while (front.verdict() == Front::Verdict::again) front.learn({state(front.length(0), front.angle(0))});
+    return front;
+  }
+};
+
+/// A segment that is divided has another direction than the path at its end, and is shorter than that of the last step.
+TEST(Front, NeedsFewTrialsAfterASegmentWasDivided) {
+  CurvedPath path{0.12, 0.4, tip(0.4)};
+  const Front before = path.solved();
+  ASSERT_EQ(before.verdict(), Front::Verdict::found);
+  const double advance = before.length(0) - path.tip.covered;
+  EXPECT_NEAR(advance, 0.12 / 30, 1e-8);
+  path.right_angle = path.tip.ahead = before.angle(0);
+  path.tip.angle = before.angle(0) + 0.05;
+  path.tip.covered = 0.005;
+  path.tip.speed = advance / 3600;
+  path.tip.turning = (before.angle(0) - 0.4) / advance;
+  path.tip.goes_on = true;
+  path.rise = 0.11;
+  const Front front = path.solved(before.slopes());
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(front.length(0) - 0.005, 0.11 / 30, 1e-8);
+  EXPECT_NEAR(front.angle(0), before.angle(0) + 8 * 0.11 / 30, 1e-5);
   EXPECT_LE(front.trials(), 4);
 }
 
