@@ -15,6 +15,8 @@ namespace {
 /// them.
 std::vector<Point> coordinates(const Mesh& mesh, Location location) {
   if (location == Location::cell) return mesh.cell_center;
+  if (location == Location::face) return mesh.face_center;
+  if (location == Location::node) return mesh.nodes;
   std::vector<Point> points;
   if (location == Location::fracture_cell || location == Location::wall)
     for (const FractureCell& cell : mesh.fracture_cells)

@@ -28,6 +28,8 @@ Field::Field(FieldSpec spec, int entities)
     : spec_(std::move(spec)), entities_(entities), now_(Vector::Zero(entities * spec_.components)), accepted_(now_) {
   SPREKK_EXPECT(entities >= 0 && spec_.components > 0, name(), entities, spec_.components);
   SPREKK_EXPECT(!spec_.owner.empty() && !spec_.name.empty(), name());
+  if (spec_.is_amount && (spec_.location == Location::node || spec_.location == Location::face))
+    throw std::logic_error("field " + name() + ": amounts are on cells, fracture cells or walls");
   if (spec_.role.is_derived() || !is_bulk(spec_.role.kind())) return;
   if (spec_.location != Location::cell && spec_.location != Location::face && spec_.location != Location::node)
     throw std::logic_error("field " + name() + ": a block of the bulk is not on fractures");

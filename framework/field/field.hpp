@@ -31,7 +31,7 @@ struct FieldSpec {
   std::string accepted_with = "";
   /// For fields on cells, fracture cells and walls: whether the value is an amount in the entity (m^2 of fluid), and
   /// not a density or a mean. When the mesh changes, amounts are divided by measure, and all other values are averaged
-  /// (Eq. 17 of the paper).
+  /// (Eq. 17 of the paper). Nodes and faces have no measure to divide by.
   bool is_amount = false;
   std::string full_name() const { return owner + "." + name; }
 };
@@ -41,7 +41,7 @@ struct FieldSpec {
 class Field {
  public:
   /// Throws std::logic_error where the kind of the block does not fit: an elastic one has `dimension` components, an
-  /// elliptic one has one, and neither is on fractures.
+  /// elliptic one has one, and neither is on fractures; and for amounts on nodes or faces.
   Field(FieldSpec spec, int entities);
 
   const FieldSpec& spec() const { return spec_; }

@@ -1,5 +1,7 @@
 #include "framework/field/ownership.hpp"
 
+#include <stdexcept>
+
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -19,9 +21,10 @@ int entity_rank(const Mesh& mesh, Location location, int entity) {
       return mesh.fracture_cell_rank(entity / 2);
     case Location::face:
       return mesh.cell_rank[mesh.face_cells[entity][0]];
-    default:
-      return 0;
+    case Location::node:
+      return mesh.cell_rank[mesh.node_cells[entity][0]];
   }
+  throw std::logic_error("unknown location");
 }
 
 bool is_owned(const Mesh& mesh, Location location, int entity) {

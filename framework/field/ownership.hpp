@@ -5,7 +5,7 @@
 
 namespace sprekk {
 
-/// The rank that owns an entity. Faces belong to that of their first cell, nodes to rank 0.
+/// The rank that owns an entity. Faces and nodes belong to that of their first cell.
 int entity_rank(const Mesh& mesh, Location location, int entity);
 bool is_owned(const Mesh& mesh, Location location, int entity);  ///< by this process
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "framework/field/weights_in_cell.hpp"
 #include "framework/module/module.hpp"
 #include "framework/output/atomic_file.hpp"
 #include "framework/output/vtk_module/vtk_module.hpp"
@@ -77,6 +78,12 @@ void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const
     require_size(field, mesh);
     if (field.location == Location::cell) add_field(grid.on_cells, field, field.name);
     if (field.location == Location::node) add_field(grid.on_points, field, field.name);
+    if (field.location == Location::face) {
+      OutputField means = field;
+      means.location = Location::cell;
+      means.values = means_of_cells(mesh, field.location, field.components, field.values);
+      add_field(grid.on_cells, means, field.name);
+    }
   }
   write(file, grid);
 }

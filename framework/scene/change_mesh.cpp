@@ -1,11 +1,11 @@
 #include "framework/scene/change_mesh.hpp"
 
 #include <map>
-#include <stdexcept>
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/partition.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/scene/transfer_in_cells.hpp"
 
 namespace sprekk {
 
@@ -62,7 +62,8 @@ void share_replaced(const Field& old, const MeshChange& change, int parts, Vecto
 
 }  // namespace
 
-void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, FieldStore& after) {
+void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, const Mesh& new_mesh,
+                     FieldStore& after) {
   for (const auto& field : after.all()) {
     const Field& old = before.at(field->name());
     Vector values = field->accepted();
@@ -81,8 +82,10 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
       case Location::fracture_point:
         copy_kept(old, change.fracture_point, 1, values);
         break;
-      default:
-        throw std::logic_error("field " + field->name() + " cannot be carried to another mesh");
+      case Location::node:
+      case Location::face:
+        values = transferred_in_cells(old, change, old_mesh, new_mesh);
+        break;
     }
     field->set_both(std::move(values));
   }
@@ -111,7 +114,7 @@ MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMe
       std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), grown.smallest_angle, {}};
   Model& model = *result.model;
   SPREKK_ASSERT(model.parts().size() == before.parts().size(), model.parts().size(), before.parts().size());
-  transfer_fields(before.fields(), grown.change, before.mesh(), model.fields());
+  transfer_fields(before.fields(), grown.change, before.mesh(), model.mesh(), model.fields());
   for (Part* part : model.parts()) part->evaluate_data(data);
   for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);
   begin_step(model.parts(), data);

@@ -12,8 +12,9 @@ namespace sprekk {
 /// A new cell gets the area-weighted mean of the old cells that it overlaps (Eq. 17 of the paper), or, for amounts, the
 /// sum of its shares, so that totals stay. The same holds for new fracture cells that cover old ones which were given
 /// up (means are over the part that is covered); other new fracture cells keep the initial values of their components.
-/// Throws std::logic_error for fields on faces and nodes, which have no mapping.
-void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, FieldStore& after);
+/// Values on new nodes and faces are those of the old field at their places (transferred_in_cells).
+void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, const Mesh& new_mesh,
+                     FieldStore& after);
 
 /// The model on the new mesh, and how its equilibrium was found.
 struct MeshChangeResult {

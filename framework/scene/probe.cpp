@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "framework/discretization/linear_fit.hpp"
+#include "framework/field/weights_in_cell.hpp"
 #include "framework/mesh/medium.hpp"
+#include "framework/mesh/point_location.hpp"
 
 namespace sprekk {
 
@@ -46,9 +49,9 @@ Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& m
   if (!fields.has(options.of)) throw unknown_name(options.origin, "field", options.of, field_names(fields));
   field_ = &fields.at(options.of);
   const Location location = field_->spec().location;
-  if (location != Location::cell && location != Location::fracture_cell)
+  if (!is_in_cells(location) && location != Location::fracture_cell)
     throw InputError(options.origin, "the field " + options.of + " cannot be probed",
-                     "it lives neither on cells nor on fracture cells", "choose another field");
+                     "it lives on walls or on points of fractures", "choose another field");
   check_names(mesh, options);
   if (options.at)
     set_point_weights(mesh, options);
@@ -93,7 +96,12 @@ void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
     weights_ = {{best, 1.0}};
     return;
   }
-  weights_ = linear_fit(mesh, *options.at);
+  const Location location = field_->spec().location;
+  const int home = location == Location::cell ? none : PointLocation(mesh).cell_at(*options.at);
+  if (home != none)
+    weights_ = weights_in_cell(mesh, location, home, *options.at);
+  else if (location == Location::cell)
+    weights_ = linear_fit(mesh, *options.at);
   if (weights_.empty())
     throw InputError(options.origin, "probe '" + name_ + "' lies outside the " + medium_name(),
                      "there is no cell at its position", "move it inside");
@@ -105,9 +113,12 @@ void Probe::set_domain_weights(const Mesh& mesh, const ProbeOptions& options) {
       if (options.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == options.fracture)
         weights_.emplace_back(i, mesh.fracture_cells[i].measure);
   } else {
+    std::map<int, double> shares;  // of the entities in the measures of cells
     for (int c = 0; c < mesh.cell_count(); ++c)
       if (options.region.empty() || mesh.region_names[mesh.cell_region[c]] == options.region)
-        weights_.emplace_back(c, mesh.cell_measure[c]);
+        for (const auto& [entity, weight] : weights_in_cell(mesh, field_->spec().location, c, mesh.cell_center[c]))
+          shares[entity] += weight * mesh.cell_measure[c];
+    weights_.assign(shares.begin(), shares.end());
   }
   if (weights_.empty())
     throw InputError(options.origin, "probe '" + name_ + "' covers nothing",

@@ -23,9 +23,9 @@ struct ProbeOptions {
 };
 
 /// Measures one figure of a field: a weighted sum of values, or the smallest or largest one. At a point of the matrix
-/// this is a linear fit to the cells around the point (least squares; exact for linear fields); at a point of a
-/// fracture the value of the nearest fracture cell. Over a fracture or region it is the mean, integral, smallest or
-/// largest value.
+/// this is a linear fit to the cells around the point (least squares; exact for linear fields), and for fields on
+/// nodes and faces the linear value in the cell of the point; at a point of a fracture the value of the nearest
+/// fracture cell. Over a fracture or region it is the mean, integral, smallest or largest value.
 class Probe {
  public:
   /// Throws InputError for unknown fields, fractures, regions, and points outside of the mesh.

@@ -90,7 +90,7 @@ TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
   SceneRun without_growth = SceneRun::from_text(pressurized({}, "", "", ""));
   const Scene& scene = without_growth.model().scene();
   Model goes_on(scene, run.mesh()), fresh(scene, run.mesh());
-  transfer_fields(run.model().fields(), no_change(run.mesh()), run.mesh(), goes_on.fields());
+  transfer_fields(run.model().fields(), no_change(run.mesh()), run.mesh(), run.mesh(), goes_on.fields());
   const double start = 1.4 * hour, dt = 60, end = run.time() + dt;
   ASSERT_TRUE(goes_on.attempt({run.time(), dt, end}).converged);
   ASSERT_TRUE(fresh.attempt({start, end - start, end}).converged);

@@ -35,6 +35,18 @@ TEST(Field, HasABlockThatFitsItsPlaceAndItsComponents) {
     EXPECT_THROW(Field(spec(on_fractures, 1, Role::input(BlockKind::bulk_elliptic)), 4), std::logic_error);
 }
 
+TEST(Field, HasAmountsWhereThereIsAMeasure) {
+  using enum Location;
+  for (const Location place : {cell, fracture_cell, wall, node, face}) {
+    FieldSpec amounts = spec(place, 1, Role::derived());
+    amounts.is_amount = true;
+    if (place == node || place == face)
+      EXPECT_THROW(Field(amounts, 4), std::logic_error);
+    else
+      EXPECT_NO_THROW(Field(amounts, 4));
+  }
+}
+
 TEST(Field, IsSolvedForAsAnUnknownOrAsAnInputThatACouplerDetermines) {
   EXPECT_TRUE(Field(spec(Location::cell, 1, Role::unknown(BlockKind::interface)), 1).is_solved());
   EXPECT_FALSE(Field(spec(Location::cell, 1, Role::derived()), 1).is_solved());

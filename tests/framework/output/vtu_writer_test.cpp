@@ -51,7 +51,9 @@ TEST_F(VtuWriter, MatrixIsReadBackToTheBit) {
   const auto displacement = field_on(mesh, "rock.displacement", Location::node, 2);
   const auto stress = field_on(mesh, "rock.stress", Location::cell, 3);
   const auto aperture = field_on(mesh, "conduit.aperture", Location::fracture_cell, 1);
-  write_matrix_vtu(folder / "m.vtu", mesh, {pressure, displacement, stress, aperture});
+  OutputField flux = field_on(mesh, "pore.flux", Location::face, 1);  // 2 x − y, so that means are those of the middle
+  for (int f = 0; f < mesh.face_count(); ++f) flux.values[f] = Point(2, -1).dot(mesh.face_center[f]);
+  write_matrix_vtu(folder / "m.vtu", mesh, {pressure, displacement, stress, aperture, flux});
 
   vtkUnstructuredGrid* grid = read(folder / "m.vtu");
   ASSERT_EQ(grid->GetNumberOfPoints(), mesh.node_count());
@@ -73,6 +75,10 @@ TEST_F(VtuWriter, MatrixIsReadBackToTheBit) {
   EXPECT_EQ(grid->GetPointData()->GetArray("rock.displacement[Pa]")->GetNumberOfComponents(), 3);
   EXPECT_EQ(grid->GetPointData()->GetArray("rock.displacement[Pa]")->GetComponent(7, 2), 0);
   expect_values(grid->GetCellData()->GetArray("rock.stress[Pa]"), stress);
+  vtkDataArray* means = grid->GetCellData()->GetArray("pore.flux[Pa]");
+  ASSERT_NE(means, nullptr);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    EXPECT_NEAR(means->GetComponent(c, 0), Point(2, -1).dot(mesh.cell_center[c]), 1e-13);
   EXPECT_EQ(grid->GetCellData()->GetArray("conduit.aperture[Pa]"), nullptr);
   EXPECT_NE(grid->GetCellData()->GetArray("region"), nullptr);
 }

@@ -1,8 +1,6 @@
 // Values that go over to a mesh that has grown.
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
 #include "framework/scene/change_mesh.hpp"
@@ -49,7 +47,7 @@ Transferred transfer(const Case& c, const FieldSpec& spec, const Vector& values,
   before.at("part.value").set(Vector::Constant(values.size(), 1e30));  // only what has been accepted goes over
   Field& field = after.add(c.grown.mesh, spec);
   field.set_both(Vector::Constant(field.size(), start));
-  transfer_fields(before, c.grown.change, c.mesh, after);
+  transfer_fields(before, c.grown.change, c.mesh, c.grown.mesh, after);
   return {field.accepted(), field.now()};
 }
 
@@ -180,10 +178,55 @@ TEST(TransferFields, FracturePointsFollow) {
   EXPECT_EQ(fresh, 3);
 }
 
-TEST(TransferFields, RefusesFieldsOnNodesAndFaces) {
+TEST(TransferFields, LinearFieldsOnNodesAndFacesStay) {
   const Case c = grown_at_first_point();
-  EXPECT_THROW(transfer(c, spec(Location::node), Vector::Zero(c.mesh.node_count())), std::logic_error);
-  EXPECT_THROW(transfer(c, spec(Location::face), Vector::Zero(c.mesh.face_count())), std::logic_error);
+  const auto linear = [](const std::vector<Point>& places) {
+    Vector values(2 * static_cast<int>(places.size()));
+    for (std::size_t i = 0; i < places.size(); ++i)
+      values.segment<2>(2 * static_cast<int>(i)) =
+          Point(3 - 0.7 * places[i].x() + 2 * places[i].y(), 1 + places[i].x());
+    return values;
+  };
+  const Vector on_nodes = transfer(c, spec(Location::node, 2), linear(c.mesh.nodes)).accepted;
+  ASSERT_EQ(on_nodes.size(), 2 * c.grown.mesh.node_count());
+  EXPECT_LT((on_nodes - linear(c.grown.mesh.nodes)).lpNorm<Eigen::Infinity>(), 1e-13);
+  const Vector on_faces = transfer(c, spec(Location::face, 2), linear(c.mesh.face_center)).accepted;
+  ASSERT_EQ(on_faces.size(), 2 * c.grown.mesh.face_count());
+  EXPECT_LT((on_faces - linear(c.grown.mesh.face_center)).lpNorm<Eigen::Infinity>(), 1e-13);
+}
+
+TEST(TransferFields, NodesAndFacesOfKeptCellsStayToTheBit) {
+  const Case c = grown_at_first_point();
+  const Vector nodes = varied(c.mesh.node_count()), faces = varied(c.mesh.face_count());
+  const Vector new_nodes = transfer(c, spec(Location::node), nodes).accepted;
+  const Vector new_faces = transfer(c, spec(Location::face), faces).accepted;
+  int kept = 0;
+  for (int cell = 0; cell < c.grown.mesh.cell_count(); ++cell) {
+    const int from = c.grown.change.cell[cell];
+    if (from == none) continue;
+    ++kept;
+    for (int k = 0; k < c.grown.mesh.cell_nodes[cell].size(); ++k) {
+      EXPECT_EQ(new_nodes[c.grown.mesh.cell_nodes[cell][k]], nodes[c.mesh.cell_nodes[from][k]]);
+      EXPECT_EQ(new_faces[c.grown.mesh.cell_faces[cell][k]], faces[c.mesh.cell_faces[from][k]]);
+    }
+  }
+  EXPECT_GT(kept, c.mesh.cell_count() / 2);
+}
+
+TEST(TransferFields, BothWallsOfAGrownPathStartFromTheContinuousField) {
+  const Case c = grown_at_first_point();
+  Vector values(c.mesh.node_count());
+  for (int i = 0; i < c.mesh.node_count(); ++i) values[i] = c.mesh.nodes[i].x() * c.mesh.nodes[i].y();
+  const Vector result = transfer(c, spec(Location::node), values).accepted;
+  int grown = 0;
+  for (int i = 0; i < c.grown.mesh.fracture_cell_count(); ++i) {
+    if (c.grown.change.fracture_cell[i] != none) continue;
+    ++grown;
+    const auto [plus, minus] = c.grown.mesh.fracture_cells[i].faces;
+    for (const int k : {0, 1})  // faces of the two walls run in opposite directions
+      EXPECT_NEAR(result[c.grown.mesh.face_nodes[plus][k]], result[c.grown.mesh.face_nodes[minus][1 - k]], 1e-15);
+  }
+  EXPECT_EQ(grown, 3);
 }
 
 }  // namespace
