@@ -64,13 +64,7 @@ class WallTraction : public Coupler {
   }
 
   void begin_step(const StepTime&) override {
-    // How a cell's own traction changes its own jump.
-    const Field& traction = rock_.wall_traction();
-
-    Vector compliance = Vector::Zero(traction.size());
-    for (const LinearExpression::Term& term : rock_.displacement_jump().terms)
-      if (term.field == &traction)
-        for (int i = 0; i < traction.size(); ++i) compliance[i] = -term.matrix.entries().coeff(i, i);
+    Vector compliance = rock_.wall_compliance();
     replicate(mesh_, Location::fracture_cell, dimension, compliance);
     compliance_ = positive(std::move(compliance));
     if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());

@@ -31,9 +31,12 @@ EXEMPT = (
     ("framework/output/progress.cpp", "how a text looks"),
     ("components/fine_fracture/growth/kink.cpp", "coefficients of a published fit (Amestoy and Leblond 1992)"),
     ("components/fine_fracture/quarter_point/elasticity/quadrature.cpp", "points and weights of quadratures"),
+    ("components/poromechanics/fem/gauss_points.hpp", "points and weights of a quadrature"),
 )
 # Single numbers and constants that decide nothing: (file, name or number as it stands there, why).
 EXEMPT_ONES = (
+    ("components/poromechanics/fem/shape_functions.hpp", "mean_of_corner", "the mean of a function over a face"),
+    ("components/poromechanics/fem/shape_functions.hpp", "mean_of_face", "another one"),
     ("framework/config/dimension.cpp", "27", "a count"),
     ("framework/config/expression.cpp", "1.0137", "the size of a made-up unit, such as no two products of powers are equal"),
     ("framework/config/expression.cpp", "1.0171", "another one"),

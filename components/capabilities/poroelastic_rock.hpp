@@ -36,6 +36,16 @@ class RockWalls {
   virtual Field& wall_traction() = 0;
   /// u(minus) − u(plus) (Eq. 1 of the paper), m, (normal, tangential) of each fracture cell.
   virtual const LinearExpression& displacement_jump() const = 0;
+  /// How the traction on a fracture cell closes the jump of this cell while the unknown displacements stay, m/Pa,
+  /// (normal, tangential) of each fracture cell; where walls are no more than unknown displacements, how it would if
+  /// the unknowns of the cell's walls moved alone. A scale, right on the fracture cells that the process owns.
+  virtual Vector wall_compliance() {
+    Vector compliance = Vector::Zero(wall_traction().size());
+    for (const LinearExpression::Term& term : displacement_jump().terms)
+      if (term.field == &wall_traction())
+        for (int i = 0; i < compliance.size(); ++i) compliance[i] = -term.matrix.entries().coeff(i, i);
+    return compliance;
+  }
 };
 
 }  // namespace sprekk

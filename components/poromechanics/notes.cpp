@@ -1,4 +1,5 @@
-// The notes of the rock.
+#include "components/poromechanics/notes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ constexpr double softest_rock = 1e3;  // Pa; a scene with softer rock is taken f
 
 }  // namespace
 
-void Rock::note_input(Notes& notes) const {
+void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, const std::string& name,
+                     const Origin& origin) {
   // How much of a prescribed stress acts in a direction (x, y) in which the displacement is prescribed.
   struct Share {
     double length = 0, all = 0;
@@ -30,24 +32,24 @@ void Rock::note_input(Notes& notes) const {
   constexpr Stress stresses[] = {{"normal_stress", &SideCondition::normal_stress, 0},
                                  {"shear_stress", &SideCondition::shear_stress, 1}};
   std::map<std::pair<std::string, std::string>, std::array<Share, 2>> overridden;  // of a side, by a stress
-  for (int f = 0; f < mesh_.face_count(); ++f) {
-    const SideCondition* condition = condition_of(options_, mesh_, f);
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const SideCondition* condition = condition_of(options, mesh, f);
     if (!condition || condition->axes() == ConditionAxes::of_face) continue;
-    const Tensor axes = axes_of(ConditionAxes::of_face, mesh_.face_normal[f]);
+    const Tensor axes = axes_of(ConditionAxes::of_face, mesh.face_normal[f]);
     for (const Stress& stress : stresses)
       for (int k = 0; k < 2; ++k) {
-        Share& share = overridden[{mesh_.side_names[mesh_.face_side[f]], stress.name}][k];
+        Share& share = overridden[{mesh.side_names[mesh.face_side[f]], stress.name}][k];
         const std::optional<Data>& data = condition->*stress.data;
-        share.all += mesh_.face_measure[f];
+        share.all += mesh.face_measure[f];
         if (condition->displacement_of(k) && data && !data->is_zero())
-          share.length += mesh_.face_measure[f] * std::abs(axes(k, stress.axis));
+          share.length += mesh.face_measure[f] * std::abs(axes(k, stress.axis));
       }
   }
   const auto note = [&](const std::string& what, const Origin& where, const std::string& text) {
-    notes.add(name() + "." + what + " without effect", where.text() + ": " + text);
+    notes.add(name + "." + what + " without effect", where.text() + ": " + text);
   };
   constexpr double square = 1e-6;  // normals of a side parallel to an axis differ from the axis by rounding only
-  for (const auto& [side, condition] : options_.boundary)
+  for (const auto& [side, condition] : options.boundary)
     for (int k = 0; k < 2; ++k) {
       const std::string direction(1, "xy"[k]);
       for (const Stress& stress : stresses) {
@@ -64,42 +66,47 @@ void Rock::note_input(Notes& notes) const {
                          "prescribed there, which decides) remove one of the two",
                          direction, side, direction));
     }
-  if (!options_.gravity.is_zero() && options_.rock_density.is_zero())
-    note("gravity", origin_,
-         "gravity has no effect on '" + name() +
+  if (!options.gravity.is_zero() && options.rock_density.is_zero())
+    note("gravity", origin,
+         "gravity has no effect on '" + name +
              "' (its rock_density is 0) give the density of the saturated rock, or 'gravity: [0, 0]' to the component");
-  if (options_.gravity.is_zero() && !options_.rock_density.is_zero())
-    note("rock_density", origin_,
-         "'rock_density' of '" + name() + "' has no effect (there is no gravity) give a gravity, or remove it");
-  if (options_.bulk_modulus && !options_.is_anisotropic)
-    note("bulk_modulus", origin_,
-         "'bulk_modulus' of '" + name() +
+  if (options.gravity.is_zero() && !options.rock_density.is_zero())
+    note("rock_density", origin,
+         "'rock_density' of '" + name + "' has no effect (there is no gravity) give a gravity, or remove it");
+  if (options.bulk_modulus && !options.is_anisotropic)
+    note("bulk_modulus", origin,
+         "'bulk_modulus' of '" + name +
              "' has no effect (that of an isotropic rock follows from young_modulus and poisson_ratio) remove it");
+}
+
+void Rock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
+
+void note_large_strain(Notes& notes, const std::string& name, const LargestStrain& largest, const Options& options,
+                       const std::vector<Stiffness>& stiffness) {
+  if (largest.strain <= options.large_strain) return;
+  double softest = std::numeric_limits<double>::infinity();
+  for (const Stiffness& of_cell : stiffness) softest = std::min(softest, of_cell(2, 2));
+  if (softest < softest_rock) return;
+  notes.add(
+      name + " large strain",
+      fmt::format("the displacement of '{}' changes by {:.3g} of the distance at {} (strains over {:.3g} are large: "
+                  "the rock is taken to be linear, and its shape to stay) look at loads and stiffness",
+                  name, largest.strain, to_text(largest.place), options.large_strain),
+      largest.strain);
 }
 
 void Rock::note_step(Notes& notes, const StepTime&) const {
   // The relative displacement of neighbours over their distance: the displacement gradient along it.
-  double largest = 0, softest = std::numeric_limits<double>::infinity();
-  int place = 0;
+  LargestStrain largest;
   const Vector& u = displacement_.now();
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const auto& [first, second] = mesh_.face_cells[f];
     if (second == none) continue;
     const double distance = (mesh_.cell_center[second] - mesh_.cell_center[first]).norm();
     const double strain = (u.segment<2>(2 * second) - u.segment<2>(2 * first)).norm() / distance;
-    if (strain <= largest) continue;
-    largest = strain;
-    place = f;
+    if (strain > largest.strain) largest = {strain, mesh_.face_center[f]};
   }
-  if (largest <= options_.large_strain) return;
-  for (const Stiffness& stiffness : stiffness_.of_cells()) softest = std::min(softest, stiffness(2, 2));
-  if (softest < softest_rock) return;
-  notes.add(
-      name() + " large strain",
-      fmt::format("the displacement of '{}' changes by {:.3g} of the distance at {} (strains over {:.3g} are large: "
-                  "the rock is taken to be linear, and its shape to stay) look at loads and stiffness",
-                  name(), largest, to_text(mesh_.face_center[place]), options_.large_strain),
-      largest);
+  note_large_strain(notes, name(), largest, options_, stiffness_.of_cells());
 }
 
 double Rock::largest_load() const {

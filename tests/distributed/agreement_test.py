@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """agreement_test.py SPREKK MPIEXEC: two processes give the answer of one.
 
-Mandel's problem, on triangles and on a mesh of mostly quadrilaterals, and the scene of sec. 5.1, also with properties
+Mandel's problem, on triangles, on a mesh of mostly quadrilaterals and with finite elements, and the scene of sec. 5.1, also with properties
 that change with time and with fractures that cross and touch, and turned by 30 degrees, run in one process, and on two with
 a distributed direct solver and with multigrid; a closed box, whose constant mode a sum of balances of both processes
 determines, with the direct solver.
@@ -26,7 +26,9 @@ in_time = [argument for value in ("young_modulus=(40e9*(1 - t/(100*h))) Pa", "pe
                                   "friction=0.5 - 0.01*t/h") for argument in ("--set", "materials." + value)]
 meeting = ["--set", "geometry.fractures.crossing={points: [[0.96, 1.01], [1.03, 1.01]]}",
            "--set", "geometry.fractures.touching={points: [[0.99, 0.99], [1.02, 0.97]]}"]
+elements = ["--set", "components.rock.type=poromechanics/fem", "--set", "components.rock.order=first"]
 scenes = (("verification/mandel.yaml", []), ("verification/mandel.yaml", ["--set", "mesh.shape=quadrilaterals"]),
+          ("swaps/mandel_fem.yaml", []), ("paper/onset_coarse.yaml", small + elements),
           ("paper/onset_coarse.yaml", small), ("paper/onset_coarse.yaml", small + in_time),
           ("paper/onset_coarse.yaml", small + meeting), ("verification/closed_box.yaml", []),
           ("paper/onset_coarse.yaml", small + ["--turned"]))

@@ -1,0 +1,213 @@
+#include "components/poromechanics/fem/fem_operators.hpp"
+
+#include <Eigen/LU>
+
+#include "framework/invariants.hpp"
+
+namespace sprekk::poromechanics {
+
+namespace {
+
+SparseMatrix made(int rows, int columns, const std::vector<Triplet>& entries) {
+  SparseMatrix matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+void put(std::vector<Triplet>& entries, int row, int column, const Tensor& block) {
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j)
+      if (block(i, j) != 0) entries.emplace_back(row + i, column + j, block(i, j));
+}
+
+/// The stiffness of all coefficients, and that of each face alone.
+struct RawStiffness {
+  SparseMatrix matrix;
+  std::vector<Tensor> of_face;            ///< N/m per m
+  std::vector<Tensor> of_face_in_shares;  ///< the same, times the number of faces of each of its cells
+  std::vector<Eigen::Matrix2Xd> of_interior;
+};
+
+RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<Stiffness>& stiffness, ElementOrder order) {
+  const Mesh& mesh = raw.mesh;
+  RawStiffness result;
+  result.of_face.assign(mesh.face_count(), Tensor::Zero());
+  result.of_face_in_shares = result.of_face;
+  std::vector<Triplet> entries;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c), stiffness[c], order);
+    const std::vector<int> first = raw.of_cell(c);
+    const int count = static_cast<int>(first.size()), corners = mesh.cell_nodes[c].size();
+    for (int i = 0; i < count; ++i)
+      for (int j = 0; j < count; ++j)
+        put(entries, first[i], first[j], of_cell.of_unknowns.block<dimension, dimension>(dimension * i, dimension * j));
+    for (int k = 0; k < corners; ++k) {
+      const int at = dimension * (corners + k), face = mesh.cell_faces[c][k];
+      const Tensor own = of_cell.of_unknowns.block<dimension, dimension>(at, at);
+      result.of_face[face] += own;
+      result.of_face_in_shares[face] += corners * own;
+    }
+    result.of_interior.push_back(std::move(of_cell.of_interior));
+  }
+  result.matrix = made(raw.size(), raw.size(), entries);
+  return result;
+}
+
+/// div u integrated over cells: by the means over faces, since the sides of cells are straight.
+SparseMatrix volume_of(const RawDisplacement& raw) {
+  const Mesh& mesh = raw.mesh;
+  std::vector<Triplet> entries;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    for (int side = 0; side < 2; ++side) {
+      const int cell = mesh.face_cells[f][side];
+      if (cell == none) continue;
+      const Point out = (side == 0 ? 1 : -1) * mesh.face_measure[f] * mesh.face_normal[f];
+      for (int k = 0; k < dimension; ++k) {
+        for (const int node : mesh.face_nodes[f])
+          entries.emplace_back(cell, raw.of_node(node) + k, mean_of_corner * out[k]);
+        entries.emplace_back(cell, raw.of_face(f) + k, mean_of_face * out[k]);
+      }
+    }
+  return made(mesh.cell_count(), raw.size(), entries);
+}
+
+SparseMatrix jump_of(const RawDisplacement& raw) {
+  const Mesh& mesh = raw.mesh;
+  std::vector<Triplet> entries;
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+    const FractureCell& cell = mesh.fracture_cells[i];
+    for (int side = 0; side < 2; ++side)
+      for (int k = 0; k < dimension; ++k) {
+        const Point local = (side == 0 ? -1 : 1) * cell.to_local(Point::Unit(k));
+        for (int axis = 0; axis < dimension; ++axis) {
+          const int row = dimension * i + axis;
+          for (const int node : mesh.face_nodes[cell.faces[side]])
+            entries.emplace_back(row, raw.of_node(node) + k, mean_of_corner * local[axis]);
+          entries.emplace_back(row, raw.of_face(cell.faces[side]) + k, mean_of_face * local[axis]);
+        }
+      }
+  }
+  return made(dimension * mesh.fracture_cell_count(), raw.size(), entries);
+}
+
+/// The forces of T on all coefficients: what T does in a jump is work.
+SparseMatrix forces_of_traction(const Mesh& mesh, const SparseMatrix& jump) {
+  Vector lengths(jump.rows());
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i)
+    lengths.segment<dimension>(dimension * i).setConstant(mesh.fracture_cells[i].measure);
+  return -(lengths.asDiagonal() * jump).transpose();
+}
+
+/// The inverse of a stiffness in the directions that are not held.
+Tensor free_compliance(const Tensor& stiffness, const HeldDirections& held) {
+  if (held.is_held[0] && held.is_held[1]) return Tensor::Zero();
+  if (held.is_free()) return stiffness.inverse();
+  const Point free = held.axes.col(held.is_held[0] ? 1 : 0);
+  return free * free.transpose() / free.dot(stiffness * free);
+}
+
+/// All coefficients as functions of the unknowns.
+LinearInFem all_coefficients(const RawDisplacement& raw, const RawStiffness& stiffness, const Held& held,
+                             const SparseMatrix& volume, const SparseMatrix& traction, ElementOrder order) {
+  const Mesh& mesh = raw.mesh;
+  const int all = raw.size(), unknowns = order == ElementOrder::second ? all : raw.nodes_size();
+  LinearInFem result;
+  std::vector<Triplet> ones;
+  for (int i = 0; i < unknowns; ++i) ones.emplace_back(i, i, 1.0);
+  result.of_displacement = made(all, unknowns, ones);
+  if (order == ElementOrder::second) {
+    result.of_stress.resize(all, mesh.cell_count());
+    result.of_traction.resize(all, traction.cols());
+    result.of_force.resize(all, all);
+    result.of_given.resize(all, all);
+    return result;
+  }
+  std::vector<Triplet> compliances, given;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const int at = raw.of_face(f);
+    const HeldDirections& of_face = held.faces[f];
+    const Tensor compliance = free_compliance(stiffness.of_face_in_shares[f], of_face);
+    put(compliances, at, at, compliance);
+    Tensor axes = Tensor::Zero();
+    for (int k = 0; k < dimension; ++k)
+      if (of_face.is_held[k]) axes.col(k) = of_face.axes.col(k);
+    put(given, at, at, axes - compliance * stiffness.of_face_in_shares[f] * axes);
+  }
+  const SparseMatrix compliance = made(all, all, compliances);
+  result.of_displacement -= SparseMatrix(compliance * stiffness.matrix * result.of_displacement);
+  result.of_stress = compliance * SparseMatrix(volume.transpose());
+  result.of_traction = compliance * traction;
+  result.of_force = compliance;
+  result.of_given = made(all, all, given);
+  return result;
+}
+
+/// How rows of forces become those of the unknowns: in the axes of HeldDirections, without what is held.
+struct Rows {
+  SparseMatrix kept;   ///< unknowns × all coefficients
+  SparseMatrix held;   ///< unknowns × unknowns: stiffness times the displacement along a held axis
+  SparseMatrix given;  ///< unknowns × all coefficients: the same times the given one
+};
+
+Rows rows_of(const RawDisplacement& raw, const SparseMatrix& stiffness, const Held& held, int unknowns) {
+  std::vector<Triplet> kept, of_held, given;
+  const int nodes = raw.mesh.node_count();
+  for (int entity = 0; entity < unknowns / dimension; ++entity) {
+    const HeldDirections& directions = entity < nodes ? held.nodes[entity] : held.faces[entity - nodes];
+    const int at = dimension * entity;
+    double scale = 0;
+    for (int k = 0; k < dimension; ++k) scale = std::max(scale, stiffness.coeff(at + k, at + k));
+    for (int k = 0; k < dimension; ++k) {
+      std::vector<Triplet>& entries = directions.is_held[k] ? of_held : kept;
+      const double factor = directions.is_held[k] ? scale : 1;
+      for (int j = 0; j < dimension; ++j)
+        if (directions.axes(j, k) != 0) entries.emplace_back(at + k, at + j, factor * directions.axes(j, k));
+      if (directions.is_held[k]) given.emplace_back(at + k, at + k, scale);
+    }
+  }
+  return {made(unknowns, raw.size(), kept), made(unknowns, unknowns, of_held), made(unknowns, raw.size(), given)};
+}
+
+Vector compliance_of_walls(const Mesh& mesh, const std::vector<Tensor>& stiffness_of_face) {
+  Vector compliance = Vector::Zero(dimension * mesh.fracture_cell_count());
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+    const FractureCell& cell = mesh.fracture_cells[i];
+    for (const int face : cell.faces) {
+      const Tensor alone = stiffness_of_face[face].inverse();
+      for (int axis = 0; axis < dimension; ++axis) {
+        const Point direction = cell.to_global(Point::Unit(axis));
+        compliance[dimension * i + axis] +=
+            mean_of_face * mean_of_face * cell.measure * direction.dot(alone * direction);
+      }
+    }
+  }
+  return compliance;
+}
+
+}  // namespace
+
+FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const Held& held,
+                           ElementOrder order) {
+  SPREKK_EXPECT(static_cast<int>(stiffness.size()) == mesh.cell_count(), stiffness.size(), mesh.cell_count());
+  const RawDisplacement raw{mesh};
+  RawStiffness forces = raw_stiffness(raw, stiffness, order);
+  FemOperators result;
+  result.volume = volume_of(raw);
+  result.jump = jump_of(raw);
+  result.wall_compliance = compliance_of_walls(mesh, forces.of_face);
+  const SparseMatrix traction = forces_of_traction(mesh, result.jump);
+  result.all = all_coefficients(raw, forces, held, result.volume, traction, order);
+  const LinearInFem& all = result.all;
+  const Rows rows = rows_of(raw, forces.matrix, held, static_cast<int>(all.of_displacement.cols()));
+  const SparseMatrix to_rows = rows.kept * forces.matrix;
+  result.momentum.of_displacement = SparseMatrix(to_rows * all.of_displacement) + rows.held;
+  result.momentum.of_stress =
+      SparseMatrix(to_rows * all.of_stress) - SparseMatrix(rows.kept * result.volume.transpose());
+  result.momentum.of_traction = SparseMatrix(to_rows * all.of_traction) - SparseMatrix(rows.kept * traction);
+  result.momentum.of_force = SparseMatrix(to_rows * all.of_force) - rows.kept;
+  result.momentum.of_given = SparseMatrix(to_rows * all.of_given) - rows.given;
+  result.of_interior = std::move(forces.of_interior);
+  return result;
+}
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,42 @@
+// The linear equations of finite elements on a whole mesh.
+#pragma once
+
+#include <vector>
+
+#include "components/poromechanics/fem/cell_stiffness.hpp"
+#include "components/poromechanics/fem/held_directions.hpp"
+#include "components/poromechanics/fem/raw_displacement.hpp"
+#include "components/poromechanics/stiffness.hpp"
+
+namespace sprekk::poromechanics {
+
+/// A quantity as a linear function of
+/// - u, the unknown displacements: (x, y) of every node, at second order followed by (x, y) of every face, m;
+/// - s, the isotropic stress of every cell, Pa (sigma = C : grad u − s I);
+/// - T, the traction on the plus wall of every fracture cell, Pa, (normal, tangential); opposite on the minus wall;
+/// - F, the forces on all coefficients of the displacement (RawDisplacement), N/m;
+/// - g, the displacements that are prescribed along axes of nodes and faces (HeldDirections), m, in the same numbering.
+struct LinearInFem {
+  SparseMatrix of_displacement, of_stress, of_traction, of_force, of_given;
+};
+
+/// What the equations of the rock need.
+struct FemOperators {
+  LinearInFem momentum;  ///< a row for each unknown: stiffness · u − forces, N/m; rows that are held are k (u − g)
+  LinearInFem all;       ///< all coefficients of the displacement, m
+  SparseMatrix volume;   ///< div u integrated over every cell, of all coefficients, m^2
+  SparseMatrix jump;     ///< mean of u(minus) − u(plus) over every fracture cell, (normal, tangential), of all, m
+  Vector wall_compliance;  ///< how a traction on walls moves the functions of their faces alone, m/Pa, as `jump`
+  std::vector<Eigen::Matrix2Xd> of_interior;  ///< see CellStiffness
+};
+
+/// Assembles the stiffness of a mesh. At second order every coefficient is an unknown. At first order those of faces
+/// are functions of the others, which stabilizes cellwise s and T: the residual forces on the function of a face, those
+/// of s, T and F among them, displace it as if it stood alone, its stiffness times the number of faces of a cell
+/// (Rodrigo, Hu, Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized discretizations for poroelasticity and the
+/// Stokes' equations, with the whole vector in place of its normal component). Nothing is displaced where displacements
+/// are linear and tractions agree, and what leaves one cell through a face enters the other.
+FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const Held& held,
+                           ElementOrder order);
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,263 @@
+#include "components/poromechanics/fem/fem_rock.hpp"
+
+#include <algorithm>
+
+#include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/notes.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/cell_sums.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::poromechanics {
+
+namespace {
+
+/// One flag for each value at a location: whether this process owns it.
+std::vector<char> owned_values(const Mesh& mesh, Location location, int components) {
+  std::vector<char> owned;
+  for (int i = 0; i < entity_count(mesh, location); ++i)
+    owned.insert(owned.end(), components, is_owned(mesh, location, i));
+  return owned;
+}
+
+}  // namespace
+
+FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
+    : Component(context.name),
+      mesh_(context.mesh),
+      options_(options),
+      order_(options.order == "first" ? ElementOrder::first : ElementOrder::second),
+      origin_(context.origin),
+      displacement_(context.fields.add(mesh_, {.owner = context.name,
+                                               .name = "displacement",
+                                               .location = Location::node,
+                                               .components = dimension,
+                                               .role = Role::unknown(BlockKind::bulk_elastic),
+                                               .unit = "m",
+                                               .doc = "Displacement of the rock"})),
+      stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
+  check_conditions(options_, mesh_, context.origin);
+  held_ = held_directions(options_, mesh_);
+  if (order_ == ElementOrder::second)
+    of_faces_ = &context.fields.add(mesh_, {.owner = context.name,
+                                            .name = "displacement_of_faces",
+                                            .location = Location::face,
+                                            .components = dimension,
+                                            .role = Role::unknown(BlockKind::bulk_elastic),
+                                            .unit = "m",
+                                            .doc = "Displacement of middles of faces less the mean of their ends"});
+  if (mesh_.wall_count() > 0)
+    wall_traction_ =
+        &context.fields.add(mesh_, {.owner = context.name,
+                                    .name = "wall_traction",
+                                    .location = Location::fracture_cell,
+                                    .components = dimension,
+                                    .role = Role::input(BlockKind::interface),
+                                    .unit = "Pa",
+                                    .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
+}
+
+std::vector<Field*> FemRock::unknowns() const {
+  std::vector<Field*> fields{&displacement_};
+  if (of_faces_) fields.push_back(of_faces_);
+  return fields;
+}
+
+void FemRock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
+  SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.name(), pressure.size(), mesh_.cell_count());
+  SPREKK_EXPECT(alpha.size() == mesh_.cell_count() && reference.size() == mesh_.cell_count(), pressure.name());
+  loads_.push_back({&pressure, alpha, reference});
+}
+
+void FemRock::change_alpha(const Field& pressure, const Vector& alpha) {
+  SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
+  for (Load& load : loads_)
+    if (load.pressure == &pressure) load.alpha = alpha;
+  ++alpha_version_;
+}
+
+bool FemRock::depends_on_time() const {
+  return std::any_of(options_.boundary.begin(), options_.boundary.end(),
+                     [](const auto& side) { return side.second.depends_on_time(); }) ||
+         stiffness_.changes() || options_.body_force.depends_on_time() || options_.rock_density.depends_on_time() ||
+         options_.gravity.depends_on_time();
+}
+
+void FemRock::discretize() {
+  if (discretized_mesh_ == mesh_.version && discretized_stiffness_ == stiffness_.version()) return;
+  discretized_mesh_ = mesh_.version;
+  discretized_stiffness_ = stiffness_.version();
+  ++discretizations_;
+  operators_ = fem_operators(mesh_, stiffness_.of_cells(), held_, order_);
+  used_alpha_ = 0;
+  momentum_.clear();
+  int first = 0;
+  for (const Field* field : unknowns()) {
+    const LinearInFem& whole = operators_.momentum;
+    const auto rows = [&](const SparseMatrix& matrix) { return SparseMatrix(matrix.middleRows(first, field->size())); };
+    momentum_.push_back(quantity_of(LinearInFem{rows(whole.of_displacement), rows(whole.of_stress),
+                                                rows(whole.of_traction), rows(whole.of_force), rows(whole.of_given)},
+                                    owned_values(mesh_, field->spec().location, dimension)));
+    first += field->size();
+  }
+  volume_ = quantity_of(operators_.volume, owned_values(mesh_, Location::cell, 1));
+  if (wall_traction_) jump_ = quantity_of(operators_.jump, owned_values(mesh_, Location::fracture_cell, dimension));
+}
+
+void FemRock::evaluate_data(const StepTime& step) {
+  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
+  if (data_evaluated_ && (same_step || !depends_on_time())) return;
+  data_evaluated_ = true;
+  evaluated_for_ = step;
+  is_given_used_ = false;
+  stiffness_.evaluate(step);
+  discretize();  // the body force acts on interior functions, too
+  given_ = given_loads(options_, mesh_, held_, operators_.of_interior, step);
+}
+
+FemRock::Quantity FemRock::quantity_of(LinearInFem operators, const std::vector<char>& owned) const {
+  if (parallel::size() > 1)
+    for (SparseMatrix* rows : {&operators.of_displacement, &operators.of_stress, &operators.of_traction,
+                               &operators.of_force, &operators.of_given})
+      *rows = keep_rows(*rows, owned);
+  Quantity quantity{std::move(operators), {}};
+  int first = 0;
+  for (const Field* field : unknowns()) {
+    quantity.value.terms.push_back(
+        {field, Operator(SparseMatrix(quantity.operators.of_displacement.middleCols(first, field->size())))});
+    first += field->size();
+  }
+  if (wall_traction_) quantity.value.terms.push_back({wall_traction_, Operator(quantity.operators.of_traction)});
+  for (const Load& load : loads_) quantity.value.terms.push_back({load.pressure, {}});
+  return quantity;
+}
+
+FemRock::Quantity FemRock::quantity_of(const SparseMatrix& of_all, const std::vector<char>& owned) const {
+  const LinearInFem& all = operators_.all;
+  return quantity_of(LinearInFem{of_all * all.of_displacement, of_all * all.of_stress, of_all * all.of_traction,
+                                 of_all * all.of_force, of_all * all.of_given},
+                     owned);
+}
+
+std::vector<FemRock::Quantity*> FemRock::quantities() {
+  std::vector<Quantity*> all{&volume_};
+  if (wall_traction_) all.push_back(&jump_);
+  for (Quantity& rows : momentum_) all.push_back(&rows);
+  return all;
+}
+
+void FemRock::use_loads() {
+  if (used_alpha_ == alpha_version_) return;
+  used_alpha_ = alpha_version_;
+  is_given_used_ = false;
+  for (Quantity* quantity : quantities()) {
+    const std::size_t first = quantity->value.terms.size() - loads_.size();
+    for (std::size_t i = 0; i < loads_.size(); ++i)
+      quantity->value.terms[first + i].matrix =
+          Operator(SparseMatrix(quantity->operators.of_stress * loads_[i].alpha.asDiagonal()));
+  }
+}
+
+void FemRock::use_given() {
+  if (is_given_used_) return;
+  is_given_used_ = true;
+  for (Quantity* quantity : quantities()) {
+    const LinearInFem& operators = quantity->operators;
+    quantity->value.constant = operators.of_force * given_.forces + operators.of_given * given_.displacements;
+    for (const Load& load : loads_)
+      quantity->value.constant -= operators.of_stress * load.alpha.cwiseProduct(load.reference);
+  }
+}
+
+void FemRock::begin_step(const StepTime& step) {
+  evaluate_data(step);
+  discretize();
+  use_loads();
+  use_given();
+}
+
+void FemRock::assemble(Assembly& assembly, const StepTime&) const {
+  const std::vector<Field*> fields = unknowns();
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (assembly.has_row(*fields[i])) {
+      SPREKK_EXPECT(i < momentum_.size(), name());
+      assembly.linear(*fields[i], momentum_[i].value);
+    }
+}
+
+Vector FemRock::coefficients() const {
+  const LinearInFem& all = operators_.all;
+  Vector unknown(all.of_displacement.cols());
+  int first = 0;
+  for (const Field* field : unknowns()) {
+    unknown.segment(first, field->size()) = field->now();
+    first += field->size();
+  }
+  Vector values = all.of_displacement * unknown + all.of_force * given_.forces + all.of_given * given_.displacements;
+  if (wall_traction_) values += all.of_traction * wall_traction_->now();
+  for (const Load& load : loads_)
+    values += all.of_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  return values;
+}
+
+Tensor FemRock::mean_gradient(const Vector& coefficients, int cell) const {
+  const RawDisplacement raw{mesh_};
+  Tensor gradient = Tensor::Zero();
+  for (const int face : mesh_.cell_faces[cell]) {
+    Point mean = mean_of_face * coefficients.segment<dimension>(raw.of_face(face));
+    for (const int node : mesh_.face_nodes[face])
+      mean += mean_of_corner * coefficients.segment<dimension>(raw.of_node(node));
+    const double out = mesh_.face_cells[face][0] == cell ? 1 : -1;
+    gradient += out * mesh_.face_measure[face] / mesh_.cell_measure[cell] * mean * mesh_.face_normal[face].transpose();
+  }
+  return gradient;
+}
+
+Vector FemRock::mean_stress() const {
+  const Vector all = coefficients();
+  Vector stress(symmetric_components * mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const Tensor gradient = mean_gradient(all, c);
+    Eigen::Vector3d of_cell =
+        stiffness_.of_cells()[c] * Eigen::Vector3d(gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
+    for (const Load& load : loads_) {
+      const double pore = load.alpha[c] * (load.pressure->now()[c] - load.reference[c]);
+      of_cell -= pore * Eigen::Vector3d(1, 1, 0);
+    }
+    if (!options_.initial_stress.is_zero()) {
+      const Tensor initial = options_.initial_stress.at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
+      of_cell += Eigen::Vector3d(initial(0, 0), initial(1, 1), initial(0, 1));
+    }
+    stress.segment<symmetric_components>(symmetric_components * c) = of_cell;
+  }
+  return stress;
+}
+
+void FemRock::output(std::vector<OutputField>& fields) const {
+  if (discretizations_ == 0) return;
+  fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, symmetric_components, mean_stress()});
+}
+
+std::vector<double> FemRock::switch_times() const {
+  std::vector<const Data*> data = stiffness_.data();
+  for (const VectorData* vector : {&options_.body_force, &options_.gravity})
+    for (const Data& component : vector->component) data.push_back(&component);
+  data.push_back(&options_.rock_density);
+  for (const auto& [side, condition] : options_.boundary)
+    for (const Data* given : condition.data()) data.push_back(given);
+  return merged_switch_times(data);
+}
+
+void FemRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
+
+void FemRock::note_step(Notes& notes, const StepTime&) const {
+  const Vector all = coefficients();
+  LargestStrain largest;
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    if (const double strain = mean_gradient(all, c).norm(); strain > largest.strain)
+      largest = {strain, mesh_.cell_center[c]};
+  note_large_strain(notes, name(), largest, options_, stiffness_.of_cells());
+}
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,97 @@
+// Quasi-static deformation of the rock by finite elements.
+#pragma once
+
+#include <vector>
+
+#include "components/capabilities/poroelastic_rock.hpp"
+#include "components/poromechanics/fem/fem_operators.hpp"
+#include "components/poromechanics/fem/given_loads.hpp"
+#include "components/poromechanics/options.hpp"
+#include "components/poromechanics/rock_stiffness.hpp"
+#include "framework/scene/component.hpp"
+
+namespace sprekk::poromechanics {
+
+/// The parameters of finite elements: those of any rock, and the order.
+struct FemOptions : Options {
+  std::string order = "second";
+  Spec spec();
+};
+
+/// Unknown: the displacement u of every node and, at second order, how much more the middle of every face is displaced
+/// than the mean of its ends (CellPoint), from the reference state with the initial stress and pressure:
+///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
+/// with C and alpha at the end of the step and p one value a cell. Each row balances the work of these stresses in the
+/// displacement of one function with that of the loads (N/m), or holds a prescribed displacement.
+class FemRock : public Component, public PoroelasticRock, public RockWalls {
+ public:
+  /// Throws InputError as Rock does.
+  FemRock(const ComponentContext& context, const FemOptions& options);
+
+  void evaluate_data(const StepTime& step) override;
+  void begin_step(const StepTime& step) override;
+  void assemble(Assembly& assembly, const StepTime& step) const override;
+  void output(std::vector<OutputField>& fields) const override;
+  void note_input(Notes& notes) const override;
+  void note_step(Notes& notes, const StepTime& step) const override;
+  std::vector<double> switch_times() const override;
+  std::map<std::string, long> counts() const override { return {{"stress discretizations", discretizations_}}; }
+
+  void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) override;
+  void change_alpha(const Field& pressure, const Vector& alpha) override;
+  const LinearExpression& volume_change() const override { return volume_.value; }
+  double largest_load() const override { return given_.largest_stress; }
+  const Property& bulk_modulus() const override { return stiffness_.bulk_modulus(); }
+  Field& wall_traction() override { return *wall_traction_; }
+  const LinearExpression& displacement_jump() const override { return jump_.value; }
+  Vector wall_compliance() override { return operators_.wall_compliance; }
+
+  /// All coefficients of the displacement (RawDisplacement), m; on every process. To be called after begin_step.
+  Vector coefficients() const;
+  /// The mean total stress of each cell, Pa, (xx, yy, xy). To be called after begin_step.
+  Vector mean_stress() const;
+
+ private:
+  struct Load {
+    const Field* pressure;
+    Vector alpha, reference;
+  };
+  /// A quantity, and what it is as a linear function of fields. Terms of pressures are the last ones.
+  struct Quantity {
+    LinearInFem operators;
+    LinearExpression value;
+  };
+  /// The unknown fields, in the order of their rows in FemOperators.
+  std::vector<Field*> unknowns() const;
+  bool depends_on_time() const;
+  void discretize();
+  void use_loads();
+  void use_given();
+  /// A quantity of the rows that `owned` flags: of a linear function of all coefficients, or as it is.
+  Quantity quantity_of(const SparseMatrix& of_all, const std::vector<char>& owned) const;
+  Quantity quantity_of(LinearInFem operators, const std::vector<char>& owned) const;
+  std::vector<Quantity*> quantities();
+  Tensor mean_gradient(const Vector& coefficients, int cell) const;
+
+  const Mesh& mesh_;
+  FemOptions options_;
+  ElementOrder order_;
+  Origin origin_;
+  Field& displacement_;
+  Field* of_faces_ = nullptr;       ///< at second order
+  Field* wall_traction_ = nullptr;  ///< exists with fractures only
+  RockStiffness stiffness_;
+  Held held_;
+  std::vector<Load> loads_;
+
+  std::uint64_t discretized_mesh_ = 0, discretized_stiffness_ = 0, alpha_version_ = 1, used_alpha_ = 0;
+  bool data_evaluated_ = false, is_given_used_ = false;  ///< given_ is in the constants of quantities
+  StepTime evaluated_for_;
+  long discretizations_ = 0;
+  FemOperators operators_;
+  GivenLoads given_;
+  std::vector<Quantity> momentum_;  ///< of each unknown field
+  Quantity volume_, jump_;
+};
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,111 @@
+#include "components/poromechanics/fem/given_loads.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/fem/gauss_points.hpp"
+#include "components/poromechanics/fem/shape_functions.hpp"
+
+namespace sprekk::poromechanics {
+
+namespace {
+
+void add_forces_in_cells(const Options& options, const RawDisplacement& raw,
+                         const std::vector<Eigen::Matrix2Xd>& of_interior, const StepTime& step, GivenLoads& loads) {
+  const Mesh& mesh = raw.mesh;
+  const bool has_weight = !options.body_force.is_zero() || !options.rock_density.is_zero();
+  if (!has_weight && options.initial_stress.is_zero()) return;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const std::vector<int> first = raw.of_cell(c);
+    const int functions = static_cast<int>(first.size());
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(dimension * (functions + 1));
+    for (const CellPoint& point : cell_points(mesh, c)) {
+      const Place place{point.x, mesh.cell_region[c], 0};
+      const Point weight =
+          value_in_step(options.body_force, place, step) +
+          value_in_step(options.rock_density, place, step) * value_in_step(options.gravity, place, step);
+      if (!weight.isZero(0)) loads.largest_stress = std::numeric_limits<double>::infinity();
+      const Tensor stress = options.initial_stress.is_zero() ? Tensor::Zero() : options.initial_stress.at(place);
+      for (int i = 0; i <= functions; ++i)
+        forces.segment<dimension>(dimension * i) +=
+            point.weight * (point.value[i] * weight - stress * point.gradient.col(i));
+    }
+    const Point on_interior = forces.tail<dimension>();
+    const Eigen::VectorXd total = forces.head(dimension * functions) + of_interior[c].transpose() * on_interior;
+    for (int i = 0; i < functions; ++i)
+      loads.forces.segment<dimension>(first[i]) += total.segment<dimension>(dimension * i);
+  }
+}
+
+void add_tractions(const SideCondition& condition, int face, const RawDisplacement& raw, const StepTime& step,
+                   GivenLoads& loads) {
+  const Mesh& mesh = raw.mesh;
+  const int region = mesh.cell_region[mesh.face_cells[face][0]];
+  const auto& [from, to] = mesh.face_nodes[face];
+  for (const GaussPoint& gauss : gauss_points()) {
+    const Point x = (1 - gauss.at) * mesh.nodes[from] + gauss.at * mesh.nodes[to];
+    const Point traction = condition.traction_in(step, {x, region, 0}, mesh.face_normal[face]);
+    const Point force = gauss.weight * mesh.face_measure[face] * traction;
+    loads.forces.segment<dimension>(raw.of_node(from)) += (1 - gauss.at) * force;
+    loads.forces.segment<dimension>(raw.of_node(to)) += gauss.at * force;
+    loads.forces.segment<dimension>(raw.of_face(face)) += 4 * gauss.at * (1 - gauss.at) * force;
+  }
+}
+
+bool has_wall(const Mesh& mesh, int node) {
+  const auto faces = mesh.node_faces[node];
+  return std::any_of(faces.begin(), faces.end(), [&](int face) { return mesh.face_fracture_cell[face] != none; });
+}
+
+/// The largest stress at the start, and prescribed where displacements are not.
+void find_largest_stress(const Options& options, const Mesh& mesh, const StepTime& step, GivenLoads& loads) {
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const Place place{mesh.face_center[f], mesh.cell_region[mesh.face_cells[f][0]], 0};
+    if (!options.initial_stress.is_zero())
+      loads.largest_stress =
+          std::max(loads.largest_stress, (options.initial_stress.at(place) * mesh.face_normal[f]).norm());
+    const SideCondition* condition = condition_of(options, mesh, f);
+    if (!condition) continue;
+    const Tensor axes = axes_of(condition->axes(), mesh.face_normal[f]);
+    Point traction = axes.transpose() * condition->traction_in(step, place, mesh.face_normal[f]);
+    for (int k = 0; k < dimension; ++k)
+      if (condition->displacement_of(k)) traction[k] = 0;
+    loads.largest_stress = std::max(loads.largest_stress, traction.norm());
+  }
+  if (!loads.displacements.isZero(0)) loads.largest_stress = std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held,
+                       const std::vector<Eigen::Matrix2Xd>& of_interior, const StepTime& step) {
+  const RawDisplacement raw{mesh};
+  GivenLoads loads{Vector::Zero(raw.size()), Vector::Zero(raw.size()), 0};
+  add_forces_in_cells(options, raw, of_interior, step, loads);
+  const auto displacement = [&](const HeldBy& by, const Point& x) {
+    const Data& data = *condition_of(options, mesh, by.face)->displacement_of(by.axis);
+    return by.share * value_in_step(data, {x, mesh.cell_region[mesh.face_cells[by.face][0]], 0}, step);
+  };
+  // Where a fracture ends the datum may jump: its value on this side continues those along the face (by a parabola).
+  const auto at_node = [&](const HeldBy& by, int node) {
+    const Point &x = mesh.nodes[node], arm = mesh.face_center[by.face] - x;
+    if (!has_wall(mesh, node)) return displacement(by, x);
+    return 3 * (displacement(by, x + arm / 2) - displacement(by, x + arm)) + displacement(by, x + 3 * arm / 2);
+  };
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (const SideCondition* condition = condition_of(options, mesh, f)) add_tractions(*condition, f, raw, step, loads);
+    const auto& [from, to] = mesh.face_nodes[f];
+    for (int k = 0; k < dimension; ++k)
+      for (const HeldBy& by : held.faces[f].by[k])
+        loads.displacements[raw.of_face(f) + k] +=
+            displacement(by, mesh.face_center[f]) - (at_node(by, from) + at_node(by, to)) / 2;
+  }
+  for (int node = 0; node < mesh.node_count(); ++node)
+    for (int k = 0; k < dimension; ++k)
+      for (const HeldBy& by : held.nodes[node].by[k]) loads.displacements[raw.of_node(node) + k] += at_node(by, node);
+  find_largest_stress(options, mesh, step, loads);
+  return loads;
+}
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,35 @@
+// Where and along which directions the displacement is prescribed.
+#pragma once
+
+#include <vector>
+
+#include "components/poromechanics/options.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::poromechanics {
+
+/// Which share of a condition's value is prescribed along a direction: condition direction `axis` of an outer face.
+struct HeldBy {
+  int face, axis;
+  double share;
+};
+
+/// The directions in which a node or a face is held. `axes`: orthonormal columns, of which those flagged by `is_held`
+/// are prescribed: the column is the direction that is nearest to the coordinate of its number. The displacement along
+/// column k is the sum of share · value over by[k].
+struct HeldDirections {
+  Tensor axes = Tensor::Identity();
+  bool is_held[dimension] = {};
+  std::vector<HeldBy> by[dimension];
+  bool is_free() const { return !is_held[0] && !is_held[1]; }
+};
+
+/// Of each node and of each face. A node on two faces of one side, which may be curved, is held along the mean of their
+/// directions, weighted by length: else it would stick (consistent normals, Engelman, Sani and Gresho 1982). At corners
+/// of different directions both hold.
+struct Held {
+  std::vector<HeldDirections> nodes, faces;
+};
+Held held_directions(const Options& options, const Mesh& mesh);
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,125 @@
+// Finite elements with fractures: uniform states, and cracks against closed forms.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/verification/contact_patch.hpp"
+#include "tests/verification/fem_errors.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+void expect_patch(const std::string& scene, const Point& jump, const Point& traction) {
+  SceneRun run = SceneRun::from_text(scene);
+  ASSERT_TRUE(run.step());
+  // Jumps are up to 1e-3 and tractions up to 0.06.
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i)
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_NEAR(run.field("contact.jump")[2 * i + k], jump[k], 1e-12) << "cell " << i << " axis " << k;
+      EXPECT_NEAR(run.field("contact.traction")[2 * i + k], traction[k], 1e-12) << "cell " << i << " axis " << k;
+    }
+  // The stress is uniform to 1e-10.
+  const Vector stress = stress_of_cells(run);
+  double spread = 0;
+  for (int c = 1; c < run.mesh().cell_count(); ++c)
+    spread = std::max(spread, (stress.segment<3>(3 * c) - stress.head<3>()).norm());
+  EXPECT_LT(spread, 1e-10 * stress.head<3>().norm());
+}
+
+class FemPatch : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {
+ public:
+  std::string scene(const std::string& normal_jump, const std::string& tangential_jump, double friction,
+                    const std::string& dilation, const Tensor& strain) const {
+    const auto [order, shape] = GetParam();
+    return with_fem(patch_scene(normal_jump, tangential_jump, friction, dilation, strain, shape), order);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Elements, FemPatch,
+                         ::testing::Combine(::testing::Values("first", "second"),
+                                            ::testing::Values("triangles", "quadrilaterals")),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);
+                         });
+
+TEST_P(FemPatch, Sticks) {
+  expect_patch(scene("0", "0", 1.0, "0", uniform_strain()), Point::Zero(), uniform_traction());
+}
+
+TEST_P(FemPatch, Opens) {
+  expect_patch(scene("1e-3", "0", 0.5, "0", traction_free_strain()), {1e-3, 0}, Point::Zero());
+}
+
+TEST_P(FemPatch, SlipsWithDilation) {
+  const Point traction = uniform_traction();
+  const double friction = std::abs(traction[1] / traction[0]);
+  const double slip = traction[1] > 0 ? 1e-3 : -1e-3, opening = 1e-3 * std::tan(10 * M_PI / 180);
+  expect_patch(
+      scene(fmt::format("{:.17g}", opening), fmt::format("{:.17g}", slip), friction, "10 deg", uniform_strain()),
+      {opening, slip}, traction);
+}
+
+/// Relative L2 error of a jump along a crack of half-length 1 m around the origin.
+double crack_error(const SceneRun& run, int axis, double peak) {
+  double error = 0, norm = 0;
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
+    const FractureCell& cell = run.mesh().fracture_cells[i];
+    const double exact = peak * std::sqrt(std::max(0.0, 1 - cell.center.squaredNorm()));
+    const double difference = std::abs(run.field("contact.jump")[2 * i + axis]) - exact;
+    error += cell.measure * difference * difference;
+    norm += cell.measure * exact * exact;
+  }
+  return std::sqrt(error / norm);
+}
+
+std::string graded(double size) {
+  return "{size: 32 m, fracture_size: " + std::to_string(size) + ", growth: " + std::to_string(2 * size) + "}";
+}
+
+// Elements without a singular field at tips: the error falls with the size of cells.
+TEST(FemCracks, PressurizedCracksOpenLikeSneddonsHoweverTheyLie) {
+  const double peak = 4 / (10e9 / (1 - 0.04)) * 1e6;
+  for (const char* order : {"first", "second"})
+    for (const double angle : {0.0, 37.0}) {
+      const Point end(std::cos(angle * M_PI / 180), std::sin(angle * M_PI / 180));
+      double previous = 0;
+      for (const double size : {0.1, 0.05}) {
+        SceneRun run("verification/pressurized_crack.yaml",
+                     with_fem(order, {{"mesh", graded(size)},
+                                      {"geometry.fractures.crack.points",
+                                       fmt::format("[[{0:.17g} m, {1:.17g} m], [{2:.17g} m, {3:.17g} m]]", -end[0],
+                                                   -end[1], end[0], end[1])}}));
+        ASSERT_TRUE(run.step());
+        const double error = crack_error(run, 0, peak);
+        EXPECT_LT(error, std::string(order) == "second" ? 0.6 * size : 1.2 * size) << order << " " << angle;
+        RecordProperty(fmt::format("{}_{}_{}", order, angle, size), fmt::format("{:.3g}", error));
+        if (previous > 0) {
+          EXPECT_GT(std::log2(previous / error), 0.85) << order << " " << angle << " " << error;
+        }
+        previous = error;
+      }
+    }
+}
+
+TEST(FemCracks, FrictionalCrackSlipsLikePhans) {
+  const double normal = 100e6 * std::pow(std::sin(20 * M_PI / 180), 2);
+  const double shear = 100e6 * std::sin(20 * M_PI / 180) * std::cos(20 * M_PI / 180);
+  const double peak = 4 / (25e9 / (1 - 0.0625)) * (shear - normal * std::tan(30 * M_PI / 180));
+  for (const char* order : {"first", "second"}) {
+    double previous = 0;
+    for (const double size : {0.1, 0.05}) {
+      SceneRun run("verification/frictional_crack.yaml", with_fem(order, {{"mesh", graded(size)}}));
+      ASSERT_TRUE(run.step());
+      const double error = crack_error(run, 1, peak);
+      EXPECT_LT(error, std::string(order) == "second" ? 0.6 * size : 1.2 * size) << order;
+      RecordProperty(fmt::format("{}_{}", order, size), fmt::format("{:.3g}", error));
+      if (previous > 0) {
+        EXPECT_GT(std::log2(previous / error), 0.85) << order << " " << error;
+      }
+      previous = error;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sprekk::testing
