@@ -13,6 +13,7 @@
 #include "framework/command_line/explain_command.hpp"
 #include "framework/command_line/graph_command.hpp"
 #include "framework/command_line/manual_page.hpp"
+#include "framework/command_line/new_command.hpp"
 #include "framework/command_line/scene_arguments.hpp"
 #include "framework/command_line/sweep_command.hpp"
 #include "framework/config/resolved_yaml.hpp"
@@ -22,6 +23,7 @@
 #include "framework/output/output_folder.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/plugin/plugin.hpp"
 #include "framework/report/report.hpp"
 #include "framework/run/note_records.hpp"
 #include "framework/run/simulation.hpp"
@@ -128,6 +130,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   CLI::App* check_command = app.add_subcommand("check", "Builds everything and solves nothing");
   scene.add_to(*check_command);
   SweepCommand sweep(app);
+  NewCommand new_plugin(app, purpose.templates);
   CLI::App* report_command = app.add_subcommand("report", "Writes report.html into a folder of results");
   report_command->add_option("folder", reported, "Where a run has written its results")
       ->required()
@@ -150,6 +153,15 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   reference_command->add_option("folder", reference_folder, "Where to")->required()->type_name("FOLDER");
   CLI::App* manual_command = app.add_subcommand("man", "Prints the manual page, for man");
   CLI::App* completion_command = app.add_subcommand("completion", "Prints a script that completes commands in a shell");
+  std::vector<std::string> plugins;
+  for (CLI::App* command : {run_command, check_command, show_command, graph_command, list_command, explain_command,
+                            schema_command, reference_command, sweep.command()})
+    command
+        ->add_option("--plugin", plugins,
+                     "Loads a shared library with further components and couplers; once for each. SPREKK_PLUGINS and a "
+                     "scene's 'plugins' list more")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
   completion_command->add_option("shell", shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
 
   try {
@@ -165,6 +177,8 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   }
 
   try {
+    load_plugins_of_environment();
+    for (const std::string& file : plugins) load_plugin(file, {"--plugin"});
     if (*list_command) print_list(std::cout);
     if (*explain_command) print_explanation(explained, std::cout);
     if (*schema_command) schema_of == "study" ? print_study_schema(std::cout) : print_schema(std::cout);
@@ -176,6 +190,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
     if (*graph_command) draw_graph(Model(scene.read()), picture);
     if (*check_command) check_scene(scene.read());
     if (*report_command) std::cout << "report: " << write_report(reported).string() << "\n";
+    if (new_plugin.is_called()) new_plugin.run();
     if (sweep.is_called()) return static_cast<int>(sweep.run());
     if (*run_command) {
       const Scene read = scene.read();

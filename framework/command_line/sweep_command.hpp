@@ -12,6 +12,7 @@ namespace sprekk {
 class SweepCommand {
  public:
   explicit SweepCommand(CLI::App& app);
+  CLI::App* command() { return command_; }
   bool is_called() const { return command_->parsed(); }
   ExitCode run() const;  ///< throws InputError
 

@@ -22,8 +22,16 @@ Json scene_json(const RunRecord& record) {
 
 Json program_json(const RunRecord& record) {
   const BuildInfo& build = build_info();
-  return {{"version", build.version},       {"git_commit", build.git_commit}, {"compiler", build.compiler},
-          {"build_type", build.build_type}, {"libraries", build.libraries},   {"blas", record.blas}};
+  Json plugins = Json::array();
+  for (const RunRecord::UsedPlugin& plugin : record.plugins)
+    plugins.push_back({{"file", plugin.file}, {"types", plugin.types}});
+  return {{"version", build.version},
+          {"git_commit", build.git_commit},
+          {"compiler", build.compiler},
+          {"build_type", build.build_type},
+          {"libraries", build.libraries},
+          {"blas", record.blas},
+          {"plugins", plugins}};
 }
 
 Json profile_json(const Profile& profile) {

@@ -25,6 +25,12 @@ struct RunRecord {
   std::vector<std::string> scene_files;
   std::string scene_text;  ///< the merged scene as YAML
   std::vector<Parameter> parameters;
+  /// A plug-in, and the types of components and couplers that it has brought.
+  struct UsedPlugin {
+    std::string file;
+    std::vector<std::string> types;
+  };
+  std::vector<UsedPlugin> plugins;
   std::string blas;
   int processes = 1;
 

@@ -10,6 +10,7 @@
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/plugin/plugin.hpp"
 #include "framework/run/note_records.hpp"
 #include "framework/run/recorded_parameters.hpp"
 #include "framework/run/start_notes.hpp"
@@ -34,6 +35,7 @@ void RunRecorder::set_up_ends() {
 void RunRecorder::begin(const Model& model) {
   record_.scene_name = model.scene().name;
   record_.parameters = recorded_parameters(model.scene());
+  for (const Plugin& plugin : loaded_plugins()) record_.plugins.push_back({plugin.file.string(), plugin.types});
   record_.blas = blas_in_use().name;
   record_.processes = parallel::size();
   const MeshQuality quality = mesh_quality(model.mesh());

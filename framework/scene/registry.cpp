@@ -1,7 +1,8 @@
 #include "framework/scene/registry.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+
+#include "framework/plugin/plugin.hpp"
 
 namespace sprekk {
 
@@ -11,8 +12,8 @@ template <class Type>
 void insert_sorted(std::vector<Type>& types, Type type) {
   const auto place =
       std::lower_bound(types.begin(), types.end(), type, [](const Type& a, const Type& b) { return a.type < b.type; });
-  if (place != types.end() && place->type == type.type)
-    throw std::logic_error("type " + type.type + " is registered twice");
+  if (place != types.end() && place->type == type.type) return refuse_registration(type.type);
+  note_registration(type.type);
   types.insert(place, std::move(type));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "framework/config/units.hpp"
@@ -10,6 +11,7 @@
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/geometry_spec.hpp"
 #include "framework/meshing/validate_geometry.hpp"
+#include "framework/plugin/plugin.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/solve_step.hpp"
 
@@ -40,8 +42,8 @@ Spec OutputOptions::spec() {
 
 namespace {
 
-const std::vector<std::string> section_names = {"name",     "geometry", "mesh",   "materials", "components", "couplers",
-                                                "schedule", "time",     "output", "solver",    "newton"};
+const std::vector<std::string> section_names = {"name",     "plugins",  "geometry", "mesh",   "materials", "components",
+                                                "couplers", "schedule", "time",     "output", "solver",    "newton"};
 
 void check_sections(const Node& whole) {
   if (!whole.is_map())
@@ -67,6 +69,23 @@ std::vector<std::string> material_names() {
   for (const ComponentType& type : Registry::instance().components()) collect(type.spec());
   for (const CouplerType& type : Registry::instance().couplers()) collect(type.spec());
   return {names.begin(), names.end()};
+}
+
+/// Loads the libraries that the scene names, relative to its folder.
+void read_plugins(const Node& whole, const ReadContext& read) {
+  const Node* plugins = whole.find("plugins");
+  if (!plugins || plugins->is_null()) return;
+  const auto load = [&](const Node& file) {
+    if (!file.is_scalar() || file.scalar.empty())
+      throw InputError(file.origin, "'plugins' names no file", "it is the path of a shared library, or a list of them",
+                       "write 'plugins: [build/my_part.so]'");
+    load_plugin(std::filesystem::path(read.folder) / file.scalar, file.origin);
+    read.record(file.path, yaml_scalar(file.scalar), file.origin.text());
+  };
+  if (plugins->is_list())
+    for (const Node& file : plugins->items) load(file);
+  else
+    load(*plugins);
 }
 
 void check_materials(const Node* materials) {
@@ -236,7 +255,6 @@ void note_times(Scene& scene) {
 
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name) {
   check_sections(whole);
-  check_materials(whole.find("materials"));
   Scene scene;
   scene.whole = whole;
   scene.notes.of_input(0);
@@ -245,11 +263,13 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   ReadContext read;
   read.folder = folder;
   read.materials = whole.find("materials");
-  if (read.materials && !read.materials->is_map()) read.materials = nullptr;
   read.record = [&scene](const std::string& path, const std::string& value, const std::string& origin) {
     scene.resolved.push_back({path, value, origin});
   };
   read.material_used = [&materials_used](const std::string& key) { materials_used.insert(key); };
+  read_plugins(whole, read);
+  check_materials(read.materials);
+  if (read.materials && !read.materials->is_map()) read.materials = nullptr;
   const auto read_section = [&](const char* key, const Spec& spec) { spec.read(section(whole, key), read); };
   read_name(scene, default_name, read);
   Node geometry = section(whole, "geometry");

@@ -20,6 +20,29 @@ install(DIRECTORY configs/ DESTINATION share/doc/sprekk/examples)
 install(FILES LICENSE DESTINATION share/doc/sprekk RENAME copyright)
 install(FILES README.md DESTINATION share/doc/sprekk)
 
+# What plug-ins are built with: public headers, and a CMake package with sprekk_plugin(). The build folder has the same package, for
+# plug-ins that are built against a tree which is not installed.
+foreach(header ${public_headers})
+  cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE place)
+  cmake_path(GET place PARENT_PATH place)
+  install(FILES ${header} DESTINATION include/sprekk/${place})
+endforeach()
+install(FILES ${interface_tag} DESTINATION include/sprekk/framework/plugin)
+set(package_files ${CMAKE_CURRENT_LIST_DIR}/sprekk_plugin.cmake ${CMAKE_CURRENT_LIST_DIR}/define_plugin.cpp)
+install(FILES ${package_files} DESTINATION lib/cmake/sprekk)
+include(CMakePackageConfigHelpers)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/sprekk-config-version.cmake COMPATIBILITY SameMinorVersion)
+function(write_package_config file include program)
+  configure_file(${CMAKE_SOURCE_DIR}/tools/cmake/sprekk-config.cmake.in ${file} @ONLY)
+endfunction()
+write_package_config(${CMAKE_BINARY_DIR}/install/sprekk-config.cmake "\${CMAKE_CURRENT_LIST_DIR}/../../../include/sprekk"
+                     "\${CMAKE_CURRENT_LIST_DIR}/../../../bin/sprekk")
+write_package_config(${CMAKE_BINARY_DIR}/sprekk-config.cmake "${CMAKE_SOURCE_DIR};${CMAKE_BINARY_DIR}/generated"
+                     "${CMAKE_BINARY_DIR}/sprekk")
+file(COPY ${package_files} DESTINATION ${CMAKE_BINARY_DIR})
+install(FILES ${CMAKE_BINARY_DIR}/install/sprekk-config.cmake ${CMAKE_BINARY_DIR}/sprekk-config-version.cmake
+        DESTINATION lib/cmake/sprekk)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME sprekk)
 set(CPACK_PACKAGE_VENDOR "the Sprekk authors")

@@ -1,0 +1,91 @@
+#include "framework/command_line/new_command.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "framework/scene/registry.hpp"
+
+namespace sprekk {
+
+namespace {
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_of_word(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
+
+/// Throws InputError unless the parts between '/' are names in C++.
+void check_type(const std::string& type) {
+  bool begins = true, is_fine = !type.empty();
+  for (const char c : type) {
+    is_fine = is_fine && (begins ? is_letter(c) : is_of_word(c) || c == '/');
+    begins = c == '/';
+  }
+  if (!is_fine || begins)
+    throw InputError({"sprekk new"}, quoted(type) + " is no name of a type",
+                     "it is made of letters, digits and '_', begins with a letter, and may have a role before '/'",
+                     "write for example my_part, or heat_flow/my_part");
+  const auto is_this = [&](const auto& known) { return known.type == type; };
+  const Registry& registry = Registry::instance();
+  if (std::any_of(registry.components().begin(), registry.components().end(), is_this) ||
+      std::any_of(registry.couplers().begin(), registry.couplers().end(), is_this))
+    throw InputError({"sprekk new"}, "the type " + quoted(type) + " exists", "", "choose another name");
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+}  // namespace
+
+NewCommand::NewCommand(CLI::App& app, const std::vector<TemplateFile>& templates)
+    : command_(app.add_subcommand("new",
+                                  "Writes a folder with a component or a coupler to start from, outside of this tree")),
+      templates_(templates) {
+  command_->add_option("kind", kind_, "What it is")->required()->check(CLI::IsMember(kinds()));
+  command_->add_option("name", type_, "The name of its type, for example my_part or heat_flow/my_part")
+      ->required()
+      ->type_name("NAME");
+  command_->add_option("-o,--output", folder_, "The folder; one of that name here by default")->type_name("FOLDER");
+}
+
+std::vector<std::string> NewCommand::kinds() const {
+  std::vector<std::string> kinds;
+  for (const TemplateFile& file : templates_)
+    if (std::find(kinds.begin(), kinds.end(), file.kind) == kinds.end()) kinds.push_back(file.kind);
+  return kinds;
+}
+
+void NewCommand::run() const {
+  namespace fs = std::filesystem;
+  check_type(type_);
+  const std::string name = replaced(type_, "/", "_");
+  std::string class_name;
+  bool begins = true;
+  for (const char c : name) {
+    if (c != '_') class_name += begins ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    begins = c == '_';
+  }
+  const fs::path folder = folder_.empty() ? name : folder_;
+  if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
+    throw InputError({"sprekk new"}, "'" + folder.string() + "' exists", "nothing is overwritten",
+                     "choose another folder by -o");
+  const auto filled = [&](std::string text) {
+    for (const auto& [what, by] : {std::pair{"__type__", type_}, {"__name__", name}, {"__Class__", class_name}})
+      text = replaced(std::move(text), what, by);
+    return text;
+  };
+  fs::create_directories(folder);
+  for (const TemplateFile& file : templates_) {
+    if (file.kind != kind_) continue;
+    std::ofstream out(folder / filled(file.name));
+    out << filled(file.text);
+    if (!out.flush()) throw std::runtime_error("cannot write " + (folder / filled(file.name)).string());
+  }
+  std::cout << "wrote " << folder.string() << "; its README.md says how it is built, tested and run\n";
+}
+
+}  // namespace sprekk

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""plugin_test.py BUILD CMAKE: what `sprekk new` writes builds against an installation, and against the build folder, passes its own
+tests and runs; and plug-ins that cannot be used are refused with the reason."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+build_folder, cmake = sys.argv[1:3]
+program = f"{build_folder}/sprekk"
+
+
+def call(*command, plugins="", where=None):
+    environment = {**os.environ, "SPREKK_PLUGINS": plugins}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment, cwd=where)
+    return done.returncode, done.stdout + done.stderr
+
+
+def expect(answer, code, *words):
+    found, text = answer
+    assert found == code and all(word in text for word in words), f"exit code {found}, not {code}, or not {words}:\n{text}"
+
+
+def build(folder, package, *settings):
+    expect(call(cmake, "-S", str(folder), "-B", str(folder / "build"), f"-Dsprekk_DIR={package}", *settings), 0)
+    return call(cmake, "--build", str(folder / "build"))
+
+
+def make(scratch, kind, name, package):
+    folder = scratch / name.replace("/", "_")
+    expect(call(program, "new", kind, name, where=scratch), 0, "wrote")
+    # Few optimizations: the test is shorter.
+    expect(build(folder, package, "-DCMAKE_CXX_FLAGS_RELEASE=-O1"), 0)
+    expect(call("ctest", "--test-dir", str(folder / "build"), "--output-on-failure"), 0, "100% tests passed")
+    return folder, folder / "build" / f"{folder.name}.so"
+
+
+def check_use(folder, plugin):
+    """By the scene, the option and the variable."""
+    out = folder / "results"
+    expect(call(program, "run", str(folder / "scene.yaml"), "-q", "-o", str(out)), 0)
+    used = json.loads((out / "run.json").read_text(encoding="utf-8"))["program"]["plugins"]
+    assert [(p["file"], p["types"]) for p in used] == [(str(plugin.resolve()), ["heat_flow/decay_of_heat"])], used
+    expect(call(program, "list", "--plugin", str(plugin)), 0, "heat_flow/decay_of_heat")
+    expect(call(program, "list", plugins=f"{plugin}:{plugin}"), 0, "heat_flow/decay_of_heat")
+    expect(call(program, "schema", "--plugin", str(plugin)), 0, "heat_flow/decay_of_heat")
+    expect(call("mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", program, "run", str(folder / "scene.yaml"), "-q", "-o",
+                str(folder / "two")), 0)
+
+
+def check_refusals(scratch, folder, plugin):
+    scene = str(folder / "scene.yaml")
+    # Lines and columns of the scene, and what to do.
+    expect(call(program, "check", scene, "--set", "plugins=none.so"), 2, "there is no plug-in", "none.so", "correct the path")
+    expect(call(program, "check", scene, "--set", "plugins=null"), 2, "heat_flow/decay_of_heat", "type of component")
+    expect(call(program, "check", scene, "--set", "plugins={a: b}"), 2, "names no file")
+    text = scratch / "text.so"
+    text.write_text("no library", encoding="utf-8")
+    expect(call(program, "list", "--plugin", str(text)), 2, "--plugin", "cannot be loaded", "sprekk_plugin()")
+    expect(call(program, "new", "component", "heat_flow/decay_of_heat", "-o", str(folder)), 2, "exists", "nothing is overwritten")
+    expect(call(program, "new", "component", "matrix_flow/mpfa"), 2, "exists")
+    for name in ("1st", "a b", "a//b", "/a", "a/", ""):
+        expect(call(program, "new", "component", name, where=scratch), 2, "no name of a type")
+
+    # Two plug-ins with one type.
+    twin = scratch / "twin.so"
+    twin.write_bytes(plugin.read_bytes())
+    expect(call(program, "list", "--plugin", str(plugin), "--plugin", str(twin)), 2, "heat_flow/decay_of_heat", "a type of this name exists")
+
+    # Another version, a missing function, and a library that is no plug-in.
+    sources = scratch / "wrong"
+    sources.mkdir()
+    (sources / "other.c").write_text("extern const char sprekk_interface_0_0_1_abc_16; const char* sprekk_plugin = "
+                                     "&sprekk_interface_0_0_1_abc_16;\n", encoding="utf-8")
+    (sources / "lacks.cpp").write_text("namespace sprekk { int not_there(double); }\nint x = sprekk::not_there(1);\n", encoding="utf-8")
+    (sources / "plain.c").write_text("int x;\n", encoding="utf-8")
+    for source, words in (("other.c", ("built for the interface 0_0_1_abc_16", "build it anew")),
+                          ("lacks.cpp", ("sprekk::not_there(double)", "does not have")),
+                          ("plain.c", ("no plug-in of Sprekk",))):
+        library = sources / f"{source}.so"
+        expect(call(os.environ.get("CXX", "c++") if source.endswith("cpp") else os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o",
+                    str(library), str(sources / source)), 0)
+        expect(call(program, "list", "--plugin", str(library)), 2, *words)
+
+
+with tempfile.TemporaryDirectory() as name:
+    scratch_folder = Path(name)
+    make(scratch_folder, "coupler", "leakage", build_folder)
+    expect(call(cmake, "--install", build_folder, "--prefix", str(scratch_folder / "prefix")), 0)
+    program = str(scratch_folder / "prefix/bin/sprekk")
+    component, library_file = make(scratch_folder, "component", "heat_flow/decay_of_heat", scratch_folder / "prefix/lib/cmake/sprekk")
+    check_use(component, library_file)
+    check_refusals(scratch_folder, component, library_file)

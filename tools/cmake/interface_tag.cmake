@@ -1,0 +1,11 @@
+# cmake -D version=… -D dimension=… -D headers=FILE -D output=FILE -P interface_tag.cmake
+file(STRINGS ${headers} files)
+set(hashes "${dimension}")
+foreach(file ${files})
+  file(SHA256 ${file} hash)
+  string(APPEND hashes ${hash})
+endforeach()
+string(SHA256 hash "${hashes}")
+string(SUBSTRING ${hash} 0 12 hash)
+string(REPLACE "." "_" version ${version})
+file(WRITE ${output} "// Made by CMake.\n#pragma once\n#define SPREKK_INTERFACE_TAG ${version}_${hash}\n")
