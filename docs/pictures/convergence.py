@@ -21,8 +21,8 @@ from numpy import cos, cosh, pi, sin, sinh, sqrt, tan
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
-import results
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk
 
 PROGRAM = str(Path(sys.argv[1]).resolve()) if len(sys.argv) > 1 else sys.exit(__doc__)
 
@@ -36,8 +36,8 @@ def run(scene, settings):
         arguments = [a for key, value in settings.items() for a in ("--set", f"{key}={value}")]
         subprocess.run([PROGRAM, "run", str(file), "-q", "-o", folder + "/out", *arguments], check=True)
         fractures = Path(folder) / "out" / "fractures.pvd"
-        matrix = results.read_vtu(results.read_pvd(Path(folder) / "out" / "matrix.pvd")[-1][1])
-        return matrix, results.read_vtu(results.read_pvd(fractures)[-1][1]) if fractures.exists() else None
+        matrix = sprekk.read_vtu(sprekk.read_pvd(Path(folder) / "out" / "matrix.pvd")[-1][1])
+        return matrix, sprekk.read_vtu(sprekk.read_pvd(fractures)[-1][1]) if fractures.exists() else None
 
 
 def data(grid, name):

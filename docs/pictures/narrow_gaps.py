@@ -14,8 +14,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "tools"))
-import results
+sys.path.insert(0, str(HERE.parents[1] / "tools/python"))
+import sprekk
 
 SCENE = """
 geometry:
@@ -38,7 +38,7 @@ def mesh(edges):
         scene = Path(folder) / "scene.yaml"
         scene.write_text(SCENE.format(edges=edges))
         subprocess.run([sys.argv[1], "run", str(scene), "-q", "-o", folder + "/out"], check=True)
-        return tuple(results.read_vtu(results.read_pvd(Path(folder) / "out" / f"{name}.pvd")[-1][1])
+        return tuple(sprekk.read_vtu(sprekk.read_pvd(Path(folder) / "out" / f"{name}.pvd")[-1][1])
                      for name in ("matrix", "fractures"))
 
 

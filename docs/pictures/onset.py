@@ -15,8 +15,8 @@ import numpy as np
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
-import results
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk
 
 # Table 1, and the loads of sec. 5.1.
 young, nu, alpha, porosity, fluid, permeability, viscosity = 40e9, 0.2, 0.8, 0.01, 4e-10, 5e-20, 1e-4
@@ -42,8 +42,8 @@ with tempfile.TemporaryDirectory() as folder:
     subprocess.run([sys.argv[1], "run", str(ROOT / "configs/paper/onset_coarse.yaml"), "-q", "-o", folder + "/out",
                     "--set", "output.probes.mean={of: pore.pressure, take: mean}"], check=True)
     out = Path(folder) / "out"
-    history = results.read_table(out / "history.csv")
-    fractures = {round(time / 3600): results.read_vtu(file) for time, file in results.read_pvd(out / "fractures.pvd")}
+    history = sprekk.read_table(out / "history.csv")
+    fractures = {round(time / 3600): sprekk.read_vtu(file) for time, file in sprekk.read_pvd(out / "fractures.pvd")}
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
 hours = history["time[s]"] / 3600
@@ -56,7 +56,7 @@ left.legend()
 
 for hour, flux, color in ((6, 0, "C0"), (9, rate, "C2"), (21, rate, "C3")):
     grid, row = fractures[hour], np.flatnonzero(hours == hour)[0]
-    along, cells = results.chain(grid, np.arange(len(grid.cells)))
+    along, cells = sprekk.chain(grid, np.arange(len(grid.cells)))
     jump = next(values for name, values in grid.cell_data.items() if name.startswith("contact.jump.tangential"))
     right.plot(along * 100, abs(jump[cells]) * 1e6, ".", color=color, label=f"t = {hour} h")
     drop = stress_drop(history["fracture_pressure[Pa]"][row], history["mean[Pa]"][row], flux)

@@ -16,8 +16,8 @@ import numpy as np
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
-import results
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk
 
 REFERENCE = np.loadtxt(ROOT / "tests/verification/reference/regular_network.csv", delimiter=",")
 SQUARES = round(len(REFERENCE) ** 0.5)
@@ -30,7 +30,7 @@ def run(settings):
         out = Path(folder) / "out"
         subprocess.run([sys.argv[1], "run", str(ROOT / "configs/verification/regular_network.yaml"), "-q", "-o", str(out),
                         *settings], check=True)
-        return tuple(results.read_vtu(results.read_pvd(out / f"{name}.pvd")[-1][1]) for name in ("matrix", "fractures"))
+        return tuple(sprekk.read_vtu(sprekk.read_pvd(out / f"{name}.pvd")[-1][1]) for name in ("matrix", "fractures"))
 
 
 def error(settings, wanted):

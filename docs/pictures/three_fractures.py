@@ -14,12 +14,12 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "tools"))
-import results
+sys.path.insert(0, str(HERE.parents[1] / "tools/python"))
+import sprekk
 
 out = Path(sys.argv[1])
-history = results.read_table(out / "history.csv")
-matrix, fractures = ([(time, results.read_vtu(file)) for time, file in results.read_pvd(out / name)]
+history = sprekk.read_table(out / "history.csv")
+matrix, fractures = ([(time, sprekk.read_vtu(file)) for time, file in sprekk.read_pvd(out / name)]
                      for name in ("matrix.pvd", "fractures.pvd"))
 tips = [f"{fracture}_{end}" for fracture in ("second", "third", "first") for end in ("first", "last")]
 hours = history["time[s]"] / 3600

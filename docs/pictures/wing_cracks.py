@@ -15,15 +15,15 @@ import numpy as np
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
-import results
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk
 
 with tempfile.TemporaryDirectory() as folder:
     subprocess.run([sys.argv[1], "run", str(ROOT / "configs/paper/wing_cracks.yaml"), "-q", "-o", folder + "/out"], check=True)
     out = Path(folder) / "out"
-    history = results.read_table(out / "history.csv")
-    matrix = [(time, results.read_vtu(file)) for time, file in results.read_pvd(out / "matrix.pvd")]
-    fractures = [(time, results.read_vtu(file)) for time, file in results.read_pvd(out / "fractures.pvd")]
+    history = sprekk.read_table(out / "history.csv")
+    matrix = [(time, sprekk.read_vtu(file)) for time, file in sprekk.read_pvd(out / "matrix.pvd")]
+    fractures = [(time, sprekk.read_vtu(file)) for time, file in sprekk.read_pvd(out / "fractures.pvd")]
 
 figure, axes = plt.subplots(1, 3, figsize=(14, 4.2), layout="constrained", width_ratios=[1.15, 1.15, 1])
 for panel, index in ((axes[0], len(matrix) // 2), (axes[1], len(matrix) - 1)):

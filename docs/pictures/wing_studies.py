@@ -15,8 +15,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "tools"))
-import results
+sys.path[:0] = [str(HERE.parents[1] / "tools"), str(HERE.parents[1] / "tools/python")]
+import sprekk
 from growth_times import time_to
 from paths import apart
 
@@ -30,10 +30,10 @@ TIP = "tips.main_last.length[m]"
 
 class Run:
     def __init__(self, folder):
-        history = results.read_table(folder / "history.csv")
+        history = sprekk.read_table(folder / "history.csv")
         self.hours, self.length = history["time[s]"] / 3600, history[TIP]
         self.record = json.loads((folder / "run.json").read_text())
-        line = results.read_vtu(results.read_pvd(folder / "fractures.pvd")[-1][1]).points[:, :2]
+        line = sprekk.read_vtu(sprekk.read_pvd(folder / "fractures.pvd")[-1][1]).points[:, :2]
         self.path = line[np.argsort(line[:, 0])]  # x grows along the fracture and both wings
 
     def time_to(self, length):

@@ -20,17 +20,17 @@ from PIL import Image
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
-import results
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk
 
 SECONDS_A_FRAME, SECONDS_AT_THE_END = 0.12, 3.0
 HALF_WIDTH = 0.36  # m, of what is seen around the fracture
 
 
 def read(folder):
-    fields = [(time, results.read_vtu(matrix), results.read_vtu(fracture)) for (time, matrix), (_, fracture)
-              in zip(results.read_pvd(folder / "matrix.pvd"), results.read_pvd(folder / "fractures.pvd"))]
-    return fields, results.read_table(folder / "history.csv")
+    fields = [(time, sprekk.read_vtu(matrix), sprekk.read_vtu(fracture)) for (time, matrix), (_, fracture)
+              in zip(sprekk.read_pvd(folder / "matrix.pvd"), sprekk.read_pvd(folder / "fractures.pvd"))]
+    return fields, sprekk.read_table(folder / "history.csv")
 
 
 def draw_rock(axes, time, grid, line, limits):

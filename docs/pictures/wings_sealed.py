@@ -14,15 +14,15 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "tools"))
-import results
+sys.path.insert(0, str(HERE.parents[1] / "tools/python"))
+import sprekk
 
 RUNS = {"10 mm, 10 mm": "fracture_size=10mm,increment=10mm", "5 mm, 10 mm": "fracture_size=5mm,increment=10mm",
         "5 mm, 5 mm": "fracture_size=5mm,increment=5mm"}
 
 
 def grown(folder):
-    history = results.read_table(folder / "history.csv")
+    history = sprekk.read_table(folder / "history.csv")
     length = history["tips.main_last.length[m]"]
     steps = [i for i in range(1, len(length)) if length[i] > length[i - 1]]
     return length[steps] * 1e3, {name: values[steps] for name, values in history.items()}
@@ -32,7 +32,7 @@ figure, axes = plt.subplots(1, 3, figsize=(14, 4), layout="constrained")
 for name, folder in RUNS.items():
     length, history = grown(Path(sys.argv[1]) / folder)
     axes[0].plot(length, history["fracture_pressure[Pa]"] / 1e6, label=name)
-    line = results.read_vtu(results.read_pvd(Path(sys.argv[1]) / folder / "fractures.pvd")[-1][1])
+    line = sprekk.read_vtu(sprekk.read_pvd(Path(sys.argv[1]) / folder / "fractures.pvd")[-1][1])
     points = line.points[np.argsort(line.points[:, 0])] * 1e3
     axes[1].plot(points[:, 0], points[:, 1], label=name)
     if name == "10 mm, 10 mm":

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "framework/command_line/compare_command.hpp"
 #include "framework/command_line/completion.hpp"
 #include "framework/command_line/explain_command.hpp"
 #include "framework/command_line/graph_command.hpp"
@@ -135,6 +136,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   report_command->add_option("folder", reported, "Where a run has written its results")
       ->required()
       ->type_name("FOLDER");
+  CompareCommand compare(app);
   CLI::App* show_command =
       app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   scene.add_to(*show_command);
@@ -191,6 +193,8 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
     if (*check_command) check_scene(scene.read());
     if (*report_command) std::cout << "report: " << write_report(reported).string() << "\n";
     if (new_plugin.is_called()) new_plugin.run();
+
+    if (compare.is_called()) return static_cast<int>(compare.run());
     if (sweep.is_called()) return static_cast<int>(sweep.run());
     if (*run_command) {
       const Scene read = scene.read();

@@ -73,6 +73,7 @@ std::string manual_page(const DeclaredCommand& program, const std::string& summa
   }
   page += ".SH EXIT STATUS\n" + paragraph("0", "Done") + paragraph("1", "The run failed") +
           paragraph("2", "The input is wrong, and nothing has been done") +
+          paragraph("3", "Runs are further apart than the tolerance of sprekk compare") +
           paragraph("130", "Interrupted; the run can go on with --restart");
   page += ".SH FILES\n" +
           paragraph(italic("results/<scene>"),
@@ -82,8 +83,8 @@ std::string manual_page(const DeclaredCommand& program, const std::string& summa
           paragraph(italic("share/sprekk/scene.schema.json"), "The JSON schema of scenes, for editors");
   page += ".SH EXAMPLES\n.nf\n" + plain("sprekk run first_scene.yaml\n") +
           plain("sprekk run first_scene.yaml --set materials.friction=0.9 -o results/rough\n") +
-          plain("sprekk report results/rough\n") + plain("mpirun -n 2 sprekk run first_scene.yaml\n") + ".fi\n" +
-          ".SH SEE ALSO\n.BR mpirun (1)\n";
+          plain("sprekk report results/rough\n") + plain("sprekk compare results/first_scene results/rough\n") +
+          plain("mpirun -n 2 sprekk run first_scene.yaml\n") + ".fi\n" + ".SH SEE ALSO\n.BR mpirun (1)\n";
   return page;
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "framework/output/progress.hpp"
 #include "framework/picture/display_unit.hpp"
+#include "framework/report/fracture_names.hpp"
 #include "framework/report/fracture_path.hpp"
 #include "framework/report/html.hpp"
 #include "framework/report/sections.hpp"
@@ -41,23 +41,6 @@ std::map<int, FractureHistory> fracture_histories(const RunResults& results) {
     }
   }
   return all;
-}
-
-/// The scene's names of fractures, when there are as many as fractures.
-std::vector<std::string> fracture_names(const RunResults& results, std::size_t count) {
-  const std::string head = "geometry.fractures.";
-  std::vector<std::string> names;
-  const auto record = nlohmann::ordered_json::parse(results.record);
-  const auto parameters = record.value("/scene/parameters"_json_pointer, nlohmann::ordered_json::object());
-  for (const auto& [path, parameter] : parameters.items()) {
-    if (path.rfind(head, 0) != 0) continue;
-    const std::string name = path.substr(head.size(), path.find('.', head.size()) - head.size());
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-  if (names.size() == count) return names;
-  names.clear();
-  for (std::size_t i = 0; i < count; ++i) names.push_back("fracture " + std::to_string(i + 1));
-  return names;
 }
 
 LineStyle time_style(std::size_t i, std::size_t count) {
@@ -158,7 +141,8 @@ bool has_grown(const std::map<int, FractureHistory>& all) {
 std::string fracture_section(const RunResults& results) {
   const std::map<int, FractureHistory> all = fracture_histories(results);
   if (all.empty()) return "";
-  const std::vector<std::string> names = fracture_names(results, static_cast<std::size_t>(all.rbegin()->first) + 1);
+  const std::vector<std::string> names =
+      fracture_names(results.record, static_cast<std::size_t>(all.rbegin()->first) + 1);
   std::string text;
   if (has_grown(all)) text += html_panels({paths_panel(all)});
   text += html_paragraph(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/picture/line_plot.hpp"
@@ -20,5 +21,11 @@ std::string html_panels(const std::vector<Panel>& panels);
 
 /// `text` as a paragraph; it is escaped.
 std::string html_paragraph(const std::string& text);
+
+/// Ids and titles of sections.
+using SectionTitles = std::vector<std::pair<std::string, std::string>>;
+
+/// A page that loads no other file, with links to those of `sections` that are in its body.
+std::string html_page(const std::string& title, const SectionTitles& sections, const std::string& body);
 
 }  // namespace sprekk

@@ -36,21 +36,20 @@ Grid read_grid(const std::filesystem::path& vtu) {
   const GridData read = module<VtkModule>("vtk").read(vtu);
   Grid grid;
   for (int i = 0; i < read.point_count(); ++i) grid.points.push_back({read.points[3 * i], read.points[3 * i + 1]});
-  std::vector<int> cell_of;  // of each triangle or line of the grid
   for (int i = 0; i < read.cell_count(); ++i) {
     const auto first = i == 0 ? 0 : read.cell_ends[i - 1];
     const auto corner = [&](int k) { return static_cast<int>(read.cell_points[first + k]); };
     const int count = static_cast<int>(read.cell_ends[i] - first);
     grid.points_per_cell = count == 2 ? 2 : 3;
     for (int k = 2; k < std::max(count, 3); ++k) {
-      cell_of.push_back(i);
+      grid.sources.push_back(i);
       grid.cells.insert(grid.cells.end(), {corner(0), corner(k - 1)});
       if (count > 2) grid.cells.push_back(corner(k));
     }
   }
   std::vector<int> all_points(read.point_count());
   std::iota(all_points.begin(), all_points.end(), 0);
-  add_arrays(read.on_cells, Grid::Place::cell, cell_of, grid);
+  add_arrays(read.on_cells, Grid::Place::cell, grid.sources, grid);
   add_arrays(read.on_points, Grid::Place::point, all_points, grid);
   return grid;
 }

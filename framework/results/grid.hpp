@@ -22,7 +22,8 @@ struct Grid {
 
   std::vector<std::array<double, 2>> points;
   int points_per_cell = 0;
-  std::vector<int> cells;  ///< points of a cell stand together
+  std::vector<int> cells;    ///< points of a cell stand together
+  std::vector<int> sources;  ///< of each cell, the number of the cell of the file that it is, or is a part of
   std::vector<Values> arrays;
 
   int cell_count() const { return points_per_cell == 0 ? 0 : static_cast<int>(cells.size()) / points_per_cell; }

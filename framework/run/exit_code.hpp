@@ -4,6 +4,7 @@
 namespace sprekk {
 
 /// The exit code of the program for one run or for several.
-enum class ExitCode { done = 0, failed = 1, wrong_input = 2, interrupted = 130 };
+/// `differs`: runs are further apart than the tolerance of a comparison.
+enum class ExitCode { done = 0, failed = 1, wrong_input = 2, differs = 3, interrupted = 130 };
 
 }  // namespace sprekk

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-import results  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/python"))
+import sprekk  # noqa: E402
 
 program, mpiexec = sys.argv[1:3]
 E, NU, LOAD, VOLUME = 10e9, 0.2, 1e6, 1e-3
@@ -83,8 +83,8 @@ def run(command, scene, folder):
                             timeout=300)
     if result.returncode != 0:
         sys.exit(f"{' '.join(command)} on {scene.name}: exit code {result.returncode}\n{result.stderr}")
-    files = zip(results.read_pvd(folder / "matrix.pvd"), results.read_pvd(folder / "fractures.pvd"))
-    return [(time, results.read_vtu(matrix), results.read_vtu(lines)) for (time, matrix), (_, lines) in files]
+    files = zip(sprekk.read_pvd(folder / "matrix.pvd"), sprekk.read_pvd(folder / "fractures.pvd"))
+    return [(time, sprekk.read_vtu(matrix), sprekk.read_vtu(lines)) for (time, matrix), (_, lines) in files]
 
 
 def compare(name, alone, together):

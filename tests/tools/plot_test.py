@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/results.py against files of VTK's own writer, and tools/plot on a folder of results."""
+"""tools/python against files of VTK's own writer, and tools/plot on a folder of results."""
 
 import subprocess
 import sys
@@ -15,8 +15,8 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools"))
-import results  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk  # noqa: E402
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) / 3
 TRIANGLES = ((0, 1, 2), (0, 2, 3))
@@ -70,7 +70,7 @@ class Results(unittest.TestCase):
         self.holder.cleanup()
 
     def test_vtu_is_read_to_the_bit(self):
-        grid = results.read_vtu(self.folder / "fractures_1.vtu")
+        grid = sprekk.read_vtu(self.folder / "fractures_1.vtu")
         np.testing.assert_array_equal(grid.points, POINTS)
         np.testing.assert_array_equal(grid.cells, LINES)
         np.testing.assert_array_equal(grid.cell_data["a.pressure[Pa]"], [1 + 1 / 3, 3])
@@ -81,7 +81,7 @@ class Results(unittest.TestCase):
         path = self.folder / "mixed.vtu"
         points, cells = np.array([[0, 0, 0], [2, 0, 0], [1, 1, 0], [0, 1, 0], [3, 1, 0]]), ((0, 1, 2, 3), (1, 4, 2))
         write_vtu(path, (VTK_QUAD, VTK_TRIANGLE), cells, {"a.p[Pa]": np.array([3.0, 5.0])}, {}, points)
-        grid = results.read_vtu(path)
+        grid = sprekk.read_vtu(path)
         np.testing.assert_array_equal(grid.cells, [[0, 1, 2, 3], [1, 4, 2, 2]])
         triangles, cell = grid.triangles()
         np.testing.assert_array_equal(triangles, [[0, 1, 2], [1, 4, 2], [0, 2, 3]])
@@ -92,14 +92,14 @@ class Results(unittest.TestCase):
         np.testing.assert_allclose(centres, [[7 / 9, 4 / 9], [2, 2 / 3]], rtol=1e-15)
 
     def test_cells_of_a_fracture_follow_one_another(self):
-        grid = results.read_vtu(self.folder / "fractures_0.vtu")
-        along, cells = results.chain(grid, np.arange(2))
+        grid = sprekk.read_vtu(self.folder / "fractures_0.vtu")
+        along, cells = sprekk.chain(grid, np.arange(2))
         np.testing.assert_array_equal(cells, [1, 0])
         np.testing.assert_allclose(along, [2**0.5 / 6, 2**0.5 / 3 + 1 / 6], rtol=1e-15)
 
     def test_index_and_table(self):
-        self.assertEqual([time for time, _ in results.read_pvd(self.folder / "matrix.pvd")], [0, 7200])
-        table = results.read_table(self.folder / "history.csv")
+        self.assertEqual([time for time, _ in sprekk.read_pvd(self.folder / "matrix.pvd")], [0, 7200])
+        table = sprekk.read_table(self.folder / "history.csv")
         np.testing.assert_array_equal(table["p[Pa]"], [1, 0.1])
         np.testing.assert_array_equal(table["q[1]"], [np.nan, 3])
         self.assertEqual(table["note"], ["a, b", "c"])

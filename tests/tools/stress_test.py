@@ -11,8 +11,8 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools"))
-import results  # noqa: E402
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools/python")]
+import sprekk  # noqa: E402
 from stress_suite import (check_balance, check_contact, check_finite, check_growing, check_pressure, compare,  # noqa: E402
                           fractures, growing, physics, ranges, scene, summary, twisted_mesh, written)
 
@@ -32,7 +32,7 @@ def grids(n=8, columns=(2, 3, 4, 5)):
             triangles += [[a, a + 1, b + 1], [a, b + 1, b]]
     row = n // 2 * (n + 1)
     lines = [[row + i, row + i + 1] for i in columns]
-    return results.Grid(points, np.array(triangles)), results.Grid(points, np.array(lines))
+    return sprekk.Grid(points, np.array(triangles)), sprekk.Grid(points, np.array(lines))
 
 
 def at_rest():
@@ -341,7 +341,7 @@ class Scenes(unittest.TestCase):
         data["conduit.aperture[m]"] = data["conduit.aperture[m]"] + np.array([1e-6, 0, 0, -1e-6])
         self.assertEqual(check_balance.fracture_mass(P, [instant], 0), [])
         lines = instant.fractures
-        apart = results.Grid(np.vstack([lines.points, lines.points + [0, 1, 0]]),
+        apart = sprekk.Grid(np.vstack([lines.points, lines.points + [0, 1, 0]]),
                              np.vstack([lines.cells[:2], lines.cells[2:] + len(lines.points)]), data)
         self.assertEqual(len(check_balance.fracture_mass(P, [written.Instant(instant.time, instant.matrix, apart, True)], 0)), 2)
 

@@ -14,8 +14,8 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = sys.argv.pop(1)
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools"))
-import results  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk  # noqa: E402
 
 loader = importlib.machinery.SourceFileLoader("turn_scene", str(ROOT / "tools/turn_scene"))
 turn_scene = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
@@ -33,7 +33,7 @@ def run(folder, *files, settings=()):
     done = subprocess.run(command, capture_output=True, text=True, timeout=100)
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
-    return results.read_table(folder / "history.csv")
+    return sprekk.read_table(folder / "history.csv")
 
 
 def along_box(table, turn):

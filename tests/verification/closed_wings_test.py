@@ -2,8 +2,6 @@
 """closed_wings_test.py SPREKK: a fracture grows straight under the pressure of its fluid, closes when fluid is drawn out, and is sheared.
 Grown walls then have the friction of their fracture, and the factors of the whole crack are those of the closed form."""
 
-import csv
-import json
 import math
 import subprocess
 import sys
@@ -16,8 +14,8 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 SPREKK = Path(sys.argv.pop(1)).resolve()
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools"))
-import results  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk  # noqa: E402
 
 FRICTION, ANGLE, TOUGHNESS = 0.3, math.radians(40), 0.7e6
 SHEARED = 6900  # s, before growth goes on
@@ -87,10 +85,9 @@ class ClosedWings(unittest.TestCase):
                                  capture_output=True, text=True, timeout=200)
             if run.returncode:
                 raise RuntimeError(run.stderr)
-            with open(folder / "out/history.csv") as file:
-                cls.rows = [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
-            cls.notes = json.loads((folder / "out/run.json").read_text())["notes"]
-            cls.written = {time: results.read_vtu(file) for time, file in results.read_pvd(folder / "out/fractures.pvd")}
+            results = sprekk.Results(folder / "out")
+            cls.rows, cls.notes = results.rows, results.record["notes"]
+            cls.written = {time: results.fractures(time).grid for time in results.written("fractures")}
         cls.sheared = next(row for row in cls.rows if row["time"] == SHEARED)
 
     def test_walls_that_touch_have_no_opening_mode(self):
@@ -141,8 +138,7 @@ time: {step: 300 s}
             run = subprocess.run([SPREKK, "run", "-q", folder / "scene.yaml", folder / "within.yaml", "-o", folder / "out"],
                                  capture_output=True, text=True, timeout=100)
             self.assertEqual(run.returncode, 0, run.stderr)
-            with open(folder / "out/history.csv") as file:
-                rows = [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
+            rows = sprekk.Results(folder / "out").rows
         last, tip = rows[-1], TIPS[1]  # the one that has grown before
         before = next(row for row in rows if row["time"] == 5400)
         self.assertGreater(before[tip + "length"], 0.005)

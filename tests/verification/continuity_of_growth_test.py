@@ -1,10 +1,8 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """continuity_of_growth_test.py SPREKK MPIEXEC: while growth is stable, lengths, pressures and times are continuous in what
 a scene prescribes. Wings that grow within steps are the same after another last digit of the injection rate, with another
 direct solver, another residual of Newton's method, and on two processes; and every mesh has the same topology."""
 
-import csv
-import json
 import subprocess
 import sys
 import tempfile
@@ -14,6 +12,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SPREKK, MPIEXEC = (Path(sys.argv.pop(1)).resolve(), sys.argv.pop(1))
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk  # noqa: E402
+
 RATE = 5.0e-9  # m^2/s
 OVERLAY = """
 couplers:
@@ -78,9 +80,8 @@ class ContinuityOfGrowth(unittest.TestCase):
 
     def answer(self, name):
         folder = self.folder / name.replace(" ", "_")
-        with open(folder / "history.csv") as file:
-            rows = [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
-        return rows, json.loads((folder / "run.json").read_text())["meshes"]
+        results = sprekk.Results(folder)
+        return results.rows, results.record["meshes"]
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 """growth_columns_test.py SPREKK: what history.csv tells of tips that grow, and the paths in the pictures, fit to one another: lengths
 are those of the lines that are drawn, tips are at their ends, and advance by speed times step."""
 
-import csv
 import math
 import subprocess
 import sys
@@ -13,8 +12,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SPREKK = Path(sys.argv.pop(1)).resolve()
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools"))
-import results  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk  # noqa: E402
 
 SCENE = ROOT / "configs/paper/wing_cracks.yaml"
 FRACTURE = 0.1  # m, before growth
@@ -49,12 +48,11 @@ class GrowthColumns(unittest.TestCase):
         run = subprocess.run([SPREKK, "run", "-q", *scenes, "-o", folder / "out", *settings],
                              capture_output=True, text=True, timeout=200)
         self.assertEqual(run.returncode, 0, run.stderr)
-        with open(folder / "out/history.csv") as file:
-            rows = list(csv.DictReader(file))
+        results = sprekk.Results(folder / "out")
         for column, unit in (("x", "m"), ("y", "m"), ("speed", "m/s"), ("grows", "1")):
             for tip in TIPS:
-                self.assertIn(f"{tip}.{column}[{unit}]", rows[0])
-        return [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in rows]
+                self.assertIn(f"{tip}.{column}[{unit}]", results.history)
+        return results.rows
 
     def check(self, overlay, *settings):
         with tempfile.TemporaryDirectory() as name:
@@ -85,15 +83,15 @@ class GrowthColumns(unittest.TestCase):
 
     def lengths_are_those_of_lines(self, folder, rows):
         """Returns at how many times there were paths beyond the mesh, and at how many the mesh had grown."""
-        fractures, paths = (dict(results.read_pvd(folder / f"{name}.pvd")) for name in ("fractures", "paths"))
+        fractures, paths = (dict(sprekk.read_pvd(folder / f"{name}.pvd")) for name in ("fractures", "paths"))
         beyond = taken_over = 0
         for row in rows:
             if row["time"] not in fractures:
                 continue
-            lines = segments(results.read_vtu(fractures[row["time"]]))
+            lines = segments(sprekk.read_vtu(fractures[row["time"]]))
             in_mesh = len(lines)
             if row["time"] in paths:
-                lines += segments(results.read_vtu(paths[row["time"]]))
+                lines += segments(sprekk.read_vtu(paths[row["time"]]))
             beyond += len(lines) > in_mesh
             taken_over += in_mesh > 5
             self.assertAlmostEqual(sum(math.dist(*line) for line in lines) - FRACTURE,

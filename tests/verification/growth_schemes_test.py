@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """growth_schemes_test.py SPREKK: growth within steps in every scheme: an iterated scheme finds the advance of the monolithic one, and
 substeps tend to the same answer with the step, and a step in which a `when` leaves `grow` out has no growth."""
 
-import csv
 import subprocess
 import sys
 import tempfile
@@ -11,6 +10,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SPREKK = Path(sys.argv.pop(1)).resolve()
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk  # noqa: E402
+
 SCENE = ROOT / "configs/paper/wing_cracks.yaml"
 HOUR = 3600
 SWITCH, END = 4400, 6400  # s: both wings have grown within steps before, and the step in between is not cut
@@ -53,9 +56,7 @@ class GrowthSchemes(unittest.TestCase):
                                  capture_output=True, text=True, timeout=200)
             if run.returncode:
                 raise RuntimeError(run.stderr)
-            with open(folder / "out/history.csv") as file:
-                return [{key.split("[")[0]: float(value or "nan") for key, value in row.items()}
-                        for row in csv.DictReader(file)]
+            return sprekk.Results(folder / "out").rows
 
     def test_an_iterated_scheme_finds_the_advance_of_the_monolithic_one(self):
         together, first = self.together, self.first

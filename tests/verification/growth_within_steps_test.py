@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """growth_within_steps_test.py SPREKK: wings that grow within steps rest at their toughness in the state at the end of each
 step, with the fluid that is there, and a run that is interrupted and goes on has the same bits."""
 
-import csv
 import signal
 import subprocess
 import sys
@@ -13,6 +12,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SPREKK = Path(sys.argv.pop(1)).resolve()
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk  # noqa: E402
+
 TOUGHNESS = 0.7e6  # Pa m^0.5, of the scene
 TAKEN_OVER = 0.25 * 20e-3  # m: from here on the mesh follows the wings
 OVERLAY = """
@@ -45,9 +48,7 @@ class GrowthWithinSteps(unittest.TestCase):
                 *(("-o", self.folder / output) if not more else more)]
 
     def table(self, output):
-        with open(self.folder / output / "history.csv") as file:
-            return [{key.split("[")[0]: float(value or "nan") for key, value in row.items()}
-                    for row in csv.DictReader(file)]
+        return sprekk.Results(self.folder / output).rows
 
     def test_tips_rest_at_their_toughness(self):
         run = subprocess.run(self.command("run"), capture_output=True, text=True, timeout=200)

@@ -1,10 +1,8 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """unstable_growth_test.py SPREKK: growth within steps where no stable advance exists. A straight crack under a prescribed
 pressure, K = p sqrt(pi a), is unstable from its onset on: the run says so, with the energy that is left over, and goes on.
 A wing that joins another fracture takes its fluid along, and no tip ends a step above its toughness."""
 
-import csv
-import json
 import math
 import re
 import subprocess
@@ -15,6 +13,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SPREKK = Path(sys.argv.pop(1)).resolve()
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools/python"))
+import sprekk  # noqa: E402
+
 TOUGHNESS = 0.7e6  # Pa m^0.5
 HALF_LENGTH, STRESS, MODULUS = 0.1, 10e6, 40e9 / (1 - 0.2**2)  # m, Pa, Pa
 INCREMENT, THRESHOLD = 10e-3, 0.25  # m; of the cells' length
@@ -99,10 +101,6 @@ output:
 """
 
 
-def number(text):
-    return float(text) if text else math.nan
-
-
 class UnstableGrowth(unittest.TestCase):
     def setUp(self):
         self.holder = tempfile.TemporaryDirectory()
@@ -115,9 +113,8 @@ class UnstableGrowth(unittest.TestCase):
         run = subprocess.run([SPREKK, "run", *scenes, "-q", "-o", self.folder / "out"], capture_output=True, text=True,
                              timeout=300)
         self.assertEqual(run.returncode, 0, run.stderr)
-        with open(self.folder / "out/history.csv") as file:
-            rows = [{key.split("[")[0]: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
-        return rows, json.loads((self.folder / "out/run.json").read_text())["notes"]
+        results = sprekk.Results(self.folder / "out")
+        return results.rows, results.record["notes"]
 
     def test_a_crack_under_a_prescribed_pressure(self):
         (self.folder / "crack.yaml").write_text(CRACK)

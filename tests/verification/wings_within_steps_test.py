@@ -11,8 +11,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools/benchmark")]
+sys.path[:0] = [str(ROOT / "tools/python"), str(ROOT / "tools/benchmark")]
 
+import sprekk  # noqa: E402
 from run_results import RunResults  # noqa: E402
 
 SPREKK = Path(sys.argv.pop(1)).resolve()
@@ -56,8 +57,7 @@ class WingsWithinSteps(unittest.TestCase):
         run = subprocess.run([SPREKK, "run", Path(folder) / "scene.yaml", "-q", "-o", Path(folder) / "run"],
                              capture_output=True, text=True, timeout=300)
         self.assertEqual(run.returncode, 0, run.stderr)
-        with open(Path(folder) / "run/history.csv") as file:
-            return [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
+        return sprekk.Results(Path(folder) / "run").rows
 
     def test_wings_are_those_of_boundary_elements(self):
         limit = boundary_elements()

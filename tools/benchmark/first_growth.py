@@ -17,8 +17,8 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-from results import read_table  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools/python"))
+from sprekk import read_table  # noqa: E402
 
 TOUGHNESS = 0.7e6
 FIRST, LAST = 8.07, 11.0  # MPa; the first growth is due at 8.06

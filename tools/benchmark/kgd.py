@@ -20,8 +20,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-from results import read_table  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools/python"))
+from sprekk import read_table  # noqa: E402
 
 REFERENCES = ROOT / "tests/verification/references"
 PLANE_MODULUS, RATE, VISCOSITY = 32e9, 1e-3, 1e-3  # Pa, m^2/s of both wings, Pa s

@@ -1,14 +1,13 @@
 """What the benchmarks read from the folder of a run."""
 
-import json
 import sys
 from pathlib import Path
 
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-from results import read_pvd, read_table, read_vtu  # noqa: E402
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools/python")]
+from sprekk import Results, read_table  # noqa: E402, F401
 
 
 class RunResults:
@@ -16,20 +15,21 @@ class RunResults:
 
     def __init__(self, folder, entry=-1):
         self.folder = Path(folder)
-        self.record = json.loads((self.folder / "run.json").read_text())
+        self.results = Results(folder)
+        self.record = self.results.record
         self.counters = self.record["counters"]
-        self.time, matrix = read_pvd(self.folder / "matrix.pvd")[entry]
         self.steps = self.counters["steps accepted"]
-        self.matrix = read_vtu(matrix)
-        self.centres, self.areas = self.matrix.centres_and_sizes()
-        if (self.folder / "fractures.pvd").exists():
-            self.fractures = read_vtu(read_pvd(self.folder / "fractures.pvd")[entry][1])
-            self.fracture_centres, self.fracture_lengths = self.fractures.centres_and_sizes()
+        written = self.results.fields(self.results.written()[entry])
+        self.time, self.matrix = written.time, written.grid
+        self.centres, self.areas = written.centres, written.sizes
+        if self.results.written("fractures"):
+            lines = self.results.fractures(self.time)
+            self.fractures, self.fracture_centres, self.fracture_lengths = lines.grid, lines.centres, lines.sizes
 
     @property
     def history(self):
         """{column without its unit: values}"""
-        return {name.partition("[")[0]: values for name, values in read_table(self.folder / "history.csv").items()}
+        return {name.partition("[")[0]: values for name, values in self.results.history.items()}
 
     def matrix_field(self, name):
         """Cell values by the name without its unit; vectors have two columns."""

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-import results  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+import sprekk  # noqa: E402
 
 
 @dataclass
@@ -16,8 +16,8 @@ class Instant:
     """Fields at the end of a step. Fracture tensors have the columns normal, tangential."""
 
     time: float
-    matrix: results.Grid
-    fractures: results.Grid
+    matrix: sprekk.Grid
+    fractures: sprekk.Grid
     follows: bool  # whether the step before it is the Instant before it
 
     def cell(self, name):
@@ -36,7 +36,7 @@ def exit_record(folder):
 
 def history(folder):
     path = folder / "history.csv"  # there is none before the first step
-    return results.read_table(path) if path.exists() else {}
+    return sprekk.read_table(path) if path.exists() else {}
 
 
 def iterations_of_steps(folder):
@@ -49,8 +49,8 @@ def iterations_of_steps(folder):
 def instants(folder):
     if not (folder / "matrix.pvd").exists():  # no time of output was reached
         return []
-    matrix = results.read_pvd(folder / "matrix.pvd")
-    fractures = results.read_pvd(folder / "fractures.pvd")
+    matrix = sprekk.read_pvd(folder / "matrix.pvd")
+    fractures = sprekk.read_pvd(folder / "fractures.pvd")
     table = history(folder)
     ends = np.asarray(table["time[s]"])
     begins = ends - np.asarray(table["step[s]"])
@@ -58,6 +58,6 @@ def instants(folder):
     for (t, file), (_, other) in zip(matrix, fractures):
         row = int(np.argmin(abs(ends - t)))
         follows = abs(begins[row] - last) <= 1e-9 * ends[-1]
-        found.append(Instant(t, results.read_vtu(file), results.read_vtu(other), follows))
+        found.append(Instant(t, sprekk.read_vtu(file), sprekk.read_vtu(other), follows))
         last = t
     return found

@@ -28,6 +28,7 @@ TEST(ReadGrid, MakesTwoTrianglesOfAQuadrilateral) {
   std::filesystem::remove(file);
   EXPECT_EQ(grid.points_per_cell, 3);
   EXPECT_EQ(grid.cells, (std::vector{0, 1, 2, 0, 2, 3, 1, 4, 2}));
+  EXPECT_EQ(grid.sources, (std::vector{0, 0, 1}));
   EXPECT_EQ(grid.find("pressure[Pa]")->values, (std::vector<double>{3, 3, 5}));
   EXPECT_EQ(grid.find("velocity[m/s]")->values, (std::vector<double>{1, 2, 0, 1, 2, 0, 3, 4, 0}));
   EXPECT_EQ(grid.find("head[m]")->values, (std::vector<double>{10, 11, 12, 13, 14}));

@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+"""python_test.py SPREKK: the code of docs/python.md runs, and the package finds what files hold.
+
+All ```python test blocks of the page are one program, in a folder that holds configs/."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+from pages import ROOT, blocks  # noqa: E402
+
+SPREKK = Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(ROOT / "tools/python"))
+import numpy as np  # noqa: E402
+import sprekk  # noqa: E402
+
+POINTS = np.array([[0.0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]])
+
+
+class Python(unittest.TestCase):
+    def test_the_code_of_the_page(self):
+        code = "\n".join(block.text for block in blocks(ROOT / "docs/python.md") if block.language == "python" and "test" in block.words)
+        self.assertGreater(code.count("sprekk.run("), 2)
+        with tempfile.TemporaryDirectory() as folder:
+            os.symlink(ROOT / "configs", Path(folder) / "configs")
+            environment = dict(os.environ, PYTHONPATH=str(ROOT / "tools/python"), SPREKK=str(SPREKK), PYTHONDONTWRITEBYTECODE="1", TMPDIR=folder)
+            done = subprocess.run([sys.executable, "-c", code], cwd=folder, env=environment, capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_means_and_vectors(self):
+        """Of a rectangle in two triangles of unequal values: the mean is by area, a vector has two columns."""
+        grid = sprekk.Grid(POINTS, np.array([[0, 1, 2], [0, 2, 3]]), {"a.p[Pa]": np.array([1.0, 4.0]),
+                           "a.u[m]": np.array([[1.0, 2, 0], [3, 4, 0]]), "a.s_xx_yy_xy[Pa]": np.array([[1.0, 2, 3], [4, 5, 6]]), "region": np.zeros(2)})
+        fields = sprekk.Fields(7.0, grid)
+        self.assertAlmostEqual(fields.mean("a.p"), 2.5)
+        self.assertEqual(fields["a.u"].shape, (2, 2))
+        self.assertEqual(fields["a.s_xx_yy_xy[Pa]"].shape, (2, 3))
+        self.assertEqual(fields.names, {"a.p": "Pa", "a.u": "m", "a.s_xx_yy_xy": "Pa"})
+        np.testing.assert_allclose(fields.centres, [[4 / 3, 1 / 3], [2 / 3, 2 / 3]])
+        with self.assertRaisesRegex(KeyError, "did you mean 'a.u'"):
+            fields["a.v"]  # pylint: disable=pointless-statement
+
+    def test_histories(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            with self.assertRaisesRegex(FileNotFoundError, "has no run.json"):
+                sprekk.Results(folder)
+            (folder / "run.json").write_text('{"exit": {"code": 1, "reason": "stopped"}, "notes": []}')
+            (folder / "history.csv").write_text("time[s],tip.length[m]\n10,\n20,1\n40,3\n")
+            run = sprekk.Results(folder)
+            self.assertFalse(run.is_done)
+            self.assertEqual(run.at("tip.length", 30), 2)
+            self.assertTrue(np.isnan(run.at("tip.length", 50)) and np.isnan(run["tip.length"][0]))
+            self.assertEqual(run.rows[2], {"time": 40, "tip.length": 3})
+            self.assertEqual(run.written(), [])
+            with self.assertRaisesRegex(FileNotFoundError, "has no fields"):
+                run.fields()
+
+    def test_values_become_yaml(self):
+        from sprekk.program import as_yaml  # pylint: disable=import-outside-toplevel
+        self.assertEqual(as_yaml({"pressure": "2 MPa", "on": True, "at": [1, "2 m"]}), "{pressure: 2 MPa, on: true, at: [1, 2 m]}")
+
+
+if __name__ == "__main__":
+    unittest.main()
