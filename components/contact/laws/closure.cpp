@@ -31,13 +31,20 @@ class BartonBandis : public Closure {
 
 }  // namespace
 
+ClosureLaws& closure_laws() {
+  static ClosureLaws registered;
+  return registered;
+}
+
 Spec ClosureOptions::spec() {
+  std::vector<std::pair<std::string, std::string>> laws = {
+      {"hard", "not at all"},
+      {"linear", "closure = pressure/stiffness"},
+      {"barton_bandis",
+       "pressure = stiffness c/(1 - c/largest), with the closure c (Bandis, Lumsden and Barton 1983)"}};
+  for (const ClosureLaws::Type& type : closure_laws().types()) laws.emplace_back(type.name, type.doc);
   Spec spec("closure", "How far walls in contact approach each other under pressure.");
-  spec.choice("law", law,
-              {{"hard", "not at all"},
-               {"linear", "closure = pressure/stiffness"},
-               {"barton_bandis",
-                "pressure = stiffness c/(1 - c/largest), with the closure c (Bandis, Lumsden and Barton 1983)"}},
+  spec.choice("law", law, std::move(laws),
               {.doc = "The law. Closure counts from zero pressure, where the fracture has its initial aperture: a "
                       "fracture under pressure begins narrower than that."});
   spec.quantity("stiffness", stiffness,
@@ -46,16 +53,21 @@ Spec ClosureOptions::spec() {
                 {.unit = "m",
                  .range = non_negative(),
                  .doc = "The closure that is not passed, whatever the pressure (barton_bandis)."});
+  registered.add_sections(spec, closure_laws());
   spec.check([this](const Node& node) {
-    if (law != "hard" && stiffness == 0)
+    registered.check(node, law, "law");
+    const bool is_linear = law == "linear", is_barton_bandis = law == "barton_bandis";
+    if ((is_linear || is_barton_bandis) && stiffness == 0)
       throw InputError(node.origin, "'stiffness' is missing", "walls close by the law '" + law + "'",
                        "give it in Pa/m, for example 100 GPa/m");
-    if (law == "hard" && stiffness > 0)
-      throw InputError(node.origin, "'stiffness' has no effect", "the walls are hard", "set law: linear, or remove it");
-    if (law == "barton_bandis" && largest == 0)
+    if (!is_linear && !is_barton_bandis && stiffness > 0)
+      throw InputError(node.origin, "'stiffness' has no effect",
+                       law == "hard" ? "the walls are hard" : "the law '" + law + "' has parameters of its own",
+                       "set law: linear, or remove it");
+    if (is_barton_bandis && largest == 0)
       throw InputError(node.origin, "'largest' is missing", "the law of Barton and Bandis has a largest closure",
                        "give it in m, below the initial aperture of the fracture");
-    if (law != "barton_bandis" && largest > 0)
+    if (!is_barton_bandis && largest > 0)
       throw InputError(node.origin, "'largest' has no effect", "the law '" + law + "' has no largest closure",
                        "set law: barton_bandis, or remove it");
   });
@@ -65,7 +77,7 @@ Spec ClosureOptions::spec() {
 std::unique_ptr<Closure> ClosureOptions::build() const {
   if (law == "linear") return std::make_unique<Linear>(stiffness);
   if (law == "barton_bandis") return std::make_unique<BartonBandis>(stiffness, largest);
-  return nullptr;
+  return registered.build(law, {});
 }
 
 }  // namespace sprekk::contact

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "framework/config/spec.hpp"
+#include "framework/scene/law_registry.hpp"
 
 namespace sprekk::contact {
 
@@ -20,11 +21,17 @@ class Closure {
   virtual Value at(double pressure) const = 0;
 };
 
+/// Further laws, which plug-ins register.
+struct NoInput {};
+using ClosureLaws = LawRegistry<Closure, NoInput>;
+ClosureLaws& closure_laws();
+
 /// Parameters of the closure.
 struct ClosureOptions {
   std::string law = "hard";
   double stiffness = 0;  ///< Pa/m, at zero pressure
   double largest = 0;    ///< m
+  LawChoice<Closure, NoInput> registered;
   Spec spec();
   /// Null for hard walls.
   std::unique_ptr<Closure> build() const;

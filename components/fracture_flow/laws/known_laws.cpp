@@ -27,9 +27,15 @@ const std::vector<Entry>& laws() {
 
 }  // namespace
 
+HydraulicLaws& hydraulic_laws() {
+  static HydraulicLaws registered;
+  return registered;
+}
+
 std::vector<std::pair<std::string, std::string>> hydraulic_law_names() {
   std::vector<std::pair<std::string, std::string>> names;
   for (const Entry& law : laws()) names.emplace_back(law.name, law.doc);
+  for (const HydraulicLaws::Type& law : hydraulic_laws().types()) names.emplace_back(law.name, law.doc);
   return names;
 }
 

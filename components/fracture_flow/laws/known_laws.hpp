@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/fracture_flow/laws/hydraulic_law.hpp"
+#include "framework/scene/law_registry.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -15,6 +16,11 @@ struct HydraulicLawParameters {
   double lowest = 0;     ///< m, lower bound of the hydraulic aperture; positive
   double roughness = 0;  ///< m, height of the asperities
 };
+
+/// Further laws, which plug-ins register. They are built from the lower bound of the hydraulic aperture, m; it is
+/// positive.
+using HydraulicLaws = LawRegistry<HydraulicLaw, double>;
+HydraulicLaws& hydraulic_laws();
 
 /// The names that a scene may write for laws of the aperture, each with what it says.
 std::vector<std::pair<std::string, std::string>> hydraulic_law_names();

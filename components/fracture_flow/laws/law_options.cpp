@@ -23,7 +23,9 @@ Spec LawOptions::spec() {
                  .source = "Lomize 1951; Witherspoon et al. 1980"});
   spec.data("transmissivity", transmissivity,
             {.unit = "m^3", .range = non_negative(), .doc = "Of the constant law.", .in_time = true});
+  registered.add_sections(spec, hydraulic_laws());
   spec.check([this](const Node& node) {
+    registered.check(node, type, "type");
     const bool is_constant = type == "constant";
     if (is_constant && !transmissivity)
       throw InputError(node.origin, "'transmissivity' is missing", "the law is constant", "give it in m^3");
@@ -44,9 +46,10 @@ Spec LawOptions::spec() {
 }
 
 std::unique_ptr<HydraulicLaw> LawOptions::make(double floor) const {
+  const double lowest = std::max(floor, residual.value_or(0));
+  if (auto law = registered.build(type, lowest)) return law;
   // Where the transmissivity is given, the aperture across the fracture is that of smooth walls.
-  return make_hydraulic_law(type == "constant" ? "cubic" : type,
-                            {std::max(floor, residual.value_or(0)), roughness.value_or(0)});
+  return make_hydraulic_law(type == "constant" ? "cubic" : type, {lowest, roughness.value_or(0)});
 }
 
 }  // namespace sprekk::fracture_flow

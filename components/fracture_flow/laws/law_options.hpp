@@ -16,6 +16,7 @@ struct LawOptions {
   std::optional<double> residual;      ///< m
   std::optional<double> roughness;     ///< m
   std::optional<Data> transmissivity;  ///< m^3, of a constant one
+  LawChoice<HydraulicLaw, double> registered;
   Spec spec();
   /// `floor`: the hydraulic aperture does not fall below this either, m.
   std::unique_ptr<HydraulicLaw> make(double floor) const;
