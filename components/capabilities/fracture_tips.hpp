@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "components/capabilities/rock_state.hpp"
@@ -39,8 +40,8 @@ class TipSurroundings {
   /// The norm of the displacement jump (normal and tangential) in the fracture cell at an end, m.
   virtual double jump_at_tip(int fracture, bool at_end) const = 0;
   /// epsilon_p of sec. 4.4.2 of the paper: a path of at least this part of the coarse mesh size is passed to the coarse
-  /// level.
-  virtual double propagation_threshold() const = 0;
+  /// level. Without a value the component of the tips has one of its own.
+  virtual std::optional<double> propagation_threshold() const = 0;
 };
 
 /// Capability: has tips that can grow, and needs the coarse level around them.

@@ -1,6 +1,7 @@
 // two_level: gives tips the coarse level's state around them (Eqs. 15-19 of the paper), and takes their paths over.
 #include <fmt/format.h>
 
+#include <optional>
 #include <stdexcept>
 
 #include "components/capabilities/fracture_fluid.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 struct TwoLevelOptions {
   std::string reconstruction = "wall_traction";
-  double propagation_threshold = 0.5;
+  std::optional<double> propagation_threshold;
   Spec spec() {
     Spec spec("two_level",
               "Between the coarse level and the tips of fractures: boundary data for the fine level (the paper's Eqs. "
@@ -35,7 +36,8 @@ struct TwoLevelOptions {
         {.doc = "What the walls of the fine level take from the coarse one.", .source = "the paper's sec. 4.4.1"});
     spec.quantity("propagation_threshold", propagation_threshold,
                   {.range = positive(),
-                   .doc = "The part of the coarse mesh size at which a path is handed to the coarse level.",
+                   .doc = "The part of the coarse mesh size at which a path is handed to the coarse level; by default "
+                          "0.25 with growth within steps, otherwise 0.5.",
                    .source = "epsilon_p of the paper's sec. 4.4.2"});
     return spec;
   }
@@ -116,7 +118,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   double jump_at_tip(int fracture, bool at_end) const override {
     return jump_.segment<dimension>(dimension * end_cell(fracture, at_end)).norm();
   }
-  double propagation_threshold() const override { return options_.propagation_threshold; }
+  std::optional<double> propagation_threshold() const override { return options_.propagation_threshold; }
 
  private:
   bool is_cell_centred() const { return options_.reconstruction == "cell_centred"; }

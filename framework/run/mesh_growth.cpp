@@ -39,34 +39,63 @@ MeshGrowth::Outcome MeshGrowth::take_over(std::size_t grow_step) {
 }
 
 StepStatus MeshGrowth::attempt(const StepTime& step) {
+  last_ = step;
+  StepStatus status = is_holding() ? attempt_held(step) : attempt_within(step);
+  if (status.converged) return status;
+  for (const GrowStep* grow : model_->growing())
+    if (grow->grows_within_step() && grow->was_run(step) && !grow->is_held() && !grow->may_shrink(step)) {
+      model_->rewind();
+      return attempt_held(step);
+    }
+  return status;
+}
+
+/// Whether tips whose growth within a step was not found still grow with the state held.
+bool MeshGrowth::is_holding() const {
+  return controller_.held() > 0 &&
+         std::ranges::all_of(model_->growing(), [](const GrowStep* grow) { return grow->grows_within_step(); });
+}
+
+StepStatus MeshGrowth::attempt_held(const StepTime& step) {
+  for (GrowStep* grow : model_->growing()) grow->choose(GrowStep::Holding::always);
+  return model_->attempt(step);
+}
+
+StepStatus MeshGrowth::attempt_within(const StepTime& step) {
   const std::vector<GrowStep*>& growing = model_->growing();
   // The shortest step may end in a jump, which begins from the step without growth.
   if (growing.size() == 1 && growing[0]->grows_within_step() && growing[0]->may_shrink(step) &&
       growing[0]->component().grows_on()) {
+    growing[0]->choose(GrowStep::Holding::never);
     const std::unique_ptr<FrontSearch> search = growing[0]->component().search_front(step, true, true);
     was_left_out_ = false;
     const StepStatus status = search ? search_front(0, *search, step) : StepStatus{};
     if (search && !was_left_out_) return status;
     model_->rewind();
   }
+  for (GrowStep* grow : growing) grow->choose(GrowStep::Holding::if_far_above);
   const StepStatus status = model_->attempt(step);
   return status.converged ? find_front(step, status) : status;
+}
+
+double MeshGrowth::shortest_step(const GrowStep& grow) const {
+  return grow.options().cut * model_->scene().time.step;  // as GrowStep::may_shrink
 }
 
 double MeshGrowth::longest_step() const {
   double longest = std::numeric_limits<double>::infinity();
   for (const GrowStep* grow : model_->growing()) {
     if (!grow->grows_within_step()) continue;
-    const double smallest = grow->options().cut * model_->scene().time.step;  // as GrowStep::may_shrink
-    longest = std::min(longest, std::max(smallest, grow->component().longest_step()));
+    longest = std::min(longest, std::max(shortest_step(*grow), grow->component().longest_step()));
   }
   return longest;
 }
 
 StepStatus MeshGrowth::find_front(const StepTime& step, const StepStatus& without_growth) {
   for (std::size_t i = 0; i < model_->growing().size(); ++i) {
-    const GrowStep& grow = *model_->growing()[i];
-    if (!grow.grows_within_step() || !grow.was_run(step)) continue;
+    GrowStep& grow = *model_->growing()[i];
+    if (!grow.grows_within_step() || grow.is_held() || !grow.was_run(step)) continue;
+    grow.choose(GrowStep::Holding::never);
     const std::unique_ptr<FrontSearch> search = grow.component().search_front(step, grow.may_shrink(step), false);
     if (search) return search_front(i, *search, step);
   }
@@ -124,18 +153,19 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
       }
       trial = grown.get();
     }
-    const StepStatus status = trial->attempt(step);
+    std::optional<FrontSearch::Verdict> verdict;
+    StepStatus status = evaluate(*trial, step, grow_step, search, verdict);
     if (!status.converged) {
       if (!grown) model_->rewind();
       if (search.retreat()) continue;
+      shorten(step, status);
       return status;
     }
-    was_left_out_ = !trial->growing()[grow_step]->was_run(step);
+    was_left_out_ = !verdict;
     if (was_left_out_) {
       if (grown && retire_) retire_(*grown, nullptr);
       return status;
     }
-    const FrontSearch::Verdict verdict = search.learn(trial->growing()[grow_step]->component(), step);
     if (verdict == FrontSearch::Verdict::found) {
       if (!grown) return status;
       std::swap(model_, grown);
@@ -144,8 +174,38 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
     if (grown && retire_) retire_(*grown, nullptr);
     if (verdict == FrontSearch::Verdict::found) return status;
     if (!grown) model_->rewind();
-    if (verdict == FrontSearch::Verdict::refused) return {false, search.reason(), 0, search.retry_dt()};
+    if (verdict == FrontSearch::Verdict::refused) {
+      StepStatus refused{false, search.reason(), 0, search.retry_dt()};
+      shorten(step, refused);
+      return refused;
+    }
   }
+}
+
+/// Solves the step of a trial and lets the search learn from it. No verdict: growth is left out of the step, or the
+/// step was not solved. Paths that come too near to one another on the fine level are like a step that cannot be
+/// solved.
+StepStatus MeshGrowth::evaluate(Model& trial, const StepTime& step, std::size_t grow_step, FrontSearch& search,
+                                std::optional<FrontSearch::Verdict>& verdict) {
+  try {
+    const StepStatus status = trial.attempt(step);
+    const GrowStep& grow = *trial.growing()[grow_step];
+    if (status.converged && grow.was_run(step)) verdict = search.learn(grow.component(), step);
+    return status;
+  } catch (const std::invalid_argument& error) {
+    return {false, error.what(), 0};
+  }
+}
+
+/// After some refusals of a step for its growth, halves of it are not tried any more: the shortest step is next.
+void MeshGrowth::shorten(const StepTime& step, StepStatus& refused) {
+  constexpr int halves = 3;
+  refusals_ = refused_at_ == step.start ? refusals_ + 1 : 1;
+  refused_at_ = step.start;
+  if (refusals_ < halves) return;
+  refused.retry_dt = std::numeric_limits<double>::infinity();
+  for (const GrowStep* grow : model_->growing())
+    if (grow->grows_within_step()) refused.retry_dt = std::min(refused.retry_dt, shortest_step(*grow));
 }
 
 MeshGrowth::Outcome MeshGrowth::before_acceptance() {
@@ -159,16 +219,33 @@ MeshGrowth::Outcome MeshGrowth::before_acceptance() {
   return Outcome::nothing;
 }
 
+/// After a step in which growth was held.
+MeshGrowth::Outcome MeshGrowth::follow_held(std::size_t grow_step) {
+  const GrowStep& grow = *model_->growing()[grow_step];
+  ++held_;
+  const bool is_done = grow.extensions().empty() && grow.is_at_rest() && !grow.is_unsettled();
+  const double small = shortest_step(grow);
+  const Outcome outcome = grow.extensions().empty() ? Outcome::nothing : take_over(grow_step);
+  if (!is_done) controller_.hold(small);
+  return outcome;
+}
+
 MeshGrowth::Outcome MeshGrowth::after_acceptance() {
   bool is_unsettled = false;
   double nearness = 0;
+  if (is_holding()) controller_.release();  // held anew where that is due
   for (std::size_t i = 0; i < model_->growing().size(); ++i) {
     const GrowStep& grow = *model_->growing()[i];
-    if (grow.grows_within_step()) continue;
+    if (grow.grows_within_step()) {
+      if (!grow.was_run(last_)) continue;
+      if (grow.is_held()) return follow_held(i);
+      if (!grow.extensions().empty()) return take_over(i);
+      continue;
+    }
     is_unsettled = is_unsettled || grow.is_unsettled();
     nearness = std::max(nearness, grow.nearness());
     if (grow.extensions().empty()) continue;
-    const double small = grow.options().cut * model_->scene().time.step;
+    const double small = shortest_step(grow);
     const Outcome outcome = take_over(i);
     if (outcome == Outcome::changed) controller_.hold(small, nearness);
     return outcome;

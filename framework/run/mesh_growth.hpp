@@ -31,6 +31,9 @@ class MeshGrowth {
   /// Solves a step. Where growth belongs to it (GrowStep::grows_within_step), finds the advance of the tips in the
   /// state at the end of the step: the model then is at the end of the step on the mesh with this advance. Returns the
   /// status of the step; without convergence the model is not rewound.
+  ///
+  /// The shortest step (GrowStep::may_shrink) does not fail for want of an advance: tips then grow with the state held,
+  /// and in short steps, until the state has settled.
   StepStatus attempt(const StepTime& step);
   /// s, the longest step in which the growth of the last one would be followed; infinity where nothing grew.
   double longest_step() const;
@@ -40,7 +43,8 @@ class MeshGrowth {
 
   const std::string& reason() const { return reason_; }  ///< of a failure
   long changes() const { return changes_; }
-  long trials() const { return trials_; }                    ///< evaluations of a step with an advance
+  long trials() const { return trials_; }  ///< evaluations of a step with an advance
+  long held() const { return held_; }      ///< accepted steps, of growth within steps, with the state held
   double smallest_angle() const { return smallest_angle_; }  ///< rad, of all cells that were made for growth
 
  private:
@@ -50,6 +54,14 @@ class MeshGrowth {
     GrownMesh mesh;
   };
   GrownMesh trial_mesh(std::optional<TrialMesh>& made, std::size_t grow_step, const std::vector<PathExtension>& paths);
+  bool is_holding() const;
+  double shortest_step(const GrowStep& grow) const;
+  StepStatus attempt_within(const StepTime& step);
+  StepStatus attempt_held(const StepTime& step);
+  void shorten(const StepTime& step, StepStatus& refused);
+  Outcome follow_held(std::size_t grow_step);
+  StepStatus evaluate(Model& trial, const StepTime& step, std::size_t grow_step, FrontSearch& search,
+                      std::optional<FrontSearch::Verdict>& verdict);
   StepStatus find_front(const StepTime& step, const StepStatus& without_growth);
   StepStatus search_front(std::size_t grow_step, FrontSearch& search, const StepTime& step);
 
@@ -59,7 +71,10 @@ class MeshGrowth {
   Observer retire_;
   std::string reason_;
   static constexpr double above_all_triangles = 1.1;  ///< rad; their smallest angle is 60 degrees at most
-  long changes_ = 0, trials_ = 0;
+  long changes_ = 0, trials_ = 0, held_ = 0;
+  StepTime last_{};        ///< that was attempted
+  double refused_at_ = 0;  ///< s, start of the step whose growth was refused last
+  int refusals_ = 0;       ///< of that step
   double smallest_angle_ = above_all_triangles;
   int passes_ = 0;
   bool was_left_out_ = false;  ///< by a `when`: growth in the trial that was solved last

@@ -84,6 +84,7 @@ void RunRecorder::end(ExitCode code, const std::string& reason, const Scene& sce
 }
 
 void RunRecorder::add(const MeshGrowth& growth) {
+  if (growth.held() > 0) record_.counters["steps with growth held"] = growth.held();
   if (growth.changes() == 0) return;
   record_.counters["changes of the mesh"] = growth.changes();
   if (growth.trials() > 0) record_.counters["trials of growth"] = growth.trials();

@@ -118,6 +118,7 @@ ScheduleBuilder read_grow(const Node& node, const ScheduleReading& reading) {
   options.newton = reading.newton;
   options.linear = reading.linear;
   options.origin = node.find("grow")->origin;
+  options.is_followed = reading.is_followed;
   options.spec().read(node, reading.read);
   const std::vector<std::string>& known = reading.component_names;
   std::vector<std::string> named = options.settle;
@@ -174,16 +175,23 @@ const Node* growth_within_step(const Node& steps) {
   return nullptr;
 }
 
-/// Growth within a step belongs to the state at its end: nothing may change this state afterwards. Of several `when`
-/// one may hold at a time; that is up to the scene.
+/// What stands behind a step and changes the state at the end of the time step, or nullptr. Of several `when` one may
+/// hold at a time; that is up to the scene.
+const char* what_follows(const std::vector<Node>& steps, std::size_t step) {
+  for (std::size_t k = step + 1; k < steps.size(); ++k)
+    for (const char* key : {"solve", "grow"})
+      if (has_step(steps[k], key) && !(steps[step].find("when") && steps[k].find("when"))) return key;
+  return nullptr;
+}
+
+/// Growth within a step belongs to the state at its end: nothing may change this state afterwards.
 void require_growth_last(const std::vector<Node>& steps) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Node* growth = growth_within_step(steps[i]);
-    for (std::size_t k = i + 1; growth && k < steps.size(); ++k)
-      for (const char* key : {"solve", "grow"})
-        if (has_step(steps[k], key) && !(steps[i].find("when") && steps[k].find("when")))
-          throw InputError(growth->origin, std::string("a '") + key + "' stands behind growth within steps",
-                           "the advance of the tips belongs to the state at the end of the step", "put 'grow' last");
+    const char* key = growth ? what_follows(steps, i) : nullptr;
+    if (key)
+      throw InputError(growth->origin, std::string("a '") + key + "' stands behind growth within steps",
+                       "the advance of the tips belongs to the state at the end of the step", "put 'grow' last");
   }
 }
 
@@ -195,7 +203,11 @@ ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading) 
       throw InputError(node.origin, "the schedule is empty", "nothing would be solved",
                        "write a step, for example 'solve: [...]'");
     std::vector<ScheduleBuilder> steps;
-    for (const Node& item : node.items) steps.push_back(read_schedule(item, reading));
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      ScheduleReading of_item = reading;
+      of_item.is_followed = reading.is_followed || what_follows(node.items, i);
+      steps.push_back(read_schedule(node.items[i], of_item));
+    }
     require_growth_last(node.items);
     if (steps.size() == 1) return steps.front();
     return [steps](const ScheduleContext& context) {

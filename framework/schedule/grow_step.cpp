@@ -21,7 +21,11 @@ Spec GrowOptions::spec() {
                      "those that determine the deformation.",
               .required = true});
   spec.choice("update", update,
-              {{within_step, "the advance of the tips is found together with the state at the end of the step; new"},
+              {{automatic,
+                "within_step where it is possible: growth stands last in the schedule, and its length and direction "
+                "follow from K_eq = K_IC and K_II = 0 (growth.length: arrest, growth.direction: implicit, no "
+                "tolerance); otherwise after_step"},
+               {within_step, "the advance of the tips is found together with the state at the end of the step"},
                {after_step, "the step is accepted, and the mesh grows between it and the next"},
                {repeat_step, "the step is repeated on the mesh that has grown, until nothing grows any more"}},
               {.doc = "When the mesh takes over what has grown."});
@@ -65,9 +69,23 @@ SolveOptions settle_options(const GrowOptions& options, const Growing& growing) 
 
 }  // namespace
 
+namespace {
+
+/// Where the scene leaves open when the mesh takes over what has grown. A component grows in one way in the whole run.
+GrowOptions decided(GrowOptions options, const Growing& growing, const ScheduleContext& context) {
+  if (options.update != automatic) return options;
+  const bool is_held = context.growing && std::ranges::any_of(*context.growing, [&](const GrowStep* other) {
+                         return other->options().component == options.component && !other->grows_within_step();
+                       });
+  options.update = is_held || options.is_followed || !growing.may_grow_within_steps() ? after_step : within_step;
+  return options;
+}
+
+}  // namespace
+
 GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
-    : options_(options),
-      growing_(find_growing(options, context)),
+    : growing_(find_growing(options, context)),
+      options_(decided(options, *growing_, context)),
       settle_(settle_options(options, *growing_), context),
       smallest_step_(options.cut * context.standard_step) {
   if (grows_within_step()) growing_->grow_within_steps();
@@ -98,11 +116,22 @@ StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, do
   return status;
 }
 
+Growing::Load GrowStep::examine(const StepTime& step) {
+  is_held_ = grows_within_step() && holding_ == Holding::always;
+  growing_->hold(is_held_);
+  const Growing::Load load = growing_->examine(step);
+  if (!grows_within_step() || holding_ != Holding::if_far_above || may_shrink(step) || !growing_->is_far_above())
+    return load;
+  is_held_ = true;
+  growing_->hold(true);
+  return growing_->examine(step);
+}
+
 StepStatus GrowStep::run(const StepTime& step) {
   last_ = step;
   extensions_.clear();
   now_doing("looking at what may grow");
-  load_ = growing_->examine(step);
+  load_ = examine(step);
   SPREKK_ASSERT(!std::isnan(load_.now) && !std::isnan(load_.onset), load_.now, load_.onset);
   const double most = 1 + options_.overshoot;
   if (load_.onset > most && may_shrink(step))
@@ -114,7 +143,7 @@ StepStatus GrowStep::run(const StepTime& step) {
   // Growth that does not arrest begins as soon as the load is reached, so smaller steps have nothing to resolve.
   if (!growth.arrested && load_.now > most && may_shrink(step))
     return refused("tips grow further than the mesh can follow in one step", step, load_.accepted, load_.now);
-  if (!grows_within_step()) extensions_ = std::move(growth.extensions);
+  extensions_ = std::move(growth.extensions);
   return {true, "", 0};
 }
 

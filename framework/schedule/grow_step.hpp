@@ -9,17 +9,19 @@
 
 namespace sprekk {
 
-inline constexpr const char *within_step = "within_step", *after_step = "after_step", *repeat_step = "repeat_step";
+inline constexpr const char *automatic = "auto", *within_step = "within_step", *after_step = "after_step",
+                            *repeat_step = "repeat_step";
 
 /// Parameters of a `grow` step.
 struct GrowOptions {
   std::string component;
   std::vector<std::string> settle;
   std::string update = after_step;
-  int passes = 20;          ///< of repeat_step
-  double cut = 1e-2;        ///< size of the steps after a growth event, over the standard step
-  double settled = 1e-2;    ///< relative change over a step at and below which the standard step returns
-  double overshoot = 0.02;  ///< by how much the load may pass 1 before the step is repeated with a smaller one
+  bool is_followed = false;  ///< whether another step of the schedule solves or grows behind it
+  int passes = 20;           ///< of repeat_step
+  double cut = 1e-2;         ///< size of the steps after a growth event, over the standard step
+  double settled = 1e-2;     ///< relative change over a step at and below which the standard step returns
+  double overshoot = 0.02;   ///< by how much the load may pass 1 before the step is repeated with a smaller one
   Origin origin;
   NewtonOptions newton;
   LinearOptions linear;
@@ -42,6 +44,14 @@ class GrowStep : public ScheduleStep {
 
   const GrowOptions& options() const { return options_; }
   bool grows_within_step() const { return options_.update == within_step; }
+  /// Of growth within steps: when tips grow as with after_step instead, with the state held.
+  enum class Holding {
+    never,
+    if_far_above,  ///< in a step that may not shrink, where tips are far above their toughness
+    always
+  };
+  void choose(Holding holding) { holding_ = holding; }
+  bool is_held() const { return is_held_; }  ///< in the last attempt
   /// Whether the step was run in an attempt at this time step: a `when` may leave it out.
   bool was_run(const StepTime& step) const { return last_ && last_->start == step.start && last_->dt == step.dt; }
   Growing& component() const { return *growing_; }
@@ -51,6 +61,8 @@ class GrowStep : public ScheduleStep {
   CavityOptions cavity() const { return growing_->cavity(); }
   /// Whether a growth event still shows at the tips.
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
+  /// Whether no tip was above its toughness by more than the overshoot in the last attempt.
+  bool is_at_rest() const { return load_.now <= 1 + options_.overshoot; }
   /// The largest load of all tips over the load 1 + overshoot/2 at which a refused step would be made to end.
   double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * options_.overshoot); }
   /// Solves for the components of `settle` at fixed values of everything else, with data as in the given step.
@@ -59,8 +71,10 @@ class GrowStep : public ScheduleStep {
  private:
   /// Refuses a step, and asks for one at whose end the load is just above 1.
   StepStatus refused(const std::string& reason, const StepTime& step, double before, double now);
-  GrowOptions options_;
+  /// The load of the tips, and whether they grow with the state held.
+  Growing::Load examine(const StepTime& step);
   Growing* growing_;
+  GrowOptions options_;
   SolveStep settle_;
   double smallest_step_;  ///< s; no step is refused below it
   Growing::Load load_;
@@ -71,6 +85,8 @@ class GrowStep : public ScheduleStep {
   std::optional<Refusal> refusal_;  ///< the last one
   std::optional<StepTime> last_;    ///< that it was run for
   std::vector<PathExtension> extensions_;
+  Holding holding_ = Holding::never;
+  bool is_held_ = false;
 };
 
 }  // namespace sprekk

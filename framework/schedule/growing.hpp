@@ -63,10 +63,17 @@ class Growing {
     bool arrested = true;                   ///< whether all tips came to rest before the mesh had to take paths over
   };
   /// Lets the tips grow until they arrest, or until the mesh must take their paths over. The component keeps a path
-  /// that is too short for the mesh; such a path counts from the next step on, if this one is accepted.
+  /// that is too short for the mesh; such a path counts from the next step on, if this one is accepted. With growth
+  /// within steps the mesh is to take over, after the step, only paths that join another fracture.
   virtual Growth grow(const StepTime& step) = 0;
+  /// Whether growth is found within steps where the scene leaves that open.
+  virtual bool may_grow_within_steps() const = 0;
   /// To be called once, where growth is to be found within steps (search_front) as far as the mesh can follow it.
   virtual void grow_within_steps() = 0;
+  /// Of growth within steps: whether all tips grow by grow() from now on, none by search_front().
+  virtual void hold(bool is_held) = 0;
+  /// Whether a tip is so far above its toughness that its growth is no continuous one. After examine().
+  virtual bool is_far_above() const = 0;
   /// Whether tips that grew in the last step are to be taken to grow in this one, so that it need not be solved without
   /// growth first.
   virtual bool grows_on() const = 0;

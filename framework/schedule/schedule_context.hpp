@@ -34,6 +34,7 @@ struct ScheduleReading {
   ReadContext read;
   bool is_iterated = false;  ///< whether the step that is being read is inside an `iterate`
   bool is_substep = false;   ///< whether it is inside a `subcycle` of several substeps
+  bool is_followed = false;  ///< whether a step that solves or grows stands behind it
 };
 /// Makes a step once the model is there.
 using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;

@@ -195,10 +195,20 @@ void StepController::hold(double step, double level) {
   held_ = wanted_ = step;
 }
 
-void StepController::release(double level) {
+void StepController::hold(double step) {
+  SPREKK_EXPECT(step > 0, step);
+  held_ = wanted_ = step;
+}
+
+void StepController::release() {
   if (held_ == 0) return;
   held_ = 0;
   wanted_ = options_.step;
+}
+
+void StepController::release(double level) {
+  if (held_ == 0) return;
+  release();
   Recurrence& last = recurrence_;
   last.released = time_;
   last.level = level;

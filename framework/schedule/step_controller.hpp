@@ -73,6 +73,9 @@ class StepController {
   /// 1 that is left, over the rise in that pause. Such a step has at least a tenth of the standard size.
   void hold(double step, double level);
   void release(double level);
+  /// The same for events that are not expected to recur.
+  void hold(double step);
+  void release();
   /// Takes the level after a step. A hold that is overdue is expected anew, from the rise since the release, but each
   /// time after at least twice the time: a level may come to rest below 1.
   void observe(double level);

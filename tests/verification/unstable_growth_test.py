@@ -116,6 +116,29 @@ class UnstableGrowth(unittest.TestCase):
         results = sprekk.Results(self.folder / "out")
         return results.rows, results.record["notes"]
 
+    def test_a_crack_far_above_its_toughness(self):
+        """A pressure that jumps to three times the critical one: nothing to follow continuously. Tips grow with the state
+        held, and the factors are those of p sqrt(pi a), with the correction for a plate of finite width, of a crack that is
+        between as long as at the start of the step and as at its end: the displacements around it are those of the start."""
+        (self.folder / "crack.yaml").write_text(CRACK.replace('"(10.9 + t/36000) MPa"', '"(10.9 + 3*(t > 1800)) MPa"'))
+        rows, notes = self.run_scene(self.folder / "crack.yaml")
+        self.assertTrue(any("state held" in note["text"] for note in notes), notes)
+        counters = json.loads((self.folder / "out/run.json").read_text())["counters"]
+        self.assertGreaterEqual(counters["steps with growth held"], 2)
+        self.assertGreaterEqual(rows[-1]["tips.main_last.length"], 0.06)
+        for before, row in zip(rows, rows[1:]):
+            lengths = [row[f"tips.main_{end}.length"] for end in ("first", "last")]
+            self.assertLessEqual(abs(lengths[0] - lengths[1]), INCREMENT)
+            self.assertGreaterEqual(min(lengths), min(before[f"tips.main_{end}.length"] for end in ("first", "last")))
+            if max(lengths) == 0:
+                continue
+            half = HALF_LENGTH + 0.5 * sum(lengths)
+            low, high = (3.9e6 * math.sqrt(math.pi * a / math.cos(0.5 * math.pi * a)) for a in (half - INCREMENT, half))
+            for end in ("first", "last"):
+                self.assertLess(0.99 * low, row[f"tips.main_{end}.K_I"])
+                self.assertLess(row[f"tips.main_{end}.K_I"], 1.01 * high)
+                self.assertLess(abs(row[f"tips.main_{end}.K_II"]), 0.02 * high)
+
     def test_a_crack_under_a_prescribed_pressure(self):
         (self.folder / "crack.yaml").write_text(CRACK)
         rows, notes = self.run_scene(self.folder / "crack.yaml")

@@ -50,6 +50,7 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
       grows_(tips_.size(), 0),
       is_laid_(tips_.size(), 0),
       is_stopped_(tips_.size(), 0),
+      was_unstable_(tips_.size(), 0),
       length_(tips_.size(), 0),
       angle_(tips_.size(), 0),
       last_(without_growth) {
@@ -249,9 +250,10 @@ void Front::learn(const std::vector<FrontState>& states) {
       continue;
     }
     const bool is_shortest = is_new(i) && length_[i] <= shortest(i) * (1 + at_limit);
-    const bool is_done = std::abs(load) <= options_.load_tolerance || (is_shortest && load < 0);
-    worst_ = std::max(worst_, is_shortest && load < 0 ? 0.0 : std::abs(load));
-    if (!is_done || std::abs(found[2 * i + 1]) > options_.direction_tolerance) is_met = false;
+    if (is_shortest && load < 0) continue;  // at rest, whatever its direction
+    worst_ = std::max(worst_, std::abs(load));
+    if (std::abs(load) > options_.load_tolerance || std::abs(found[2 * i + 1]) > options_.direction_tolerance)
+      is_met = false;
   }
   if (is_met) {
     verdict_ = Verdict::found;
@@ -350,14 +352,21 @@ void Front::step(const Eigen::VectorXd& residual) {
     const int i = free[a] / 2;
     const double wanted = length_[i] + part * move[a] * options_.increment;
     angle_[i] += part * move[a + 1];
-    if (is_new(i)) {
-      length_[i] = std::max(shortest(i), wanted);
-    } else if (wanted <= tips_[i].covered) {
+    if (wanted <= least(i)) {
       // Back at the start of the step: the tip rests, unless it is there and above its toughness. Then its load rises
       // with its length.
-      const bool is_unstable = residual[2 * i] > 0 && length_[i] <= tips_[i].covered * (1 + at_limit);
-      length_[i] = tips_[i].covered + (is_unstable ? first_part * options_.increment : 0);
-      angle_[i] = tips_[i].angle;
+      const bool is_unstable = residual[2 * i] > 0 && length_[i] <= least(i) * (1 + at_limit);
+      if (is_unstable && was_unstable_[i]) {
+        verdict_ = Verdict::failed;
+        reason_ = "the load of a tip rises with its length";
+        return;
+      }
+      was_unstable_[i] = was_unstable_[i] || is_unstable;
+      length_[i] = least(i) + (is_unstable ? first_part * options_.increment : 0);
+      if (!is_new(i))
+        angle_[i] = tips_[i].angle;
+      else if (tips_[i].least > 0)
+        angle_[i] = tips_[i].first_angle;  // of what has parted
       grows_[i] = is_unstable;
       best_.reset();
     } else {

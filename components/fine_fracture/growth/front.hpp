@@ -90,6 +90,8 @@ class Front {
   int count() const { return static_cast<int>(tips_.size()); }
   bool is_new(int tip) const { return tips_[tip].covered == 0; }
   double shortest(int tip) const { return std::max(options_.shortest, tips_[tip].least); }
+  /// The length of a last segment that does not grow.
+  double least(int tip) const { return is_new(tip) ? shortest(tip) : tips_[tip].covered; }
   void begin(int tip, const FrontState& state);
   void set_turn_slope(int tip, const Sifs& sifs);
   bool learns_from_start() const;
@@ -113,6 +115,7 @@ class Front {
   FrontOptions options_;
   double dt_;
   std::vector<char> grows_, is_laid_, is_stopped_;
+  std::vector<char> was_unstable_;  ///< tips that were pushed on once, since their load did not fall with their length
   std::vector<double> length_, angle_;
   std::vector<FrontState> last_;
   Eigen::MatrixXd jacobian_;  ///< of residual() by (length/increment, angle), per tip

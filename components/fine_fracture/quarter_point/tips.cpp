@@ -1,5 +1,7 @@
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -9,6 +11,12 @@
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::fine_fracture {
+
+namespace {
+
+TipEnd end_of(const PathExtension& extension) { return {extension.fracture, extension.at_end}; }
+
+}  // namespace
 
 Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     : Component(context.name), mesh_(context.mesh), origin_(context.origin), options_(options) {
@@ -84,6 +92,7 @@ Growing::Load Tips::examine(const StepTime& step) {
   const std::vector<TipPath> paths = paths_now();
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
+    if (is_held_) tip.now.speed = tip.now.turning = 0;
     if (tip.now.is_stopped) {
       tip.now.is_evaluated = false;
       continue;
@@ -115,6 +124,11 @@ Growing::Load Tips::examine(const StepTime& step) {
   return loads;
 }
 
+/// With a tolerance, meshes follow an error estimate, and factors are no smooth functions of the advance.
+bool Tips::may_grow_within_steps() const {
+  return options_.toughness && options_.growth.seeks_arrest() && options_.growth.is_implicit() && !options_.tolerance;
+}
+
 void Tips::grow_within_steps() {
   for (const auto& [is_wrong, option] : {std::pair(!options_.growth.seeks_arrest(), "'growth.length: fixed'"),
                                          std::pair(!options_.growth.is_implicit(), "'growth.direction: explicit'")})
@@ -123,6 +137,12 @@ void Tips::grow_within_steps() {
                        "lengths and directions follow from K_eq = K_IC and K_II = 0 at the end of each step",
                        "leave it out, or choose 'update: after_step'");
   grows_within_steps_ = true;
+}
+
+bool Tips::is_far_above() const {
+  constexpr double violent = 1.5;  // K_eq over the toughness: twice the energy that growth takes
+  return std::ranges::any_of(
+      tips_, [&](const Tip& tip) { return !tip.now.is_stopped && tip.now.is_evaluated && tip.now.load > violent; });
 }
 
 bool Tips::turns_sharply(const Tip& tip) const {
@@ -145,14 +165,35 @@ double Tips::free_distance(const Tip& tip, const TipPath& path, const Point& to)
   return free.length - tip.coarse_size;
 }
 
-double Tips::longest_path(const Tip& tip) const {
-  return std::max(surroundings_->propagation_threshold() * tip.coarse_size, options_.growth.increment);
+/// m, of a path that is passed to the coarse level.
+double Tips::threshold(const Tip& tip) const {
+  constexpr double with_the_step = 0.25, after_it = 0.5;  // of an edge of the coarse level
+  return surroundings_->propagation_threshold().value_or(grows_within_steps_ ? with_the_step : after_it) *
+         tip.coarse_size;
 }
+
+double Tips::longest_path(const Tip& tip) const { return std::max(threshold(tip), options_.growth.increment); }
 
 bool Tips::is_long_enough(const Tip& tip, const TipPath& path) const {
   // Whole increments may fall short of the threshold by what their last one was shortened.
   constexpr double nearly = 0.95;
-  return length_of(position(tip, {}), path) >= nearly * surroundings_->propagation_threshold() * tip.coarse_size;
+  return length_of(position(tip, {}), path) >= nearly * threshold(tip);
+}
+
+/// What has parted stays where it is: a path with the state held begins at the tip.
+void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
+  tip.now.speed = (length_of(position(tip, {}), path) - length_of(position(tip, {}), tip.now.path)) / step_.dt;
+  tip.now.is_extendable = false;
+  tip.now.way.clear();
+  tip.next_start.reset();
+  const std::string topic = name() + " grows with the state held";
+  const auto is_told = [&](const EndNote& note) { return note.topic == topic; };
+  if (std::ranges::none_of(notes_, is_told))
+    notes_.push_back({topic,
+                      fmt::format("tips of {} grow in a step with the state held: their advance within it was not "
+                                  "found, or began at {:.3g} times the load of growth",
+                                  name(), tip.now.load),
+                      tip.now.load});
 }
 
 Growing::Growth Tips::grow(const StepTime&) {
@@ -192,6 +233,7 @@ Growing::Growth Tips::grow(const StepTime&) {
     const bool was_stopped = tip.now.is_stopped;
     tip.now.is_stopped = was_stopped || outcome.blocked;
     if (outcome.increments > 0) {
+      if (is_held_) leave_last_segment(tip, outcome.path);
       tip.now.path = outcome.path;
       set_factors(tip, outcome.end);
     }
@@ -210,7 +252,7 @@ Growing::Growth Tips::grow(const StepTime&) {
     Tip& tip = tips_[i];
     std::vector<PathExtension> others;
     for (const PathExtension& other : extensions)
-      if (!is_same({other.fracture, other.at_end}, tip.end)) others.push_back(other);
+      if (!is_same(end_of(other), tip.end)) others.push_back(other);
     const std::optional<Joining> joining = find_joining(tip, outcomes[i], others, joined);
     if (!joining) continue;
     tip.now.path.added.push_back(joining->extension.points.back());
@@ -220,6 +262,10 @@ Growing::Growth Tips::grow(const StepTime&) {
     met.push_back(i);
   }
   for (const std::size_t i : ended) note_end(tips_[i], outcomes[i], std::ranges::count(met, i) > 0);
+  if (grows_within_steps_ && !is_held_)
+    std::erase_if(extensions, [&](const PathExtension& extension) {
+      return std::ranges::none_of(met, [&](std::size_t i) { return is_same(tips_[i].end, end_of(extension)); });
+    });
   return result;
 }
 

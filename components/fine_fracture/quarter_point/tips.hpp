@@ -55,7 +55,10 @@ class Tips : public Component, public FractureTips, public Growing {
 
   Load examine(const StepTime& step) override;
   Growth grow(const StepTime& step) override;
+  bool may_grow_within_steps() const override;
   void grow_within_steps() override;
+  void hold(bool is_held) override { is_held_ = is_held; }
+  bool is_far_above() const override;
   bool grows_on() const override;
   double longest_step() const override;
   std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink, bool goes_on) override;
@@ -151,6 +154,7 @@ class Tips : public Component, public FractureTips, public Growing {
   double estimated_load(const Tip& tip) const;
   double load(const Sifs& sifs) const;
   void set_factors(Tip& tip, const Sifs& sifs) const;
+  void leave_last_segment(Tip& tip, const TipPath& path);
   void note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined);
   void note_shear(const Tip& tip, Notes& notes) const;
   /// Stops tips whose path the mesh cannot take: they stay for good where they were at the start of the step.
@@ -159,11 +163,12 @@ class Tips : public Component, public FractureTips, public Growing {
   bool is_long_enough(const Tip& tip, const TipPath& path) const;
   /// Whether the mesh follows the tip within steps: its growth is not found by the fine level alone.
   bool is_followed(const Tip& tip) const {
-    return grows_within_steps_ && (tip.now.is_extendable || is_long_enough(tip, tip.now.path));
+    return grows_within_steps_ && !is_held_ && (tip.now.is_extendable || is_long_enough(tip, tip.now.path));
   }
   /// Whether the path of a tip turns so sharply that it begins anew at the tip: what has parted stays where it is.
   bool turns_sharply(const Tip& tip) const;
   /// The longest path that a tip may have in the fine level alone, m.
+  double threshold(const Tip& tip) const;
   double longest_path(const Tip& tip) const;
   /// Whether an increment of the other tip affects this tip at once; farther increments do so from the next step on.
   bool is_near(const Tip& tip, const Tip& other) const;
@@ -188,6 +193,7 @@ class Tips : public Component, public FractureTips, public Growing {
   std::vector<Tip> tips_;
   std::vector<Joint> joints_;
   bool grows_within_steps_ = false;
+  bool is_held_ = false;            ///< in this step tips grow with the state held all the same
   StepTime step_;                   ///< the present one
   std::optional<double> examined_;  ///< s, start of the step that was examined last
   Eigen::MatrixXd slopes_;          ///< Front::slopes of the last search

@@ -222,6 +222,39 @@ TEST(Front, TellsAdvanceThatIsTooFar) {
   EXPECT_EQ((ClosedForm{{3}, {tip(0.4)}}.solved(options()).verdict()), Front::Verdict::too_far);
 }
 
+/// What has parted in earlier steps neither heals nor turns: a new segment that does not grow is done, although K_II
+/// does not vanish at its end.
+TEST(Front, ANewSegmentRestsWhereItHasParted) {
+  FrontTip start = tip(0.1);
+  start.covered = 0;
+  start.least = 0.006;
+  start.first_length = 0.02;
+  start.first_angle = 0.3;
+  const auto at = [](double length) {
+    FrontState state;
+    state.load = std::exp(-0.03 - 20 * (length - 0.006));
+    state.sifs = {7e5 * state.load, -5e4 * state.load, -1e6};
+    return std::vector<FrontState>{state};
+  };
+  Front front({start}, at(0.006), options(), 3600);
+  while (front.verdict() == Front::Verdict::again) front.learn(at(front.length(0)));
+  ASSERT_EQ(front.verdict(), Front::Verdict::found) << front.reason();
+  EXPECT_EQ(front.length(0), 0.006);
+  EXPECT_EQ(front.angle(0), 0.3);
+  EXPECT_TRUE(front.is_laid(0));
+  EXPECT_FALSE(front.grows(0));
+  EXPECT_LE(front.trials(), 4);
+}
+
+TEST(Front, TellsALoadThatRisesWithTheLength) {
+  ClosedForm form{{0.01}, {tip(0.4)}};
+  form.own = -20;
+  form.shared = 0;
+  const Front front = form.solved(options());
+  EXPECT_NE(front.verdict(), Front::Verdict::found);
+  EXPECT_LE(front.trials(), 10);
+}
+
 TEST(Front, AStoppedTipStays) {
   const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
   Front front(form.tips, form.without_growth(), options(), 3600);

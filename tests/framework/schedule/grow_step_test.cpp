@@ -30,7 +30,10 @@ class Tips : public Still, public Growing {
     ++grown;
     return growth;
   }
-  void grow_within_steps() override {}
+  bool may_grow_within_steps() const override { return may_be_within; }
+  void grow_within_steps() override { is_within = true; }
+  void hold(bool is_held) override { holds = is_held; }
+  bool is_far_above() const override { return far_above; }
   bool grows_on() const override { return false; }
   double longest_step() const override { return std::numeric_limits<double>::infinity(); }
   std::unique_ptr<FrontSearch> search_front(const StepTime&, bool, bool) override { return nullptr; }
@@ -39,6 +42,7 @@ class Tips : public Still, public Growing {
   Load load;
   Growth growth;
   int grown = 0;
+  bool may_be_within = false, is_within = false, holds = false, far_above = false;
 };
 
 Mesh two_cells() {
@@ -54,7 +58,8 @@ constexpr double standard = 100;  // s
 
 /// A schedule `text` for the components `tips` and `rock`, the latter with one unknown.
 struct Schedule {
-  explicit Schedule(const std::string& text) {
+  explicit Schedule(const std::string& text, bool may_be_within = false) {
+    tips.may_be_within = may_be_within;
     fields.add(mesh, {.owner = "rock",
                       .name = "height",
                       .location = Location::cell,
@@ -269,6 +274,46 @@ TEST(GrowStep, WithinStepsRefusesWhatWouldChangeItsState) {
         "[" + late + solve + ", " + within + "]}, " + late + solve + ", " + within + "]}]",
         "[{subcycle: {count: 2, steps: [" + solve + "]}}, " + within + "]"})
     EXPECT_EQ(refusal(schedule), "no error") << schedule;
+}
+
+TEST(GrowStep, IsWithinStepsWhereNothingSpeaksAgainstIt) {
+  const std::string solve = "{solve: [rock]}", grow = "{grow: tips, settle: [rock]}";
+  const auto is_within = [](const std::string& schedule, bool may_be) {
+    Schedule run(schedule, may_be);
+    EXPECT_EQ(run.tips.is_within, run.step().grows_within_step());
+    return run.step().grows_within_step();
+  };
+  EXPECT_TRUE(is_within("[" + solve + ", " + grow + "]", true));
+  EXPECT_TRUE(is_within("[{when: 't > 5', steps: [" + solve + ", " + grow + "]}]", true));
+  EXPECT_FALSE(is_within("[" + solve + ", " + grow + "]", false));
+  EXPECT_FALSE(is_within("[" + grow + ", " + solve + "]", true));
+  EXPECT_FALSE(is_within("[{when: 't > 5', steps: [" + solve + ", " + grow + "]}, " + solve + "]", true));
+  EXPECT_FALSE(is_within("[" + solve + ", {grow: tips, settle: [rock], update: after_step}]", true));
+  EXPECT_EQ(refusal("[" + grow + ", " + grow + "]"), "no error");
+}
+
+/// With growth within steps, tips that are far above their toughness in a step that may not be shorter grow with the
+/// state held, and what they have grown is handed on.
+TEST(GrowStep, HoldsTheStateWhereGrowthIsNotFollowed) {
+  const char* const text = "- {grow: tips, settle: [rock], update: within_step, cut: 0.01}";
+  const double shortest = 0.01 * standard;
+  for (const bool far_above : {true, false})
+    for (const double dt : {shortest, 2 * shortest}) {
+      Schedule run(text);
+      run.tips.far_above = far_above;
+      run.tips.load = {.now = 1.01, .accepted = 1, .onset = 1, .onset_accepted = 1};
+      run.tips.growth.extensions = {some_extension};
+      for (const auto holding :
+           {GrowStep::Holding::never, GrowStep::Holding::if_far_above, GrowStep::Holding::always}) {
+        run.step().choose(holding);
+        EXPECT_TRUE(run.schedule->run({0, dt, dt}).converged);
+        const bool is_held = holding == GrowStep::Holding::always ||
+                             (holding == GrowStep::Holding::if_far_above && far_above && dt == shortest);
+        EXPECT_EQ(run.step().is_held(), is_held);
+        EXPECT_EQ(run.tips.holds, is_held);
+        EXPECT_EQ(run.step().extensions().size(), 1u);
+      }
+    }
 }
 
 TEST(GrowStep, KnowsWhetherItWasRunForAStep) {

@@ -41,7 +41,7 @@ class Fluid : public TipSurroundings {
   double fluid_pressure(int, bool at_end) const override { return pressure[at_end]; }
   double accepted_fluid_pressure(int, bool at_end) const override { return pressure[at_end]; }
   double jump_at_tip(int, bool at_end) const override { return jump[at_end]; }
-  double propagation_threshold() const override { return 0.5; }
+  std::optional<double> propagation_threshold() const override { return std::nullopt; }
 };
 
 /// A straight fracture of length 2 in the middle of a wide box.
