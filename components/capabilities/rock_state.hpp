@@ -19,9 +19,9 @@ class RockState {
  public:
   static constexpr const char* promise = "gives displacement, stress and stiffness of the rock";
   virtual ~RockState() = default;
-  /// The displacement of each cell, m, (x, y).
+  /// The displacement of each cell or of each node, m, (x, y).
   virtual const Field& displacement() const = 0;
-  /// The displacement at the centre of each face with one cell, m, (x, y); 0 for other faces.
+  /// The displacement at the centre of each face with one cell, m, (x, y); other values have no meaning.
   virtual Vector outer_displacement() const = 0;
   /// The stress −alpha (p − p_0) that the pore pressure adds to xx and yy, for each cell, Pa.
   virtual Vector pore_stress() const = 0;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk::couplers {
 
 namespace {
@@ -68,6 +70,11 @@ void NodalValues::set(int components, const Vector& cells, const Vector& faces) 
   using Table = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   values_ = from_cells_ * Table(cells.data(), mesh_->cell_count(), components);
   if (from_ == From::cells_and_faces) values_ += from_faces_ * Table(faces.data(), mesh_->face_count(), components);
+}
+
+void NodalValues::set_nodes(int components, const Vector& nodes) {
+  SPREKK_EXPECT(nodes.size() == static_cast<Eigen::Index>(mesh_->node_count()) * components, nodes.size(), components);
+  values_ = nodes.reshaped<Eigen::RowMajor>(mesh_->node_count(), components);
 }
 
 NodalValues::Place NodalValues::place(int cell, const Point& x) const {

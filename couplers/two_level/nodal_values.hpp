@@ -24,6 +24,8 @@ class NodalValues {
   NodalValues(const Mesh& mesh, From from);
   /// Sets the nodal values. `cells`: `components` values for each cell; `faces`: as many for each face, or empty.
   void set(int components, const Vector& cells, const Vector& faces);
+  /// Sets `components` values for each node as they are.
+  void set_nodes(int components, const Vector& nodes);
   /// A place in a cell: three nodes and their weights.
   struct Place {
     std::array<int, 3> nodes;

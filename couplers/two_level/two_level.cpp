@@ -55,6 +55,9 @@ class TwoLevel : public Coupler, public TipSurroundings {
         location_(mesh_),
         displacement_(mesh_, is_cell_centred() ? NodalValues::From::mean_of_cells : NodalValues::From::cells_and_faces),
         pore_stress_(mesh_, NodalValues::From::cells) {
+    if (is_cell_centred() && is_nodal())
+      throw InputError(context.origin, "coupler " + name() + " cannot take displacements between cell centres",
+                       "those of the rock are displacements of nodes", "choose another 'reconstruction'");
     for (int i = 0; i < static_cast<int>(mesh_.fractures.size()); ++i) along_.emplace_back(mesh_, i);
     context.the<FractureTips>().accept_surroundings(*this);
   }
@@ -65,7 +68,10 @@ class TwoLevel : public Coupler, public TipSurroundings {
   void update() override {
     if (updated_for_ == version()) return;
     updated_for_ = version();
-    displacement_.set(2, rock_.displacement().now(), rock_.outer_displacement());
+    if (is_nodal())
+      displacement_.set_nodes(dimension, rock_.displacement().now());
+    else
+      displacement_.set(dimension, rock_.displacement().now(), rock_.outer_displacement());
     pore_stress_.set(1, rock_.pore_stress(), {});
     traction_ = walls_.wall_traction().now();
     jump_ = is_cell_centred() ? jump_between_cells() : walls_.displacement_jump().now();
@@ -122,6 +128,8 @@ class TwoLevel : public Coupler, public TipSurroundings {
 
  private:
   bool is_cell_centred() const { return options_.reconstruction == "cell_centred"; }
+
+  bool is_nodal() const { return rock_.displacement().spec().location == Location::node; }
 
   int end_cell(int fracture, bool at_end) const {
     const Fracture& cells = mesh_.fractures[fracture];

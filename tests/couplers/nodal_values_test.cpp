@@ -12,6 +12,19 @@ namespace {
 
 using couplers::NodalValues;
 
+TEST(NodalValues, OfNodesAreTakenAsTheyAre) {
+  const Mesh mesh = fractured_square(mixed(0.1, 0.3));
+  NodalValues values(mesh, NodalValues::From::cells_and_faces);
+  Vector nodes(2 * mesh.node_count());
+  for (int i = 0; i < mesh.node_count(); ++i)
+    nodes.segment<2>(2 * i) = Point(3 - 2 * mesh.nodes[i][0] + 5 * mesh.nodes[i][1], mesh.nodes[i][0]);
+  values.set_nodes(2, nodes);
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const Point x = 0.7 * mesh.cell_center[c] + 0.3 * mesh.nodes[mesh.cell_nodes[c][1]];
+    EXPECT_LT((values.at<2>(c, x) - Point(3 - 2 * x[0] + 5 * x[1], x[0])).norm(), 1e-13);
+  }
+}
+
 /// Two components that are linear in x.
 Point linear(const Point& x) { return {3 - 2 * x[0] + 5 * x[1], -1 + 4 * x[0] + 0.5 * x[1]}; }
 

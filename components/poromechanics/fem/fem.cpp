@@ -8,7 +8,7 @@ Spec FemOptions::spec() {
   Spec spec = Options::spec("poromechanics/fem",
                             "Quasi-static deformation of the rock (the paper's Eqs. 5, 7), linear elastic in plane "
                             "strain: finite elements of first or second order, with two nodes where fractures part "
-                            "them. Tips do not grow in it.");
+                            "them.");
   spec.choice(
       "order", order,
       {{"first", "displacements are linear in cells; stabilized for fluid that cannot flow and walls in contact"},

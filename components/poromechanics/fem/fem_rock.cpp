@@ -234,6 +234,36 @@ Vector FemRock::mean_stress() const {
   return stress;
 }
 
+Vector FemRock::outer_displacement() const {
+  const RawDisplacement raw{mesh_};
+  const Vector all = coefficients();
+  Vector outer = all.tail(raw.size() - raw.nodes_size());
+  for (int f = 0; f < mesh_.face_count(); ++f)
+    for (const int node : mesh_.face_nodes[f])
+      outer.segment<dimension>(dimension * f) += all.segment<dimension>(raw.of_node(node)) / 2;
+  return outer;
+}
+
+Vector FemRock::pore_stress() const {
+  Vector stress = Vector::Zero(mesh_.cell_count());
+  for (const Load& load : loads_) stress -= load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  return stress;
+}
+
+SymmetricTensor FemRock::initial_stress(int cell, const Point& x) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
+  if (options_.initial_stress.is_zero()) return SymmetricTensor::Zero();
+  const Tensor stress = options_.initial_stress.at({x, mesh_.cell_region[cell], 0});
+  return SymmetricTensor(stress(0, 0), stress(1, 1), stress(0, 1));
+}
+
+std::optional<LameParameters> FemRock::stiffness(int cell) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
+  if (options_.is_anisotropic) return std::nullopt;
+  const Stiffness& stiffness = stiffness_.of_cells()[cell];
+  return LameParameters{stiffness(0, 1), stiffness(2, 2)};
+}
+
 void FemRock::output(std::vector<OutputField>& fields) const {
   if (discretizations_ == 0) return;
   fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, symmetric_components, mean_stress()});

@@ -1,9 +1,11 @@
 // Quasi-static deformation of the rock by finite elements.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "components/capabilities/rock_state.hpp"
 #include "components/poromechanics/fem/fem_operators.hpp"
 #include "components/poromechanics/fem/given_loads.hpp"
 #include "components/poromechanics/options.hpp"
@@ -23,7 +25,7 @@ struct FemOptions : Options {
 ///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
 /// with C and alpha at the end of the step and p one value a cell. Each row balances the work of these stresses in the
 /// displacement of one function with that of the loads (N/m), or holds a prescribed displacement.
-class FemRock : public Component, public PoroelasticRock, public RockWalls {
+class FemRock : public Component, public PoroelasticRock, public RockWalls, public RockState {
  public:
   /// Throws InputError as Rock does.
   FemRock(const ComponentContext& context, const FemOptions& options);
@@ -45,6 +47,13 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls {
   Field& wall_traction() override { return *wall_traction_; }
   const LinearExpression& displacement_jump() const override { return jump_.value; }
   Vector wall_compliance() override { return operators_.wall_compliance; }
+
+  const Field& displacement() const override { return displacement_; }
+  Vector outer_displacement() const override;
+  Vector pore_stress() const override;
+  SymmetricTensor initial_stress(int cell, const Point& x) const override;
+  std::optional<LameParameters> stiffness(int cell) const override;
+  std::uint64_t properties_version() const override { return stiffness_.version() + alpha_version_; }
 
   /// All coefficients of the displacement (RawDisplacement), m; on every process. To be called after begin_step.
   Vector coefficients() const;
