@@ -11,6 +11,24 @@
 namespace sprekk::matrix_flow {
 namespace {
 
+/// Of rock without permeability: no pressure on a face drives a flux, and it is the mean of the pressures beside it.
+FacePressureOperators means_on_faces(const Mesh& mesh) {
+  FacePressureOperators operators;
+  operators.flux.resize(mesh.face_count(), mesh.face_count());
+  operators.trace.resize(mesh.face_count(), mesh.face_count());
+  operators.continuity_cell.resize(mesh.face_count(), mesh.cell_count());
+  operators.continuity_boundary.resize(mesh.face_count(), mesh.face_count());
+  std::vector<Triplet> means;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const auto [cell, other] = mesh.face_cells[f];
+    means.emplace_back(f, cell, other == none ? -1 : -0.5);
+    if (other != none) means.emplace_back(f, other, -0.5);
+  }
+  operators.continuity_cell.setFromTriplets(means.begin(), means.end());
+  operators.continuity_face = diagonal_matrix(Vector::Ones(mesh.face_count()));
+  return operators;
+}
+
 /// The operators of rock without permeability: the only fluxes are those that are prescribed on sides.
 FluxOperators no_flow(const Mesh& mesh, const std::vector<FlowCondition>& conditions) {
   FluxOperators operators;
@@ -52,6 +70,7 @@ void MatrixFlow::discretize() {
   find_conditions();
   if (is_sealed_) {
     operators_ = no_flow(mesh_, conditions_);
+    if (face_pressure_) operators_.faces = means_on_faces(mesh_);
   } else if (!mobility_of_operators_.empty()) {
     return discretize_from({mesh_, mobility_of_operators_, conditions_}, operators_, no_change(mesh_));
   } else {
@@ -68,8 +87,9 @@ void MatrixFlow::discretize() {
 void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
-  // With several processes, cells may have moved to other processes.
-  if (parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
+  // With several processes, cells may have moved to other processes. Discretizations with unknowns on faces are local
+  // in cells, and done anew in no time.
+  if (face_pressure_ || parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
   find_conditions();
   discretize_from({before.mesh_, before.mobility_, before.conditions_}, before.operators_, change);
 }
@@ -87,7 +107,7 @@ void MatrixFlow::use_operators() {
   discretized_mesh_ = mesh_.version;
   discretized_mobility_ = mobility_version_;
   mobility_of_operators_.clear();
-  if (properties_change_ && !is_sealed_ && parallel::size() == 1) mobility_of_operators_ = mobility_;
+  if (properties_change_ && !is_sealed_ && !face_pressure_ && parallel::size() == 1) mobility_of_operators_ = mobility_;
   boundary_applied_ = false;
   forget_flow();
   const int rank = parallel::rank();
@@ -106,15 +126,19 @@ void MatrixFlow::use_operators() {
   const SparseMatrix& outflow = outflow_of_pressure_.entries();
   for (int row = 0; row < outflow.rows(); ++row)
     largest_conductance_ = std::max(largest_conductance_, outflow.row(row).cwiseAbs().sum());
-  if (!wall_flux_) return;
+  if (face_pressure_) outflow_of_face_pressure_ = outflow_of(operators_.faces.flux);
+  if (!wall_flux_) {
+    if (face_pressure_) use_face_operators();
+    return;
+  }
 
   // The flux out of the rock through a wall is −lambda times its length.
   std::vector<Triplet> entries;
   for (int w = 0; w < mesh_.wall_count(); ++w)
     entries.emplace_back(mesh_.wall_face(w), w, -mesh_.face_measure[mesh_.wall_face(w)]);
-  SparseMatrix boundary_of_wall_flux(mesh_.face_count(), mesh_.wall_count());
-  boundary_of_wall_flux.setFromTriplets(entries.begin(), entries.end());
-  flux_of_wall_flux_ = operators_.flux_boundary * boundary_of_wall_flux;
+  boundary_of_wall_flux_.resize(mesh_.face_count(), mesh_.wall_count());
+  boundary_of_wall_flux_.setFromTriplets(entries.begin(), entries.end());
+  flux_of_wall_flux_ = operators_.flux_boundary * boundary_of_wall_flux_;
   outflow_of_wall_flux_ = outflow_of(flux_of_wall_flux_);
 
   entries.clear();
@@ -123,7 +147,10 @@ void MatrixFlow::use_operators() {
   SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
   pick_walls.setFromTriplets(entries.begin(), entries.end());
   wall_pressure_.terms = {{&pressure_, Operator(pick_walls * operators_.trace_cell)},
-                          {wall_flux_, Operator(pick_walls * operators_.trace_boundary * boundary_of_wall_flux)}};
+                          {wall_flux_, Operator(pick_walls * operators_.trace_boundary * boundary_of_wall_flux_)}};
+  if (!face_pressure_) return;
+  wall_pressure_.terms.push_back({face_pressure_, Operator(pick_walls * operators_.faces.trace)});
+  use_face_operators();
 }
 
 }  // namespace sprekk::matrix_flow

@@ -11,6 +11,29 @@ namespace sprekk::matrix_flow {
 /// What is prescribed on a face: nothing on inner faces, the pressure, or the flux, as on walls of fractures.
 enum class FlowCondition { none, pressure, flux };
 
+/// What a discretization has in addition if the pressures h of inner faces (one for each face, Pa; those of other faces
+/// are not used by anything) are unknowns beside those of the cells. Matrices without rows where they are none:
+///   flux through every face (m^2/s): … + flux h
+///   pressure at the centre of every boundary and wall face (Pa): … + trace h
+///   the equations of h, one for each face (m^2/s): continuity_cell p + continuity_face h + continuity_boundary b = 0
+/// The equation of an inner face says that as much leaves one cell as enters the other. On other faces it says that h
+/// is the trace, times a conductance.
+struct FacePressureOperators {
+  SparseMatrix flux;                 ///< faces × faces
+  SparseMatrix trace;                ///< faces × faces; rows of inner faces are empty
+  SparseMatrix continuity_cell;      ///< faces × cells
+  SparseMatrix continuity_face;      ///< faces × faces
+  SparseMatrix continuity_boundary;  ///< faces × faces
+
+  void swap(FacePressureOperators& other) {
+    flux.swap(other.flux);
+    trace.swap(other.trace);
+    continuity_cell.swap(other.continuity_cell);
+    continuity_face.swap(other.continuity_face);
+    continuity_boundary.swap(other.continuity_boundary);
+  }
+};
+
 /// Fluxes and traces as linear functions of pressures p (one for each cell, Pa), boundary values b (one for each face:
 /// the pressure at the face centre on `pressure` faces, the outward flux integrated over the face, m^2/s, on `flux`
 /// faces, ignored inside) and changes s of the prescribed pressure along `pressure` faces, from the first to the second
@@ -29,6 +52,7 @@ struct FluxOperators {
   /// faces × faces, diagonal: every node around which fluxes are not exact for linear pressures, in equal parts on its
   /// faces; the sum is the number of these nodes
   SparseMatrix blended_nodes;
+  FacePressureOperators faces = {};
 
   /// Eigen copies sparse matrices when they are moved; swap does not.
   void swap(FluxOperators& other) {
@@ -39,6 +63,7 @@ struct FluxOperators {
     trace_boundary.swap(other.trace_boundary);
     trace_change.swap(other.trace_change);
     blended_nodes.swap(other.blended_nodes);
+    faces.swap(other.faces);
   }
 };
 

@@ -12,17 +12,27 @@ void MatrixFlow::forget_flow() {
   with_walls_ = {};
 }
 
-const MatrixFlow::Flow& MatrixFlow::flow(const Vector& pressure, std::uint64_t version) const {
+const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
+  const auto version_of = [&](const Field& field) {
+    return state == State::now ? field.version() : field.accepted_version();
+  };
+  const auto values_of = [&](const Field& field) -> const Vector& {
+    return state == State::now ? field.now() : field.accepted();
+  };
+  const std::uint64_t version = version_of(pressure_), face_version = face_pressure_ ? version_of(*face_pressure_) : 0;
   for (Flow& kept : flows_)
-    if (kept.used > 0 && kept.pressure == version) {
+    if (kept.used > 0 && kept.pressure == version && kept.face_pressure == face_version) {
       kept.used = ++flow_uses_;
       return kept;
     }
   Flow& flow = flows_[flows_[0].used <= flows_[1].used ? 0 : 1];
-  SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.size(), mesh_.cell_count());
+  SPREKK_EXPECT(pressure_.size() == mesh_.cell_count(), pressure_.size(), mesh_.cell_count());
   flow.pressure = version;
+  flow.face_pressure = face_version;
   flow.used = ++flow_uses_;
-  flow.fluxes = multiply(operators_.flux_cell, pressure - gravity_potential_cell_, false).value;
+  flow.fluxes = multiply(operators_.flux_cell, values_of(pressure_) - gravity_potential_cell_, false).value;
+  if (face_pressure_)
+    flow.fluxes += multiply(operators_.faces.flux, values_of(*face_pressure_) - gravity_potential_face_, false).value;
   flow.fluxes += boundary_fluxes_;
   flow.outflow = cell_sums(mesh_, flow.fluxes, 1);
   flow.leaving = Vector::Zero(mesh_.cell_count());
@@ -32,11 +42,12 @@ const MatrixFlow::Flow& MatrixFlow::flow(const Vector& pressure, std::uint64_t v
 }
 
 const Vector& MatrixFlow::face_fluxes() const {
-  const Flow& flow = this->flow(pressure_.now(), pressure_.version());
+  const Flow& flow = this->flow(State::now);
   if (!wall_flux_) return flow.fluxes;
   if (with_walls_.fluxes.size() == 0 || with_walls_.pressure != flow.pressure ||
-      with_walls_.wall_flux != wall_flux_->version())
-    with_walls_ = {flow.pressure, wall_flux_->version(), flow.fluxes + flux_of_wall_flux_ * wall_flux_->now()};
+      with_walls_.face_pressure != flow.face_pressure || with_walls_.wall_flux != wall_flux_->version())
+    with_walls_ = {flow.pressure, flow.face_pressure, wall_flux_->version(),
+                   flow.fluxes + flux_of_wall_flux_ * wall_flux_->now()};
   return with_walls_.fluxes;
 }
 

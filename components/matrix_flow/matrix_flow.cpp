@@ -8,7 +8,8 @@
 
 namespace sprekk::matrix_flow {
 
-MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize)
+MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize,
+                       Unknowns unknowns)
     : Component(context.name),
       mesh_(context.mesh),
       options_(options),
@@ -37,6 +38,13 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                     .role = Role::input(BlockKind::interface),
                                     .unit = "m/s",
                                     .doc = "Flux from the fracture into the matrix (lambda of the paper's Eq. 9)"});
+  if (unknowns == Unknowns::on_cells_and_faces)
+    face_pressure_ = &context.fields.add(mesh_, {.owner = context.name,
+                                                 .name = "face_pressure",
+                                                 .location = Location::face,
+                                                 .role = Role::unknown(BlockKind::bulk_elliptic),
+                                                 .unit = "Pa",
+                                                 .doc = "Mean fluid pressure on the faces of the mesh"});
   const std::vector<Place> places = cell_places(mesh_);
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
   initial_pressure_ = property(options_.initial_pressure).values();
@@ -58,6 +66,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   for (int c = 0; c < mesh_.cell_count(); ++c) gravity_potential_cell_[c] = gravity_potential(mesh_.cell_center[c]);
   gravity_potential_face_.resize(mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) gravity_potential_face_[f] = gravity_potential(mesh_.face_center[f]);
+  if (face_pressure_) start_face_pressure();
 }
 
 double MatrixFlow::gravity_potential(const Point& x) const {
@@ -72,6 +81,7 @@ void MatrixFlow::begin_step(const StepTime& step) {
 }
 
 void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
+  if (face_pressure_ && assembly.has_row(*face_pressure_)) assemble_face_pressure(assembly, step);
   if (!assembly.has_row(pressure_)) return;
   SPREKK_EXPECT(step.dt > 0, step.dt);
   SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
@@ -83,11 +93,12 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   // Fluxes depend on differences of pressure only, so their terms are added together and compared with the fluxes
   // through faces: single terms of the pressure would hide them where the pressure is high everywhere. Where all terms
   // vanish, the residual is compared with the flow before the step.
-  const double largest_before = flow(pressure_.accepted(), pressure_.accepted_version()).largest_outflow;
-  const Flow& flows = flow(pressure_.now(), pressure_.version());
+  const double largest_before = flow(State::accepted).largest_outflow;
+  const Flow& flows = flow(State::now);
   fluid.exchange(step.dt * flows.outflow, step.dt * flows.leaving,
                  step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, pressure_, outflow_of_pressure_, step.dt);
+  if (face_pressure_) assembly.derivative(pressure_, *face_pressure_, outflow_of_face_pressure_, step.dt);
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * largest_before);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);

@@ -52,11 +52,16 @@ struct Options {
 
 /// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):
 ///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
-/// Gravity enters through the potential p − rho g·x, which is exact for a constant density. Properties may change with
-/// time, and are taken at the end of the step; a change of the storage S alone moves no fluid.
+/// The flux is a linear function of the pressures of cells, or of these and of those of the faces, which are unknowns
+/// then (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for a constant density.
+/// Properties may change with time, and are taken at the end of the step; a change of the storage S alone moves no
+/// fluid.
 class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
  public:
-  MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize);
+  /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
+  enum class Unknowns { on_cells, on_cells_and_faces };
+  MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize,
+             Unknowns unknowns = Unknowns::on_cells);
 
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime& step) override;
@@ -109,6 +114,10 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   /// Updates the matrices of balances and walls after the operators have changed.
   void use_operators();
   void use_storage();
+  /// Of the unknowns on faces: start values from the pressures of cells, the matrices, the equations.
+  void start_face_pressure();
+  void use_face_operators();
+  void assemble_face_pressure(Assembly& assembly, const StepTime& step) const;
   bool is_discretized() const;  ///< on this mesh, with this mobility
   bool depends_on_time() const;
   void evaluate_sources(const StepTime& step);
@@ -119,8 +128,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Origin origin_;
   Discretize discretize_;
   Field& pressure_;
-  Field* wall_flux_ = nullptr;  ///< exists with fractures only
-  Field& cumulative_;           ///< (stored, injected, outflow) of each cell since the start, m^2
+  Field* wall_flux_ = nullptr;      ///< exists with fractures only
+  Field* face_pressure_ = nullptr;  ///< exists with Unknowns::on_cells_and_faces only
+  Field& cumulative_;               ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, 3> permeability_;  ///< xx, yy, xy
   Property viscosity_, porosity_, compressibility_, storage_;
@@ -140,33 +150,40 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   std::map<std::string, std::vector<std::pair<int, double>>> well_cells_;  ///< cells and weights by well
   Vector capacity_;                                                        ///< storage times area, m^2/Pa
   Operator capacity_of_pressure_;                                          ///< the same as a diagonal
-  Operator outflow_of_pressure_;    ///< cells × cells: sum of fluxes out of each cell, an exchange
-  double largest_conductance_ = 0;  ///< largest sum of absolute entries of a row of it, m^2/(Pa s)
-  SparseMatrix flux_of_wall_flux_;  ///< faces × walls
-  Operator outflow_of_wall_flux_;   ///< cells × walls, an exchange
-  Vector boundary_values_;          ///< one a face, see FluxOperators
-  Vector boundary_changes_;         ///< of the prescribed pressures, one a face, see FluxOperators
-  Vector boundary_fluxes_;          ///< the flux through each face by boundary values alone, m^2/s
+  Operator outflow_of_pressure_;       ///< cells × cells: sum of fluxes out of each cell, an exchange
+  double largest_conductance_ = 0;     ///< largest sum of absolute entries of a row of it, m^2/(Pa s)
+  Operator outflow_of_face_pressure_;  ///< cells × faces, an exchange
+  /// The equations of the face pressures: faces × cells, faces × faces, faces × walls.
+  Operator continuity_of_pressure_, continuity_of_face_pressure_, continuity_of_wall_flux_;
+  Vector continuity_constant_;           ///< m^2/s, one a face: from boundary values and gravity
+  double largest_face_conductance_ = 0;  ///< largest sum of absolute entries of one of these rows, m^2/(Pa s)
+  SparseMatrix boundary_of_wall_flux_;   ///< faces × walls: the boundary value that is the flux through a wall
+  SparseMatrix flux_of_wall_flux_;       ///< faces × walls
+  Operator outflow_of_wall_flux_;        ///< cells × walls, an exchange
+  Vector boundary_values_;               ///< one a face, see FluxOperators
+  Vector boundary_changes_;              ///< of the prescribed pressures, one a face, see FluxOperators
+  Vector boundary_fluxes_;               ///< the flux through each face by boundary values alone, m^2/s
   LinearExpression wall_pressure_;
   Vector source_;  ///< m^2/s, one a cell
 
   /// The flow at one state of the pressure, without the fluxes through walls.
   struct Flow {
-    std::uint64_t pressure = 0;  ///< the version of the field
-    std::uint64_t used = 0;      ///< when; 0 for never
-    Vector fluxes;               ///< m^2/s, one a face
-    Vector outflow;              ///< m^2/s, one a cell: the sums of the fluxes out of it
-    Vector leaving;              ///< m^2/s, one a cell: the part of the outflow that leaves the rock
+    std::uint64_t pressure = 0, face_pressure = 0;  ///< the versions of the fields
+    std::uint64_t used = 0;                         ///< when; 0 for never
+    Vector fluxes;                                  ///< m^2/s, one a face
+    Vector outflow;                                 ///< m^2/s, one a cell: the sums of the fluxes out of it
+    Vector leaving;                                 ///< m^2/s, one a cell: the part of the outflow that leaves the rock
     double largest_outflow = 0;
   };
-  const Flow& flow(const Vector& pressure, std::uint64_t version) const;
+  enum class State { accepted, now };
+  const Flow& flow(State state) const;
   void forget_flow();
   /// A step uses the flow at the accepted and at the current state several times.
   mutable std::array<Flow, 2> flows_;
   mutable std::uint64_t flow_uses_ = 0;
   struct WithWalls {
-    std::uint64_t pressure = 0, wall_flux = 0;  ///< versions of the fields
-    Vector fluxes;                              ///< empty for none
+    std::uint64_t pressure = 0, face_pressure = 0, wall_flux = 0;  ///< versions of the fields
+    Vector fluxes;                                                 ///< empty for none
   };
   mutable WithWalls with_walls_;
 };

@@ -82,9 +82,11 @@ void MatrixFlow::apply_boundary() {
   SPREKK_ASSERT(boundary_values_.size() == mesh_.face_count(), boundary_values_.size(), mesh_.face_count());
   SPREKK_ASSERT(is_finite(boundary_values_) && is_finite(boundary_changes_));
   boundary_fluxes_ = operators_.flux_boundary * boundary_values_ + operators_.flux_change * boundary_changes_;
+  if (face_pressure_) continuity_constant_ = operators_.faces.continuity_boundary * boundary_values_;
   if (!wall_flux_) return;
-  const Vector trace = operators_.trace_boundary * boundary_values_ + operators_.trace_change * boundary_changes_ -
-                       operators_.trace_cell * gravity_potential_cell_ + gravity_potential_face_;
+  Vector trace = operators_.trace_boundary * boundary_values_ + operators_.trace_change * boundary_changes_ -
+                 operators_.trace_cell * gravity_potential_cell_ + gravity_potential_face_;
+  if (face_pressure_) trace -= operators_.faces.trace * gravity_potential_face_;
   wall_pressure_.constant.resize(mesh_.wall_count());
   for (int w = 0; w < mesh_.wall_count(); ++w) wall_pressure_.constant[w] = trace[mesh_.wall_face(w)];
 }

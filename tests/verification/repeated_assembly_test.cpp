@@ -100,6 +100,7 @@ TEST_P(RepeatedAssembly, GivesTheSameBits) {
 const std::vector<std::vector<Override>> scenes = {
     {},
     {{"components.pore.type", "matrix_flow/tpfa"}},
+    {{"components.pore.type", "matrix_flow/rt0"}},
     {{"components.contact.type", "contact/penalty"}},
     {{"components.contact.type", "contact/augmented_lagrangian"}},
     {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}}};
@@ -107,7 +108,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa", "contact/penalty", "contact/augmented_lagrangian"}, registered;
+  std::set<std::string> types = {"matrix_flow/tpfa", "matrix_flow/rt0", "contact/penalty",
+                                 "contact/augmented_lagrangian"},
+                        registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {
     const Node& parts = *run.model().scene().whole.find(section);

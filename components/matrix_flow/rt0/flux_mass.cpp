@@ -1,0 +1,72 @@
+#include "components/matrix_flow/rt0/flux_mass.hpp"
+
+#include <Eigen/LU>
+#include <array>
+#include <numbers>
+
+#include "framework/invariants.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+/// Velocities of unit flux are (x − opposite corner)/(2 area). The products are of degree 2: the rule with the centres
+/// of the faces is exact.
+FluxMass mass_of_triangle(const Mesh& mesh, int cell, const Tensor& resistance) {
+  const Ring& corners = mesh.cell_nodes[cell];
+  const double area = mesh.cell_measure[cell];
+  FluxMass mass = FluxMass::Zero(3, 3);
+  for (const int face : mesh.cell_faces[cell]) {
+    Eigen::Matrix<double, 2, 3> velocities;
+    for (int k = 0; k < 3; ++k)
+      velocities.col(k) = (mesh.face_center[face] - mesh.nodes[corners[(k + 2) % 3]]) / (2 * area);
+    mass += area / 3 * velocities.transpose() * resistance * velocities;
+  }
+  return mass;
+}
+
+/// With the velocities that the bilinear map from the unit square gives.
+FluxMass mapped_mass(const Mesh& mesh, int cell, const Tensor& resistance) {
+  std::array<Point, 4> x;
+  for (int k = 0; k < 4; ++k) x[k] = mesh.nodes[mesh.cell_nodes[cell][k]];
+  const double offset = std::numbers::sqrt3 / 6;  // of the two points of Gauss, from the middle
+  FluxMass mass = FluxMass::Zero(4, 4);
+  for (const double s : {0.5 - offset, 0.5 + offset})
+    for (const double t : {0.5 - offset, 0.5 + offset}) {
+      Tensor jacobian;
+      jacobian.col(0) = (1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]);
+      jacobian.col(1) = (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1]);
+      Eigen::Matrix<double, 2, 4> velocities;
+      velocities << 0, s, 0, s - 1, t - 1, 0, t, 0;
+      velocities = jacobian * velocities;
+      mass += 1 / (4 * jacobian.determinant()) * velocities.transpose() * resistance * velocities;
+    }
+  return mass;
+}
+
+FluxMass mass_of_quadrilateral(const Mesh& mesh, int cell, const Tensor& mobility, const Tensor& resistance) {
+  // The constant velocity mobility·g has the fluxes N g, and its pressure falls by R g from the centre of the cell to
+  // those of the faces.
+  Eigen::Matrix<double, 4, 2> fluxes, drops;
+  for (int k = 0; k < 4; ++k) {
+    const int face = mesh.cell_faces[cell][k];
+    const double out = mesh.face_cells[face][0] == cell ? 1 : -1;
+    fluxes.row(k) = out * mesh.face_measure[face] * (mobility * mesh.face_normal[face]).transpose();
+    drops.row(k) = (mesh.face_center[face] - mesh.cell_center[cell]).transpose();
+  }
+  const Tensor inverse = resistance / mesh.cell_measure[cell];  // of R^T N, by the divergence theorem
+  const Eigen::Matrix4d others = Eigen::Matrix4d::Identity() - fluxes * inverse * drops.transpose();
+  return drops * inverse * drops.transpose() + others.transpose() * mapped_mass(mesh, cell, resistance) * others;
+}
+
+}  // namespace
+
+FluxMass flux_mass(const Mesh& mesh, int cell, const Tensor& mobility) {
+  const int faces = static_cast<int>(mesh.cell_faces[cell].size());
+  SPREKK_EXPECT(faces == 3 || faces == 4, cell, faces);
+  const Tensor resistance = mobility.inverse();
+  SPREKK_EXPECT(resistance.allFinite(), cell);
+  return faces == 3 ? mass_of_triangle(mesh, cell, resistance)
+                    : mass_of_quadrilateral(mesh, cell, mobility, resistance);
+}
+
+}  // namespace sprekk::matrix_flow

@@ -1,0 +1,179 @@
+#include "components/matrix_flow/rt0/rt0.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <functional>
+
+#include "components/matrix_flow/rt0/flux_mass.hpp"
+#include "tests/components/meshes.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+using test::is_outer;
+using OfPoint = std::function<double(const Point&)>;
+
+/// Prescribed pressure and prescribed flux in turn; walls have prescribed flux.
+std::vector<FlowCondition> mixed_conditions(const Mesh& mesh) {
+  std::vector<FlowCondition> conditions(mesh.face_count(), FlowCondition::none);
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (is_outer(mesh, f))
+      conditions[f] = f % 2 == 0 && !test::is_wall(mesh, f) ? FlowCondition::pressure : FlowCondition::flux;
+  return conditions;
+}
+
+/// With the pressures at the centres of cells and faces, and the fluxes of faces, of an exact solution: all operators
+/// give the same fluxes and traces, and the equations of the faces hold.
+void expect_exact(const Mesh& mesh, const std::vector<Tensor>& mobility, const OfPoint& pressure,
+                  const std::function<double(int)>& flux, double tolerance) {
+  const auto conditions = mixed_conditions(mesh);
+  const FluxOperators operators = discretize_rt0(mesh, mobility, conditions);
+  Vector p(mesh.cell_count()), h(mesh.face_count()), b = Vector::Zero(mesh.face_count());
+  for (int c = 0; c < mesh.cell_count(); ++c) p[c] = pressure(mesh.cell_center[c]);
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    h[f] = pressure(mesh.face_center[f]);
+    if (conditions[f] == FlowCondition::pressure) b[f] = h[f];
+    if (conditions[f] == FlowCondition::flux) b[f] = flux(f);
+  }
+  const Vector fluxes = operators.flux_cell * p + operators.faces.flux * h + operators.flux_boundary * b;
+  const Vector traces = operators.trace_cell * p + operators.faces.trace * h + operators.trace_boundary * b;
+  const Vector errors = operators.faces.continuity_cell * p + operators.faces.continuity_face * h +
+                        operators.faces.continuity_boundary * b;
+  const double largest = h.lpNorm<Eigen::Infinity>();
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    EXPECT_NEAR(fluxes[f], flux(f), tolerance) << "face at " << mesh.face_center[f].transpose();
+    EXPECT_NEAR(traces[f], is_outer(mesh, f) ? h[f] : 0, tolerance * std::max(1.0, largest));
+    EXPECT_NEAR(errors[f], 0, tolerance * std::max(1.0, operators.faces.continuity_face.coeff(f, f) * largest));
+  }
+}
+
+std::vector<Mesh> meshes() {
+  return {test::fractured_square(),
+          test::square_with_single_corners(6),
+          test::fractured_rectangles(),
+          test::square_with_narrow_gaps(),
+          test::fractured_square(test::mixed(0.1, 0.3)),
+          generate_mesh(test::box(2, 1), test::structured(7, 5, 0.4)),
+          generate_mesh(test::box(2, 1), test::rectangles(7, 5, 0.4))};
+}
+
+TEST(Rt0, IsExactForLinearPressuresInAnisotropicRock) {
+  Tensor mobility;
+  mobility << 3, 1.2, 1.2, 0.7;
+  const Point gradient(1.3, -0.4);
+  for (const Mesh& mesh : meshes())
+    expect_exact(
+        mesh, std::vector<Tensor>(mesh.cell_count(), mobility), [&](const Point& x) { return 2 + gradient.dot(x); },
+        [&](int f) { return -test::face_vector(mesh, f).dot(mobility * gradient); }, 1e-11);
+}
+
+/// Layers of mobility k below and 1 above y = 1/2. The pressure y / k has the flux (0, -1).
+TEST(Rt0, IsExactAcrossLayers) {
+  Geometry geometry = test::box(1, 1);
+  RegionGeometry lower;
+  lower.name = "lower";
+  lower.polygon = {Point(0, 0), Point(1, 0), Point(1, 0.5), Point(0, 0.5)};
+  geometry.regions = {lower};
+  const Mesh mesh = generate_mesh(geometry, test::unstructured(0.09, 0.3));
+  for (const double contrast : {1e-10, 1e-3, 1e3, 1e10}) {
+    const auto is_lower = [](const Point& x) { return x[1] < 0.5; };
+    std::vector<Tensor> mobility(mesh.cell_count(), Tensor::Identity());
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      if (is_lower(mesh.cell_center[c])) mobility[c] *= contrast;
+    expect_exact(
+        mesh, mobility, [&](const Point& x) { return is_lower(x) ? (x[1] - 0.5) / contrast : x[1] - 0.5; },
+        [&](int f) { return -test::face_vector(mesh, f)[1]; }, 1e-11);
+  }
+}
+
+TEST(Rt0, PrescribedFluxesAreKeptToTheLastDigit) {
+  for (const Mesh& mesh : meshes()) {
+    const auto conditions = mixed_conditions(mesh);
+    const auto operators = discretize_rt0(mesh, std::vector<Tensor>(mesh.cell_count(), Tensor::Identity()), conditions);
+    const Vector p = Vector::Random(mesh.cell_count()), b = Vector::Random(mesh.face_count());
+    const Vector fluxes = operators.flux_cell * p + operators.faces.flux * Vector::Random(mesh.face_count()) +
+                          operators.flux_boundary * b;
+    for (int f = 0; f < mesh.face_count(); ++f)
+      if (conditions[f] == FlowCondition::flux) {
+        EXPECT_EQ(fluxes[f], b[f]);
+      }
+  }
+}
+
+/// A mesh of one cell.
+Mesh mesh_of(const std::vector<Point>& corners) {
+  RawMesh raw;
+  raw.nodes = corners;
+  const int count = static_cast<int>(corners.size());
+  raw.cells = {count == 3 ? Ring(0, 1, 2) : Ring(0, 1, 2, 3)};
+  raw.regions = {0};
+  raw.region_names = {"rock"};
+  raw.side_names = {"around"};
+  for (int k = 0; k < count; ++k) raw.boundary_edges.push_back({{k, (k + 1) % count}, 0});
+  return build_mesh(raw);
+}
+
+TEST(FluxMass, OfTheUnitSquareAndOfARightTriangleIsThatOfTheTextbook) {
+  // v = (x, 0) and so on: 1/3 on the diagonal, and −1/6 between opposite faces.
+  const FluxMass square =
+      flux_mass(mesh_of({Point(0, 0), Point(1, 0), Point(1, 1), Point(0, 1)}), 0, Tensor::Identity());
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) EXPECT_NEAR(square(i, j), i == j ? 1.0 / 3 : (i + j) % 2 == 0 ? -1.0 / 6 : 0, 1e-15);
+  // v_i = x − (opposite corner): the integrals over the triangle (0,0), (1,0), (0,1).
+  const Mesh mesh = mesh_of({Point(0, 0), Point(1, 0), Point(0, 1)});
+  const FluxMass triangle = flux_mass(mesh, 0, 2 * Tensor::Identity());
+  const auto face_at = [&](const Point& x) {
+    for (int k = 0; k < 3; ++k)
+      if ((mesh.face_center[mesh.cell_faces[0][k]] - x).norm() < 1e-12) return k;
+    return -1;
+  };
+  const int hypotenuse = face_at(Point(0.5, 0.5)), left = face_at(Point(0, 0.5)), bottom = face_at(Point(0.5, 0));
+  EXPECT_NEAR(2 * triangle(hypotenuse, hypotenuse), 1.0 / 6, 1e-15);
+  EXPECT_NEAR(2 * triangle(left, left), 1.0 / 3, 1e-15);
+  EXPECT_NEAR(2 * triangle(bottom, bottom), 1.0 / 3, 1e-15);
+  EXPECT_NEAR(2 * triangle(left, bottom), -1.0 / 6, 1e-15);
+  EXPECT_NEAR(2 * triangle(left, hypotenuse), 0, 1e-15);
+}
+
+TEST(FluxMass, TurnsWithTheCellAndIsPositiveDefinite) {
+  Tensor mobility;
+  mobility << 3, 1.2, 1.2, 0.7;
+  for (const std::vector<Point>& corners : {std::vector<Point>{{0, 0}, {1, 0.1}, {0.2, 0.7}},
+                                            {{0, 0}, {1, 0.2}, {1.4, 1.1}, {0.4, 0.9}},
+                                            {{0, 0}, {1, -0.3}, {1.6, 1.3}, {0.1, 0.5}},
+                                            {{0, 0}, {1, 0}, {0.51, 0.51}, {0, 1}}}) {
+    const FluxMass mass = flux_mass(mesh_of(corners), 0, mobility);
+    EXPECT_LT((mass - mass.transpose()).norm(), 1e-14 * mass.norm());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(mass).eigenvalues()[0], 1e-3 * mass.norm());
+    for (const double angle : {0.3, 1.9, 4.0}) {
+      const Tensor turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+      std::vector<Point> turned;
+      for (const Point& x : corners) turned.push_back(turn * x);
+      EXPECT_LT((flux_mass(mesh_of(turned), 0, turn * mobility * turn.transpose()) - mass).norm(), 1e-13 * mass.norm());
+    }
+  }
+}
+
+TEST(FluxMass, OfAParallelogramStaysWhenItIsBentByRoundOff) {
+  Tensor mobility;
+  mobility << 3, 1.2, 1.2, 0.7;
+  const auto of_corner = [&](double bend) {
+    return flux_mass(mesh_of({Point(0, 0), Point(1, 0.2), Point(1.4 + bend, 1.1), Point(0.4, 0.9)}), 0, mobility);
+  };
+  EXPECT_LT((of_corner(1e-9) - of_corner(0)).norm(), 1e-8 * of_corner(0).norm());
+  EXPECT_GT((of_corner(0.1) - of_corner(0)).norm(), 1e-3 * of_corner(0).norm());
+}
+
+TEST(Rt0, RefusesConditionsThatDoNotFitTheMesh) {
+  const Mesh mesh = test::square_with_single_corners(2);
+  const std::vector<Tensor> mobility(mesh.cell_count(), Tensor::Identity());
+  EXPECT_THROW(discretize_rt0(mesh, {}, mixed_conditions(mesh)), std::invalid_argument);
+  EXPECT_THROW(discretize_rt0(mesh, mobility, {}), std::invalid_argument);
+  const std::vector<Tensor> zero(mesh.cell_count(), Tensor::Zero());
+  EXPECT_THROW(discretize_rt0(mesh, zero, mixed_conditions(mesh)), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sprekk::matrix_flow
