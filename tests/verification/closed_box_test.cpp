@@ -26,7 +26,8 @@ TEST(ClosedBox, NeverGainsEnergy) {
   };
   for (const Rock& rock :
        {Rock{10, 128, 3, 36}, Rock{100, 20, 3, 3600}, Rock{100, 20, -31, 36}, Rock{1e4, 77, 52, 86400}})
-    for (const char* shape : {"triangles", "quadrilaterals"}) {
+    for (const auto& [type, shape] : {std::pair("mpfa", "triangles"), std::pair("mpfa", "quadrilaterals"),
+                                      std::pair("rt0", "triangles"), std::pair("rt0", "quadrilaterals")}) {
       SceneRun run = SceneRun::from_text(fmt::format(
           R"(
 geometry:
@@ -40,17 +41,17 @@ materials:
   permeability: {{along: 7e-20 m^2, across: {} m^2, angle: {} deg}}
   viscosity: 1 mPa*s
 components:
-  pore: {{type: matrix_flow/mpfa, initial_pressure: (1e6*x) Pa}}
+  pore: {{type: matrix_flow/{}, initial_pressure: (1e6*x) Pa}}
   conduit: {{type: fracture_flow/tpfa, initial_aperture: 0.5 mm, initial_pressure: 1e6 Pa}}
 couplers: [{{type: wall_exchange, between: [pore, conduit]}}]
 schedule: [{{solve: [pore, conduit]}}]
 time: {{end: {} s, step: {} s}}
 )",
-          rock.slope, shape, 7e-20 / rock.ratio, rock.angle, 20 * rock.step, rock.step));
+          rock.slope, shape, 7e-20 / rock.ratio, rock.angle, type, 20 * rock.step, rock.step));
       double before = energy(run);
       run.run_until(20 * rock.step, [&] {
         const double now = energy(run);
-        EXPECT_LE(now, before * (1 + 1e-9)) << shape << " " << rock.ratio << ":1 at " << rock.angle;
+        EXPECT_LE(now, before * (1 + 1e-9)) << type << " " << shape << " " << rock.ratio << ":1 at " << rock.angle;
         before = now;
       });
       EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-12);

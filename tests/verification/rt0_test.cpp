@@ -1,0 +1,139 @@
+// matrix_flow/rt0 in scenes: orders, closed forms through the couplers, conservation, a turned twin, growth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "tests/verification/mandel_solution.hpp"
+#include "tests/verification/scene_run.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+using std::numbers::pi;
+const Override rt0 = {"components.pore.type", "matrix_flow/rt0"};
+
+Vector areas(const Mesh& mesh) { return Eigen::Map<const Vector>(mesh.cell_measure.data(), mesh.cell_count()); }
+
+const Vector& fluxes_of(SceneRun& run) {
+  for (Part* part : run.model().parts())
+    if (const auto* flow = dynamic_cast<const matrix_flow::MatrixFlow*>(part)) return flow->face_fluxes();
+  throw std::logic_error("no flow in the matrix");
+}
+
+/// Relative, of the pressures at the centres of cells, and of the fluxes through faces per length (L2 over the cells).
+struct Errors {
+  double pressure, flux;
+};
+
+/// Steady flow with the pressure cos(pi x) cosh(pi y), whose conjugate function is −sin(pi x) sinh(pi y).
+Errors steady_errors(const std::string& mesh_text) {
+  std::string scene = R"(
+geometry: {box: {x: [0 m, 1 m], y: [0 m, 1 m]}}
+mesh: MESH
+components:
+  pore:
+    type: matrix_flow/rt0
+    permeability: 1 m^2
+    viscosity: 1 Pa*s
+    storage: 0 1/Pa
+    boundary: {left: {pressure: EXACT}, right: {pressure: EXACT}, bottom: {flux: 0 m/s}, top: {pressure: EXACT}}
+schedule: [{solve: pore}]
+time: {end: 1 s, step: 1 s}
+)";
+  const auto replace = [&](const std::string& word, const std::string& by) {
+    for (auto at = scene.find(word); at != std::string::npos; at = scene.find(word)) scene.replace(at, word.size(), by);
+  };
+  replace("MESH", mesh_text);
+  replace("EXACT", "(cos(pi*x)*cosh(pi*y)) Pa");
+  SceneRun run = SceneRun::from_text(scene);
+  run.run();
+  const Mesh& mesh = run.mesh();
+  Vector exact(mesh.cell_count());
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    exact[c] = std::cos(pi * mesh.cell_center[c][0]) * std::cosh(pi * mesh.cell_center[c][1]);
+  const auto conjugate = [&](int node) {
+    return -std::sin(pi * mesh.nodes[node][0]) * std::sinh(pi * mesh.nodes[node][1]);
+  };
+  Vector flux(mesh.face_count()), weights = Vector::Zero(mesh.face_count());
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    flux[f] = (conjugate(mesh.face_nodes[f][0]) - conjugate(mesh.face_nodes[f][1])) / mesh.face_measure[f];
+    for (const int cell : mesh.face_cells[f])
+      if (cell != none) weights[f] += mesh.cell_measure[cell];
+  }
+  const Vector lengths = Eigen::Map<const Vector>(mesh.face_measure.data(), mesh.face_count());
+  return {relative_error(areas(mesh), run.field("pore.pressure"), exact),
+          relative_error(weights, fluxes_of(run).cwiseQuotient(lengths), flux)};
+}
+
+void expect_orders(const std::string& coarse_mesh, const std::string& fine_mesh, double pressure, double flux) {
+  const Errors coarse = steady_errors(coarse_mesh), fine = steady_errors(fine_mesh);
+  EXPECT_GT(std::log2(coarse.pressure / fine.pressure), pressure) << coarse.pressure << " " << fine.pressure;
+  EXPECT_GT(std::log2(coarse.flux / fine.flux), flux) << coarse.flux << " " << fine.flux;
+  EXPECT_LT(fine.pressure, 1.5e-3);
+}
+
+TEST(Rt0, PressureIsOfSecondOrderAndFluxOfFirst) {
+  expect_orders("{size: 0.05 m}", "{size: 0.025 m}", 1.8, 0.95);
+  expect_orders("{kind: structured, cells: [20, 20]}", "{kind: structured, cells: [40, 40]}", 1.9, 0.95);
+  expect_orders("{kind: structured, shape: quadrilaterals, cells: [20, 20]}",
+                "{kind: structured, shape: quadrilaterals, cells: [40, 40]}", 1.9, 0.95);
+  expect_orders("{size: 0.05 m, shape: quadrilaterals}", "{size: 0.025 m, shape: quadrilaterals}", 1.8, 0.95);
+}
+
+double mandel_error(const std::string& mesh) {
+  SceneRun run("verification/mandel.yaml", {{"mesh", mesh}, rt0});
+  run.run();
+  EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-12 * run.quantity("fluid_outflow"));
+  const Mandel exact;
+  Vector p(run.mesh().cell_count());
+  for (int c = 0; c < p.size(); ++c) p[c] = exact.pressure(run.mesh().cell_center[c][0], run.time(), run.steps());
+  return relative_error(areas(run.mesh()), run.field("pore.pressure"), p);
+}
+
+TEST(Rt0, MandelIsOfSecondOrder) {
+  const double coarse = mandel_error("{size: 0.1 m}"), fine = mandel_error("{size: 0.05 m}");
+  EXPECT_LT(fine, 2e-3);
+  EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
+}
+
+double terzaghi_error(int cells) {
+  SceneRun run("verification/terzaghi.yaml",
+               {{"mesh.cells", "[" + std::to_string(cells / 10) + ", " + std::to_string(cells) + "]"}, rt0});
+  run.run();
+  Vector exact(run.mesh().cell_count());
+  for (int c = 0; c < exact.size(); ++c) {
+    double sum = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const double n = (k + 0.5) * pi;
+      sum += 2 / n * std::sin(n * run.mesh().cell_center[c][1]) * std::pow(1 + 0.01 * n * n, -run.steps());
+    }
+    exact[c] = sum;
+  }
+  return relative_error(areas(run.mesh()), run.field("pore.pressure"), exact);
+}
+
+TEST(Rt0, TerzaghiIsOfSecondOrder) {
+  const double coarse = terzaghi_error(20), fine = terzaghi_error(40);
+  EXPECT_LT(fine, 1.5e-3);
+  EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
+}
+
+TEST(Rt0, BarryMercerConvergesToTheTable) {
+  const auto rows = read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/barry_mercer.csv");
+  std::vector<double> errors(2, -1);  // extrapolated in time
+  for (const int steps : {50, 100}) {
+    SceneRun run(
+        "verification/barry_mercer.yaml",
+        {{"mesh.cells", "[32, 32]"}, {"time.step", std::to_string(1.535889741755005e6 / steps) + "e-9 s"}, rt0});
+    run.run();
+    for (int i = 0; i < 2; ++i)
+      errors[i] += (steps == 100 ? 2 : -1) * run.quantity(i == 0 ? "p_5_5" : "p_75_5") / rows[i][3];
+  }
+  for (const double error : errors) EXPECT_LT(std::abs(error), 4e-3);
+}
+
+}  // namespace
+}  // namespace sprekk::testing
