@@ -5,8 +5,10 @@
 #include <fstream>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "components/fine_fracture/growth/grow_tips.hpp"
+#include "components/fine_fracture/growth/kink.hpp"
 #include "tests/components/fine_fracture/curved_crack.hpp"
 
 namespace sprekk::fine_fracture {
@@ -177,6 +179,27 @@ TEST(ImplicitDirection, falls_back_to_the_explicit_one_with_a_note) {
   EXPECT_NE(outcome.notes[0].find("maximum tangential stress"), std::string::npos);
   EXPECT_NEAR(degrees(tip.tip, outcome.path)[0] * degree, maximum_tangential_angle({1e6, 0.8e6}), 1e-12);
   EXPECT_LE(outcome.evaluations, 1 + 9);
+}
+
+TEST(ImplicitDirection, takes_a_direction_that_is_nearly_symmetric_where_none_is_right) {
+  // K_II/K_I is the same in all directions: up to 0.1, ten times what is allowed, the first one that was tried is as
+  // good as any.
+  const GrowingTip tip{
+      .tip = Point(0, 0), .direction = Point(1, 0), .toughness = 0.7e6, .youngs_prime = 4e10, .path = {}};
+  for (const double sign : {1.0, -1.0}) {
+    for (const auto& [share, is_good] : {std::pair{0.09, true}, {0.11, false}}) {
+      const Sifs everywhere{1e6, sign * share * 1e6};
+      const auto sifs = [&](int, const std::vector<TipPath>&) { return everywhere; };
+      const GrowthOptions options = whole_increments("implicit", 0.01, 1);
+      const TipOutcome outcome = grow_tips({tip}, options, sifs, unlimited)[0];
+      ASSERT_EQ(outcome.notes.size(), 1u);
+      EXPECT_NE(outcome.notes[0].find(is_good ? "best direction" : "maximum tangential stress"), std::string::npos)
+          << outcome.notes[0];
+      const double expected =
+          is_good ? local_symmetry_angle(everywhere, 0.01, options.largest_turn) : maximum_tangential_angle(everywhere);
+      EXPECT_NEAR(degrees(tip.tip, outcome.path)[0] * degree, expected, 1e-12) << share;
+    }
+  }
 }
 
 TEST(GrowTips, mirrored_problems_have_mirrored_paths) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <utility>
+#include <vector>
+
 namespace sprekk {
 namespace {
 
@@ -199,6 +203,35 @@ TEST(StepController, AHoldIsExpectedWhereTheLevelComesToOne) {
   controller.accepted(controller.next(), 1);
   EXPECT_EQ(controller.time(), 5);  // a target is met on the way
   EXPECT_NEAR(controller.next().dt, 0.6, 1e-12);
+}
+
+// A level is known to about 1 %, the tolerance of an arrest: a smaller rise in the last pause tells no rate, and the
+// pause is repeated. With a larger one the level, twice as far below 1, takes twice the time.
+TEST(StepController, ARiseWithinTheToleranceOfLevelsTellsNoRate) {
+  for (const auto& [rise, expected] : {std::pair{0.009, 0.4}, {0.011, 0.8}}) {
+    StepController controller(hours(20), {});
+    controller.hold(0.01, 1);
+    controller.release(1 - rise);
+    EXPECT_TRUE(controller.rejected(controller.next(), 0.4));
+    controller.accepted(controller.next(), 1);
+    controller.hold(0.01, 1);  // 0.4 h for this rise
+    controller.release(1 - 2 * rise);
+    EXPECT_NEAR(controller.next().dt, expected, 1e-12) << rise;
+  }
+  // The same of what has risen since: 0.004 in 0.4 h counts as 0.01, so that 0.036 more take 1.44 h.
+  StepController controller(hours(20), {});
+  controller.hold(0.01, 1);
+  controller.release(0.96);
+  EXPECT_TRUE(controller.rejected(controller.next(), 0.4));
+  controller.accepted(controller.next(), 1);
+  controller.hold(0.01, 1);
+  controller.release(0.96);
+  EXPECT_NEAR(controller.next().dt, 0.4, 1e-12);
+  controller.accepted(controller.next(), 1);
+  controller.observe(0.964);
+  EXPECT_NEAR(controller.next().dt, 1, 1e-12);
+  controller.accepted(controller.next(), 1);
+  EXPECT_NEAR(controller.next().dt, 0.44, 1e-12);
 }
 
 TEST(StepController, AnOverdueHoldIsExpectedFromTheRiseSoFar) {
