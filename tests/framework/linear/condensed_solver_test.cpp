@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "tests/framework/linear/test_systems.hpp"
 
 namespace sprekk {
@@ -170,6 +173,41 @@ TEST_P(Condensed, AnswersAlikeWhateverFloatedBefore) {
     ASSERT_TRUE(fresh.factor(*system).solved && fresh.solve(b, alone).solved);
     EXPECT_EQ(x, alone);
   }
+}
+
+// A bulk that is regular by less and less, as the shift of its matrix comes near to an eigenvalue, -Laplace's of a mode
+// that no sum of rows tells, while local unknowns keep the whole system regular. Reference: the definition of the
+// backward error.
+TEST_P(Condensed, AcceptsABulkWhoseFirstSolutionOneRefinementMakesAccurate) {
+  constexpr int n = 20;
+  const double angle = std::numbers::pi / (n + 1), eigenvalue = 4 - 2 * std::cos(2 * angle) - 2 * std::cos(3 * angle);
+  int condensed = 0;
+  for (int quarters = 48; quarters <= 62; ++quarters) {
+    const double shift = std::pow(10, -quarters / 4.0);
+    LinearSystem system = with_local_unknowns(n, 3);
+    for (int i = 0; i < n * n; ++i) system.local.coeffRef(i, i) += shift - eigenvalue;
+    const Vector b = system.local * test::random_vector(system.local.cols(), 9);
+    const SparseMatrix sizes = system.local.cwiseAbs();
+    const auto error = [&](const Vector& x) {
+      return (b - system.local * x).cwiseAbs().maxCoeff() / (sizes * x.cwiseAbs() + b.cwiseAbs()).maxCoeff();
+    };
+    LinearOptions options;
+    options.type = GetParam();
+    CondensedSolver fresh(options);
+    Vector x, more;
+    ASSERT_TRUE(fresh.factor(system).solved && fresh.solve(b, x).solved);
+    const bool is_condensed = fresh.name() == std::string("condensed ") + GetParam();
+    if (!is_condensed) {
+      EXPECT_LT(error(x), 1e-12) << shift;
+      continue;
+    }
+    ++condensed;
+    ASSERT_TRUE(fresh.solve(b - system.local * x, more).solved);
+    EXPECT_LT(error(x + more), 1e-9) << shift;
+  }
+  // What is left of the bulk's digits squares in the refinement: about half of them are enough.
+  EXPECT_GE(condensed, 6);
+  EXPECT_LE(condensed, 12);
 }
 
 // 144 columns of 400 unknowns: more than 7 sqrt(400).
