@@ -101,6 +101,7 @@ const std::vector<std::vector<Override>> scenes = {
     {},
     {{"components.pore.type", "matrix_flow/tpfa"}},
     {{"components.pore.type", "matrix_flow/rt0"}},
+    {{"components.rock.type", "poromechanics/fem"}, {"components.rock.order", "second"}},
     {{"components.contact.type", "contact/penalty"}},
     {{"components.contact.type", "contact/augmented_lagrangian"}},
     {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}}};
@@ -108,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa", "matrix_flow/rt0", "contact/penalty",
+  std::set<std::string> types = {"matrix_flow/tpfa", "poromechanics/fem", "matrix_flow/rt0", "contact/penalty",
                                  "contact/augmented_lagrangian"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);

@@ -3,6 +3,7 @@
 pressure, K = p sqrt(pi a), is unstable from its onset on: the run says so, with the energy that is left over, and goes on.
 A wing that joins another fracture takes its fluid along, and no tip ends a step above its toughness."""
 
+import json
 import math
 import re
 import subprocess

@@ -75,7 +75,7 @@ struct Setting {
   /// Both tips go straight on by so much that the coarse level does not know of, at these ends.
   void grow(double length, bool first, bool last) {
     const auto state = [&](bool has_grown, double sign) {
-      Vector values = Vector::Zero(has_grown ? 17 : 15);
+      Vector values = Vector::Zero(has_grown ? 19 : 17);
       values[7] = 1;
       if (has_grown) values.tail<2>() = sign * (crack_half_length + length) * along;
       return values;
@@ -148,15 +148,15 @@ TEST(Tips, AskForEdgesThatGrowAsTheSceneSays) {
 
 TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
   // Factors, growth, flags (stopped, started, evaluated, extendable), an error, a warm start, a load, a speed, a
-  // turning, a way of one point and a path of one.
+  // turning, the start of a segment, a way of one place and direction, and a path of one point.
   constexpr int flags[] = {4, 5, 9, 11};
   for (int set = 0; set < 16; ++set) {
     constexpr int count = 14;  // of points on the way
-    Vector first(19), last(15);
+    Vector first(23), last(17);
     for (int i = 0; i < first.size(); ++i) first[i] = 1.1 + 0.1 * i;
     for (int k = 0; k < 4; ++k) first[flags[k]] = (set >> k) & 1;
     first[count] = 1;
-    last = -first.head(15);
+    last = -first.head(17);
     last[count] = 0;
     for (int k = 0; k < 4; ++k) last[flags[k]] = 1 - first[flags[k]];
     Setting setting(0.3);
@@ -188,7 +188,7 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
   setting.fluid.jump[0] = 0;
   setting.fluid.pressure[1] = 30e6;
   setting.grow(0.1, false, true);
-  Vector values = Vector::Zero(17);
+  Vector values = Vector::Zero(19);
   values[7] = 1;
   const double turn = 100 * pi / 180;
   const Point tip = crack_half_length * setting.along;
