@@ -1,6 +1,7 @@
 // Properties, sources, boundary and initial values: anything that may vary in space and time.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>

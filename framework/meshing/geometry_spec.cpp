@@ -1,5 +1,6 @@
 #include "framework/meshing/geometry_spec.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,7 @@
 // A closed box of anisotropic rock with a fracture across the edge of a region, and nothing that drives a flow but the
 // pressures that are there at the start.
+#include <cmath>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

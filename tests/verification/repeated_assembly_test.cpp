@@ -2,6 +2,7 @@
 // the bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <set>
 

@@ -1,6 +1,8 @@
 // Friction, cohesion and tensile strength, and how walls lose them.
 #pragma once
 
+#include <algorithm>
+
 #include "framework/config/data.hpp"
 #include "framework/config/spec.hpp"
 

@@ -1,6 +1,7 @@
 // The slightly curved crack of Cotterell and Rice (Int. J. Fracture 16 (1980) 155), to first order in its slope.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>

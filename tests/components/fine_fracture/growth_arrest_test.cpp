@@ -1,6 +1,7 @@
 // Where and why growth ends: closed forms of the length of arrest, several tips, limits, what cannot go on.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>

@@ -1,6 +1,7 @@
 // The search for an increment, over many loads of a tip in shear whose kink turns far and closes with its length.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <random>
 

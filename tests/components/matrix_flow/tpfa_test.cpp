@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 
 #include <gtest/gtest.h>

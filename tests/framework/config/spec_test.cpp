@@ -1,3 +1,5 @@
+#include <map>
+
 #include "framework/config/spec.hpp"
 #include "framework/config/yaml/parse_yaml.hpp"
 

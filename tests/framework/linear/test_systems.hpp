@@ -1,6 +1,7 @@
 // Manufactured systems for the tests of linear solvers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "framework/meshing/graded_division.hpp"
 
 #include <gtest/gtest.h>

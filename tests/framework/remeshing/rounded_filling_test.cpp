@@ -2,6 +2,7 @@
 #include "framework/remeshing/rounded_filling.hpp"
 
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "framework/mesh/build_mesh.hpp"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "components/fine_fracture/quarter_point/elasticity/model.hpp"

@@ -1,4 +1,7 @@
 // Kinks at the end of a crack in a plate, and cracks with little room.
+#include <algorithm>
+#include <stdexcept>
+
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 
 namespace sprekk::test {

@@ -1,4 +1,6 @@
 // Stress that is not elastic: pore pressure. Each case adds a particular solution to the crack in a plate.
+#include <algorithm>
+
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 
 namespace sprekk::test {

@@ -1,0 +1,51 @@
+# Headers that most files include are compiled once. Two sets, each made by a target of its own, and reused by others with the same
+# options: `sprekk_headers` has the standard library and Eigen, `sprekk_scene_headers` also what every component includes.
+# Sources include what they use all the same (tests/includes_test.py), and compile without.
+option(SPREKK_PRECOMPILED_HEADERS "Compile headers that most files include once" OFF)
+
+set(standard_headers <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numbers> <numeric>
+                     <optional> <set> <span> <stdexcept> <string> <string_view> <utility> <vector>
+                     <Eigen/Core> <Eigen/LU> <Eigen/SparseCore>)
+set(scene_headers ${standard_headers} <fmt/format.h> ${CMAKE_SOURCE_DIR}/framework/invariants.hpp
+                  ${CMAKE_SOURCE_DIR}/framework/config/spec.hpp ${CMAKE_SOURCE_DIR}/framework/scene/registry.hpp)
+
+set(precompiled_options)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # For ccache, which compares what the preprocessor makes. And <string> that is precompiled gives more false alarms like those of
+  # gcc.gnu.org bug 105651; builds without have the warnings.
+  set(precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+endif()
+
+# What tests spend their time in is in the libraries; -O3 of their own code is a third of a build from nothing.
+set(test_options $<$<CONFIG:Release>:-O1>)
+
+# sprekk_precompiled(name headers… [LIBRARIES libraries…]): the target `name`, which compiles these headers.
+function(sprekk_precompiled name)
+  cmake_parse_arguments(PARSE_ARGV 1 with "" "" LIBRARIES)
+  if(SPREKK_PRECOMPILED_HEADERS)
+    # A target has a source.
+    set(empty ${CMAKE_BINARY_DIR}/generated/${name}.cpp)
+    file(CONFIGURE OUTPUT ${empty} CONTENT "// precompiled headers alone\n")
+    add_library(${name} OBJECT EXCLUDE_FROM_ALL ${empty})
+    target_link_libraries(${name} PRIVATE ${with_LIBRARIES})
+    target_precompile_headers(${name} PRIVATE ${with_UNPARSED_ARGUMENTS})
+    target_compile_options(${name} PRIVATE ${precompiled_options})
+    if(name MATCHES "test_headers$")
+      target_compile_options(${name} PRIVATE ${test_options})
+    endif()
+  endif()
+endfunction()
+
+# sprekk_reuses(target folder kind): `target`, of the sources in `folder`, takes precompiled headers of the `kind` headers or test_headers.
+function(sprekk_reuses target folder kind)
+  if(NOT SPREKK_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  target_compile_options(${target} PRIVATE ${precompiled_options})
+  # These include nearly all of what is below them.
+  if(folder MATCHES "^(components|couplers|verification|framework/(scene|run|study))")
+    target_precompile_headers(${target} REUSE_FROM sprekk_scene_${kind})
+  else()
+    target_precompile_headers(${target} REUSE_FROM sprekk_${kind})
+  endif()
+endfunction()
