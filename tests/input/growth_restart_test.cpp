@@ -21,7 +21,7 @@ std::vector<std::string> growing_run(const std::vector<std::string>& more) {
   for (const std::string value :
        {"mesh={size: 0.5 m, fracture_size: 25 mm}", "components.tips.toughness=0.42 MPa*m^0.5",
         "components.tips.size=0.3 m", "components.tips.sectors=8", "components.tips.mesh_ratio=1",
-        "components.tips.growth={increment: 5 mm}", "couplers.4.propagation_threshold=0.2",
+        "components.tips.growth={increment: 5 mm}", "couplers.4.propagation_threshold=0.2", "schedule.1.update=after_step",
         "components.conduit.injection.well.rate=4.0e-8 m^2/s", "time.step=10 min", "time.end=40 s"}) {
     arguments.push_back("--set");
     arguments.push_back(value);

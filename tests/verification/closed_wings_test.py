@@ -65,6 +65,7 @@ schedule:
   - solve: [rock, conduit, contact]
   - grow: tips
     settle: [rock, contact]
+    update: after_step
 time: {end: 7200 s, step: 150 s}
 output:
   every: 2 h

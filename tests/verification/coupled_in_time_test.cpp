@@ -78,6 +78,7 @@ TEST(PropertiesInTime, MeshThatGrowsHasThePropertiesOfItsTime) {
                                       {"components.tips.mesh_ratio", "1"},
                                       {"components.tips.growth", "{increment: 5 mm}"},
                                       {"couplers.4.propagation_threshold", "0.2"},
+                                      {"schedule.1.update", "after_step"},
                                       {"components.conduit.injection.well.rate", "4.0e-8 m^2/s"},
                                       {"time.step", "10 min"},
                                       {"materials.young_modulus", "(40e9/(1 + t/(20*min))) Pa"},

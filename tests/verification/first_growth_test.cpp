@@ -23,7 +23,7 @@ SceneRun one_step_to(double pressure, const std::string& angle, const std::strin
                    {"geometry.fractures.main.angle", angle},
                    {"components.tips.growth", growth},
                    {"schedule",
-                    "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], overshoot: "
+                    "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: after_step, overshoot: "
                     "100}]"}});
 }
 

@@ -102,7 +102,7 @@ class GrowthColumns(unittest.TestCase):
         return beyond, taken_over
 
     def test_of_the_held_procedure(self):
-        beyond, taken_over = self.check("")
+        beyond, taken_over = self.check("", "schedule.1.update=after_step")
         self.assertGreater(beyond, 3)
         self.assertGreater(taken_over, 0)
 

@@ -69,7 +69,7 @@ std::string growing(const std::string& meeting, const Other& other = {}) {
       "  tips: {type: fine_fracture/quarter_point, size: 0.3 m, toughness: 0.7 MPa*m^0.5, growth: {increment: 10 mm}, "
       "meeting: " +
           meeting + "}",
-      "  - {type: two_level, between: [rock, conduit, tips]}", "  - {grow: tips, settle: [rock, contact]}");
+      "  - {type: two_level, between: [rock, conduit, tips]}", "  - {grow: tips, settle: [rock, contact], update: after_step}");
 }
 
 TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
@@ -144,7 +144,9 @@ TEST(Joining, ATipMayBeAskedToStopInstead) {
 /// conducts before it opens.
 SceneRun wings(const std::string& wall) {
   return SceneRun("paper/wing_cracks.yaml",
-                  {{"geometry.fractures.wall", wall}, {"components.conduit.law", "{type: cubic, residual: 20 um}"}});
+                  {{"geometry.fractures.wall", wall},
+                   {"components.conduit.law", "{type: cubic, residual: 20 um}"},
+                   {"schedule.1.update", "after_step"}});
 }
 
 TEST(Joining, FluidIsConservedAndFillsTheOtherFracture) {

@@ -25,7 +25,7 @@ CHANGES = {
     "  - {type: two_level,     between: [rock, conduit, tips]}":
         "  - {type: aperture, between: [contact, conduit]}\n"
         "  - {type: two_level, between: [rock, conduit, tips], propagation_threshold: 0.25}",
-    "    settle: [rock, contact]": "    settle: [rock, contact]\n    update: within_step",
+    "    update: after_step": "    update: within_step",
     "fracture_size: 10 mm": "fracture_size: 20 mm",
     "start: 7.5 h": "start: 0 h",
     "step: 0.05 h": "step: 0.4 h",

@@ -22,7 +22,7 @@ from sprekk import read_table  # noqa: E402
 
 TOUGHNESS = 0.7e6
 FIRST, LAST = 8.07, 11.0  # MPa; the first growth is due at 8.06
-SCHEDULE = "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], overshoot: 100}]"
+SCHEDULE = "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: after_step, overshoot: 100}]"
 
 
 def pressures(count):
