@@ -1,9 +1,21 @@
 // Capabilities of contact laws.
 #pragma once
 
+#include <optional>
+
 #include "framework/field/field.hpp"
 
 namespace sprekk {
+
+/// The law of walls that slide, about their present state, for places within their cell:
+///   f_t = -direction friction f_n,  [u]_n = opening + dilation [u]_t  where they touch,  f = 0 and a larger [u]_n
+///   where they do not.
+struct SlidingWalls {
+  double friction;
+  double direction;  ///< 1 or -1, of f_t
+  double dilation;   ///< with the sign of [u]_t
+  double opening;    ///< m
+};
 
 /// Capability: determines the contact traction from the displacement jump.
 class FractureContact {
@@ -19,6 +31,8 @@ class FractureContact {
   /// The stiffness of the rock against a jump of one cell, Pa/m, (normal, tangential) of each fracture cell. It scales
   /// the method of solution; the solution does not depend on it.
   virtual void set_wall_stiffness(const Vector& stiffness) = 0;
+  /// The law of a cell whose walls slide or are open; nothing while they stick.
+  virtual std::optional<SlidingWalls> sliding(int cell) const = 0;
 };
 
 }  // namespace sprekk

@@ -33,7 +33,17 @@ class TipSurroundings {
   /// Whether the walls are held by their jump (Eq. 15 of the paper) or by their traction.
   virtual bool gives_jumps() const = 0;
   virtual Point wall_traction(int fracture, double s) const = 0;  ///< Pa, n·sigma of the plus wall, fluid included
-  virtual Point wall_jump(int fracture, double s) const = 0;      ///< m, u(minus) − u(plus)
+  /// Walls that slide, or are open, within their cell, in global components. Where they touch, g·[u] = opening, and the
+  /// traction on the plus wall is fluid + f t with f < 0; elsewhere it is that of the fluid, and g·[u] > opening.
+  struct Sliding {
+    Point fluid;     ///< Pa
+    Point traction;  ///< t, per normal traction
+    Point gap;       ///< g, unit along the normal
+    double opening;  ///< m
+  };
+  /// Nothing where the walls stick, have grown, or where nothing tells their law.
+  virtual std::optional<Sliding> sliding(int /*fracture*/, double /*s*/) const { return std::nullopt; }
+  virtual Point wall_jump(int fracture, double s) const = 0;  ///< m, u(minus) − u(plus)
   /// The fluid pressure in the fracture cell at an end, Pa; 0 without a component for it.
   virtual double fluid_pressure(int fracture, bool at_end) const = 0;
   virtual double accepted_fluid_pressure(int fracture, bool at_end) const = 0;

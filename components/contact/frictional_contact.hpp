@@ -112,6 +112,7 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   /// while open overlap by |d| tan psi. With a larger normal stiffness the iteration would take them to stick, return
   /// to where they were, open, and so on; with the limit it takes them to slip.
   void set_wall_stiffness(const Vector& stiffness) override;
+  std::optional<SlidingWalls> sliding(int cell) const override;
 
   State state(int cell) const;
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }

@@ -75,6 +75,22 @@ FrictionalContact::Trial FrictionalContact::trial(int i) const {
   return t;
 }
 
+std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
+  if constexpr (dimension != 2) return std::nullopt;
+  if (is_bonded(i)) return std::nullopt;
+  constexpr double at_bound = 1e-6;  // below it by so much of it: walls stick
+  const Trial t = trial(i);
+  const double normal = traction_.now()[dimension * i], shear = traction_.now()[dimension * i + 1],
+               slip = jump_.now()[dimension * i + 1];
+  const bool is_closed = normal < 0 && !t.is_open();
+  const double held = t.strength.cohesion - t.strength.friction * normal;
+  if (is_closed && std::abs(shear) < (1 - at_bound) * held) return std::nullopt;
+  const double dilation = std::copysign(t.dilation, slip);
+  return SlidingWalls{is_closed ? std::abs(shear / normal) : t.strength.friction,
+                      std::copysign(1.0, is_closed ? shear : slip), dilation,
+                      dilated(i, std::abs(slip)) - dilation * slip - closure(normal)};
+}
+
 FrictionalContact::Trial FrictionalContact::trial_of_update(int i) const {
   Trial t = trial(i);
   if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;

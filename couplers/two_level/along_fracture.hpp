@@ -18,6 +18,7 @@ class AlongFracture {
 
   /// The (normal, tangential) values of all fracture cells of the mesh, at s (m), in global components.
   Point at(double s, const Vector& values) const;
+  int index_at(double s) const { return cells_[cell_at(s)].index; }  ///< of the fracture cell at s (m)
   /// As `at`, for displacement jumps, which decrease linearly to 0 at ends that are tips, and are 0 beyond them.
   /// Towards a junction they change linearly to their value there, see JumpAtJunction.
   Point jump(double s, const Vector& values) const;

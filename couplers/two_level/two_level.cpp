@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/fracture_tips.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
@@ -24,7 +25,9 @@ struct TwoLevelOptions {
               "15-19), and "
               "its paths for the coarse level (the paper's sec. 4.4.2). Between the rock, the tips, and the fluid in "
               "the fractures, "
-              "whose pressure the walls carry that grow on the fine level (without it they carry none).");
+              "whose pressure the walls carry that grow on the fine level (without it they carry none). With the "
+              "contact, the "
+              "walls of a fracture that has kinked slide and part on the fine level, too, by the law of their cells.");
     spec.ignore("type").ignore("between");
     spec.choice(
         "reconstruction", reconstruction,
@@ -52,6 +55,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
         rock_(context.the<RockState>()),
         walls_(context.the<RockWalls>()),
         fluid_(context.find<FractureFluid>()),
+        contact_(context.find<FractureContact>()),
         location_(mesh_),
         displacement_(mesh_, is_cell_centred() ? NodalValues::From::mean_of_cells : NodalValues::From::cells_and_faces),
         pore_stress_(mesh_, NodalValues::From::cells) {
@@ -76,11 +80,12 @@ class TwoLevel : public Coupler, public TipSurroundings {
     traction_ = walls_.wall_traction().now();
     jump_ = is_cell_centred() ? jump_between_cells() : walls_.displacement_jump().now();
     replicate(mesh_, Location::fracture_cell, 2, jump_);
+    if (contact_) fluid_traction_ = traction_ - contact_->traction().now();
   }
 
   std::uint64_t version() const override {
     return rock_.properties_version() + rock_.displacement().version() + walls_.wall_traction().version() +
-           (fluid_ ? fluid_->pressure().version() : 0);
+           (fluid_ ? fluid_->pressure().version() : 0) + (contact_ ? contact_->traction().version() : 0);
   }
 
   LameParameters stiffness(const Point& x) const override {
@@ -113,6 +118,15 @@ class TwoLevel : public Coupler, public TipSurroundings {
 
   bool gives_jumps() const override { return options_.reconstruction != "wall_traction"; }
   Point wall_traction(int fracture, double s) const override { return along_[fracture].at(s, traction_); }
+  std::optional<Sliding> sliding(int fracture, double s) const override {
+    if (!contact_) return std::nullopt;
+    const int index = along_[fracture].index_at(s);
+    const FractureCell& cell = mesh_.fracture_cells[index];
+    const std::optional<SlidingWalls> law = cell.grown ? std::nullopt : contact_->sliding(index);
+    if (!law) return std::nullopt;
+    return Sliding{along_[fracture].at(s, fluid_traction_), cell.to_global({1, -law->direction * law->friction}),
+                   cell.to_global({1, -law->dilation}), law->opening};
+  }
   Point wall_jump(int fracture, double s) const override { return along_[fracture].jump(s, jump_); }
 
   double fluid_pressure(int fracture, bool at_end) const override {
@@ -161,11 +175,12 @@ class TwoLevel : public Coupler, public TipSurroundings {
   RockState& rock_;
   RockWalls& walls_;
   FractureFluid* fluid_;
+  FractureContact* contact_;
   PointLocation location_;
   mutable int last_cell_ = none;  ///< the cell of the last place that was looked for: the next is often in it, too
   NodalValues displacement_, pore_stress_;
   std::vector<AlongFracture> along_;
-  Vector traction_, jump_;
+  Vector traction_, jump_, fluid_traction_;
   std::uint64_t updated_for_ = 0;
 };
 

@@ -20,9 +20,9 @@ constexpr double rest_of_segment = 0.5;      ///< of an increment: what of a div
 constexpr double least_first_part = 0.2;     ///< of an increment: what stays of a first segment behind a kink
 constexpr double largest_first_part = 0.65;  ///< of a first segment: the same
 constexpr double longest_advance = 1.5;      ///< of an increment, in one step
-constexpr double on_the_way = 1e-6;      ///< of an increment: a place of a tip nearer to the anchor is at the anchor
-constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
-constexpr double shorter_step = 0.5;     ///< the next attempt at a step that is too long
+constexpr double on_the_way = 0.2;           ///< of an increment: of nearer places only one counts, for their direction
+constexpr double wanted_advance = 0.85;      ///< of an increment, of the fastest tip in one step
+constexpr double shorter_step = 0.5;         ///< the next attempt at a step that is too long
 
 double angle_of(const Point& direction) { return std::atan2(direction[1], direction[0]); }
 

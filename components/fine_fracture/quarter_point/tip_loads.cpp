@@ -1,4 +1,6 @@
 // The loads that the fine level takes from the coarse level: displacements on its outline, stress, tractions on walls.
+#include <algorithm>
+
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/mesh/planar.hpp"
 
@@ -62,6 +64,23 @@ FineLoads Tips::loads_of(const Tip& tip) const {
         return turned(traction, bent.along, along);
     return traction;
   };
+  // A fracture that has not kinked keeps the tractions of its cells: they vary little along it.
+  std::vector<char> has_kinked;
+  for (const FineDomain::Source& source : domain.sources) {
+    const Fracture& fracture = mesh_.fractures[source.fracture];
+    bool has_grown = source.arc.front() < 0 || source.arc.back() > lengths[source.fracture];
+    for (int i = 0; i < fracture.cell_count; ++i)
+      has_grown = has_grown || mesh_.fracture_cells[fracture.first_cell + i].grown;
+    has_kinked.push_back(has_grown);
+  }
+  if (std::ranges::count(has_kinked, 1) > 0)
+    loads.sliding = [this, &domain, arc, lengths, has_kinked](int crack, int segment,
+                                                              double s) -> std::optional<TipSurroundings::Sliding> {
+      const int fracture = domain.sources[crack].fracture;
+      const double at = arc(crack, segment, s);
+      if (!has_kinked[crack] || at < 0 || at > lengths[fracture]) return std::nullopt;
+      return surroundings_->sliding(fracture, at);
+    };
   // Jumps are asked for at the ends of segments, too. At a junction each segment has its own jump: the place is moved
   // into the segment by a rounding error.
   constexpr double rounding = 1e-9;  // of a segment

@@ -4,6 +4,7 @@
 #include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/sliding_walls.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
@@ -33,10 +34,12 @@ void add_wall_tractions(const FineMesh& mesh, const FineLoads& loads, Vector& f)
   for (const FineMesh::WallEdge& edge : mesh.wall_edges) {
     SPREKK_EXPECT(is_unit(edge.normal), edge.normal.norm());
     if (edge.walls != CrackPath::Walls::traction) continue;
+    const auto sliding = sliding_of(mesh, edge, loads);
     for (const LinePoint& place : wall_rule(mesh, edge, edge_points)) {
       const EdgePoint p = edge_point(mesh, edge.nodes[0], place.t);
       const WallPlace wall = wall_place(mesh, edge, p.x);
-      const Point force = place.weight * p.jacobian * loads.wall_traction(edge.crack, wall.segment, wall.s);
+      const Point force = place.weight * p.jacobian *
+                          (sliding ? sliding->fluid : loads.wall_traction(edge.crack, wall.segment, wall.s));
       add_edge_force(edge.nodes[0], p, force, f);
       add_edge_force(edge.nodes[1], p, -force, f);
     }

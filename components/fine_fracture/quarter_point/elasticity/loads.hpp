@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "components/capabilities/fracture_tips.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk::fine_fracture {
@@ -21,6 +23,9 @@ struct FineLoads {
   /// Total stress times normal n on the plus wall, in global components, n from plus to minus; the minus wall has the
   /// opposite traction. So a fluid pressure p is -p n. s runs from 0 to 1 along the segment.
   std::function<Point(int crack, int segment, double s)> wall_traction = {};
+  /// Walls of kind traction that slide, see TipSurroundings::sliding: the traction is found with the displacement. An
+  /// edge of the mesh slides where its middle does.
+  std::function<std::optional<TipSurroundings::Sliding>(int crack, int segment, double s)> sliding = {};
   /// u(minus) - u(plus), in global components. Not called at tips, where the walls meet.
   std::function<Point(int crack, int segment, double s)> wall_jump = {};
   /// (xx, yy, xy), a column a place, of the part of the total stress that is not elastic: total = C eps(u) + offset.

@@ -4,6 +4,7 @@
 
 #include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/sliding_walls.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -102,6 +103,17 @@ Vector FineModel::back_solve(const Vector& b) const {
   return x;
 }
 
+Vector FineModel::response(const Vector& forces) const {
+  Vector b = Vector::Zero(unknowns_.count());
+  for (int i = 0; i < forces.size(); ++i)
+    if (unknowns_.of(i) != none) b[unknowns_.of(i)] += forces[i];
+  const Vector x = back_solve(b);
+  Vector u = Vector::Zero(forces.size());
+  for (int i = 0; i < u.size(); ++i)
+    if (unknowns_.of(i) != none) u[i] = x[unknowns_.of(i)];
+  return u;
+}
+
 FineSolution FineModel::solve(const FineLoads& loads) const {
   FineSolution solution{mesh_, rock_, {}, {}};
   Vector& u = solution.displacement;
@@ -114,10 +126,15 @@ FineSolution FineModel::solve(const FineLoads& loads) const {
     b = right_hand_side(loads, offsets, u);
   }
   const Vector x = back_solve(b);
-  const ScopedTimer timer(*profile_, "factors");
   for (int i = 0; i < u.size(); ++i) {
     if (unknowns_.of(i) != none) u[i] += x[unknowns_.of(i)];
   }
+  if (loads.sliding) {
+    const SlidingContact contact(*mesh_, loads);
+    const auto by = [this](const Vector& forces) { return response(forces); };
+    if (!contact.is_empty()) u += response(contact.forces(u, by));
+  }
+  const ScopedTimer timer(*profile_, "factors");
   Eigen::Index first = static_cast<Eigen::Index>(offset_forces_.places().size());
   for (const TipEvaluation& tip : tips_) {
     const Eigen::Index count = offsets.cols() > 0 ? static_cast<Eigen::Index>(tip.offset_places().size()) : 0;

@@ -1,4 +1,5 @@
 // Straight wings at a closed crack with friction in a plate under uniaxial compression.
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
@@ -79,6 +80,41 @@ TEST(DryWings, HaveTheIntensitiesOfBoundaryElements) {
     RecordProperty("K_I at " + std::to_string(length), std::to_string(wing.x()));
     // Finer meshes and more segments change ours by 0.05 %.
     EXPECT_NEAR(wing.x(), K, 6e-3 * K) << length;
+  }
+}
+
+/// The same crack, whose walls slide and part by the law of their contact, turned by an angle, or mirrored.
+Point sliding_wings(double length, double turn, bool is_mirrored) {
+  constexpr double far = 240;
+  const Eigen::Rotation2Dd turned(turn);
+  const auto placed = [&](const Point& x) -> Point { return turned * Point(x[0], is_mirrored ? -x[1] : x[1]); };
+  const Point along = Point(1, 1).normalized(), ahead(length, 0), tangent = placed(along);
+  const Point normal(tangent.y(), -tangent.x());
+  CrackPath crack{{}, true, true, std::vector<Walls>(3, Walls::traction)};
+  for (const Point& x : {Point(-along - ahead), Point(-along), along, Point(along + ahead)})
+    crack.points.push_back(placed(x));
+  const Elasticity rock{1, 1.5};
+  const FineModel model({rectangle(-far, -far, far, far), {crack}},
+                        {.tip_size = 0.25 * length, .far_size = 20, .kink_size = 0.02}, rock);
+  const Point push = placed(Point::UnitX());
+  const Tensor strain = rock.strain(Tensor(-push * push.transpose()));
+  FineLoads loads;
+  loads.boundary_displacement = [&](const Point& x, const Point&) -> Point { return strain * x; };
+  // The walls above slide down along the crack; friction holds them.
+  const Point friction_along = (is_mirrored ? -friction : friction) * tangent;
+  const TipSurroundings::Sliding law{Point::Zero(), normal + friction_along, normal, 0};
+  loads.sliding = [&](int, int segment, double) { return segment == 1 ? std::optional(law) : std::nullopt; };
+  const FineSolution solution = model.solve(loads);
+  EXPECT_LT(std::abs(solution.tips[1].K.x() / solution.tips[0].K.x() - 1), 1e-3);
+  return solution.tips[1].K / std::sqrt(std::numbers::pi);
+}
+
+TEST(SlidingWalls, DryWingsHaveTheIntensitiesOfBoundaryElements) {
+  for (const auto& [length, K] : {std::pair{0.1, 0.24689}, std::pair{1.0, 0.13885}}) {
+    for (const auto& [turn, is_mirrored] : {std::pair{0.0, false}, std::pair{0.7, false}, std::pair{0.2, true}}) {
+      const Point wing = sliding_wings(length, turn, is_mirrored);
+      EXPECT_NEAR(wing.x(), K, 2e-3 * K) << length << " turned by " << turn;
+    }
   }
 }
 

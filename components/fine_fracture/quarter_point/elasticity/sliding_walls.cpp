@@ -1,0 +1,111 @@
+#include "components/fine_fracture/quarter_point/elasticity/sliding_walls.hpp"
+
+#include <Eigen/LU>
+#include <map>
+#include <stdexcept>
+
+#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+constexpr int edge_points = 3;  ///< exact for the product of a hat function and a quadratic displacement
+constexpr int most_rounds = 100;
+
+double hat(int end, double t) { return end == 0 ? 1 - t : t; }
+
+}  // namespace
+
+std::optional<TipSurroundings::Sliding> sliding_of(const FineMesh& mesh, const FineMesh::WallEdge& edge,
+                                                   const FineLoads& loads) {
+  if (!loads.sliding || edge.tip != none || edge.walls != CrackPath::Walls::traction) return std::nullopt;
+  const WallPlace middle = wall_place(mesh, edge, edge_point(mesh, edge.nodes[0], 0.5).x);
+  return loads.sliding(edge.crack, middle.segment, middle.s);
+}
+
+SlidingContact::SlidingContact(const FineMesh& mesh, const FineLoads& loads) : mesh_(mesh) {
+  std::map<int, int> places;
+  for (const FineMesh::WallEdge& edge : mesh.wall_edges) {
+    const auto law = sliding_of(mesh, edge, loads);
+    if (!law) continue;
+    Edge& sliding = edges_.emplace_back(Edge{&edge, {}, *law});
+    for (int k = 0; k < 2; ++k)
+      sliding.places[k] = places.emplace(edge.nodes[0][k], static_cast<int>(places.size())).first->second;
+  }
+  count_ = static_cast<int>(places.size());
+}
+
+Vector SlidingContact::gaps(const Vector& displacement, bool with_opening) const {
+  Vector gaps = Vector::Zero(count_);
+  for (const Edge& sliding : edges_)
+    for (const LinePoint& place : line_rule(edge_points)) {
+      const auto& [plus, minus] = sliding.edge->nodes;
+      const EdgePoint p = edge_point(mesh_, plus, place.t);
+      Point jump = Point::Zero();
+      for (int k = 0; k < 3; ++k)
+        jump += p.value[k] * (displacement.segment<2>(2 * minus[k]) - displacement.segment<2>(2 * plus[k]));
+      const double gap = sliding.law.gap.dot(jump) - (with_opening ? sliding.law.opening : 0);
+      for (int end = 0; end < 2; ++end)
+        gaps[sliding.places[end]] += hat(end, place.t) * place.weight * p.jacobian * gap;
+    }
+  return gaps;
+}
+
+Vector SlidingContact::unit_force(int at) const {
+  Vector forces = Vector::Zero(2 * mesh_.node_count());
+  for (const Edge& sliding : edges_)
+    for (int end = 0; end < 2; ++end) {
+      if (sliding.places[end] != at) continue;
+      for (const LinePoint& place : line_rule(edge_points)) {
+        const EdgePoint p = edge_point(mesh_, sliding.edge->nodes[0], place.t);
+        const Point force = hat(end, place.t) * place.weight * p.jacobian * sliding.law.traction;
+        for (int k = 0; k < 3; ++k)
+          for (int side = 0; side < 2; ++side)
+            forces.segment<2>(2 * sliding.edge->nodes[side][k]) += (side == 0 ? 1 : -1) * p.value[k] * force;
+      }
+    }
+  return forces;
+}
+
+Vector SlidingContact::forces(const Vector& displacement,
+                              const std::function<Vector(const Vector& forces)>& response) const {
+  Eigen::MatrixXd compliance(count_, count_);
+  std::vector<Vector> units;
+  for (int j = 0; j < count_; ++j) {
+    units.push_back(unit_force(j));
+    compliance.col(j) = gaps(response(units.back()), false);
+  }
+  // Semismooth Newton: the set of places that touch is found by the signs of tractions and gaps.
+  const Vector without = gaps(displacement, true);
+  std::vector<char> touches(count_, 1);
+  Vector f;
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<int> closed;
+    for (int i = 0; i < count_; ++i)
+      if (touches[i]) closed.push_back(i);
+    f = Vector::Zero(count_);
+    const Eigen::MatrixXd matrix = compliance(closed, closed);
+    const Vector right = -without(closed);
+    if (!closed.empty()) {
+      const Vector solved = matrix.partialPivLu().solve(right);
+      f(closed) = solved;
+    }
+    const Vector gap = without + compliance * f;
+    bool is_found = true;
+    for (int i = 0; i < count_; ++i) {
+      const bool next = touches[i] ? f[i] <= 0 : gap[i] < 0;
+      is_found = is_found && next == static_cast<bool>(touches[i]);
+      touches[i] = next;
+    }
+    if (!is_found) continue;
+    Vector forces = Vector::Zero(displacement.size());
+    for (int i = 0; i < count_; ++i) forces += f[i] * units[i];
+    return forces;
+  }
+  throw std::runtime_error("fine level: no state of contact was found on the walls beside a kink");
+}
+
+}  // namespace sprekk::fine_fracture
