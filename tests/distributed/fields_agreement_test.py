@@ -123,7 +123,8 @@ def check_cross(lines):
 
 failures = []
 with tempfile.TemporaryDirectory() as temporary:
-    for name, text in (("closed cross", CLOSED_CROSS), ("short steps", SHORT_STEPS)):
+    for name, text in (("closed cross", CLOSED_CROSS), ("short steps", SHORT_STEPS),
+                       ("mixed elements", SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0"))):
         scene = Path(temporary) / f"{name.replace(' ', '_')}.yaml"
         scene.write_text(text)
         alone = run([program], scene, scene.with_suffix(".one"))

@@ -135,5 +135,45 @@ TEST(Rt0, BarryMercerConvergesToTheTable) {
   for (const double error : errors) EXPECT_LT(std::abs(error), 4e-3);
 }
 
+/// The lowest pressure after one short step of a front that enters from the left.
+double lowest_pressure(const std::string& flux_mass) {
+  SceneRun run = SceneRun::from_text(R"(
+geometry: {box: {x: [0 m, 1 m], y: [0 m, 1 m]}}
+mesh: {kind: structured, shape: quadrilaterals, cells: [10, 8]}
+components:
+  pore: {type: matrix_flow/rt0, permeability: 1 m^2, viscosity: 1 Pa*s, storage: 1 1/Pa, boundary: {left: {pressure: 1 Pa}}, flux_mass: )" +
+                                     flux_mass + R"(}
+schedule: [{solve: pore}]
+time: {end: 1e-5 s, step: 1e-5 s}
+)");
+  run.run();
+  return run.field("pore.pressure").minCoeff();
+}
+
+TEST(Rt0, LumpedFluxesKeepTheBoundsOnRectangles) {
+  EXPECT_LT(lowest_pressure("exact"), -1e-4);
+  EXPECT_GT(lowest_pressure("lumped"), -1e-15);
+}
+
+TEST(Rt0, WingsGrowAndNoFluidIsLost) {
+  SceneRun run("paper/wing_cracks.yaml", {{"mesh", "{size: 0.3 m, fracture_size: 25 mm}"},
+                                          {"components.tips.size", "0.3 m"},
+                                          {"components.tips.sectors", "8"},
+                                          {"components.tips.mesh_ratio", "1"},
+                                          rt0});
+  run.run_until(7200,
+                [&] { EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-9 * run.quantity("fluid_injected")); });
+  EXPECT_GE(run.mesh_changes(), 1);
+  EXPECT_EQ(run.field("pore.face_pressure").size(), run.mesh().face_count());
+  // Pressures of faces lie between those of the cells beside them, or nearly so: they follow from them.
+  const double range = run.field("pore.pressure").maxCoeff() - run.field("pore.pressure").minCoeff();
+  for (int f = 0; f < run.mesh().face_count(); ++f) {
+    const auto [cell, other] = run.mesh().face_cells[f];
+    if (other == none) continue;
+    const double one = run.field("pore.pressure")[cell], two = run.field("pore.pressure")[other];
+    EXPECT_NEAR(run.field("pore.face_pressure")[f], (one + two) / 2, std::abs(one - two) + 0.1 * range);
+  }
+}
+
 }  // namespace
 }  // namespace sprekk::testing

@@ -15,8 +15,8 @@ const char* const medium = "{size: 0.1 m, fracture_size: 20 mm, growth: 0.1}";
 const char* const fine = "{size: 0.05 m, fracture_size: 10 mm, growth: 0.05}";
 
 /// Of the pressure in the fracture, 2 Pa, over that of the surroundings.
-double inflow_error(const std::string& mesh) {
-  SceneRun run("verification/fracture_inflow.yaml", {{"mesh", mesh}});
+double inflow_error(const std::string& mesh, const std::string& type = "matrix_flow/mpfa") {
+  SceneRun run("verification/fracture_inflow.yaml", {{"mesh", mesh}, {"components.pore.type", type}});
   run.run();
   return run.quantity("p_fracture") - 2;
 }
@@ -30,8 +30,8 @@ TEST(FractureInflow, PressureInTheFractureIsThatOfTheClosedForm) {
 }
 
 /// Relative, L2 over the cells within 0.3 m.
-double barrier_error(const std::string& mesh_text) {
-  SceneRun run("verification/fracture_barrier.yaml", {{"mesh", mesh_text}});
+double barrier_error(const std::string& mesh_text, const std::string& type = "matrix_flow/mpfa") {
+  SceneRun run("verification/fracture_barrier.yaml", {{"mesh", mesh_text}, {"components.pore.type", type}});
   run.run();
   const Mesh& mesh = run.mesh();
   double square = 0, exact_square = 0;
@@ -50,6 +50,21 @@ TEST(FractureBarrier, PressureAroundASealedFractureIsThatOfTheClosedForm) {
   EXPECT_LT(barrier_error(coarse), 0.006);
   EXPECT_LT(barrier_error(medium), 0.0015);
   EXPECT_LT(barrier_error(fine), 0.0004);
+}
+
+TEST(FractureInflow, OfMixedElementsIsThatOfTheClosedForm) {
+  // With linear pressures alone: 0.143, 0.068 and 0.032 Pa.
+  EXPECT_NEAR(inflow_error(coarse, "matrix_flow/rt0"), 0, 0.008);
+  EXPECT_NEAR(inflow_error(medium, "matrix_flow/rt0"), 0, 0.004);
+  EXPECT_NEAR(inflow_error(fine, "matrix_flow/rt0"), 0, 0.0015);
+}
+
+TEST(FractureBarrier, OfMixedElementsIsThatOfTheClosedForm) {
+  const double first = barrier_error(coarse, "matrix_flow/rt0"), second = barrier_error(medium, "matrix_flow/rt0"),
+               third = barrier_error(fine, "matrix_flow/rt0");
+  EXPECT_LT(first, 0.01);
+  EXPECT_GT(std::log2(first / second), 1.5) << first << " " << second;
+  EXPECT_GT(std::log2(second / third), 1.5) << second << " " << third;
 }
 
 }  // namespace

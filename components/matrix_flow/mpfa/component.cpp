@@ -1,10 +1,7 @@
 // matrix_flow/mpfa: flow in the matrix with the multi-point flux approximation.
-#include <fmt/format.h>
-
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/mpfa/mpfa.hpp"
 #include "components/matrix_flow/mpfa/uncorrected_tips.hpp"
-#include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::matrix_flow {
@@ -25,14 +22,7 @@ class Mpfa : public MatrixFlow {
   void note_input(Notes& notes) const override {
     MatrixFlow::note_input(notes);
     if (!is_permeable()) return;
-    const UncorrectedEnds found = uncorrected_tips(mesh(), mobility());
-    if (found.uncorrected == 0) return;
-    notes.add(name() + ": tips without their singular flow",
-              fmt::format("'{}' takes the pressure for linear around {} of {} tips of fractures, the first at {} ({}): "
-                          "the resistance to flow from or around a fracture comes out too small or too large, by some "
-                          "6, 3 and 1.5 % with 5, 10 and 20 cells on it; use a smaller mesh.fracture_size",
-                          name(), found.uncorrected, found.ends, to_text(found.first), found.reason),
-              found.uncorrected);
+    note_uncorrected_tips(notes, name(), mesh(), mobility());
   }
 };
 

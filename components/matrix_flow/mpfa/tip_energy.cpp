@@ -49,13 +49,7 @@ class Power {
     }
   }
 
-  bool dissipates_with(double part) const {
-    const Eigen::VectorXd scale = linear_.diagonal().cwiseAbs().cwiseMax(above_zero).cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd whole = linear_ + part * added_;
-    Eigen::MatrixXd form = scale.asDiagonal() * (0.5 * (whole + whole.transpose())) * scale.asDiagonal();
-    form.diagonal().array() += round_off * size();
-    return Eigen::LLT<Eigen::MatrixXd>(form).info() == Eigen::Success;
-  }
+  double dissipative_part() const { return sprekk::matrix_flow::dissipative_part(linear_, added_); }
 
  private:
   int size() const { return static_cast<int>(cells_.size() + walls_.size()); }
@@ -77,6 +71,17 @@ class Power {
 
 }  // namespace
 
+double dissipative_part(const Eigen::MatrixXd& linear, const Eigen::MatrixXd& added) {
+  const Eigen::VectorXd scale = linear.diagonal().cwiseAbs().cwiseMax(above_zero).cwiseSqrt().cwiseInverse();
+  for (const double part : parts) {
+    const Eigen::MatrixXd whole = linear + part * added;
+    Eigen::MatrixXd form = scale.asDiagonal() * (0.5 * (whole + whole.transpose())) * scale.asDiagonal();
+    form.diagonal().array() += round_off * static_cast<double>(linear.rows());
+    if (Eigen::LLT<Eigen::MatrixXd>(form).info() == Eigen::Success) return part;
+  }
+  return 0;
+}
+
 double dissipative_share(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes,
                          const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
   Power power(flow, mesh, nodes);
@@ -87,9 +92,7 @@ double dissipative_share(const TipFlow& flow, const Mesh& mesh, const std::vecto
     local.solve(mesh, node, region, mobility, conditions);
     power.add(region, local, TipCorrection(flow, mesh, region, local, node, mobility, conditions));
   }
-  for (const double part : parts)
-    if (power.dissipates_with(part)) return part;
-  return 0;
+  return power.dissipative_part();
 }
 
 }  // namespace sprekk::matrix_flow

@@ -1,11 +1,16 @@
 // Limits the correction of the flow around a tip so that no flow gains energy.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "components/matrix_flow/mpfa/tip_flow.hpp"
 
 namespace sprekk::matrix_flow {
+
+/// The part of `added`, the most of 1, 3/4, 1/2, 1/4 and 0, with which the power x^T (linear + part · added) x is not
+/// negative for any x.
+double dissipative_part(const Eigen::MatrixXd& linear, const Eigen::MatrixXd& added);
 
 /// The largest part (1, 3/4, 1/2, 1/4 or 0) of a tip's correction with which the local problems of its nodes together
 /// gain no energy (LocalFluxes), for any pressures; mostly 1. On flat or few cells the fitted amounts of the singular

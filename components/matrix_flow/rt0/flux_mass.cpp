@@ -1,7 +1,9 @@
 #include "components/matrix_flow/rt0/flux_mass.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "framework/invariants.hpp"
@@ -24,11 +26,14 @@ FluxMass mass_of_triangle(const Mesh& mesh, int cell, const Tensor& resistance) 
   return mass;
 }
 
-/// With the velocities that the bilinear map from the unit square gives.
-FluxMass mapped_mass(const Mesh& mesh, int cell, const Tensor& resistance) {
+constexpr double of_gauss = std::numbers::sqrt3 / 6;
+constexpr double of_corners = 0.5;
+
+/// With the velocities that the bilinear map from the unit square gives, at two by two points that lie `offset` from
+/// the middle of the square.
+FluxMass mapped_mass(const Mesh& mesh, int cell, const Tensor& resistance, double offset) {
   std::array<Point, 4> x;
   for (int k = 0; k < 4; ++k) x[k] = mesh.nodes[mesh.cell_nodes[cell][k]];
-  const double offset = std::numbers::sqrt3 / 6;  // of the two points of Gauss, from the middle
   FluxMass mass = FluxMass::Zero(4, 4);
   for (const double s : {0.5 - offset, 0.5 + offset})
     for (const double t : {0.5 - offset, 0.5 + offset}) {
@@ -43,7 +48,8 @@ FluxMass mapped_mass(const Mesh& mesh, int cell, const Tensor& resistance) {
   return mass;
 }
 
-FluxMass mass_of_quadrilateral(const Mesh& mesh, int cell, const Tensor& mobility, const Tensor& resistance) {
+FluxMass mass_of_quadrilateral(const Mesh& mesh, int cell, const Tensor& mobility, const Tensor& resistance,
+                               double offset) {
   // The constant velocity mobility·g has the fluxes N g, and its pressure falls by R g from the centre of the cell to
   // those of the faces.
   Eigen::Matrix<double, 4, 2> fluxes, drops;
@@ -55,7 +61,8 @@ FluxMass mass_of_quadrilateral(const Mesh& mesh, int cell, const Tensor& mobilit
   }
   const Tensor inverse = resistance / mesh.cell_measure[cell];  // of R^T N, by the divergence theorem
   const Eigen::Matrix4d others = Eigen::Matrix4d::Identity() - fluxes * inverse * drops.transpose();
-  return drops * inverse * drops.transpose() + others.transpose() * mapped_mass(mesh, cell, resistance) * others;
+  return drops * inverse * drops.transpose() +
+         others.transpose() * mapped_mass(mesh, cell, resistance, offset) * others;
 }
 
 }  // namespace
@@ -66,7 +73,28 @@ FluxMass flux_mass(const Mesh& mesh, int cell, const Tensor& mobility) {
   const Tensor resistance = mobility.inverse();
   SPREKK_EXPECT(resistance.allFinite(), cell);
   return faces == 3 ? mass_of_triangle(mesh, cell, resistance)
-                    : mass_of_quadrilateral(mesh, cell, mobility, resistance);
+                    : mass_of_quadrilateral(mesh, cell, mobility, resistance, of_gauss);
+}
+
+LumpedFluxMass lumped_flux_mass(const Mesh& mesh, int cell, const Tensor& mobility) {
+  const Tensor resistance = mobility.inverse();
+  if (mesh.cell_faces[cell].size() == 4)
+    return {mass_of_quadrilateral(mesh, cell, mobility, resistance, of_corners), 1};
+  // With e the edges from the corner opposite to a face, cot = e · resistance e' / (e × e' sqrt(det)), and the entry is
+  // cot/2 times sqrt(det): for a resistance r I it is r cot/2.
+  constexpr double least_cotangent = 0.1;
+  FluxMass lumped = FluxMass::Zero(3, 3);
+  double least = least_cotangent;
+  const double root = std::sqrt(resistance.determinant());
+  for (int k = 0; k < 3; ++k) {
+    const Point& corner = mesh.nodes[mesh.cell_nodes[cell][(k + 2) % 3]];
+    const Point one = mesh.nodes[mesh.cell_nodes[cell][k]] - corner;
+    const Point two = mesh.nodes[mesh.cell_nodes[cell][(k + 1) % 3]] - corner;
+    lumped(k, k) = one.dot(resistance * two) / (4 * mesh.cell_measure[cell]);
+    least = std::min(least, 2 * lumped(k, k) / root);
+  }
+  const double share = std::max(0.0, least / least_cotangent);
+  return {share * lumped + (1 - share) * mass_of_triangle(mesh, cell, resistance), share};
 }
 
 }  // namespace sprekk::matrix_flow

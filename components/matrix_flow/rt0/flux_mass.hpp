@@ -22,4 +22,16 @@ using FluxMass = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 /// this is the same, so nothing jumps when a parallelogram is bent.
 FluxMass flux_mass(const Mesh& mesh, int cell, const Tensor& mobility);
 
+/// The same by quadrature that lumps it: diagonal in acute triangles and in rectangles whose sides are principal axes
+/// of the mobility, angles in the metric of its inverse. In a triangle it is cot(angle opposite to the face)/2 over the
+/// isotropic mobility (Baranger, Maitre and Oudin, RAIRO Modél. Math. Anal. Numér. 30 (1996) 445), and p is the
+/// pressure at the centre of the circumcircle. In a quadrilateral, velocities are taken at the corners. `share`: how
+/// much of the matrix is lumped; less than 1 in triangles with an angle near 90 degrees, 0 in obtuse ones: there the
+/// lumped matrix would not be positive.
+struct LumpedFluxMass {
+  FluxMass mass;
+  double share;
+};
+LumpedFluxMass lumped_flux_mass(const Mesh& mesh, int cell, const Tensor& mobility);
+
 }  // namespace sprekk::matrix_flow

@@ -6,6 +6,7 @@
 
 #include "components/matrix_flow/check_conditions.hpp"
 #include "components/matrix_flow/rt0/flux_mass.hpp"
+#include "components/matrix_flow/rt0/tip_terms.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
@@ -18,7 +19,8 @@ class Entries {
 
   /// Adds the fluxes of a cell, F = M^-1 (p − h), without those that are prescribed: with `free` the other faces,
   /// F_free = M_ff^-1 (p − h_free − M_fq q).
-  void add(int cell, const FluxMass& mass) {
+  /// `tip`: null away from tips; it adds `missing` · amounts to p − h.
+  void add(int cell, const FluxMass& mass, const TipTerm* tip) {
     std::vector<int> free, given;
     const Ring& faces = mesh_.cell_faces[cell];
     for (int k = 0; k < faces.size(); ++k) (conditions_[faces[k]] == FlowCondition::flux ? given : free).push_back(k);
@@ -29,6 +31,8 @@ class Entries {
           Eigen::LLT<FluxMass>(FluxMass(mass(free, free))).solve(FluxMass::Identity(free.size(), free.size()));
     }
     const FluxMass of_given = conductance * coupling;  // less of it flows through the free faces
+    TipTerm of_tip = tip ? *tip : TipTerm{};
+    if (tip) of_tip.missing = conductance * tip->missing(free, Eigen::all);
 
     for (std::size_t i = 0; i < free.size(); ++i) {
       const int face = faces[free[i]];
@@ -37,9 +41,11 @@ class Entries {
       const double share = is_inner ? (mesh_.face_cells[face][0] == cell ? 0.5 : -0.5) : 1;
       const Row flux{flux_cell, flux_face, flux_boundary, face, share};
       add_flux(flux, cell, faces, free, given, conductance.row(i), of_given.row(i));
+      if (tip) add_modes(flux.cells, face, *tip->flow, share * of_tip.missing.row(i));
       if (is_inner) {
         const Row sum{continuity_cell, continuity_face, continuity_boundary, face, -1};
         add_flux(sum, cell, faces, free, given, conductance.row(i), of_given.row(i));
+        if (tip) add_modes(sum.cells, face, *tip->flow, -of_tip.missing.row(i));
       } else {
         const double scale = 1 / mass(free[i], free[i]);
         trace_boundary.emplace_back(face, face, 1);
@@ -47,7 +53,13 @@ class Entries {
         continuity_boundary.emplace_back(face, face, -scale);
       }
     }
-    for (const int k : given) add_given(cell, mass, k, free, given, conductance, of_given);
+    for (const int k : given) {
+      add_given(cell, mass, k, free, given, conductance, of_given);
+      if (!tip) continue;
+      const TipFlow::Modes modes = tip->missing.row(k) - mass.row(k)(Eigen::all, free) * of_tip.missing;
+      add_modes(trace_cell, faces[k], *tip->flow, modes);
+      add_modes(continuity_cell, faces[k], *tip->flow, -modes / mass(k, k));
+    }
   }
 
   std::vector<Triplet> flux_cell, flux_face, flux_boundary, trace_cell, trace_face, trace_boundary;
@@ -73,6 +85,11 @@ class Entries {
     }
     for (std::size_t j = 0; j < given.size(); ++j)
       to.boundary.emplace_back(to.row, faces[given[j]], -to.factor * of_given[j]);
+  }
+
+  static void add_modes(std::vector<Triplet>& to, int row, const TipFlow& flow, const TipFlow::Modes& modes) {
+    for (std::size_t i = 0; i < flow.cells().size(); ++i)
+      to.emplace_back(row, flow.cells()[i], modes.dot(flow.share().col(i)));
   }
 
   /// The flux through a face where it is prescribed, and the pressure there: p − h = M_qf F_free + M_qq q.
@@ -107,19 +124,14 @@ class Entries {
   const std::vector<FlowCondition>& conditions_;
 };
 
-}  // namespace
-
-FluxOperators discretize_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
-                             const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
-  check_conditions(mesh, mobility, conditions, nodes);
-  Entries entries(mesh, conditions);
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+void check_mobility(const std::vector<Tensor>& mobility) {
+  for (std::size_t cell = 0; cell < mobility.size(); ++cell)
     if (!(mobility[cell].trace() > 0 && mobility[cell].determinant() > 0))
       throw std::runtime_error("flux discretization: the mobility of cell " + std::to_string(cell) +
                                " is not positive definite");
-    entries.add(cell, flux_mass(mesh, cell, mobility[cell]));
-  }
+}
 
+FluxOperators operators_of(const Mesh& mesh, const Entries& entries) {
   const auto matrix = [&](const std::vector<Triplet>& from, int columns) {
     SparseMatrix made(mesh.face_count(), columns);
     made.setFromTriplets(from.begin(), from.end());
@@ -135,6 +147,30 @@ FluxOperators discretize_rt0(const Mesh& mesh, const std::vector<Tensor>& mobili
           matrix({}, faces),
           {matrix(entries.flux_face, faces), matrix(entries.trace_face, faces), matrix(entries.continuity_cell, cells),
            matrix(entries.continuity_face, faces), matrix(entries.continuity_boundary, faces)}};
+}
+
+}  // namespace
+
+FluxOperators discretize_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
+                             const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
+  check_conditions(mesh, mobility, conditions, nodes);
+  check_mobility(mobility);
+  std::vector<FluxMass> masses;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) masses.push_back(flux_mass(mesh, cell, mobility[cell]));
+  const TipTerms tips(mesh, mobility, conditions, masses);
+  Entries entries(mesh, conditions);
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) entries.add(cell, masses[cell], tips.of(cell));
+  return operators_of(mesh, entries);
+}
+
+FluxOperators discretize_lumped_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
+                                    const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
+  check_conditions(mesh, mobility, conditions, nodes);
+  check_mobility(mobility);
+  Entries entries(mesh, conditions);
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    entries.add(cell, lumped_flux_mass(mesh, cell, mobility[cell]).mass, nullptr);
+  return operators_of(mesh, entries);
 }
 
 }  // namespace sprekk::matrix_flow

@@ -13,9 +13,14 @@ namespace sprekk::matrix_flow {
 /// other: so what leaves one cell enters the other to the bit, also before the equations of the faces hold. The
 /// pressures of walls and of boundary faces with a flux are eliminated within their cell.
 /// Arguments as for discretize_mpfa; all rows are complete, whatever `nodes` says.
+/// Near the tip of a fracture the equations of a cell contain the singular flow around it (TipTerms).
 /// Exact for linear pressures on any mesh; the mobility may be discontinuous and anisotropic. Throws std::runtime_error
 /// if a mobility is not positive definite.
 FluxOperators discretize_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
                              const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
+
+/// The same with lumped_flux_mass, and linear pressures around tips.
+FluxOperators discretize_lumped_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
+                                    const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 
 }  // namespace sprekk::matrix_flow

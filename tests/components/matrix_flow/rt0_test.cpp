@@ -4,9 +4,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/SparseLU>
+#include <complex>
 #include <functional>
 
 #include "components/matrix_flow/rt0/flux_mass.hpp"
+#include "components/matrix_flow/rt0/tip_terms.hpp"
+#include "components/matrix_flow/tpfa/tpfa.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::matrix_flow {
@@ -166,6 +170,115 @@ TEST(FluxMass, OfAParallelogramStaysWhenItIsBentByRoundOff) {
   EXPECT_GT((of_corner(0.1) - of_corner(0)).norm(), 1e-3 * of_corner(0).norm());
 }
 
+TEST(LumpedFluxMass, OfAnAcuteTriangleIsTheCotangentsAndExactFromTheCircumcentre) {
+  Tensor mobility;
+  mobility << 3, 1.2, 1.2, 0.7;
+  // Half the cotangent of 60 degrees.
+  const auto equilateral =
+      lumped_flux_mass(mesh_of({Point(0, 0), Point(1, 0), Point(0.5, std::sqrt(0.75))}), 0, 2 * Tensor::Identity());
+  EXPECT_EQ(equilateral.share, 1);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(equilateral.mass(i, j), i == j ? 0.25 / std::sqrt(3.0) : 0, 1e-15);
+  // Of constant velocities, drops are those from one point to the faces, whatever the tensor and the share.
+  for (const std::vector<Point>& corners :
+       {std::vector<Point>{{0, 0}, {1, 0.1}, {0.4, 0.9}}, {{0, 0}, {3, 0}, {1.6, 1}}, {{0, 0}, {3, 0}, {2.9, 0.3}}}) {
+    const Mesh mesh = mesh_of(corners);
+    const LumpedFluxMass lumped = lumped_flux_mass(mesh, 0, mobility);
+    Eigen::Matrix<double, 3, 2> fluxes, drops;
+    for (int k = 0; k < 3; ++k) {
+      fluxes.row(k) = (mobility * test::face_vector(mesh, mesh.cell_faces[0][k])).transpose();
+      drops.row(k) = (mesh.face_center[mesh.cell_faces[0][k]] - mesh.cell_center[0]).transpose();
+    }
+    const Eigen::Matrix<double, 3, 2> offset = lumped.mass * fluxes - drops;
+    for (int k = 1; k < 3; ++k) EXPECT_LT((offset.row(k) - offset.row(0)).norm(), 1e-13);
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(lumped.mass).eigenvalues()[0], 0);
+  }
+  // An obtuse triangle stays as it is, also the right one.
+  for (const Point& apex : {Point(0.5, 0.1), Point(0.5, 0.5)}) {
+    const Mesh mesh = mesh_of({Point(0, 0), Point(1, 0), apex});
+    const LumpedFluxMass lumped = lumped_flux_mass(mesh, 0, Tensor::Identity());
+    EXPECT_LT(lumped.share, 1e-13);
+    EXPECT_LT((lumped.mass - flux_mass(mesh, 0, Tensor::Identity())).norm(), 1e-12);
+  }
+}
+
+TEST(Rt0, LumpedOnRectanglesIsTheTwoPointFlux) {
+  const Mesh mesh = generate_mesh(test::box(2, 1), test::rectangles(7, 5));
+  Tensor mobility;
+  mobility << 3, 0, 0, 0.2;
+  const std::vector<Tensor> all(mesh.cell_count(), mobility);
+  const auto conditions = mixed_conditions(mesh);
+  const FluxOperators lumped = discretize_lumped_rt0(mesh, all, conditions);
+  const FluxOperators two_point = discretize_tpfa(mesh, all, conditions);
+  const Vector p = Vector::Random(mesh.cell_count()), b = Vector::Random(mesh.face_count());
+  const Eigen::SparseMatrix<double> faces = lumped.faces.continuity_face;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(faces);
+  const Vector h = factors.solve(Vector(-(lumped.faces.continuity_cell * p + lumped.faces.continuity_boundary * b)));
+  const Vector fluxes = lumped.flux_cell * p + lumped.faces.flux * h + lumped.flux_boundary * b;
+  EXPECT_LT((fluxes - two_point.flux_cell * p - two_point.flux_boundary * b).lpNorm<Eigen::Infinity>(), 1e-12);
+}
+
+/// A fracture from the left to the middle of a square: the pressures Re sqrt z and Im sqrt z, with z from its tip, and
+/// their conjugate functions Im sqrt z and −Re sqrt z.
+TEST(Rt0, IsExactForTheSingularFlowAroundATip) {
+  for (const double angle : {0.0, 0.7, 2.0}) {
+    Geometry geometry = test::box(1, 1);
+    FractureGeometry fracture;
+    fracture.name = "inside";
+    const Point tip(0.5, 0.5), ahead(std::cos(angle), std::sin(angle));
+    fracture.points = {tip - 0.35 * ahead, tip};
+    geometry.fractures = {fracture};
+    const Mesh mesh = generate_mesh(geometry, test::unstructured(0.05));
+    const std::vector<Tensor> mobility(mesh.cell_count(), 2 * Tensor::Identity());
+    std::vector<FlowCondition> conditions(mesh.face_count(), FlowCondition::none);
+    std::vector<FluxMass> masses;
+    for (int f = 0; f < mesh.face_count(); ++f)
+      if (is_outer(mesh, f)) conditions[f] = FlowCondition::flux;
+    for (int c = 0; c < mesh.cell_count(); ++c) masses.push_back(flux_mass(mesh, c, mobility[c]));
+    const TipTerms terms(mesh, mobility, conditions, masses);
+    const auto root = [&](const Point& x, int cell) {  // continuous in the cell
+      const auto local = [&](const Point& at) {
+        return std::complex<double>((at - tip).dot(ahead), (at - tip).dot(Point(-ahead.y(), ahead.x())));
+      };
+      std::complex<double> z = local(x);
+      const bool is_behind = std::abs(z.imag()) < 1e-9 && z.real() < 0;
+      if (is_behind) z = {z.real(), std::copysign(0.0, local(mesh.cell_center[cell]).imag())};
+      return std::sqrt(z);
+    };
+    for (const int mode : {0, 1}) {
+      const std::complex<double> turn = mode == 0 ? std::complex<double>(1, 0) : std::complex<double>(0, -1);
+      const auto pressure = [&](const Point& x, int cell) { return (turn * root(x, cell)).real(); };
+      const auto flux = [&](int f) {
+        const auto& [from, to] = mesh.face_nodes[f];
+        const int cell = mesh.face_cells[f][0];
+        return 2 * ((turn * root(mesh.nodes[from], cell)).imag() - (turn * root(mesh.nodes[to], cell)).imag());
+      };
+      Vector p(mesh.cell_count()), h(mesh.face_count()), b = Vector::Zero(mesh.face_count());
+      for (int c = 0; c < mesh.cell_count(); ++c) p[c] = pressure(mesh.cell_center[c], c);
+      for (int f = 0; f < mesh.face_count(); ++f) {
+        h[f] = pressure(mesh.face_center[f], mesh.face_cells[f][0]);
+        if (is_outer(mesh, f)) b[f] = flux(f);
+      }
+      const FluxOperators operators = discretize_rt0(mesh, mobility, conditions);
+      const Vector fluxes = operators.flux_cell * p + operators.faces.flux * h + operators.flux_boundary * b;
+      const Vector traces = operators.trace_cell * p + operators.faces.trace * h + operators.trace_boundary * b;
+      int exact = 0;
+      for (int f = 0; f < mesh.face_count(); ++f) {
+        const auto [cell, other] = mesh.face_cells[f];
+        const TipTerm* const term = terms.of(cell);
+        if (!term || (other != none && !terms.of(other)) || (term->flow->frame().origin() - tip).norm() > 1e-9)
+          continue;
+        ++exact;
+        EXPECT_NEAR(fluxes[f], flux(f), 1e-11) << mesh.face_center[f].transpose();
+        if (other == none) {
+          EXPECT_NEAR(traces[f], h[f], 1e-11);
+        }
+      }
+      EXPECT_GT(exact, 20);
+    }
+  }
+}
+
 TEST(Rt0, RefusesConditionsThatDoNotFitTheMesh) {
   const Mesh mesh = test::square_with_single_corners(2);
   const std::vector<Tensor> mobility(mesh.cell_count(), Tensor::Identity());
@@ -173,6 +286,7 @@ TEST(Rt0, RefusesConditionsThatDoNotFitTheMesh) {
   EXPECT_THROW(discretize_rt0(mesh, mobility, {}), std::invalid_argument);
   const std::vector<Tensor> zero(mesh.cell_count(), Tensor::Zero());
   EXPECT_THROW(discretize_rt0(mesh, zero, mixed_conditions(mesh)), std::runtime_error);
+  EXPECT_THROW(discretize_lumped_rt0(mesh, zero, mixed_conditions(mesh)), std::runtime_error);
 }
 
 }  // namespace

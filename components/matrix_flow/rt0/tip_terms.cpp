@@ -1,0 +1,139 @@
+#include "components/matrix_flow/rt0/tip_terms.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "components/matrix_flow/mpfa/tip_energy.hpp"
+#include "framework/discretization/ends_nearby.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+/// The side of the fracture on which a cell lies; 0 where it does not touch the fracture but at the tip.
+int side_of(const EndFrame& frame, const Mesh& mesh, int cell) {
+  if (const int side = frame.side_of_cell(mesh, cell); side != 0) return side;
+  for (const int node : mesh.cell_nodes[cell]) {
+    if (mesh.nodes[node] == frame.origin()) continue;
+    for (const int face : mesh.node_faces[node])
+      if (mesh.face_fracture_cell[face] != none) return frame.side_of_wall(mesh, face);
+  }
+  return 0;
+}
+
+TipTerm term_of(const TipFlow& flow, const Mesh& mesh, int cell, const std::vector<Tensor>& mobility,
+                const FluxMass& mass) {
+  const Ring& faces = mesh.cell_faces[cell];
+  const int side = side_of(flow.frame(), mesh, cell);
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 4, 2> fluxes(faces.size(), 2), drops(faces.size(), 2);
+  for (int k = 0; k < faces.size(); ++k) {
+    double conductance = 0, cells = 0;
+    for (const int at : mesh.face_cells[faces[k]])
+      if (at != none) {
+        conductance += mobility[at].trace() / 2;
+        ++cells;
+      }
+    // The corners follow one another with the cell to their left, so what leaves it flows to the right.
+    const Point& from = mesh.nodes[mesh.cell_nodes[cell][k]];
+    const Point& to = mesh.nodes[mesh.cell_nodes[cell].after(k)];
+    fluxes.row(k) = conductance / cells * (flow.stream(from, side) - flow.stream(to, side));
+    drops.row(k) = flow.pressure(mesh.cell_center[cell], side) - flow.pressure(mesh.face_center[faces[k]], side);
+  }
+  return {&flow, mass * fluxes - drops};
+}
+
+/// The power that is lost in the cells of a tip, as a form of the pressures of cells and faces and of the fluxes
+/// through walls.
+class Power {
+ public:
+  Power(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& cells,
+        const std::vector<FlowCondition>& conditions)
+      : flow_(flow), mesh_(mesh), conditions_(conditions) {
+    const auto number = [](std::map<int, int>& numbers, int item, int next) { numbers.emplace(item, next); };
+    for (const int cell : flow.cells()) number(cells_, cell, size());
+    for (const int cell : cells) number(cells_, cell, size());
+    for (const int cell : cells)
+      for (const int face : mesh.cell_faces[cell]) number(faces_, face, size());
+    linear_ = added_ = Eigen::MatrixXd::Zero(size(), size());
+  }
+
+  void add(int cell, const FluxMass& mass, const TipTerm& term) {
+    std::vector<int> free, given;
+    const Ring& faces = mesh_.cell_faces[cell];
+    for (int k = 0; k < faces.size(); ++k) (conditions_[faces[k]] == FlowCondition::flux ? given : free).push_back(k);
+    // Rows: the drops p − h and the fluxes of all faces, by the unknowns; of linear pressures, and by the modes.
+    const int count = faces.size();
+    Eigen::MatrixXd drops = Eigen::MatrixXd::Zero(count, size()), fluxes = drops;
+    Eigen::MatrixXd modes_of_drops = Eigen::MatrixXd::Zero(count, 2), modes_of_fluxes = modes_of_drops;
+    for (const int k : free) {
+      drops(k, cells_.at(cell)) = 1;
+      drops(k, faces_.at(faces[k])) = -1;
+    }
+    for (const int k : given) fluxes(k, faces_.at(faces[k])) = 1;
+    if (!free.empty()) {
+      const Eigen::MatrixXd free_mass = mass(free, free), coupling = mass(free, given);
+      const Eigen::LLT<Eigen::MatrixXd> factors(free_mass);
+      const Eigen::MatrixXd of_free = factors.solve(drops(free, Eigen::all) - coupling * fluxes(given, Eigen::all));
+      const Eigen::MatrixXd of_modes = factors.solve(Eigen::MatrixXd(term.missing(free, Eigen::all)));
+      fluxes(free, Eigen::all) = of_free;
+      modes_of_fluxes(free, Eigen::all) = of_modes;
+    }
+    if (!given.empty()) {
+      drops(given, Eigen::all) = mass(given, Eigen::all) * fluxes;
+      modes_of_drops(given, Eigen::all) = mass(given, Eigen::all) * modes_of_fluxes - term.missing(given, Eigen::all);
+    }
+    linear_ += drops.transpose() * fluxes;
+    Eigen::MatrixXd amounts = Eigen::MatrixXd::Zero(2, size());
+    for (std::size_t i = 0; i < flow_.cells().size(); ++i)
+      amounts.col(cells_.at(flow_.cells()[i])) = flow_.share().col(i);
+    // A flux that is prescribed has no modes, a drop that is a difference of unknowns neither: no square of amounts.
+    added_ += drops.transpose() * modes_of_fluxes * amounts + fluxes.transpose() * modes_of_drops * amounts;
+  }
+
+  double dissipative_part() const { return sprekk::matrix_flow::dissipative_part(linear_, added_); }
+
+ private:
+  int size() const { return static_cast<int>(cells_.size() + faces_.size()); }
+
+  const TipFlow& flow_;
+  const Mesh& mesh_;
+  const std::vector<FlowCondition>& conditions_;
+  std::map<int, int> cells_, faces_;
+  Eigen::MatrixXd linear_, added_;
+};
+
+}  // namespace
+
+TipTerms::TipTerms(const Mesh& mesh, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions,
+                   const std::vector<FluxMass>& masses) {
+  const MpfaLimits limits;
+  const std::vector<int> tips = ends_nearby(mesh, limits.near);
+  for (const auto& [tip, cells] : cells_around_tips(mesh, tips))
+    if (const auto flow = TipFlow::find(mesh, tip, cells, mobility, limits)) flows_.emplace(tip, *flow);
+  std::map<int, std::vector<int>> cells_of;
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (flows_.count(tips[node]) > 0)
+      for (const int cell : mesh.node_cells[node])
+        if (mesh.cell_nodes[cell][0] == node) cells_of[tips[node]].push_back(cell);
+  for (auto& [tip, cells] : cells_of) {
+    TipFlow& flow = flows_.at(tip);
+    std::erase_if(cells, [&, tip = tip](int cell) {
+      return !resembles(mobility[cell], flow.mobility(), limits.alike) ||
+             std::ranges::any_of(mesh.cell_nodes[cell], [&](int node) { return tips[node] != tip; }) ||
+             std::ranges::any_of(mesh.cell_faces[cell],
+                                 [&](int face) { return conditions[face] == FlowCondition::pressure; });
+    });
+    Power power(flow, mesh, cells, conditions);
+    for (const int cell : cells) {
+      const auto [place, fresh] = terms_.emplace(cell, term_of(flow, mesh, cell, mobility, masses[cell]));
+      power.add(cell, masses[cell], place->second);
+    }
+    if (const double part = power.dissipative_part(); part < 1) flow.scale(part);
+  }
+}
+
+const TipTerm* TipTerms::of(int cell) const {
+  const auto found = terms_.find(cell);
+  return found == terms_.end() ? nullptr : &found->second;
+}
+
+}  // namespace sprekk::matrix_flow
