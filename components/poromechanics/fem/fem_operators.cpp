@@ -28,14 +28,15 @@ struct RawStiffness {
   std::vector<Eigen::Matrix2Xd> of_interior;
 };
 
-RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<Stiffness>& stiffness, ElementOrder order) {
+RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& tips,
+                           const std::vector<Stiffness>& stiffness, ElementOrder order) {
   const Mesh& mesh = raw.mesh;
   RawStiffness result;
   result.of_face.assign(mesh.face_count(), Tensor::Zero());
   result.of_face_in_shares = result.of_face;
   std::vector<Triplet> entries;
   for (int c = 0; c < mesh.cell_count(); ++c) {
-    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c), stiffness[c], order);
+    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c, tips), stiffness[c], order);
     const std::vector<int> first = raw.of_cell(c);
     const int count = static_cast<int>(first.size()), corners = mesh.cell_nodes[c].size();
     for (int i = 0; i < count; ++i)
@@ -54,38 +55,43 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<Stiffne
 }
 
 /// div u integrated over cells: by the means over faces, since the sides of cells are straight.
-SparseMatrix volume_of(const RawDisplacement& raw) {
+SparseMatrix volume_of(const RawDisplacement& raw, const std::vector<int>& tips) {
   const Mesh& mesh = raw.mesh;
   std::vector<Triplet> entries;
-  for (int f = 0; f < mesh.face_count(); ++f)
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const std::array<double, 2> means = means_of_ends(mesh, tips, f);
     for (int side = 0; side < 2; ++side) {
       const int cell = mesh.face_cells[f][side];
       if (cell == none) continue;
       const Point out = (side == 0 ? 1 : -1) * mesh.face_measure[f] * mesh.face_normal[f];
       for (int k = 0; k < dimension; ++k) {
-        for (const int node : mesh.face_nodes[f])
-          entries.emplace_back(cell, raw.of_node(node) + k, mean_of_corner * out[k]);
+        for (int end = 0; end < 2; ++end)
+          entries.emplace_back(cell, raw.of_node(mesh.face_nodes[f][end]) + k, means[end] * out[k]);
         entries.emplace_back(cell, raw.of_face(f) + k, mean_of_face * out[k]);
       }
     }
+  }
   return made(mesh.cell_count(), raw.size(), entries);
 }
 
-SparseMatrix jump_of(const RawDisplacement& raw) {
+SparseMatrix jump_of(const RawDisplacement& raw, const std::vector<int>& tips) {
   const Mesh& mesh = raw.mesh;
   std::vector<Triplet> entries;
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
-    for (int side = 0; side < 2; ++side)
+    for (int side = 0; side < 2; ++side) {
+      const std::array<double, 2> means = means_of_ends(mesh, tips, cell.faces[side]);
       for (int k = 0; k < dimension; ++k) {
         const Point local = (side == 0 ? -1 : 1) * cell.to_local(Point::Unit(k));
         for (int axis = 0; axis < dimension; ++axis) {
           const int row = dimension * i + axis;
-          for (const int node : mesh.face_nodes[cell.faces[side]])
-            entries.emplace_back(row, raw.of_node(node) + k, mean_of_corner * local[axis]);
+          for (int end = 0; end < 2; ++end)
+            entries.emplace_back(row, raw.of_node(mesh.face_nodes[cell.faces[side]][end]) + k,
+                                 means[end] * local[axis]);
           entries.emplace_back(row, raw.of_face(cell.faces[side]) + k, mean_of_face * local[axis]);
         }
       }
+    }
   }
   return made(dimension * mesh.fracture_cell_count(), raw.size(), entries);
 }
@@ -190,10 +196,12 @@ FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiff
                            ElementOrder order) {
   SPREKK_EXPECT(static_cast<int>(stiffness.size()) == mesh.cell_count(), stiffness.size(), mesh.cell_count());
   const RawDisplacement raw{mesh};
-  RawStiffness forces = raw_stiffness(raw, stiffness, order);
   FemOperators result;
-  result.volume = volume_of(raw);
-  result.jump = jump_of(raw);
+  // At first order nothing of second order stands beside the linear functions of a cell.
+  if (order == ElementOrder::second) result.tips = tips_of_faces(mesh);
+  RawStiffness forces = raw_stiffness(raw, result.tips, stiffness, order);
+  result.volume = volume_of(raw, result.tips);
+  result.jump = jump_of(raw, result.tips);
   result.wall_compliance = compliance_of_walls(mesh, forces.of_face);
   const SparseMatrix traction = forces_of_traction(mesh, result.jump);
   result.all = all_coefficients(raw, forces, held, result.volume, traction, order);

@@ -6,6 +6,7 @@
 #include "components/poromechanics/fem/cell_stiffness.hpp"
 #include "components/poromechanics/fem/held_directions.hpp"
 #include "components/poromechanics/fem/raw_displacement.hpp"
+#include "components/poromechanics/fem/tips_of_faces.hpp"
 #include "components/poromechanics/stiffness.hpp"
 
 namespace sprekk::poromechanics {
@@ -28,6 +29,7 @@ struct FemOperators {
   SparseMatrix jump;     ///< mean of u(minus) − u(plus) over every fracture cell, (normal, tangential), of all, m
   Vector wall_compliance;  ///< how a traction on walls moves the functions of their faces alone, m/Pa, as `jump`
   std::vector<Eigen::Matrix2Xd> of_interior;  ///< see CellStiffness
+  std::vector<int> tips;                      ///< see tips_of_faces; empty at first order
 };
 
 /// Assembles the stiffness of a mesh. At second order every coefficient is an unknown. At first order those of faces

@@ -1,6 +1,8 @@
 #include "components/poromechanics/fem/fem_rock.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "components/poromechanics/check_conditions.hpp"
 #include "components/poromechanics/notes.hpp"
@@ -113,7 +115,7 @@ void FemRock::evaluate_data(const StepTime& step) {
   is_given_used_ = false;
   stiffness_.evaluate(step);
   discretize();  // the body force acts on interior functions, too
-  given_ = given_loads(options_, mesh_, held_, operators_.of_interior, step);
+  given_ = given_loads(options_, mesh_, held_, operators_, step);
 }
 
 FemRock::Quantity FemRock::quantity_of(LinearInFem operators, const std::vector<char>& owned) const {
@@ -206,8 +208,9 @@ Tensor FemRock::mean_gradient(const Vector& coefficients, int cell) const {
   Tensor gradient = Tensor::Zero();
   for (const int face : mesh_.cell_faces[cell]) {
     Point mean = mean_of_face * coefficients.segment<dimension>(raw.of_face(face));
-    for (const int node : mesh_.face_nodes[face])
-      mean += mean_of_corner * coefficients.segment<dimension>(raw.of_node(node));
+    const std::array<double, 2> means = means_of_ends(mesh_, operators_.tips, face);
+    for (int end = 0; end < 2; ++end)
+      mean += means[end] * coefficients.segment<dimension>(raw.of_node(mesh_.face_nodes[face][end]));
     const double out = mesh_.face_cells[face][0] == cell ? 1 : -1;
     gradient += out * mesh_.face_measure[face] / mesh_.cell_measure[cell] * mean * mesh_.face_normal[face].transpose();
   }
@@ -237,10 +240,16 @@ Vector FemRock::mean_stress() const {
 Vector FemRock::outer_displacement() const {
   const RawDisplacement raw{mesh_};
   const Vector all = coefficients();
-  Vector outer = all.tail(raw.size() - raw.nodes_size());
-  for (int f = 0; f < mesh_.face_count(); ++f)
-    for (const int node : mesh_.face_nodes[f])
-      outer.segment<dimension>(dimension * f) += all.segment<dimension>(raw.of_node(node)) / 2;
+  Vector outer(raw.size() - raw.nodes_size());
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    // The function of the second end in the centre; from a tip on it is the root of the part of the way.
+    const int tip = operators_.tips.empty() ? none : operators_.tips[f];
+    const auto& [from, to] = mesh_.face_nodes[f];
+    const double share = tip == none ? 0.5 : tip == from ? std::sqrt(0.5) : 1 - std::sqrt(0.5);
+    outer.segment<dimension>(dimension * f) = (1 - share) * all.segment<dimension>(raw.of_node(from)) +
+                                              share * all.segment<dimension>(raw.of_node(to)) +
+                                              4 * share * (1 - share) * all.segment<dimension>(raw.of_face(f));
+  }
   return outer;
 }
 

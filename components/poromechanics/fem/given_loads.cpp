@@ -11,8 +11,8 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-void add_forces_in_cells(const Options& options, const RawDisplacement& raw,
-                         const std::vector<Eigen::Matrix2Xd>& of_interior, const StepTime& step, GivenLoads& loads) {
+void add_forces_in_cells(const Options& options, const RawDisplacement& raw, const FemOperators& operators,
+                         const StepTime& step, GivenLoads& loads) {
   const Mesh& mesh = raw.mesh;
   const bool has_weight = !options.body_force.is_zero() || !options.rock_density.is_zero();
   if (!has_weight && options.initial_stress.is_zero()) return;
@@ -20,7 +20,7 @@ void add_forces_in_cells(const Options& options, const RawDisplacement& raw,
     const std::vector<int> first = raw.of_cell(c);
     const int functions = static_cast<int>(first.size());
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dimension * (functions + 1));
-    for (const CellPoint& point : cell_points(mesh, c)) {
+    for (const CellPoint& point : cell_points(mesh, c, operators.tips)) {
       const Place place{point.x, mesh.cell_region[c], 0};
       const Point weight =
           value_in_step(options.body_force, place, step) +
@@ -32,7 +32,8 @@ void add_forces_in_cells(const Options& options, const RawDisplacement& raw,
             point.weight * (point.value[i] * weight - stress * point.gradient.col(i));
     }
     const Point on_interior = forces.tail<dimension>();
-    const Eigen::VectorXd total = forces.head(dimension * functions) + of_interior[c].transpose() * on_interior;
+    const Eigen::VectorXd total =
+        forces.head(dimension * functions) + operators.of_interior[c].transpose() * on_interior;
     for (int i = 0; i < functions; ++i)
       loads.forces.segment<dimension>(first[i]) += total.segment<dimension>(dimension * i);
   }
@@ -78,11 +79,11 @@ void find_largest_stress(const Options& options, const Mesh& mesh, const StepTim
 
 }  // namespace
 
-GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held,
-                       const std::vector<Eigen::Matrix2Xd>& of_interior, const StepTime& step) {
+GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held, const FemOperators& operators,
+                       const StepTime& step) {
   const RawDisplacement raw{mesh};
   GivenLoads loads{Vector::Zero(raw.size()), Vector::Zero(raw.size()), 0};
-  add_forces_in_cells(options, raw, of_interior, step, loads);
+  add_forces_in_cells(options, raw, operators, step, loads);
   const auto displacement = [&](const HeldBy& by, const Point& x) {
     const Data& data = *condition_of(options, mesh, by.face)->displacement_of(by.axis);
     return by.share * value_in_step(data, {x, mesh.cell_region[mesh.face_cells[by.face][0]], 0}, step);

@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "components/poromechanics/fem/held_directions.hpp"
-#include "components/poromechanics/fem/raw_displacement.hpp"
+#include "components/poromechanics/fem/fem_operators.hpp"
 #include "framework/assembly/step_time.hpp"
 
 namespace sprekk::poromechanics {
@@ -19,8 +18,8 @@ struct GivenLoads {
   double largest_stress = 0;
 };
 
-/// Throws DataError. `of_interior`: of each cell (CellStiffness).
-GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held,
-                       const std::vector<Eigen::Matrix2Xd>& of_interior, const StepTime& step);
+/// Throws DataError.
+GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held, const FemOperators& operators,
+                       const StepTime& step);
 
 }  // namespace sprekk::poromechanics

@@ -39,25 +39,41 @@ std::vector<Reference> square_functions(double xi, double eta) {
 
 }  // namespace
 
-std::vector<CellPoint> cell_points(const Mesh& mesh, int cell) {
+std::vector<CellPoint> cell_points(const Mesh& mesh, int cell, const std::vector<int>& tips) {
   SPREKK_EXPECT(is_index(cell, mesh.cell_count()), cell, mesh.cell_count());
-  const Ring& corners = mesh.cell_nodes[cell];
+  const Ring &corners = mesh.cell_nodes[cell], &faces = mesh.cell_faces[cell];
   const bool is_triangle = corners.size() == 3;
+  // How far the middle nodes of faces are from the middle, and the corner that rays of points start from.
+  std::vector<Point> shift(faces.size(), Point::Zero());
+  int start = 1;
+  for (int k = 0; k < faces.size(); ++k) {
+    const int tip = tips.empty() ? none : tips[faces[k]];
+    if (tip == none) continue;
+    const bool is_first = corners[k] == tip;
+    const Point face = mesh.nodes[corners.after(k)] - mesh.nodes[corners[k]];
+    shift[k] = (is_first ? -1 : 1) * face / 4;
+    start = is_first ? k : (k + 1) % corners.size();
+  }
   std::vector<CellPoint> points;
   for (const GaussPoint& first : gauss_points())
     for (const GaussPoint& second : gauss_points()) {
       // A triangle is a square of which one side has no length.
       const double shrink = is_triangle ? 1 - first.at : 1;
+      double share[3];
+      share[start % 3] = first.at;
+      share[(start + 1) % 3] = shrink * second.at;
+      share[(start + 2) % 3] = shrink * (1 - second.at);
       const std::vector<Reference> functions =
-          is_triangle ? triangle_functions(first.at, shrink * second.at) : square_functions(first.at, second.at);
+          is_triangle ? triangle_functions(share[1], share[2]) : square_functions(first.at, second.at);
       const int count = static_cast<int>(functions.size());
       CellPoint point{Point::Zero(), 0, Eigen::VectorXd(count), Eigen::Matrix2Xd(2, count)};
       Tensor jacobian = Tensor::Zero();  // d x / d reference
       for (int k = 0; k < corners.size(); ++k) {
         // Relative to a corner, so that coordinates far from the origin cost no digits.
         const Point arm = mesh.nodes[corners[k]] - mesh.nodes[corners[0]];
-        point.x += functions[k].value * arm;
-        jacobian += arm * functions[k].slope.transpose();
+        const Reference& of_face = functions[corners.size() + k];
+        point.x += functions[k].value * arm + of_face.value * shift[k];
+        jacobian += arm * functions[k].slope.transpose() + shift[k] * of_face.slope.transpose();
       }
       point.x += mesh.nodes[corners[0]];
       const double stretch = jacobian.determinant();

@@ -23,10 +23,11 @@ struct CellPoint {
   Eigen::Matrix<double, dimension, Eigen::Dynamic> gradient;  ///< 1/m, a column for each function
 };
 
-/// The points of a cell: integrals of products of gradients are exact in triangles and parallelograms.
-std::vector<CellPoint> cell_points(const Mesh& mesh, int cell);
+/// The points of a cell: integrals of products of gradients are exact in triangles and parallelograms. `tips`: see
+/// tips_of_faces; empty where the middle nodes of all faces are in the middle.
+std::vector<CellPoint> cell_points(const Mesh& mesh, int cell, const std::vector<int>& tips = {});
 
-/// The means over a face of the function of one of its ends, and of its own.
-inline constexpr double mean_of_corner = 1.0 / 2, mean_of_face = 2.0 / 3;
+/// The mean over a face of its own function, wherever its middle node is. Of those of its ends: means_of_ends.
+inline constexpr double mean_of_face = 2.0 / 3;
 
 }  // namespace sprekk::poromechanics

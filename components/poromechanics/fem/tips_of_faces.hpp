@@ -1,0 +1,20 @@
+// Faces that end at tips of fractures.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::poromechanics {
+
+/// For each face the tip (a node) at one of its ends, or none. Cells of second order have the middle node of such a
+/// face a quarter of the face away from the tip: along rays from the tip displacements then have a part like the square
+/// root of the distance, and strains one like its inverse (Barsoum 1976; Henshell and Shaw 1975).
+std::vector<int> tips_of_faces(const Mesh& mesh);
+
+/// The means over a face of the functions of its two ends (see CellPoint), in the order of face_nodes. `tips`: of all
+/// faces, or empty where middles are in the middle.
+std::array<double, 2> means_of_ends(const Mesh& mesh, const std::vector<int>& tips, int face);
+
+}  // namespace sprekk::poromechanics
