@@ -26,6 +26,9 @@ constexpr double on_the_way = 0.2;           ///< of an increment: of nearer pla
 constexpr double wanted_advance = 0.85;      ///< of an increment, of the fastest tip in one step
 constexpr double shorter_step = 0.5;         ///< the next attempt at a step that is too long
 
+/// Of the last step and of the one before. Segments are divided every other step, and advances alternate with that.
+double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
+
 double angle_of(const Point& direction) { return std::atan2(direction[1], direction[0]); }
 
 }  // namespace
@@ -125,8 +128,8 @@ void TipsFront::add(Tips::Tip& tip) {
   start.anchor = end;
   start.angle = start.ahead = angle_of(ahead);
   start.toughness = *tips_.options_.toughness;
-  start.speed = tip.now.speed;
-  start.turning = tip.now.turning;
+  start.speed = mean_of_steps(tip.now.speed, tip.now.speed_before);
+  start.turning = mean_of_steps(tip.now.turning, tip.now.turning_before);
   start.goes_on = goes_on_ && tip.now.is_extendable && !tip.now.is_stopped && tip.now.speed > 0;
   if (tip.now.is_extendable) {
     start.covered = tips_.last_cell(tip.end).measure;
@@ -345,6 +348,8 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     if (!same) continue;
     // A path that the fine level had found before this step is no growth in it.
     const double grown = same->now.grown - tips_.tips_[i].now.grown - at_start_[i].first_length;
+    same->now.speed_before = tips_.tips_[i].now.speed;
+    same->now.turning_before = tips_.tips_[i].now.turning;
     same->now.speed = std::max(0.0, grown) / dt_;
     same->now.apparent_toughness =
         speed(i) > 0 && there.is_viscous(*same) ? there.apparent_toughness(*same, speed(i)) : 0;

@@ -149,15 +149,15 @@ TEST(Tips, AskForEdgesThatGrowAsTheSceneSays) {
 
 TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
   // Factors, growth, flags (stopped, started, evaluated, extendable), an error, a warm start, a load, a speed, a
-  // turning, the start of a segment, a way of one place and direction, and a path of one point.
+  // turning, the start of a segment, both of the step before, a way of one point with its direction and a path of one.
   constexpr int flags[] = {4, 5, 9, 11};
   for (int set = 0; set < 16; ++set) {
     constexpr int count = 14;  // of points on the way
-    Vector first(23), last(17);
+    Vector first(25), last(19);
     for (int i = 0; i < first.size(); ++i) first[i] = 1.1 + 0.1 * i;
     for (int k = 0; k < 4; ++k) first[flags[k]] = (set >> k) & 1;
     first[count] = 1;
-    last = -first.head(17);
+    last = -first.head(19);
     last[count] = 0;
     for (int k = 0; k < 4; ++k) last[flags[k]] = 1 - first[flags[k]];
     Setting setting(0.3);
