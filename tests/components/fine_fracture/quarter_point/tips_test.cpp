@@ -76,7 +76,7 @@ struct Setting {
   /// Both tips go straight on by so much that the coarse level does not know of, at these ends.
   void grow(double length, bool first, bool last) {
     const auto state = [&](bool has_grown, double sign) {
-      Vector values = Vector::Zero(has_grown ? 19 : 17);
+      Vector values = Vector::Zero(has_grown ? 21 : 19);
       values[7] = 1;
       if (has_grown) values.tail<2>() = sign * (crack_half_length + length) * along;
       return values;
@@ -189,7 +189,7 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
   setting.fluid.jump[0] = 0;
   setting.fluid.pressure[1] = 30e6;
   setting.grow(0.1, false, true);
-  Vector values = Vector::Zero(19);
+  Vector values = Vector::Zero(21);
   values[7] = 1;
   const double turn = 100 * pi / 180;
   const Point tip = crack_half_length * setting.along;
