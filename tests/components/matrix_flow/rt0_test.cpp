@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SparseLU>
+#include <cmath>
 #include <complex>
 #include <functional>
 
