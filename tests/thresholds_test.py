@@ -25,6 +25,7 @@ EXEMPT = (
     ("framework/report/", "how a page looks"),
     ("framework/compare/difference_page.cpp", "how a page looks"),
     ("framework/compare/difference_tables.cpp", "how a text looks"),
+    ("framework/converge/convergence.cpp", "how a text looks"),
     ("framework/command_line/", "how texts and the memory are arranged"),
     ("framework/config/explain.cpp", "how a text looks"),
     ("framework/config/input_error.cpp", "how a text looks"),

@@ -11,6 +11,7 @@
 
 #include "framework/command_line/compare_command.hpp"
 #include "framework/command_line/completion.hpp"
+#include "framework/command_line/converge_command.hpp"
 #include "framework/command_line/explain_command.hpp"
 #include "framework/command_line/graph_command.hpp"
 #include "framework/command_line/manual_page.hpp"
@@ -137,6 +138,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
       ->required()
       ->type_name("FOLDER");
   CompareCommand compare(app);
+  ConvergeCommand converge(app);
   CLI::App* show_command =
       app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   scene.add_to(*show_command);
@@ -195,6 +197,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
     if (new_plugin.is_called()) new_plugin.run();
 
     if (compare.is_called()) return static_cast<int>(compare.run());
+    if (converge.is_called()) return static_cast<int>(converge.run());
     if (sweep.is_called()) return static_cast<int>(sweep.run());
     if (*run_command) {
       const Scene read = scene.read();

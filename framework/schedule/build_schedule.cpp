@@ -195,6 +195,20 @@ void require_growth_last(const std::vector<Node>& steps) {
   }
 }
 
+/// Growth follows from the state at the end of a step, which must have been solved.
+void require_growth_behind_solve(const std::vector<Node>& steps) {
+  bool is_solved = false;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    is_solved = is_solved || has_step(steps[i], "solve");
+    if (is_solved || !steps[i].find("grow")) continue;
+    for (std::size_t k = i + 1; k < steps.size(); ++k)
+      if (has_step(steps[k], "solve"))
+        throw InputError(steps[i].find("grow")->origin, "'grow' stands in front of the 'solve'",
+                         "growth would follow from the state before the step, as its loads are not in it yet",
+                         "put 'grow' behind the 'solve'");
+  }
+}
+
 }  // namespace
 
 ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading) {
@@ -209,6 +223,7 @@ ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading) 
       steps.push_back(read_schedule(node.items[i], of_item));
     }
     require_growth_last(node.items);
+    require_growth_behind_solve(node.items);
     if (steps.size() == 1) return steps.front();
     return [steps](const ScheduleContext& context) {
       std::vector<std::unique_ptr<ScheduleStep>> built;

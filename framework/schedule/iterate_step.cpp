@@ -40,6 +40,36 @@ IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<Schedule
   for (const Field* field : inside_->unknowns()) fields_.push_back(&context.fields.at(field->name()));
 }
 
+/// The changes of the fields by the passes of one step, and whether they only grow.
+class IterateStep::Changes {
+ public:
+  /// `change`: of all fields by a pass, scaled.
+  void add(const Vector& change) { sizes_.push_back(change.norm()); }
+  bool only_grow() const {
+    if (sizes_.size() <= watched || !(sizes_.back() > clearly * sizes_[sizes_.size() - 1 - watched])) return false;
+    return std::is_sorted(sizes_.end() - watched - 1, sizes_.end());
+  }
+  /// By which factor a pass changes more than the one before, in the mean of the last passes: what grows slower has
+  /// been left behind by then.
+  double factor() const { return std::pow(sizes_.back() / sizes_[sizes_.size() - 1 - last], 1.0 / last); }
+
+ private:
+  static constexpr int watched = 10;      // passes
+  static constexpr double clearly = 1.5;  // over all of them
+  static constexpr int last = 3;          // passes, of the factor
+  std::vector<double> sizes_;
+};
+
+std::string IterateStep::most_changed(const Vector& change) const {
+  std::size_t most = 0;
+  const auto size = [&](std::size_t u) {
+    return change.segment(system_.first(static_cast<int>(u)), fields_[u]->size()).norm();
+  };
+  for (std::size_t u = 1; u < fields_.size(); ++u)
+    if (size(u) > size(most)) most = u;
+  return fields_[most]->name();
+}
+
 Vector IterateStep::scaled_values() const {
   Vector values(system_.size());
   SPREKK_ASSERT(scales_.size() == fields_.size(), scales_.size(), fields_.size());
@@ -72,6 +102,7 @@ StepStatus IterateStep::run(const StepTime& step) {
   anderson_.forget();
   scales_.assign(fields_.size(), 1);
   ResidualCheck check;
+  Changes changes;
   for (int pass = 1; pass <= options_.at_most; ++pass) {
     const Vector before = pass > 1 ? scaled_values() : Vector();
     const StepStatus inner = inside_->run(step);
@@ -83,12 +114,20 @@ StepStatus IterateStep::run(const StepTime& step) {
     if (log_) log_({step, "iterate", pass, check.largest, check.equation, 0, 1});
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", pass};
     if (check.converged) return {true, "", pass};
-    if (options_.anderson == 0) continue;
     if (pass == 1) {
       choose_scales();
-    } else {
-      set_scaled_values(anderson_.next(before, scaled_values()));
+      continue;
     }
+    const Vector change = scaled_values() - before;
+    changes.add(change);
+    if (changes.only_grow())
+      return {false,
+              fmt::format("the iteration diverges: each pass changes {} {:.3g} times as much as the one before (the "
+                          "steps inside act on one another too strongly) solve them in one 'solve', stabilize the "
+                          "first, or accelerate with 'anderson'",
+                          most_changed(change), changes.factor()),
+              pass};
+    if (options_.anderson > 0) set_scaled_values(anderson_.next(before, scaled_values()));
   }
   return {false,
           fmt::format("no convergence in {} passes (the residual of {} is {:.2g} of its terms)", options_.at_most,

@@ -19,7 +19,7 @@ struct IterateOptions {
 
 /// Repeats the steps inside, with Anderson acceleration if wanted. The iteration has converged when the residual of all
 /// equations that are solved inside, without stabilization, is small against their own terms; small updates do not
-/// count.
+/// count. A step is refused early where the changes of passes only grow.
 class IterateStep : public ScheduleStep {
  public:
   IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);
@@ -30,7 +30,9 @@ class IterateStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
 
  private:
+  class Changes;
   void choose_scales();
+  std::string most_changed(const Vector& change) const;  ///< the field whose part of a scaled change is largest
   Vector scaled_values() const;
   void set_scaled_values(const Vector& values);
 

@@ -200,7 +200,7 @@ ExitCode Sweep::execute() {
     collect_ended();
   }
   comparison_.write(folder_, states_);
-  if (!options_.quiet) {
+  if (!options_.quiet && options_.has_table) {
     std::cout << comparison_.text(folder_, states_);
     std::cout << "results: " << (folder_ / "sweep.csv").string() << "\n";
   }

@@ -15,6 +15,7 @@ struct SweepOptions {
   std::optional<std::filesystem::path> folder;  ///< `results/<study>` by default
   int processes = 0;                            ///< at a time; 0: as many as there are cores
   bool quiet = false;
+  bool has_table = true;                   ///< prints the figures in the end, unless quiet
   bool only_list = false;                  ///< only list what would be done
   std::string program = "/proc/self/exe";  ///< the program with the command `run`
 };

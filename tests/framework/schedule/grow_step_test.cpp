@@ -251,6 +251,14 @@ TEST(GrowStep, RefusesUnknownNames) {
   }
 }
 
+TEST(GrowStep, RefusesToStandInFrontOfTheSolve) {
+  const std::string solve = "{solve: [rock]}", grow = "{grow: tips, settle: [rock]}";
+  EXPECT_THAT(refusal("[" + grow + ", " + solve + "]"), HasSubstr("'grow' stands in front of the 'solve'"));
+  EXPECT_THAT(refusal("[" + grow + ", {when: 't > 5', steps: [" + solve + "]}]"), HasSubstr("scene.yaml:1:"));
+  for (const std::string& schedule : {"[" + solve + ", " + grow + "]", "[" + solve + ", " + grow + ", " + solve + "]"})
+    EXPECT_EQ(refusal(schedule), "no error") << schedule;
+}
+
 TEST(GrowStep, RefusesToStandInsideOfIterationsAndSubcycles) {
   const std::string inside = "{steps: [{solve: [rock]}, {grow: tips, settle: [rock]}]";
   for (const std::string& schedule : {"- iterate: " + inside + "}", "- subcycle: " + inside + ", count: 2}"})

@@ -1,0 +1,79 @@
+#include "framework/converge/error_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprekk {
+namespace {
+
+constexpr double fine_level = 0.5;
+constexpr double least_order = 0.5, most_order = 2;
+constexpr double safety = 1.5;      // of an extrapolation with an observed order
+constexpr double cancelled = 0.25;  // of errors that cancel one another
+constexpr double round_off = 1e-9;  // of a value: what solvers leave
+
+}  // namespace
+
+double ParameterError::at(double factor) const { return error * std::pow(factor / fine_level, order); }
+
+ParameterError parameter_error(double coarse, double middle, double fine, double scale) {
+  ParameterError found;
+  const double first = middle - coarse, second = fine - middle;
+  if (std::max(std::abs(first), std::abs(second)) <= round_off * scale) {
+    found.is_zero = true;
+    found.order = 1;
+    return found;
+  }
+  const double observed = second == 0 ? most_order : std::log2(first / second);
+  found.is_regular = observed >= least_order;  // NaN where the sign changes
+  found.order = found.is_regular ? std::min(observed, most_order) : 1;
+  if (found.is_regular) {
+    found.error = second / (std::pow(2, found.order) - 1);
+  } else {
+    // Where the differences at least shrink, an order of one or more is trusted.
+    const bool shrinks = std::abs(second) < std::abs(first);
+    found.error = std::copysign(std::max(std::abs(second), std::abs(first) / (shrinks ? 2 : 1)), second);
+  }
+  if (second == 0) found.error = first / (std::pow(2, 2 * most_order) - std::pow(2, most_order));
+  return found;
+}
+
+double ValueError::stated(const std::vector<double>& factors) const {
+  double sum = 0, sizes = 0, irregular = 0, common = std::abs(mixed);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double error = parameters[i].at(factors[i]);
+    (parameters[i].is_regular ? sum : irregular) += parameters[i].is_regular ? error : std::abs(error);
+    if (parameters[i].is_regular) sizes += std::abs(error);
+    if (!parameters[i].is_zero) common *= std::pow(factors[i] / fine_level, parameters[i].order);
+  }
+  return safety * std::abs(sum) + cancelled * (sizes - std::abs(sum)) + irregular + common;
+}
+
+double ValueError::share(std::size_t parameter) const {
+  double all = 0;
+  for (const ParameterError& one : parameters) all += std::abs(one.error);
+  return all > 0 ? std::abs(parameters[parameter].error) / all : 0;
+}
+
+ValueError value_error(const std::vector<double>& coarse, const std::vector<double>& fine, double middle,
+                       double all_fine) {
+  ValueError found;
+  found.value = found.extrapolated = all_fine;
+  const double scale = std::max(std::abs(middle), std::abs(all_fine));
+  double apart = all_fine - middle, growth = 1;
+  int acting = 0;
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    const ParameterError one = parameter_error(coarse[i], middle, fine[i], scale);
+    if (one.is_regular) found.extrapolated += one.error;
+    apart -= fine[i] - middle;
+    if (!one.is_zero) {
+      growth *= std::pow(2, one.order) - 1;
+      ++acting;
+    }
+    found.parameters.push_back(one);
+  }
+  if (acting > 1) found.mixed = apart / growth;
+  return found;
+}
+
+}  // namespace sprekk
