@@ -277,9 +277,9 @@ TEST(GrowStep, WithinStepsRefusesWhatWouldChangeItsState) {
   }
   EXPECT_THAT(refusal("[" + late + solve + ", " + held + "]}, " + late + solve + ", " + within + "]}]"),
               HasSubstr("with and without 'within_step'"));
-  // What may stand: alternatives in time, and the held procedure anywhere.
+  // What may stand: alternatives in time.
   for (const std::string& schedule :
-       {"[" + solve + ", " + within + "]", "[" + held + ", " + solve + "]",
+       {"[" + solve + ", " + within + "]", "[" + solve + ", " + held + "]",
         "[" + late + solve + ", " + within + "]}, " + late + solve + ", " + within + "]}]",
         "[{subcycle: {count: 2, steps: [" + solve + "]}}, " + within + "]"})
     EXPECT_EQ(refusal(schedule), "no error") << schedule;
