@@ -26,7 +26,7 @@ CHANGES = {
     "  - {type: two_level,     between: [rock, conduit, tips]}":
         "  - {type: aperture, between: [contact, conduit]}\n"
         "  - {type: two_level, between: [rock, conduit, tips, contact], propagation_threshold: 0.25}",
-    "    settle: [rock, contact]": "    settle: [rock, contact]\n    update: within_step",
+    "    update: after_step": "    update: within_step",
     "start: 7.5 h": "start: 0 h",
     "step: 0.05 h": "step: 0.4 h",
     "reaches: 0.25 m": "reaches: 0.08 m",

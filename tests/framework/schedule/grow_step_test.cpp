@@ -295,7 +295,7 @@ TEST(GrowStep, IsWithinStepsWhereNothingSpeaksAgainstIt) {
   EXPECT_TRUE(is_within("[" + solve + ", " + grow + "]", true));
   EXPECT_TRUE(is_within("[{when: 't > 5', steps: [" + solve + ", " + grow + "]}]", true));
   EXPECT_FALSE(is_within("[" + solve + ", " + grow + "]", false));
-  EXPECT_FALSE(is_within("[" + grow + ", " + solve + "]", true));
+  EXPECT_FALSE(is_within("[" + solve + ", " + grow + ", " + solve + "]", true));
   EXPECT_FALSE(is_within("[{when: 't > 5', steps: [" + solve + ", " + grow + "]}, " + solve + "]", true));
   EXPECT_FALSE(is_within("[" + solve + ", {grow: tips, settle: [rock], update: after_step}]", true));
   EXPECT_EQ(refusal("[" + grow + ", " + grow + "]"), "no error");
