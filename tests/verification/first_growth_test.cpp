@@ -15,16 +15,17 @@ constexpr double toughness = 0.7e6;
 /// One step from 7 MPa to the pressure (MPa), however far that is past the load of growth.
 SceneRun one_step_to(double pressure, const std::string& angle, const std::string& size = "10 mm",
                      const std::string& growth = "{increment: 10 mm}") {
-  return SceneRun("verification/wings_sealed.yaml",
-                  {{"time.start", "7 h"},
-                   {"time.step", std::to_string(pressure - 7) + " h"},
-                   {"time.end", std::to_string(pressure) + " h"},
-                   {"mesh.fracture_size", size},
-                   {"geometry.fractures.main.angle", angle},
-                   {"components.tips.growth", growth},
-                   {"schedule",
-                    "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: after_step, overshoot: "
-                    "100}]"}});
+  return SceneRun(
+      "verification/wings_sealed.yaml",
+      {{"time.start", "7 h"},
+       {"time.step", std::to_string(pressure - 7) + " h"},
+       {"time.end", std::to_string(pressure) + " h"},
+       {"mesh.fracture_size", size},
+       {"geometry.fractures.main.angle", angle},
+       {"components.tips.growth", growth},
+       {"schedule",
+        "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: after_step, overshoot: "
+        "100}]"}});
 }
 
 std::vector<Notes::Note> notes_of(SceneRun& run) {

@@ -69,7 +69,8 @@ std::string growing(const std::string& meeting, const Other& other = {}) {
       "  tips: {type: fine_fracture/quarter_point, size: 0.3 m, toughness: 0.7 MPa*m^0.5, growth: {increment: 10 mm}, "
       "meeting: " +
           meeting + "}",
-      "  - {type: two_level, between: [rock, conduit, tips]}", "  - {grow: tips, settle: [rock, contact], update: after_step}");
+      "  - {type: two_level, between: [rock, conduit, tips]}",
+      "  - {grow: tips, settle: [rock, contact], update: after_step}");
 }
 
 TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
@@ -143,10 +144,9 @@ TEST(Joining, ATipMayBeAskedToStopInstead) {
 /// The scene of section 5.2 of the paper with a second fracture in the way of its right wing. What has just parted
 /// conducts before it opens.
 SceneRun wings(const std::string& wall) {
-  return SceneRun("paper/wing_cracks.yaml",
-                  {{"geometry.fractures.wall", wall},
-                   {"components.conduit.law", "{type: cubic, residual: 20 um}"},
-                   {"schedule.1.update", "after_step"}});
+  return SceneRun("paper/wing_cracks.yaml", {{"geometry.fractures.wall", wall},
+                                             {"components.conduit.law", "{type: cubic, residual: 20 um}"},
+                                             {"schedule.1.update", "after_step"}});
 }
 
 TEST(Joining, FluidIsConservedAndFillsTheOtherFracture) {

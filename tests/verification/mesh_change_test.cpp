@@ -72,9 +72,10 @@ TEST(ChangeOfMesh, HasTheBitsOfAModelThatIsBuiltOnTheNewMesh) {
 TEST(ChangeOfMesh, DiscretizesNothingFarFromTheWing) {
   // The same fracture with about the same cells around it, in squares of 2 m and of 4 m.
   for (const std::string box : {"{x: [0 m, 2 m], y: [0 m, 2 m]}", "{x: [-1 m, 3 m], y: [-1 m, 3 m]}"}) {
-    SceneRun run(
-        "paper/wing_cracks.yaml",
-        {{"mesh", "{size: 80 mm, fracture_size: 20 mm, growth: 0.2}"}, {"geometry.box", box}, {"output.probes", "{}"}, {"schedule.1.update", "after_step"}});
+    SceneRun run("paper/wing_cracks.yaml", {{"mesh", "{size: 80 mm, fracture_size: 20 mm, growth: 0.2}"},
+                                            {"geometry.box", box},
+                                            {"output.probes", "{}"},
+                                            {"schedule.1.update", "after_step"}});
     const MeshChangeResult changed = grow_a_wing(run);
     const Mesh& mesh = changed.model->mesh();
     // The cavity reaches 0.1 m from the wing, or 0.2 m when a larger one gives better angles; then there are three

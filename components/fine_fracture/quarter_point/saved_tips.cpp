@@ -22,8 +22,8 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     Vector values(state_size);
     values << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started,
         kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated, kept.load,
-        kept.is_extendable, kept.speed, kept.turning, static_cast<double>(kept.way.size()), start,
-        kept.speed_before, kept.turning_before;
+        kept.is_extendable, kept.speed, kept.turning, static_cast<double>(kept.way.size()), start, kept.speed_before,
+        kept.turning_before;
     for (const PlaceOnWay& place : kept.way) append(values, place.position), append(values, place.direction);
     for (const Point& place : kept.path.added) append(values, place);
     state[name() + "." + tip.name] = std::move(values);

@@ -85,7 +85,7 @@ class Tips : public Component, public FractureTips, public Growing {
     double speed = 0;  ///< m/s, of growth in the last step
     /// Pa sqrt(m), K_eq of a viscous tip by its speed in the last step; 0: the toughness. For results alone.
     double apparent_toughness = 0;
-    double turning = 0;  ///< rad/m, of the last segment by growth in the last step
+    double turning = 0;                           ///< rad/m, of the last segment by growth in the last step
     double speed_before = 0, turning_before = 0;  ///< the same, of the step before that
     /// Where the tip was at ends of steps while its last segment grew; the last one is here.
     std::vector<PlaceOnWay> way;
