@@ -5,37 +5,12 @@
 #include <cmath>
 #include <map>
 
-#include "tests/verification/scene_run.hpp"
+#include "tests/verification/onset_crack.hpp"
 
 namespace sprekk::testing {
 namespace {
 
 constexpr double hour = 3600;
-constexpr double half_length = 0.05, friction = 0.5, dilation = M_PI / 180;
-constexpr double plane_modulus = 40e9 / (1 - 0.04);
-
-/// What the closed form says of the slipping fracture at fluid pressure p_f while it injects into the rock.
-struct Crack {
-  double normal, shear, peak_slip;  ///< tractions (Pa, contact, normal negative) and slip at the centre (m)
-};
-
-/// Delta N = eta (p_f - p_mean - A/2), A = Q mu/(2 pi k): superposition of the irrotational Biot field of a line source
-/// of uniform pressure and of the free boundary. Q is the flux into the rock.
-Crack closed_form(double fluid_pressure, double mean_pressure, double flux) {
-  const double eta = 0.30, source = flux * 1e-4 / (2 * M_PI * 5e-20);
-  const double back_stress = eta * (fluid_pressure - mean_pressure - 0.5 * source);
-  const double total_normal = 15e6 + back_stress, shear = 5e6;
-  const double drop = (shear - friction * (total_normal - fluid_pressure)) / (1 + friction * std::tan(dilation));
-  // Slip opens the crack by dilation, which adds D tan(psi) to the compression.
-  const double normal = total_normal - fluid_pressure + drop * std::tan(dilation);
-  return {-normal, friction * normal, 4 / plane_modulus * drop * half_length};
-}
-
-double mean_pressure(const SceneRun& run) {
-  double sum = 0;
-  for (int c = 0; c < run.mesh().cell_count(); ++c) sum += run.mesh().cell_measure[c] * run.field("pore.pressure")[c];
-  return sum / 4;
-}
 
 TEST(Onset, LoadingAndInjectionMatchClosedForms) {
   SceneRun run("paper/onset_coarse.yaml");
@@ -59,10 +34,7 @@ TEST(Onset, TractionsAndSlipMatchTheCrackWithBackStress) {
        {Case{"20 mm", false, 0.025}, {"5 mm", true, 0.01}, {"2 mm", true, 0.01}}) {
     SceneRun run("paper/onset_coarse.yaml", {{"mesh.fracture_size", size}});
     run.run_until(21 * hour, [&] {
-      double flux = 0;
-      for (int w = 0; w < run.mesh().wall_count(); ++w)
-        flux += run.field("pore.wall_flux")[w] * run.mesh().face_measure[run.mesh().wall_face(w)];
-      const Crack crack = closed_form(run.quantity("fracture_pressure"), mean_pressure(run), flux);
+      const OnsetCrack crack = onset_crack(run);
       const int last = run.mesh().fracture_cell_count() - 1;
       for (int i = with_tips ? 0 : 1; i <= (with_tips ? last : last - 1); ++i) {
         EXPECT_NEAR(run.field("contact.traction")[2 * i], crack.normal, 0.1e6) << run.time() << " cell " << i;

@@ -112,7 +112,7 @@ def schedule(p):
         solve = f"{{subcycle: {{count: 2, steps: [{all_at_once}]}}}}"
     else:
         solve = all_at_once
-    update = "" if p["update"] == UPDATES[0] else f", update: {p['update']}"
+    update = f", update: {p['update']}"
     return ["schedule:", f"  - {solve}", f"  - {{grow: tips, settle: [rock, contact]{update}}}"]
 
 
