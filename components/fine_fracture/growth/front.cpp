@@ -152,12 +152,13 @@ void Front::begin(int i, const FrontState& state) {
 
 /// By the expansion of a kink: compression along the tip makes the direction of long segments stiffer. K_II is
 /// theta(0)/2 K_I - sqrt(2/pi) T int theta/sqrt(x) dx, x behind the tip: theta = 1 along a straight segment, and
-/// 2 - 2x/length along an arc.
+/// 2 - 2x/length along an arc. K_I is not below the toughness where a tip grows, however small it is in a trial.
 double Front::turn_slope_of(int tip, const Sifs& sifs, double length) const {
   const bool is_bent = tips_[tip].is_bent;
   const double end_turn = is_bent ? 2 * turn_slope : turn_slope, along = is_bent ? of_bend : 2;
-  if (!(sifs.k1 > 0)) return end_turn;
-  const double slope = end_turn - along * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) / sifs.k1;
+  const double k1 = std::max(sifs.k1, tips_[tip].toughness);
+  if (!(k1 > 0)) return end_turn;
+  const double slope = end_turn - along * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) / k1;
   return std::clamp(slope, least_turn_slope, steepest_turn_slope);
 }
 
@@ -179,7 +180,7 @@ void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>
   for (int j = 0; j < count(); ++j) {
     if (!(length_[j] > 0)) continue;
     const double across = length_[j] / options_.increment,
-                 turn = grows_[j] && states[j].is_evaluated ? turn_slope_of(j, states[j].sifs, length_[j]) : turn_slope;
+                 turn = grows_[j] ? turn_slope_of(j, states[j].sifs, length_[j]) : turn_slope;
     for (int i = 0; i < count(); ++i) {
       jacobian(2 * i, 2 * j + 1) *= inverse ? 1 / across : across;
       jacobian(2 * i + 1, 2 * j + 1) *= inverse ? 1 / turn : turn;

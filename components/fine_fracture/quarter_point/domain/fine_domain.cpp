@@ -57,11 +57,14 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
   for (int i = 0; i < cells.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
     const bool is_last = i + 1 == cells.cell_count;
+    // Both ends of a cell that bends are kept, however small the bend there is: it turns from trial to trial.
+    if (is_last && middle_of_last) is_kept.back() = true;
     for (const std::optional<Point>* middle : {&middle_of_first, &middle_of_last})
       if (*middle && (middle == &middle_of_first ? i == 0 : is_last)) append(**middle, arc + 0.5 * cell.measure, true);
     arc += cell.measure;
     const FracturePoint& point = mesh.fracture_points[cell.points[1]];
-    append(point.position, is_last ? path.length : arc, is_last || point.kind == FracturePoint::Kind::junction);
+    append(point.position, is_last ? path.length : arc,
+           is_last || (i == 0 && middle_of_first) || point.kind == FracturePoint::Kind::junction);
   }
   arc = path.length;
   last = end_point(true).position;
