@@ -286,7 +286,7 @@ TEST(GrowStep, WithinStepsRefusesWhatWouldChangeItsState) {
 }
 
 TEST(GrowStep, IsWithinStepsWhereNothingSpeaksAgainstIt) {
-  const std::string solve = "{solve: [rock]}", grow = "{grow: tips, settle: [rock]}";
+  const std::string solve = "{solve: [rock]}", grow = "{grow: tips, settle: [rock], update: auto}";
   const auto is_within = [](const std::string& schedule, bool may_be) {
     Schedule run(schedule, may_be);
     EXPECT_EQ(run.tips.is_within, run.step().grows_within_step());
