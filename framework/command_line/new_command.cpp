@@ -12,6 +12,8 @@ namespace sprekk {
 
 namespace {
 
+constexpr const char* of_any_kind = "any";
+
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_of_word(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
 
@@ -55,7 +57,8 @@ NewCommand::NewCommand(CLI::App& app, const std::vector<TemplateFile>& templates
 std::vector<std::string> NewCommand::kinds() const {
   std::vector<std::string> kinds;
   for (const TemplateFile& file : templates_)
-    if (std::find(kinds.begin(), kinds.end(), file.kind) == kinds.end()) kinds.push_back(file.kind);
+    if (file.kind != of_any_kind && std::find(kinds.begin(), kinds.end(), file.kind) == kinds.end())
+      kinds.push_back(file.kind);
   return kinds;
 }
 
@@ -80,7 +83,7 @@ void NewCommand::run() const {
   };
   fs::create_directories(folder);
   for (const TemplateFile& file : templates_) {
-    if (file.kind != kind_) continue;
+    if (file.kind != kind_ && file.kind != of_any_kind) continue;
     std::ofstream out(folder / filled(file.name));
     out << filled(file.text);
     if (!out.flush()) throw std::runtime_error("cannot write " + (folder / filled(file.name)).string());

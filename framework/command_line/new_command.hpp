@@ -10,7 +10,7 @@ namespace sprekk {
 /// A file of the folder that `sprekk new` writes. In its name and text, __type__, __name__ and __Class__ stand for
 /// "flow/my-part", "flow_my_part" and "FlowMyPart".
 struct TemplateFile {
-  std::string kind;  ///< "component"
+  std::string kind;  ///< "component"; "any": in folders of all kinds
   std::string name, text;
 };
 

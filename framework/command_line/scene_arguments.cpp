@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "framework/config/yaml/load_scene.hpp"
+#include "framework/config/yaml/settings.hpp"
 
 namespace sprekk {
 
@@ -14,19 +15,7 @@ void SceneArguments::add_to(CLI::App& command) {
 }
 
 Scene SceneArguments::read() const {
-  std::vector<Override> overrides;
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InputError({"--set", 0, 0}, "'" + setting + "' sets nothing", "a setting is a path, '=' and a value",
-                       "write for example --set time.end='2 h'");
-    const std::string path = setting.substr(0, equals);
-    Override change;
-    change.path = path;
-    change.value = setting.substr(equals + 1);
-    change.value_origin = Origin{"--set " + path};
-    overrides.push_back(change);
-  }
+  const std::vector<Override> overrides = overrides_of(settings);
   for (const std::string& file : files)
     if (file.find('=') != std::string::npos && !std::filesystem::exists(file))
       throw InputError({"sprekk"}, "there is no scene file '" + file + "'", "it looks like a setting",

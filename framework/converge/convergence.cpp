@@ -12,6 +12,7 @@
 #include "framework/compare/compared_run.hpp"
 #include "framework/config/input_error.hpp"
 #include "framework/config/yaml/load_scene.hpp"
+#include "framework/config/yaml/settings.hpp"
 #include "framework/converge/cheapest.hpp"
 #include "framework/converge/error_estimate.hpp"
 #include "framework/converge/refinement.hpp"
@@ -90,19 +91,6 @@ class Convergence {
   std::vector<std::string> units_;
   Json reached_;
 };
-
-std::vector<Override> overrides_of(const std::vector<std::string>& settings) {
-  std::vector<Override> overrides;
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InputError({"--set"}, "'" + setting + "' sets nothing", "a setting is a path, '=' and a value",
-                       "write for example --set time.end='2 h'");
-    const std::string path = setting.substr(0, equals);
-    overrides.push_back({path, setting.substr(equals + 1), {"--set " + path}, {"--set " + path}});
-  }
-  return overrides;
-}
 
 Convergence::Convergence(const ConvergenceOptions& options) : options_(options) {
   if (!options.to.empty()) wanted_error(options.to, 1);
