@@ -191,6 +191,12 @@ void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>
 Eigen::MatrixXd Front::slopes() const {
   Eigen::MatrixXd slopes = jacobian_;
   scale_turns(slopes, last_, true);
+  // Nothing is known of the turns of a tip that rests.
+  for (int i = 0; i < count(); ++i)
+    if (!grows_[i]) {
+      slopes.col(2 * i + 1).setZero();
+      slopes(2 * i + 1, 2 * i + 1) = 1;
+    }
   return slopes;
 }
 

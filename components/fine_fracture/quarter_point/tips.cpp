@@ -63,15 +63,15 @@ std::vector<TipPath> Tips::paths_now() const {
 std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) const {
   const TipPath nothing;
   std::vector<const TipPath*> of_end(2 * mesh_.fractures.size(), &nothing);
-  std::vector<std::optional<Point>> middles(of_end.size());
+  std::vector<LastSegment> segments(of_end.size());
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     const std::size_t end = 2 * tips_[i].end.fracture + tips_[i].end.at_end;
     of_end[end] = &added[i];
-    middles[end] = middle_of_last_segment(tips_[i]);
+    segments[end] = {tips_[i].now.is_extendable, middle_of_last_segment(tips_[i])};
   }
   std::vector<FracturePath> paths;
   for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f)
-    paths.push_back(fracture_path(mesh_, f, *of_end[2 * f], *of_end[2 * f + 1], middles[2 * f], middles[2 * f + 1]));
+    paths.push_back(fracture_path(mesh_, f, *of_end[2 * f], *of_end[2 * f + 1], segments[2 * f], segments[2 * f + 1]));
   return paths;
 }
 

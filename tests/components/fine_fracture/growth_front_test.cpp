@@ -155,6 +155,29 @@ TEST(Front, NeedsFewTrialsAfterASegmentWasDivided) {
   EXPECT_LE(front.trials(), 4);
 }
 
+/// Nothing is learnt of the turns of a tip that rests: after some steps in which it does, it needs no more trials.
+TEST(Front, NeedsFewTrialsAfterStepsAtRest) {
+  CurvedPath path{0.12, 0.4, tip(0.4)};
+  const Front before = path.solved();
+  ASSERT_EQ(before.verdict(), Front::Verdict::found);
+  path.tip.speed = 0.004 / 3600;
+  path.tip.goes_on = true;
+  Eigen::MatrixXd slopes = before.slopes();
+  path.rise = -0.01;
+  for (int k = 0; k < 6; ++k) {
+    const Front rest = path.solved(slopes);
+    ASSERT_EQ(rest.verdict(), Front::Verdict::found);
+    EXPECT_FALSE(rest.grows(0));
+    slopes = rest.slopes();
+  }
+  path.rise = 0.11;
+  const Front front = path.solved(slopes);
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(front.length(0) - 0.008, 0.11 / 30, 1e-8);
+  EXPECT_NEAR(front.angle(0), 0.4 + 8 * 0.11 / 30, 1e-5);
+  EXPECT_LE(front.trials(), 6);
+}
+
 /// What was learnt of other loads may be of no use: here more length would mean more load.
 TEST(Front, ForgetsExperienceThatMisleads) {
   const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};

@@ -16,7 +16,7 @@ constexpr double rounding = 1e-9;     ///< of a domain, or of a segment: what li
 }  // namespace
 
 FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last,
-                           const std::optional<Point>& middle_of_first, const std::optional<Point>& middle_of_last) {
+                           const LastSegment& at_first, const LastSegment& at_last) {
   FracturePath path;
   const Fracture& cells = mesh.fractures[fracture];
   std::vector<char> is_kept;  // where the coarse level begins or ends, and where fractures meet
@@ -56,15 +56,14 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
   append(end_point(false).position, 0, true);
   for (int i = 0; i < cells.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
-    const bool is_last = i + 1 == cells.cell_count;
-    // Both ends of a cell that bends are kept, however small the bend there is: it turns from trial to trial.
-    if (is_last && middle_of_last) is_kept.back() = true;
-    for (const std::optional<Point>* middle : {&middle_of_first, &middle_of_last})
-      if (*middle && (middle == &middle_of_first ? i == 0 : is_last)) append(**middle, arc + 0.5 * cell.measure, true);
+    const bool is_first = i == 0, is_last = i + 1 == cells.cell_count;
+    if (is_last && at_last.turns) is_kept.back() = true;
+    if (is_first && at_first.middle) append(*at_first.middle, arc + 0.5 * cell.measure, true);
+    if (is_last && at_last.middle) append(*at_last.middle, arc + 0.5 * cell.measure, true);
     arc += cell.measure;
     const FracturePoint& point = mesh.fracture_points[cell.points[1]];
     append(point.position, is_last ? path.length : arc,
-           is_last || (i == 0 && middle_of_first) || point.kind == FracturePoint::Kind::junction);
+           is_last || (is_first && at_first.turns) || point.kind == FracturePoint::Kind::junction);
   }
   arc = path.length;
   last = end_point(true).position;

@@ -19,16 +19,19 @@ struct TipEnd {
 /// A fracture with the paths that its ends have added in the fine level. Arc lengths count from the first point in the
 /// coarse level: added paths are below 0 and above `length`.
 struct FracturePath {
-  std::vector<Point> points;  ///< straight pieces are one segment, but for points where fractures meet
+  std::vector<Point> points;  ///< straight pieces are one segment, but for points where fractures meet or turn
   std::vector<double> arc;    ///< m, of each point
   double length;              ///< m, of the coarse level
   bool first_is_tip, last_is_tip;
 };
-/// `middle_of_first`, `middle_of_last`: a point (m) by which the first or the last cell bends; in arc length it is the
-/// middle.
+/// The cell at an end of a fracture, where growth has laid it.
+struct LastSegment {
+  /// Whether it turns from trial to trial. Then its ends are points of the path, however small the bend there is.
+  bool turns = false;
+  std::optional<Point> middle = {};  ///< a point (m) by which it bends; in arc length it is the middle
+};
 FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last,
-                           const std::optional<Point>& middle_of_first = {},
-                           const std::optional<Point>& middle_of_last = {});
+                           const LastSegment& at_first = {}, const LastSegment& at_last = {});
 
 /// The geometry of a fine level, and how it relates to the fractures of the coarse level.
 struct FineDomain {

@@ -84,7 +84,8 @@ TEST(FracturePath, BendsItsLastCellsByTheirMiddles) {
   const FractureCell &first = mesh.fracture_cells[cells.first_cell],
                      &last = mesh.fracture_cells[cells.first_cell + cells.cell_count - 1];
   const Point bent_first = first.center + Point(0, 1e-3), bent_last = last.center + Point(2e-3, 0);
-  const FracturePath path = fracture_path(mesh, 0, {}, TipPath{{Point(1.4, 0.85)}}, bent_first, bent_last);
+  const FracturePath path =
+      fracture_path(mesh, 0, {}, TipPath{{Point(1.4, 0.85)}}, {true, bent_first}, {true, bent_last});
   ASSERT_GE(path.points.size(), 6u);
   EXPECT_EQ(path.points[0], kinked[0]);
   EXPECT_EQ(path.points[1], bent_first);
@@ -94,6 +95,24 @@ TEST(FracturePath, BendsItsLastCellsByTheirMiddles) {
   EXPECT_NEAR(path.arc[n - 3], path.length - 0.5 * last.measure, rounding);
   EXPECT_NEAR(path.arc[n - 2], path.length, rounding);
   EXPECT_NEAR(path.length, 1, rounding);
+}
+
+/// A cell that growth lays anew in each trial begins at a point of the path whether or not it bends there: the mesh of
+/// the fine level does not change where the bend passes zero.
+TEST(FracturePath, HasTheEndsOfACellThatTurnsHoweverSmallItsBend) {
+  for (const double bend : {0.0, 1e-7, 0.9e-5, 1.1e-5, 1e-3}) {
+    const Point first(0.5, 0.5 + 0.1 * bend), last(1.1, 0.5 - 0.1 * bend);
+    const Mesh mesh = rock_with({{first, Point(0.6, 0.5), Point(1, 0.5), last}});
+    const Fracture& cells = mesh.fractures[0];
+    const auto end_of = [&](int cell, int end) {
+      return mesh.fracture_points[mesh.fracture_cells[cells.first_cell + cell].points[end]].position;
+    };
+    const FracturePath path = fracture_path(mesh, 0, {}, TipPath{{Point(1.2, 0.5 - 0.2 * bend)}}, {true}, {true});
+    const int n = cells.cell_count;
+    const std::vector<Point> kept{first, end_of(0, 1), end_of(n - 1, 0), last, Point(1.2, 0.5 - 0.2 * bend)};
+    for (const Point& x : kept)
+      EXPECT_EQ(std::ranges::count_if(path.points, [&](const Point& y) { return (x - y).norm() < 1e-12; }), 1) << bend;
+  }
 }
 
 TEST(FracturePath, KnowsEndsOnTheOuterBoundary) {
