@@ -24,6 +24,10 @@ class FractureFluid {
     Vector value, by_aperture;
   };
   virtual NormalPermeability normal_permeability() const = 0;
+
+  /// The viscosity in a fracture cell whose transmissivity follows from its opening (w^3/(12 mu) where it is wide),
+  /// Pa s; 0 where the transmissivity does not depend on the opening.
+  virtual double viscosity_between_walls(int cell) const = 0;
 };
 
 }  // namespace sprekk

@@ -135,6 +135,9 @@ class TwoLevel : public Coupler, public TipSurroundings {
   double accepted_fluid_pressure(int fracture, bool at_end) const override {
     return fluid_ ? fluid_->pressure().accepted()[end_cell(fracture, at_end)] : 0;
   }
+  double fluid_viscosity(int fracture, bool at_end) const override {
+    return fluid_ ? fluid_->viscosity_between_walls(end_cell(fracture, at_end)) : 0;
+  }
   double jump_at_tip(int fracture, bool at_end) const override {
     return jump_.segment<dimension>(dimension * end_cell(fracture, at_end)).norm();
   }

@@ -58,7 +58,9 @@ class GrowthWithinSteps(unittest.TestCase):
         self.assertGreater(len(followed), 4)
         for row in followed:
             for tip in ("tips.main_first.", "tips.main_last."):
-                self.assertAlmostEqual(row[tip + "K_eq"] / TOUGHNESS, 1, delta=2e-7)
+                self.assertAlmostEqual(row[tip + "K_eq"] / row[tip + "apparent_toughness"], 1, delta=2e-7)
+                # Viscosity has no part at this speed.
+                self.assertAlmostEqual(row[tip + "apparent_toughness"] / TOUGHNESS, 1, delta=1e-4)
                 self.assertLess(abs(row[tip + "K_II"]), 2e-6 * row[tip + "K_I"])
         # Both wings of the point-symmetric fracture differ by the error of a mesh that is not symmetric.
         self.assertLess(abs(rows[-1]["tips.main_first.length"] / rows[-1]["tips.main_last.length"] - 1), 0.02)

@@ -3,12 +3,15 @@
 namespace sprekk::fine_fracture {
 
 Spec GrowthOptions::spec() {
-  Spec spec("growth",
-            "How far and where tips grow once the equivalent stress intensity factor exceeds the toughness. Columns of "
-            "history.csv for each end END of a fracture (main_first, main_last), behind NAME.END.: K_I, K_II, K_eq and "
-            "K_error_fine_mesh (Pa*m^0.5; empty where the tip was ruled out or has stopped), stopped (1: for good), "
-            "length (m, of what has grown), x and y (m, where the end is, also on a path that the mesh has not taken "
-            "over yet), speed (m/s, what has grown in the step over its duration), and grows (1: in this step).");
+  Spec spec(
+      "growth",
+      "How far and where tips grow once the equivalent stress intensity factor exceeds the toughness. Columns of "
+      "history.csv for each end END of a fracture (main_first, main_last), behind NAME.END.: K_I, K_II, K_eq and "
+      "K_error_fine_mesh (Pa*m^0.5; empty where the tip was ruled out or has stopped), stopped (1: for good), "
+      "length (m, of what has grown), x and y (m, where the end is, also on a path that the mesh has not taken "
+      "over yet), speed (m/s, what has grown in the step over its duration), grows (1: in this step), and, with a "
+      "toughness, apparent_toughness (Pa*m^0.5, K_eq of the tip while it grows within steps: the toughness, and "
+      "more by the viscosity of the fluid).");
   spec.choice("direction", direction,
               {{"implicit", "straight increments at whose end K_II vanishes: stable for any length of increment"},
                {"explicit",

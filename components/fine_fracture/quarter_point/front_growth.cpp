@@ -7,6 +7,8 @@
 
 #include "components/fine_fracture/growth/front.hpp"
 #include "components/fine_fracture/growth/jump.hpp"
+#include "components/fine_fracture/growth/viscous_state.hpp"
+#include "components/fine_fracture/growth/viscous_tip.hpp"
 #include "components/fine_fracture/growth/way_of_tip.hpp"
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/invariants.hpp"
@@ -54,6 +56,7 @@ class TipsFront : public FrontSearch {
   };
   static FrontState state_of(const Tips& tips, const Tips::Tip& tip);
   double what_stays(const Tips::Tip& tip, const FrontTip& start) const;
+  double speed(std::size_t tip) const;
   void add(Tips::Tip& tip);
   void find_joinings();
   void propose();
@@ -222,6 +225,13 @@ Tips::Tip* TipsFront::same_tip(Tips& there, int tip) const {
   return nullptr;
 }
 
+/// m/s, of the advance in this trial. What the fine level had found before this step is no part of it.
+double TipsFront::speed(std::size_t i) const {
+  const int tip = static_cast<int>(i);
+  const double length = jump_ ? jump_->length(i) : front_->length(tip);
+  return std::max(0.0, length - std::max(at_start_[i].covered, at_start_[i].least)) / dt_;
+}
+
 FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
   auto& there = dynamic_cast<Tips&>(trial);
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
@@ -229,6 +239,7 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
     if (!is_blocked_[i]) states_[i] = state_of(there, *same);
+    if (there.is_viscous(*same)) states_[i] = against_viscosity(states_[i], there.apparent_toughness(*same, speed(i)));
     // A tip that has grown on the fine level in this trial is followed from now on.
     if (!same->now.path.added.empty()) {
       const Point way = there.position(*same, same->now.path) - there.position(*same, {});
@@ -340,6 +351,8 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     same->now.speed_before = tips_.tips_[i].now.speed;
     same->now.turning_before = tips_.tips_[i].now.turning;
     same->now.speed = std::max(0.0, grown) / dt_;
+    same->now.apparent_toughness =
+        speed(i) > 0 && there.is_viscous(*same) ? there.apparent_toughness(*same, speed(i)) : 0;
     const double advance = front_->length(static_cast<int>(i)) - at_start_[i].covered;
     same->now.turning = !jump_ && at_start_[i].covered > 0 && advance > 0
                             ? (front_->angle(static_cast<int>(i)) - at_start_[i].ahead) / advance
@@ -351,6 +364,17 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
   there.notes_.insert(there.notes_.end(), notes_.begin(), notes_.end());
   if (!jump_ && front_->trials() > 0) there.slopes_ = front_->slopes();
   return Verdict::found;
+}
+
+double Tips::apparent_toughness(const Tip& tip, double speed) const {
+  const double viscosity = surroundings_->fluid_viscosity(tip.end.fracture, tip.end.at_end);
+  const LameParameters lame = surroundings_->stiffness(position(tip, {}));
+  const ViscousTip moving{*options_.toughness, Elasticity{lame.lambda, lame.shear}.plane_modulus(), viscosity};
+  return *options_.toughness * moving.apparent_toughness(last_cell(tip.end).measure, speed);
+}
+
+bool Tips::is_viscous(const Tip& tip) const {
+  return surroundings_->fluid_viscosity(tip.end.fracture, tip.end.at_end) > 0;
 }
 
 bool Tips::grows_on() const {

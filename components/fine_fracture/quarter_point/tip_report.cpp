@@ -40,6 +40,9 @@ void Tips::report_end(const std::string& end, const State& state, const EndGrowt
   quantities.push_back({prefix + "y", "m", growth.position[1]});
   quantities.push_back({prefix + "speed", "m/s", grown > 0 ? grown / step_.dt : 0.0});
   quantities.push_back({prefix + "grows", "1", grown > 0 ? 1.0 : 0.0});
+  if (!options_.toughness) return;
+  quantities.push_back({prefix + "apparent_toughness", "Pa*m^0.5",
+                        grown > 0 && state.apparent_toughness > 0 ? state.apparent_toughness : *options_.toughness});
 }
 
 std::vector<PendingPath> Tips::pending_paths() const {

@@ -81,9 +81,11 @@ class Tips : public Component, public FractureTips, public Growing {
     bool has_started = false;   ///< whether the tip has begun to grow: its onset is over
     WarmStart warm_start;       ///< of the last increment
     bool is_extendable =
-        false;           ///< whether the last cell of the fracture is the last segment, which growth may replace
-    double speed = 0;    ///< m/s, of growth in the last step
-    double turning = 0;  ///< rad/m, of the last segment by growth in the last step
+        false;         ///< whether the last cell of the fracture is the last segment, which growth may replace
+    double speed = 0;  ///< m/s, of growth in the last step
+    /// Pa sqrt(m), K_eq of a viscous tip by its speed in the last step; 0: the toughness. For results alone.
+    double apparent_toughness = 0;
+    double turning = 0;                           ///< rad/m, of the last segment by growth in the last step
     double speed_before = 0, turning_before = 0;  ///< the same, of the step before that
     /// Where the tip was at ends of steps while its last segment grew; the last one is here.
     std::vector<PlaceOnWay> way;
@@ -154,6 +156,11 @@ class Tips : public Component, public FractureTips, public Growing {
   /// The load as estimated from the displacement jump of the coarse level beside the tip, without a fine level.
   double estimated_load(const Tip& tip) const;
   double load(const Sifs& sifs) const;
+  /// Whether the fluid at the tip holds it back by its viscosity.
+  bool is_viscous(const Tip& tip) const;
+  /// K_eq (Pa sqrt(m)) of a viscous tip that the mesh follows and that moves with a speed (m/s): with the pressure that
+  /// its last cell has, uniform, the opening of this cell has the volume of the tip solution.
+  double apparent_toughness(const Tip& tip, double speed) const;
   void set_factors(Tip& tip, const Sifs& sifs) const;
   void leave_last_segment(Tip& tip, const TipPath& path);
   void note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined);
