@@ -26,13 +26,17 @@ from sprekk import read_table  # noqa: E402
 REFERENCES = ROOT / "tests/verification/references"
 PLANE_MODULUS, RATE, VISCOSITY = 32e9, 1e-3, 1e-3  # Pa, m^2/s of both wings, Pa s
 SIZE, FIRST = 0.5, 5  # m, cells
+SMALL = 0.01  # toughness number that stands for 0: the answer is that of 0 to 1e-6
+BOX = 80  # half-lengths at the end: one of 13 is worth 1.3 % of the pressure
+GROWTH = 0.1  # of cells with the distance from the fracture at the start: it grows into them; 0.2 costs 1 % of pressure at 60 cells
 LARGEST_PLACE = 0.999  # of the half-length: the table of profiles ends there
 
 SCENE = """
 geometry:
+  box: {{x: [0 m, {box} m], y: [-{box} m, {box} m]}}
   fractures:
     main: {{points: [[0 m, 0 m], [{start} m, 0 m]]}}
-mesh: {{size: {far} m, fracture_size: {size} m, growth: 0.2}}
+mesh: {{size: {far} m, fracture_size: {size} m, growth: {growth}}}
 components:
   rock:
     type: poromechanics/mpsa
@@ -100,14 +104,14 @@ class SelfSimilar:
 
 def toughness_of(number):
     """K_IC in Pa m^0.5 from K = K'/(E'^3 mu' Q)^(1/4), K' = 4 sqrt(2/pi) K_IC."""
-    return number * (PLANE_MODULUS**3 * 12 * VISCOSITY * RATE) ** 0.25 / (4 * math.sqrt(2 / math.pi))
+    return (number or SMALL) * (PLANE_MODULUS**3 * 12 * VISCOSITY * RATE) ** 0.25 / (4 * math.sqrt(2 / math.pi))
 
 
 def run(program, number, cells, update, more, scenes, folder, size=SIZE):
     """Rows (half-length over that of the start, errors of length, pressure, opening in percent) by step, and the log."""
     answer = SelfSimilar(number)
     end = answer.time_of(cells * size)
-    text = SCENE.format(start=FIRST * size, far=4 * cells * size, size=size, viscosity=VISCOSITY, half_rate=RATE / 2,
+    text = SCENE.format(start=FIRST * size, far=4 * cells * size, growth=GROWTH, box=BOX * cells * size, size=size, viscosity=VISCOSITY, half_rate=RATE / 2,
                         toughness=toughness_of(number), increment=size, end=end, step=end / 60)
     overlay = Path(folder) / "kgd.yaml"
     overlay.write_text(text + (WITHIN_STEP if update == "within_step" else ""))

@@ -33,7 +33,8 @@ constexpr double nearby = 1.01;               ///< of a length: for the slope of
 constexpr double at_limit = 1e-9;             ///< of a length that is at its limit, but for rounding
 constexpr double no_motion = 1e-300;          ///< no division by zero
 
-double log_load(const FrontState& state) {
+double excess(const FrontState& state) {
+  if (state.excess) return *state.excess;
   constexpr double least = 1e-3;
   return std::log(std::max(least, state.load));
 }
@@ -203,12 +204,13 @@ Eigen::MatrixXd Front::slopes() const {
 Eigen::VectorXd Front::residual(const std::vector<FrontState>& states) const {
   Eigen::VectorXd values(2 * count());
   for (int i = 0; i < count(); ++i) {
-    values[2 * i] = log_load(states[i]);
+    values[2 * i] = excess(states[i]);
     values[2 * i + 1] = 0;
     if (!states[i].is_evaluated || !grows_[i]) continue;
     const Sifs& k = states[i].sifs;
     values[2 * i + 1] = shear(states[i]);
-    if (k.k1 > std::abs(k.k2)) values[2 * i] += std::log(std::hypot(k.k1, k.k2) / equivalent_sif(k));
+    if (!states[i].excess && k.k1 > std::abs(k.k2))
+      values[2 * i] += std::log(std::hypot(k.k1, k.k2) / equivalent_sif(k));
   }
   return values;
 }
@@ -251,7 +253,7 @@ void Front::learn(const std::vector<FrontState>& states) {
   worst_ = 0;
   bool is_met = true;
   for (int i = 0; i < count(); ++i) {
-    const double load = log_load(states[i]);
+    const double load = excess(states[i]);
     if (!grows_[i]) {
       if (!is_stopped_[i] && states[i].is_evaluated && load > options_.load_tolerance) is_met = false;
       continue;
@@ -275,6 +277,15 @@ void Front::learn(const std::vector<FrontState>& states) {
   step(from);
 }
 
+/// Drops what earlier trials and searches have told of the slopes.
+void Front::forget() {
+  make_jacobian();
+  for (int i = 0; i < count(); ++i)
+    if (grows_[i] && last_[i].is_evaluated) set_turn_slope(i, last_[i].sifs);
+  is_experienced_ = false;
+  learnt_.clear();
+}
+
 /// After a trial that is much worse than the best one, the experience of an earlier search is dropped, or else the next
 /// step is shorter.
 Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
@@ -288,11 +299,7 @@ Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
     return residual;
   }
   if (is_experienced_) {
-    make_jacobian();
-    for (int i = 0; i < count(); ++i)
-      if (grows_[i] && last_[i].is_evaluated) set_turn_slope(i, last_[i].sifs);
-    is_experienced_ = false;
-    learnt_.clear();
+    forget();
     before_place_ = best_->place;
     before_residual_ = best_->residual;
     update_jacobian(residual);
@@ -333,13 +340,13 @@ void Front::step(const Eigen::VectorXd& residual) {
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) free.insert(free.end(), {2 * i, 2 * i + 1});
   const int size = static_cast<int>(free.size());
-  Eigen::MatrixXd matrix(size, size);
-  Eigen::VectorXd right(size);
-  for (int a = 0; a < size; ++a) {
-    right[a] = -residual[free[a]];
-    for (int b = 0; b < size; ++b) matrix(a, b) = jacobian_(free[a], free[b]);
+  Eigen::FullPivLU<Eigen::MatrixXd> matrix(jacobian_(free, free));
+  if (!matrix.isInvertible()) {
+    // Loads that were once found not to depend on lengths would leave the tips where they are.
+    forget();
+    matrix.compute(jacobian_(free, free));
   }
-  Eigen::VectorXd move = matrix.fullPivLu().solve(right);
+  Eigen::VectorXd move = matrix.solve(-residual(free));
   double part = part_;
   for (int a = 0; a < size; a += 2) {
     const int i = free[a] / 2;

@@ -36,11 +36,13 @@ struct FrontState {
   Sifs sifs;
   double load = 0;           ///< K_eq over K_IC; all that counts for a tip that does not grow
   bool is_evaluated = true;  ///< whether the factors are known; otherwise the load is an estimate that rules growth out
+  /// What has to vanish where the tip grows, with the sign of K_eq - K_IC; without it that is ln(load).
+  std::optional<double> excess = {};
 };
 
 /// Tolerances and limits of the search.
 struct FrontOptions {
-  double load_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)| of growing tips
+  double load_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)|, or the excess, of growing tips
   double direction_tolerance = 1e-6;  ///< |K_II/K_I| of growing tips
   double increment = 0;               ///< m, the scale of advances
   double shortest = 0;                ///< m, of a new segment
@@ -96,6 +98,7 @@ class Front {
   void set_turn_slope(int tip, const Sifs& sifs);
   bool learns_from_start() const;
   void make_jacobian();
+  void forget();
   /// Puts the part of the derivatives by angles that depends on the lengths of segments in, or takes it out
   /// (`inverse`). `states`: those at which the slopes of turns are taken.
   void scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const;

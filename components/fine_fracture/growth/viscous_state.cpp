@@ -7,14 +7,15 @@
 
 namespace sprekk::fine_fracture {
 
-FrontState against_viscosity(FrontState state, double apparent_toughness) {
-  SPREKK_EXPECT(apparent_toughness > 0, apparent_toughness);
+FrontState against_viscosity(FrontState state, double apparent_toughness, double scale) {
+  SPREKK_EXPECT(apparent_toughness > 0 && scale > 0, apparent_toughness, scale);
   if (!state.is_evaluated) return state;
-  const double opening = state.sifs.k1 > 0 ? equivalent_sif(state.sifs) : state.sifs.k1;
-  state.load = opening / apparent_toughness;
-  if (state.load >= 1) return state;
-  state.load = std::exp(state.load - 1);
-  state.sifs.k1 = std::max(state.sifs.k1, apparent_toughness);
+  const Sifs& k = state.sifs;
+  state.load = equivalent_sif(k) / apparent_toughness;
+  // Of a tip that grows K² = K_I² + K_II², as in Front.
+  const double release = k.k1 > std::abs(k.k2) ? std::hypot(k.k1, k.k2) : equivalent_sif(k);
+  state.excess = ((k.k1 > 0 ? release : k.k1) - apparent_toughness) / scale;
+  state.sifs.k1 = std::max(k.k1, apparent_toughness);
   return state;
 }
 

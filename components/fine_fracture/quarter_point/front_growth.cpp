@@ -72,8 +72,9 @@ class TipsFront : public FrontSearch {
   std::vector<Segment> segments_;
   std::vector<FrontTip> at_start_;
   std::vector<FrontState> states_, without_growth_;  ///< of the last trial; of the step without growth
-  std::vector<char> is_blocked_;                     ///< tips that stop in this step
-  std::vector<char> is_followed_;                    ///< by the mesh, from the start of the step on
+  std::vector<double> scale_;      ///< Pa sqrt(m), K of viscous tips at the speed that is expected; 0 of others
+  std::vector<char> is_blocked_;   ///< tips that stop in this step
+  std::vector<char> is_followed_;  ///< by the mesh, from the start of the step on
   std::vector<PathExtension> joinings_;
   FrontOptions options_;
   std::unique_ptr<Front> front_;
@@ -98,6 +99,12 @@ TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goe
   find_joinings();
   options_.increment = tips_.options_.growth.increment;
   options_.shortest = tips_.options_.growth.smallest_length();
+  for (std::size_t i = 0; i < tips_.tips_.size(); ++i) {
+    const Tips::Tip& tip = tips_.tips_[i];
+    const double expected = at_start_[i].speed > 0 ? at_start_[i].speed : options_.increment / dt_;
+    scale_.push_back(tips_.is_viscous(tip) ? tips_.apparent_toughness(tip, expected) : 0);
+    if (scale_[i] > 0) states_[i] = against_viscosity(states_[i], at_start_[i].toughness, scale_[i]);
+  }
   without_growth_ = states_;
   front_ = std::make_unique<Front>(at_start_, states_, options_, step.dt, tips_.slopes_);
   propose();
@@ -239,7 +246,8 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
     if (!is_blocked_[i]) states_[i] = state_of(there, *same);
-    if (there.is_viscous(*same)) states_[i] = against_viscosity(states_[i], there.apparent_toughness(*same, speed(i)));
+    if (scale_[i] > 0 && there.is_viscous(*same))
+      states_[i] = against_viscosity(states_[i], there.apparent_toughness(*same, speed(i)), scale_[i]);
     // A tip that has grown on the fine level in this trial is followed from now on.
     if (!same->now.path.added.empty()) {
       const Point way = there.position(*same, same->now.path) - there.position(*same, {});
