@@ -27,7 +27,7 @@ REFERENCES = ROOT / "tests/verification/references"
 PLANE_MODULUS, RATE, VISCOSITY = 32e9, 1e-3, 1e-3  # Pa, m^2/s of both wings, Pa s
 SIZE, FIRST = 0.5, 5  # m, cells
 SMALL = 0.01  # toughness number that stands for 0: the answer is that of 0 to 1e-6
-BOX = 80  # half-lengths at the end: one of 13 is worth 1.3 % of the pressure
+BOX = 80  # half-lengths at the end: one of 13 takes 0.1 to 0.2 % off the pressure
 GROWTH = 0.1  # of cells with the distance from the fracture at the start: it grows into them; 0.2 costs 1 % of pressure at 60 cells
 LARGEST_PLACE = 0.999  # of the half-length: the table of profiles ends there
 
