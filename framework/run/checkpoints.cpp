@@ -36,6 +36,7 @@ void Checkpoints::write(const Moment& moment) {
   const double begin = Progress::steady_seconds();
   std::map<std::string, Vector> extra = state_.model->extra_state();
   state_.balance.save(extra);
+  state_.splitting_error.save(*state_.model, extra);
   extra.insert(moment.steps.begin(), moment.steps.end());
   output_.write_checkpoint(*state_.model, state_.notes, moment.rows, std::move(extra), fingerprint_);
   last_ = Progress::steady_seconds();

@@ -33,6 +33,7 @@ void Restart::restore(SimulationState& state) const {
   state.controller.restore(checkpoint_.extra);
   state.notes.restore(notes_of(checkpoint_.notes));
   state.balance.restore(checkpoint_.extra);
+  state.splitting_error.restore(*state.model, checkpoint_.extra);
 }
 
 RunOutput::Continued Restart::continued(const SimulationState& restored) const {

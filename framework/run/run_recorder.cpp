@@ -61,6 +61,10 @@ void RunRecorder::accepted(const std::vector<Quantity>& quantities) {
   last_quantities_ = quantities;
 }
 
+void RunRecorder::note_splitting_errors(const std::map<std::string, double>& errors) {
+  for (const auto& [field, error] : errors) record_.results["splitting_error of " + field + "[1]"] = error;
+}
+
 void RunRecorder::note_topology(const Model& model, double time) {
   TopologyHash hash;
   hash.add(topology_hash(model.mesh()));

@@ -23,6 +23,7 @@ class RunRecorder {
   void begin(const Model& model);
   void accepted(const std::vector<Quantity>& quantities);  ///< at the end of a step
   void note_topology(const Model& model, double time);     ///< at the end of a step, before it is accepted
+  void note_splitting_errors(const std::map<std::string, double>& errors);  ///< by fields, at the end of a step
   /// Records how the run has ended. `reason`: why it has not come to its end; "" when it has.
   void end(ExitCode code, const std::string& reason, const Scene& scene, const EarlyEnd& early);
   void add(const MeshGrowth& growth);

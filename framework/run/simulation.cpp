@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 
 #include "framework/linear/direct/blas_memory.hpp"
 #include "framework/output/activity.hpp"
@@ -53,7 +55,8 @@ std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Restar
 SimulationState first_state(const Scene& scene, std::unique_ptr<Model> model, const OutputTimes& output_times) {
   std::vector<double> targets = model->switch_times();
   targets.insert(targets.end(), output_times.all().begin(), output_times.all().end());
-  return {std::move(model), StepController(scene.time, std::move(targets))};
+  SplittingError splitting_error(*model);
+  return {std::move(model), StepController(scene.time, std::move(targets)), {}, std::move(splitting_error)};
 }
 
 /// One run, from its first step to its end or to a failure.
@@ -105,7 +108,9 @@ Simulation::Simulation(const Scene& scene, const RunOptions& options)
   restart_->restore(state_);
   continued_ = restart_->continued(state_);
   restart_.reset();
-  require_columns(state_.model->quantities(), output_);
+  std::vector<Quantity> columns = state_.model->quantities();
+  std::ranges::copy(state_.splitting_error.quantities(), std::back_inserter(columns));
+  require_columns(columns, output_);
 }
 
 IterationLog Simulation::log() {
@@ -153,7 +158,7 @@ ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
 void Simulation::accept(const StepTime& step, int iterations) {
   Model& model = *state_.model;
   // All of these before the step is accepted: which cells slip shows in what changed since the last accepted step.
-  const std::vector<Quantity> quantities = model.quantities();
+  std::vector<Quantity> quantities = model.quantities();
   state_.notes.at_time(step.end);
   for (const Part* part : model.parts()) part->note_step(state_.notes, step);
   state_.balance.note_step(model.balances(), state_.notes);
@@ -161,9 +166,19 @@ void Simulation::accept(const StepTime& step, int iterations) {
   const bool writes_fields = early_end_.is_reached() || output_times_.contains(step.end);
   const std::vector<OutputField> fields = writes_fields ? model.output() : std::vector<OutputField>();
   recorder_.note_topology(model, step.end);
+  SplittingError& splitting_error = state_.splitting_error;
+  splitting_error.observe(growth_.changes());
+  splitting_error.before_acceptance(model, step);
   model.accept();
+  if (splitting_error.is_due()) {
+    const ScopedTimer timer(profile_, "steps");
+    splitting_error.after_acceptance(model, step);
+  }
+  splitting_error.note_step(state_.notes);
+  std::ranges::copy(splitting_error.quantities(), std::back_inserter(quantities));
   state_.controller.accepted(step, iterations);
   recorder_.accepted(quantities);
+  recorder_.note_splitting_errors(splitting_error.of_fields());
   const ScopedTimer timer(profile_, "output");
   output_.write_history(step, iterations, quantities);
   if (writes_fields) output_.write_fields(step.end, state_.controller.steps(), model, fields);
@@ -172,7 +187,9 @@ void Simulation::accept(const StepTime& step, int iterations) {
 bool Simulation::follow_growth() {
   progress_.phase("letting the mesh follow");
   const ScopedTimer timer(profile_, "change of mesh");
-  if (growth_.after_acceptance() != MeshGrowth::Outcome::failed) return true;
+  const MeshGrowth::Outcome outcome = growth_.after_acceptance();
+  state_.splitting_error.observe(growth_.changes());
+  if (outcome != MeshGrowth::Outcome::failed) return true;
   reason_ = growth_.reason();
   return false;
 }

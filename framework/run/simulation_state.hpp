@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "framework/run/cumulative_balance.hpp"
+#include "framework/run/splitting_error.hpp"
 #include "framework/scene/model.hpp"
 #include "framework/schedule/step_controller.hpp"
 
@@ -14,6 +15,7 @@ struct SimulationState {
   std::unique_ptr<Model> model;  ///< replaced each time that the mesh has grown
   StepController controller;
   CumulativeBalance balance = {};
+  SplittingError splitting_error;
   Notes notes = {};  ///< of all accepted steps
 };
 

@@ -21,6 +21,7 @@ struct OutputOptions {
   std::optional<double> every;  ///< s
   std::vector<double> times;    ///< s
   bool fields = true;
+  bool splitting_error = true;
   std::optional<double> checkpoint_every;  ///< s of wall time
   std::map<std::string, ProbeOptions> probes;
   Spec spec();

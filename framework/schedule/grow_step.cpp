@@ -128,6 +128,7 @@ Growing::Load GrowStep::examine(const StepTime& step) {
 }
 
 StepStatus GrowStep::run(const StepTime& step) {
+  if (rests_) return {true, "", 0};
   last_ = step;
   extensions_.clear();
   now_doing("looking at what may grow");

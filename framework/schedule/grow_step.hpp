@@ -39,6 +39,7 @@ class GrowStep : public ScheduleStep {
   GrowStep(const GrowOptions& options, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {}; }
+  int systems_in_turn(const StepTime&) const override { return 0; }
   std::string describe() const override { return "grow " + options_.component; }
   void add_counts(LinearCounts& counts) const override { settle_.add_counts(counts); }
 
@@ -52,6 +53,8 @@ class GrowStep : public ScheduleStep {
   };
   void choose(Holding holding) { holding_ = holding; }
   bool is_held() const { return is_held_; }  ///< in the last attempt
+  /// At rest the step does nothing, and all that it has found in its last attempt stays.
+  void rest(bool rests) { rests_ = rests; }
   /// Whether the step was run in an attempt at this time step: a `when` may leave it out.
   bool was_run(const StepTime& step) const { return last_ && last_->start == step.start && last_->dt == step.dt; }
   Growing& component() const { return *growing_; }
@@ -86,7 +89,7 @@ class GrowStep : public ScheduleStep {
   std::optional<StepTime> last_;    ///< that it was run for
   std::vector<PathExtension> extensions_;
   Holding holding_ = Holding::never;
-  bool is_held_ = false;
+  bool is_held_ = false, rests_ = false;
 };
 
 }  // namespace sprekk

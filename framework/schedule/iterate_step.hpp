@@ -1,6 +1,7 @@
 // iterate: repeats the steps inside until the coupled residual of all their equations is small.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "framework/config/spec.hpp"
@@ -25,6 +26,7 @@ class IterateStep : public ScheduleStep {
   IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
+  int systems_in_turn(const StepTime& step) const override { return std::min(1, inside_->systems_in_turn(step)); }
   std::string describe() const override { return "iterate"; }
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }

@@ -32,6 +32,13 @@ class ScheduleStep {
   virtual StepStatus run(const StepTime& step) = 0;
   /// The fields that this step, or a step inside it, solves for.
   virtual std::vector<const Field*> unknowns() const = 0;
+  /// How many systems a time step solves in turn, each without regard to those behind it: more than one is a split
+  /// without iteration.
+  virtual int systems_in_turn(const StepTime& step) const = 0;
+  /// The fields of the first of these systems.
+  virtual std::vector<const Field*> solved_first(const StepTime& step) const {
+    return systems_in_turn(step) > 0 ? unknowns() : std::vector<const Field*>();
+  }
   /// One line for the graph and for messages.
   virtual std::string describe() const = 0;
   virtual std::vector<const ScheduleStep*> children() const { return {}; }

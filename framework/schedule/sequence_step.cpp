@@ -23,6 +23,18 @@ std::vector<const Field*> SequenceStep::unknowns() const {
   return all;
 }
 
+int SequenceStep::systems_in_turn(const StepTime& step) const {
+  int systems = 0;
+  for (const auto& inner : steps_) systems += inner->systems_in_turn(step);
+  return systems;
+}
+
+std::vector<const Field*> SequenceStep::solved_first(const StepTime& step) const {
+  for (const auto& inner : steps_)
+    if (inner->systems_in_turn(step) > 0) return inner->solved_first(step);
+  return {};
+}
+
 std::vector<const ScheduleStep*> SequenceStep::children() const {
   std::vector<const ScheduleStep*> children;
   for (const auto& inner : steps_) children.push_back(inner.get());

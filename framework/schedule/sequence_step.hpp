@@ -11,6 +11,8 @@ class SequenceStep : public ScheduleStep {
   explicit SequenceStep(std::vector<std::unique_ptr<ScheduleStep>> steps) : steps_(std::move(steps)) {}
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override;
+  int systems_in_turn(const StepTime& step) const override;
+  std::vector<const Field*> solved_first(const StepTime& step) const override;
   std::string describe() const override { return "sequence"; }
   std::vector<const ScheduleStep*> children() const override;
   void add_counts(LinearCounts& counts) const override;

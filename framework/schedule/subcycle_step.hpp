@@ -21,6 +21,8 @@ class SubcycleStep : public ScheduleStep {
   SubcycleStep(const SubcycleOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
+  int systems_in_turn(const StepTime& step) const override { return inside_->systems_in_turn(step); }
+  std::vector<const Field*> solved_first(const StepTime& step) const override { return inside_->solved_first(step); }
   std::string describe() const override;
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }

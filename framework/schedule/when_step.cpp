@@ -13,10 +13,11 @@ Spec WhenOptions::spec() {
   return spec;
 }
 
-StepStatus WhenStep::run(const StepTime& step) {
+bool WhenStep::holds(const StepTime& step) const {
   SPREKK_EXPECT(step.end > step.start, step.start, step.end);
-  const double holds = options_.condition.at({Point::Zero(), 0, 0.5 * (step.start + step.end)});
-  return holds != 0 ? inside_->run(step) : StepStatus{true, "", 0};
+  return options_.condition.at({Point::Zero(), 0, 0.5 * (step.start + step.end)}) != 0;
 }
+
+StepStatus WhenStep::run(const StepTime& step) { return holds(step) ? inside_->run(step) : StepStatus{true, "", 0}; }
 
 }  // namespace sprekk

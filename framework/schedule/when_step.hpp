@@ -21,11 +21,17 @@ class WhenStep : public ScheduleStep {
       : options_(options), inside_(std::move(inside)) {}
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
+  int systems_in_turn(const StepTime& step) const override { return holds(step) ? inside_->systems_in_turn(step) : 0; }
+  std::vector<const Field*> solved_first(const StepTime& step) const override {
+    return holds(step) ? inside_->solved_first(step) : std::vector<const Field*>();
+  }
   std::string describe() const override { return "when"; }
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
 
  private:
+  bool holds(const StepTime& step) const;
+
   WhenOptions options_;
   std::unique_ptr<ScheduleStep> inside_;
 };
