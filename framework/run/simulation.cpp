@@ -68,7 +68,7 @@ class Simulation {
  private:
   IterationLog log();
   ExitCode step_to_the_end(const InterruptGuard& interrupt);
-  void accept(const StepTime& step, int iterations);
+  void accept(const StepTime& step, const StepStatus& status);
   bool follow_growth();  ///< false when the mesh could not
   void finish(ExitCode code);
   void fail(const std::string& reason);
@@ -137,7 +137,7 @@ ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
       checkpoints.write();
       return ExitCode::failed;
     }
-    accept(attempts_.step(), attempts_.iterations());
+    accept(attempts_.step(), attempts_.status());
     if (!follow_growth()) {
       checkpoints.write();
       return ExitCode::failed;
@@ -155,7 +155,7 @@ ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
   return ExitCode::done;
 }
 
-void Simulation::accept(const StepTime& step, int iterations) {
+void Simulation::accept(const StepTime& step, const StepStatus& status) {
   Model& model = *state_.model;
   // All of these before the step is accepted: which cells slip shows in what changed since the last accepted step.
   std::vector<Quantity> quantities = model.quantities();
@@ -176,11 +176,11 @@ void Simulation::accept(const StepTime& step, int iterations) {
   }
   splitting_error.note_step(state_.notes);
   std::ranges::copy(splitting_error.quantities(), std::back_inserter(quantities));
-  state_.controller.accepted(step, iterations);
+  state_.controller.accepted(step, status.effort());
   recorder_.accepted(quantities);
   recorder_.note_splitting_errors(splitting_error.of_fields());
   const ScopedTimer timer(profile_, "output");
-  output_.write_history(step, iterations, quantities);
+  output_.write_history(step, status.iterations, quantities);
   if (writes_fields) output_.write_fields(step.end, state_.controller.steps(), model, fields);
 }
 

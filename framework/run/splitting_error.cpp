@@ -9,6 +9,7 @@
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/invariants.hpp"
 #include "framework/output/activity.hpp"
+#include "framework/schedule/gaps.hpp"
 #include "framework/schedule/residual_check.hpp"
 
 namespace sprekk {
@@ -20,7 +21,6 @@ constexpr double least_share = 1e-5;    // of the largest value of the unit: a f
 constexpr double worth_telling = 1e-3;  // of a field
 constexpr double middle_factor = -0.5;  // of a pass, between 0 and -1
 constexpr double middle_excess = std::numbers::sqrt2;  // of the distance over the error, between 1 and 2
-constexpr int looked_at = 1000;                        // times of the run
 const std::string key = "splitting_error.";
 
 double largest_of(const Vector& values) { return values.size() > 0 ? values.lpNorm<Eigen::Infinity>() : 0; }
@@ -30,14 +30,8 @@ double largest_of(const Vector& values) { return values.size() > 0 ? values.lpNo
 namespace {
 
 bool solves_in_turn(const Model& model) {
-  const TimeOptions& time = model.scene().time;
-  const double duration = time.end - time.start;
-  const int count = static_cast<int>(std::clamp(std::ceil(duration / time.step), 1.0, double{looked_at}));
-  for (int i = 0; i < count; ++i) {
-    const double start = time.start + duration * i / count, dt = duration / count;
-    if (model.schedule().systems_in_turn({start, dt, start + dt}) > 1) return true;
-  }
-  return false;
+  return std::ranges::any_of(sampled_steps(model.scene().time),
+                             [&](const StepTime& step) { return model.schedule().systems_in_turn(step) > 1; });
 }
 
 }  // namespace

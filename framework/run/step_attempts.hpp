@@ -27,7 +27,7 @@ class StepAttempts {
   Outcome run();
 
   const StepTime& step() const { return step_; }         ///< the last one tried
-  int iterations() const { return status_.iterations; }  ///< of it
+  const StepStatus& status() const { return status_; }   ///< of it
   const std::string& reason() const { return reason_; }  ///< why there is no step
 
  private:

@@ -10,6 +10,7 @@
 #include "framework/output/activity.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/schedule/gaps.hpp"
 #include "framework/schedule/schedule_context.hpp"
 
 namespace sprekk {
@@ -66,6 +67,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   now_doing("the first evaluation of all data");
   check_determined();
   refusing_bad_data([this] { check_data(); });
+  schedule_->check();
   check_constant_modes();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_);
 }
@@ -191,6 +193,7 @@ Notes Model::input_notes() const {
   Notes notes = scene_.notes;
   notes.of_input(scene_.time.start);
   for (const Part* part : parts_) part->note_input(notes);
+  note_gaps(*schedule_, fields_, scene_.time, notes);
   std::vector<Component*> components;
   for (const auto& component : components_) components.push_back(component.get());
   for (const CouplerType& type : Registry::instance().couplers()) {

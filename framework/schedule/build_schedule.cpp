@@ -49,6 +49,10 @@ ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
   if (options.stabilization != "none" && !reading.is_iterated)
     throw InputError(options.stabilization_origin, "'stabilize' stands outside of an 'iterate'",
                      "it adds a term to the balance that only iterating removes", "put the steps into an 'iterate'");
+  if (reading.is_iterated && options.newton.residual > reading.tightest_until)
+    throw InputError(node.find("newton")->origin, "'newton: residual' is larger than 'until: relative'",
+                     "the iteration would never see residuals that the solve inside leaves",
+                     "lower it to a tenth of 'relative', or leave it out: then it is");
   return [options](const ScheduleContext& context) { return std::make_unique<SolveStep>(options, context); };
 }
 
@@ -75,6 +79,7 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   IterateOptions options;
   const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading, [&](ScheduleReading& inner) {
     inner.is_iterated = true;
+    inner.tightest_until = std::min(inner.tightest_until, options.relative);
     // What is iterated must be solved more tightly than the iteration asks for, or it would stall.
     constexpr double tighter = 0.1;
     inner.newton.residual = std::min(inner.newton.residual, tighter * options.relative);

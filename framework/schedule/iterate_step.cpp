@@ -103,17 +103,19 @@ StepStatus IterateStep::run(const StepTime& step) {
   scales_.assign(fields_.size(), 1);
   ResidualCheck check;
   Changes changes;
+  int of_newton = 0;
   for (int pass = 1; pass <= options_.at_most; ++pass) {
     const Vector before = pass > 1 ? scaled_values() : Vector();
     const StepStatus inner = inside_->run(step);
     if (!inner.converged) return {false, fmt::format("pass {}: {}", pass, inner.reason), pass};
+    of_newton = std::max(of_newton, inner.effort());
 
     Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
     assemble_all(assembly, parts_, step);
     check = check_residual(assembly, system_, options_.relative);
     if (log_) log_({step, "iterate", pass, check.largest, check.equation, 0, 1});
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", pass};
-    if (check.converged) return {true, "", pass};
+    if (check.converged) return {true, "", pass, 0, of_newton};
     if (pass == 1) {
       choose_scales();
       continue;

@@ -32,9 +32,10 @@ struct ScheduleReading {
   LinearOptions linear;                      ///< for a `solve` without options of its own
   NewtonOptions newton;
   ReadContext read;
-  bool is_iterated = false;  ///< whether the step that is being read is inside an `iterate`
-  bool is_substep = false;   ///< whether it is inside a `subcycle` of several substeps
-  bool is_followed = false;  ///< whether a step that solves or grows stands behind it
+  bool is_iterated = false;   ///< whether the step that is being read is inside an `iterate`
+  double tightest_until = 1;  ///< of the `iterate` around it: its `until: relative`
+  bool is_substep = false;    ///< whether it is inside a `subcycle` of several substeps
+  bool is_followed = false;   ///< whether a step that solves or grows stands behind it
 };
 /// Makes a step once the model is there.
 using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;

@@ -1,6 +1,7 @@
 // A node of the schedule tree. Every node is a step, so that schemes nest.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -38,6 +39,12 @@ class ScheduleStep {
   /// The fields of the first of these systems.
   virtual std::vector<const Field*> solved_first(const StepTime& step) const {
     return systems_in_turn(step) > 0 ? unknowns() : std::vector<const Field*>();
+  }
+  /// Whether it solves for the field in a time step: a `when` may leave it out.
+  virtual bool solves(const Field& field, const StepTime&) const { return std::ranges::count(unknowns(), &field) > 0; }
+  /// Throws InputError for options that have no effect. Called when all parts have data.
+  virtual void check() const {
+    for (const ScheduleStep* child : children()) child->check();
   }
   /// One line for the graph and for messages.
   virtual std::string describe() const = 0;

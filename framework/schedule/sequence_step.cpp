@@ -9,6 +9,7 @@ StepStatus SequenceStep::run(const StepTime& step) {
   for (auto& inner : steps_) {
     const StepStatus inner_status = inner->run(step);
     status.iterations = std::max(status.iterations, inner_status.iterations);
+    status.of_newton = std::max(status.of_newton, inner_status.effort());
     if (!inner_status.converged)
       return {false, inner->describe() + ": " + inner_status.reason, status.iterations, inner_status.retry_dt};
   }
@@ -27,6 +28,10 @@ int SequenceStep::systems_in_turn(const StepTime& step) const {
   int systems = 0;
   for (const auto& inner : steps_) systems += inner->systems_in_turn(step);
   return systems;
+}
+
+bool SequenceStep::solves(const Field& field, const StepTime& step) const {
+  return std::ranges::any_of(steps_, [&](const auto& inner) { return inner->solves(field, step); });
 }
 
 std::vector<const Field*> SequenceStep::solved_first(const StepTime& step) const {

@@ -12,6 +12,7 @@ class SequenceStep : public ScheduleStep {
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override;
   int systems_in_turn(const StepTime& step) const override;
+  bool solves(const Field& field, const StepTime& step) const override;
   std::vector<const Field*> solved_first(const StepTime& step) const override;
   std::string describe() const override { return "sequence"; }
   std::vector<const ScheduleStep*> children() const override;

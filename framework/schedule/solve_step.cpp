@@ -97,6 +97,17 @@ std::string SolveStep::describe() const {
   return text;
 }
 
+void SolveStep::check() const {
+  if (options_.stabilization == "none") return;
+  Stabilization stabilization;
+  for (const Part* part : parts_) part->stabilize(options_.stabilization, stabilization);
+  const auto is_solved = [&](const auto& entry) { return std::ranges::count(fields_, entry.first) > 0; };
+  if (stabilization.empty() || std::ranges::any_of(stabilization, is_solved)) return;
+  throw InputError(options_.stabilization_origin, "'stabilize: " + options_.stabilization + "' has no effect here",
+                   "it is for " + stabilization.begin()->first->name() + ", which this step does not solve for",
+                   "give it to the 'solve' of '" + stabilization.begin()->first->spec().owner + "'");
+}
+
 StepStatus SolveStep::run(const StepTime& step) {
   SPREKK_EXPECT(step.dt > 0 && step.end > step.start, step.start, step.dt, step.end);
   Stabilization stabilization, preconditioning;

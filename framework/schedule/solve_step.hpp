@@ -28,6 +28,7 @@ class SolveStep : public ScheduleStep {
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {fields_.begin(), fields_.end()}; }
   int systems_in_turn(const StepTime&) const override { return fields_.empty() ? 0 : 1; }
+  void check() const override;
   std::string describe() const override;
   void add_counts(LinearCounts& counts) const override;
 

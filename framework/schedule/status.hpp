@@ -11,6 +11,12 @@ struct StepStatus {
   std::string reason;   ///< why not
   int iterations = 0;   ///< the most that any solve or iteration inside has needed
   double retry_dt = 0;  ///< s; the size with which to repeat a step that did not converge, 0 where the caller chooses
+  /// The most of Newton's method in any solve inside, where `iterations` counts passes; negative: `iterations` are
+  /// those.
+  int of_newton = -1;
+
+  /// The measure for adaptive steps. Passes are none: where systems are split, shorter steps need as many, or more.
+  int effort() const { return of_newton >= 0 ? of_newton : iterations; }
 };
 
 }  // namespace sprekk

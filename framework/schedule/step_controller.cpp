@@ -68,7 +68,8 @@ Spec TimeOptions::spec() {
   changing.integer(
       "iterations", iterations,
       {.range = between(1, 1000),
-       .doc = "Steps grow while no more than half of these iterations are needed, and shrink beyond them."});
+       .doc = "Steps grow while no solve needs more than half of these iterations of Newton's method, and shrink "
+              "beyond them. Passes of an 'iterate' do not count: shorter steps need as many."});
   spec.section("adaptive", changing, {.doc = "Steps that follow the effort of the solver; else they are constant."},
                &adaptive);
   Spec stopping("stop", "Ends the run early.");

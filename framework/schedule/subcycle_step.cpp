@@ -56,6 +56,7 @@ StepStatus SubcycleStep::take_substeps(const StepTime& step) {
     begin_step(parts_, substep);
     const StepStatus inner = inside_->run(substep);
     status.iterations = std::max(status.iterations, inner.iterations);
+    status.of_newton = std::max(status.of_newton, inner.effort());
     status.converged = inner.converged;
     if (!inner.converged) status.reason = fmt::format("substep {}: {}", i + 1, inner.reason);
     for (Field* field : fields_) field->accept();

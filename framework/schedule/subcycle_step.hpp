@@ -22,6 +22,7 @@ class SubcycleStep : public ScheduleStep {
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
   int systems_in_turn(const StepTime& step) const override { return inside_->systems_in_turn(step); }
+  bool solves(const Field& field, const StepTime& step) const override { return inside_->solves(field, step); }
   std::vector<const Field*> solved_first(const StepTime& step) const override { return inside_->solved_first(step); }
   std::string describe() const override;
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }

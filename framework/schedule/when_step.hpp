@@ -22,6 +22,9 @@ class WhenStep : public ScheduleStep {
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
   int systems_in_turn(const StepTime& step) const override { return holds(step) ? inside_->systems_in_turn(step) : 0; }
+  bool solves(const Field& field, const StepTime& step) const override {
+    return holds(step) && inside_->solves(field, step);
+  }
   std::vector<const Field*> solved_first(const StepTime& step) const override {
     return holds(step) ? inside_->solved_first(step) : std::vector<const Field*>();
   }

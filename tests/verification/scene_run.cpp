@@ -43,7 +43,7 @@ bool SceneRun::step() {
     if (status.converged) {
       iterations_ = status.iterations;
       model_->accept();
-      controller_->accepted(step, status.iterations);
+      controller_->accepted(step, status.effort());
       if (growth_->after_acceptance() != MeshGrowth::Outcome::failed) return true;
       ADD_FAILURE() << growth_->reason();
       return false;
