@@ -23,8 +23,10 @@ namespace {
 std::string print_step(const ScheduleStep& step, std::ostream& out, int& count) {
   const std::string node = "step" + std::to_string(count++);
   out << "  " << node << " [shape=box, style=filled, fillcolor=\"#eeeeee\", label=\"" << step.describe() << "\"];\n";
-  for (const ScheduleStep* child : step.children())
-    out << "  " << node << " -> " << print_step(*child, out, count) << ";\n";
+  for (const ScheduleStep* child : step.children()) {
+    const std::string inner = print_step(*child, out, count);
+    out << "  " << node << " -> " << inner << ";\n";
+  }
   return node;
 }
 

@@ -58,6 +58,18 @@ Growing* find_growing(const GrowOptions& options, const ScheduleContext& context
   return growing;
 }
 
+/// What holds together in a solve is to be settled together.
+void require_whole(const GrowOptions& options, const ScheduleContext& context) {
+  const auto is_settled = [&](const std::string& name) { return std::ranges::count(options.settle, name) > 0; };
+  for (const Part* part : context.parts)
+    for (const Dependence& dependence : part->dependences())
+      if (is_settled(dependence.on) && !is_settled(dependence.component))
+        throw InputError(
+            options.origin, "'" + dependence.on + "' is settled without '" + dependence.component + "'",
+            "what '" + dependence.component + "' asks for would not hold in the state from which the next step begins",
+            "name both in 'settle'");
+}
+
 SolveOptions settle_options(const GrowOptions& options, const Growing& growing) {
   SolveOptions solve;
   solve.components = options.settle;
@@ -88,6 +100,7 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
       options_(decided(options, *growing_, context)),
       settle_(settle_options(options, *growing_), context),
       smallest_step_(options.cut * context.standard_step) {
+  require_whole(options_, context);
   if (grows_within_step()) growing_->grow_within_steps();
 }
 

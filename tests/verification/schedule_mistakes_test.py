@@ -3,6 +3,7 @@
 of an iterated scheme are those of Newton's method in its solves, as in the monolithic one: passes do not shorten them."""
 
 import csv
+import re
 import subprocess
 import sys
 import tempfile
@@ -36,6 +37,24 @@ class ScheduleMistakes(unittest.TestCase):
             code, said = check(f"[{{iterate: {{until: {{relative: 1e-8}}, steps: [{{{FLOW}, newton: {{residual: {residual}}}}}, {{{ROCK}}}]}}}}]")
             self.assertEqual(code != 0, is_refused, said)
             self.assertEqual("'newton: residual' is larger than 'until: relative'" in said, is_refused, said)
+
+    def test_settling_leaves_nothing_behind(self):
+        def settle(what):
+            run = sprekk("check", ROOT / "configs/paper/wing_cracks.yaml", "--set", f"schedule=[{{{ALL}}}, {{grow: tips, settle: {what}}}]")
+            return run.returncode, run.stdout + run.stderr
+        code, said = settle("[rock]")
+        self.assertNotEqual(code, 0)
+        self.assertIn("'rock' is settled without 'contact'", said)
+        self.assertEqual(settle("[rock, contact]")[0], 0)
+
+    def test_the_graph_labels_nested_steps(self):
+        inner = f"{{subcycle: {{count: 1, steps: [{{{FLOW}}}]}}}}"
+        drawn = sprekk("graph", SCENE, "--set", f"schedule=[{{iterate: {{steps: [{inner}, {{{ROCK}}}]}}}}]").stdout
+        labels = dict(re.findall(r'^ *(step\d+) \[.*label="([^"]*)"\];$', drawn, re.MULTILINE))
+        arrows = re.findall(r"^ *(step\d+) -> (step\d+);$", drawn, re.MULTILINE)
+        self.assertEqual({(labels[one], labels[other]) for one, other in arrows},
+                         {("iterate", "sequence"), ("sequence", "subcycle 1"), ("subcycle 1", "solve pore conduit"),
+                          ("sequence", "solve rock contact")})
 
     def test_gaps_are_noted(self):
         def late(condition):
