@@ -132,6 +132,19 @@ TEST(Joining, NoTipClosesARing) {
   EXPECT_EQ(run.mesh().junctions.size(), 1u);
 }
 
+// The end of another fracture is so near to the way of a tip that the tip stops before it: it turns by up to 60 degrees
+// to join it.
+TEST(Joining, ATipTurnsToWhatItPassesCloselyUnlessThatIsBesideIt) {
+  // Increments of 10 mm put the tip at 90 mm; the end is 7 mm above its way, seen at 54 and at 67 degrees.
+  for (const auto& [x, joins] : {std::pair(95, true), {93, false}}) {
+    const std::string points = "[[" + std::to_string(x) + " mm, 7 mm], [" + std::to_string(x) + " mm, 60 mm]]";
+    SceneRun run = SceneRun::from_text(growing("join", {.points = points, .pressure = "0 MPa"}));
+    while (run.quantity("tips.main_last.stopped") == 0) ASSERT_TRUE(run.step()) << run.time();
+    EXPECT_EQ(run.mesh().junctions.size(), joins ? 1u : 0u) << x;
+    EXPECT_NEAR(run.quantity("tips.main_last.length"), joins ? 0.03 + std::hypot(0.005, 0.007) : 0.03, 1e-3) << x;
+  }
+}
+
 TEST(Joining, ATipMayBeAskedToStopInstead) {
   SceneRun run = SceneRun::from_text(growing("stop"));
   while (run.quantity("tips.main_last.stopped") == 0) ASSERT_TRUE(run.step()) << run.time();

@@ -256,6 +256,28 @@ TEST(ExtendFractures, RegionInterfacesStay) {
   EXPECT_NEAR(area, signed_area(geometry.regions[0].polygon), 1e-12);
 }
 
+// A path that passes a corner of a region by less than a tenth of an edge bends to it, one that is farther away stays
+// straight and crosses the interface beside the corner.
+TEST(ExtendFractures, CornersOfRegionsTakeWhatPassesThemClosely) {
+  for (const double away : {0.08, 0.12, -0.08, -0.12}) {
+    Geometry geometry = box(0, 2, 0, 2);
+    geometry.fractures = {fracture("main", {{0.7, 1}, {1, 1}})};
+    const Point corner(1 + 2.5 * size, 1 + away * size);
+    geometry.regions = {region("hard", {corner, {1.5, 0.5}, {1.5, 1.5}})};
+    const Mesh mesh = generate_mesh(geometry, coarse_outside);
+    const GrownMesh grown = extend_fractures(mesh, {straight(mesh, 0, true, 5 * size)}, usual);
+    expect_sound(mesh, grown);
+    double to_corner = 1, off_line = 0;
+    for (const FracturePoint& point : grown.mesh.fracture_points) {
+      to_corner = std::min(to_corner, (point.position - corner).norm());
+      off_line = std::max(off_line, std::abs(point.position.y() - 1));
+    }
+    const bool bends = std::abs(away) < 0.1;
+    EXPECT_EQ(to_corner == 0, bends) << away;
+    EXPECT_NEAR(off_line, bends ? std::abs(away) * size : 0, 1e-12) << away;
+  }
+}
+
 TEST(ExtendFractures, AlongAnInterface) {
   Geometry geometry = box(0, 2, 0, 2);
   geometry.regions = {region("top half", {{0, 1}, {2, 1}, {2, 2}, {0, 2}})};

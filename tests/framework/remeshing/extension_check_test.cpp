@@ -105,6 +105,67 @@ TEST(CheckExtensions, RefusesWhatIsNoPath) {
   EXPECT_THROW(check_extensions(sample(), {{3, true, {{1, 1}}}}, size), std::invalid_argument);
 }
 
+/// Of a path that goes on from the end of "main" in an arc of this radius (m) and turn (rad), in steps of 2 degrees.
+PathExtension arc(double radius, double turn) {
+  constexpr double step = 2 * degree;
+  PathExtension path{0, true, {}};
+  for (int i = 1; i * step <= turn; ++i)
+    path.points.emplace_back(1.5 + radius * std::sin(i * step), 1 + radius * (1 - std::cos(i * step)));
+  return path;
+}
+
+bool is_accepted(const Mesh& mesh, const PathExtension& path) {
+  try {
+    check_extensions(mesh, {path}, size);
+    return true;
+  } catch (const ExtensionError&) {
+    return false;
+  }
+}
+
+// An arc that has turned by t is r (1 - cos t) above the fracture that it left, at r t along the way: a quarter of the
+// way at t = 262 degrees.
+TEST(CheckExtensions, RefusesALoopThatComesBackWithinAQuarterOfItsWay) {
+  const Mesh mesh = sample();
+  for (const double radius : {0.01, 0.03}) {
+    EXPECT_TRUE(is_accepted(mesh, arc(radius, 258 * degree))) << radius;
+    EXPECT_FALSE(is_accepted(mesh, arc(radius, 266 * degree))) << radius;
+  }
+}
+
+// A tip stands beside the end of another fracture, at less than half an edge. A path that leaves it at an angle towards
+// the other comes nearer by the cosine of the angle, which is 0.9 at 26 degrees.
+TEST(CheckExtensions, LetsATipThatIsNearAFractureAlreadyGoOnPastIt) {
+  constexpr double away = 0.3 * size;
+  for (const double turn : {0.0, 0.7}) {
+    const auto at = [&](double x, double y) { return turned(Point(x, y), turn); };
+    Geometry geometry = box(-4, 4, -4, 4);
+    geometry.fractures = {fracture("main", {at(0, 0), at(1, 0)}), fracture("wall", {at(0.5, -away), at(1, -away)})};
+    const Mesh mesh = generate_mesh(geometry, {.size = 1, .fracture_size = size});
+    const auto down_by = [&](double angle) {
+      return PathExtension{0, true, {at(1 + size * std::cos(angle), -size * std::sin(angle))}};
+    };
+    EXPECT_TRUE(is_accepted(mesh, down_by(0))) << turn;
+    EXPECT_TRUE(is_accepted(mesh, down_by(24 * degree))) << turn;
+    EXPECT_FALSE(is_accepted(mesh, down_by(28 * degree))) << turn;
+    EXPECT_TRUE(is_accepted(mesh, down_by(-30 * degree))) << turn;
+  }
+}
+
+// Paths may end half an edge before a fracture; a tip stops where another half of that is left.
+TEST(ComesTooNear, WhereAThirdOfTheGapIsLeftAboveWhatIsRefused) {
+  const Mesh mesh = sample();
+  const Point beginning(1.5, 1), from(2.3, 1);
+  const auto is_too_near = [&](double gap) {
+    return comes_too_near(mesh, 0, beginning, from, {2.5 - gap * size, 1}, size);
+  };
+  const auto is_path = [&](double gap) { return is_accepted(mesh, {0, true, {from, {2.5 - gap * size, 1}}}); };
+  EXPECT_FALSE(is_too_near(0.77));
+  EXPECT_TRUE(is_too_near(0.73));
+  EXPECT_TRUE(is_path(0.51));
+  EXPECT_FALSE(is_path(0.49));
+}
+
 TEST(FreeLength, IsTheWayToTheNearestObstacle) {
   const Mesh mesh = sample();
   FreeLength free = free_length(mesh, 0, true, {1.5, 1}, {2, 0});
