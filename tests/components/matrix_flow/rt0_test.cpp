@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SparseLU>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -200,6 +201,18 @@ TEST(LumpedFluxMass, OfAnAcuteTriangleIsTheCotangentsAndExactFromTheCircumcentre
     const LumpedFluxMass lumped = lumped_flux_mass(mesh, 0, Tensor::Identity());
     EXPECT_LT(lumped.share, 1e-13);
     EXPECT_LT((lumped.mass - flux_mass(mesh, 0, Tensor::Identity())).norm(), 1e-12);
+  }
+}
+
+// By the smallest cotangent: wholly from 0.1 on, not at all from a right angle on, and in proportion between.
+TEST(LumpedFluxMass, GoesOverToTheOtherBeforeARightAngle) {
+  for (const double cotangent : {0.02, 0.05, 0.08, 0.098, 0.102, 0.2, 0.5}) {
+    const Point apex(0.5, 0.5 / std::tan(std::atan2(1, cotangent) / 2));
+    for (const double scale : {1.0, 1e-3}) {
+      const Mesh mesh = mesh_of({Point(0, 0), Point(scale, 0), scale * apex});
+      EXPECT_NEAR(lumped_flux_mass(mesh, 0, 1e-12 * Tensor::Identity()).share, std::min(1.0, cotangent / 0.1), 1e-12)
+          << cotangent;
+    }
   }
 }
 
