@@ -49,8 +49,9 @@ class EqualWings(unittest.TestCase):
         self.assertGreater(rows[-1]["tips.main_last.length"], 0.08)
         for row in rows:
             first, last = row["tips.main_first.length"], row["tips.main_last.length"]
-            # The search ends at 1e-7 in K_eq, which falls by a fifth over an increment of 10 mm: 5e-9 m at each tip.
-            self.assertLess(abs(first - last), 2e-8, row["time"])
+            # Twins move as one, so that the tolerance of the search does not part them; the directions of their segments
+            # are left to round-off.
+            self.assertLess(abs(first - last), 3e-9, row["time"])
             for axis in "xy":
                 self.assertAlmostEqual(row["tips.main_first." + axis], -row["tips.main_last." + axis], delta=2e-8)
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "components/fine_fracture/growth/kink.hpp"
+#include "components/fine_fracture/growth/neutral_tips.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::fine_fracture {
@@ -31,6 +32,7 @@ constexpr double largest_advance = 0.6;       ///< of an increment, between two 
 constexpr int halvings = 40;                  ///< of the range of a first length
 constexpr double nearby = 1.01;               ///< of a length: for the slope of the expansion of a kink
 constexpr double at_limit = 1e-9;             ///< of a length that is at its limit, but for rounding
+constexpr double equal_advances = 1e-9;       ///< of an increment: what is left of differences of neutral tips
 constexpr double no_motion = 1e-300;          ///< no division by zero
 
 double excess(const FrontState& state) {
@@ -52,6 +54,8 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
       is_laid_(tips_.size(), 0),
       is_stopped_(tips_.size(), 0),
       was_unstable_(tips_.size(), 0),
+      is_parted_(tips_.size(), 0),
+      groups_(tips_.size(), -1),
       length_(tips_.size(), 0),
       angle_(tips_.size(), 0),
       last_(without_growth) {
@@ -250,14 +254,17 @@ void Front::learn(const std::vector<FrontState>& states) {
   const Eigen::VectorXd found = residual(states);
   update_jacobian(found);
   last_ = states;
+  find_neutral_tips(found);
+  if (share_advances(found)) return;
+  const Eigen::VectorXd counted = believed(found, advances(), groups_);
   worst_ = 0;
-  bool is_met = true;
+  bool is_met = has_equal_advances();
   for (int i = 0; i < count(); ++i) {
-    const double load = excess(states[i]);
     if (!grows_[i]) {
-      if (!is_stopped_[i] && states[i].is_evaluated && load > options_.load_tolerance) is_met = false;
+      if (!is_stopped_[i] && states[i].is_evaluated && excess(states[i]) > options_.load_tolerance) is_met = false;
       continue;
     }
+    const double load = groups_[i] < 0 ? excess(states[i]) : counted[2 * i];
     const bool is_shortest = is_new(i) && length_[i] <= shortest(i) * (1 + at_limit);
     if (is_shortest && load < 0) continue;  // at rest, whatever its direction
     worst_ = std::max(worst_, std::abs(load));
@@ -289,9 +296,10 @@ void Front::forget() {
 /// After a trial that is much worse than the best one, the experience of an earlier search is dropped, or else the next
 /// step is shorter.
 Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
+  const Eigen::VectorXd counted = believed(residual, advances(), groups_);
   double norm = 0;
   for (int i = 0; i < count(); ++i)
-    if (grows_[i]) norm = std::max({norm, std::abs(residual[2 * i]), of_direction * std::abs(residual[2 * i + 1])});
+    if (grows_[i]) norm = std::max({norm, std::abs(counted[2 * i]), of_direction * std::abs(residual[2 * i + 1])});
   if (!best_ || norm <= much_worse * best_->norm) {
     if (!best_ || norm < gain * best_->norm) last_gain_ = trials_;
     if (!best_ || norm < best_->norm) best_ = Best{place(), residual, norm};
@@ -331,7 +339,100 @@ bool Front::free_tips(const Eigen::VectorXd& residual) {
   return false;
 }
 
-/// Newton's step with Broyden's matrix. A tip that would move back to where it was at the start of the step rests
+/// The groups of tips that the Jacobian does not tell from one another. Where K of one is further from the mean than
+/// the error of a mesh explains, its advance follows the difference, less that error.
+void Front::find_neutral_tips(const Eigen::VectorXd& residual) {
+  std::vector<char> candidates(tips_.size(), 0);
+  for (int i = 0; i < count(); ++i) candidates[i] = grows_[i] && !is_new(i) && last_[i].is_evaluated;
+  groups_ = neutral_groups(jacobian_, residual, advances(), candidates);
+  for (int i = 0; i < count(); ++i) {
+    if (!is_apart(residual, groups_, i)) continue;
+    for (int j = 0; j < count(); ++j)
+      if (groups_[j] == groups_[i]) is_parted_[j] = 1;
+  }
+}
+
+std::vector<double> Front::advances() const {
+  std::vector<double> advances;
+  for (int i = 0; i < count(); ++i) advances.push_back((length_[i] - tips_[i].covered) / options_.increment);
+  return advances;
+}
+
+bool Front::has_equal_advances() const {
+  const std::vector<double> advance = advances();
+  for (int i = 0; i < count(); ++i)
+    for (int j = 0; j < i; ++j)
+      if (is_tied(i) && groups_[j] == groups_[i] && std::abs(advance[i] - advance[j]) > equal_advances) return false;
+  return true;
+}
+
+/// A tip at rest that is nearly as loaded as one that grows, and is unloaded by its growth as that one is, grows with
+/// it: a difference that the mesh may have made does not choose a leader. Whether there is one.
+bool Front::share_advances(const Eigen::VectorXd& residual) {
+  for (int i = 0; i < count(); ++i) {
+    if (grows_[i] || is_stopped_[i] || is_parted_[i] || is_new(i) || !last_[i].is_evaluated) continue;
+    for (int j = 0; j < count(); ++j) {
+      if (!grows_[j] || is_new(j) || is_parted_[j] || !is_indifferent(jacobian_, j, i)) continue;
+      if (residual[2 * i] < residual[2 * j] - 2 * mesh_error) continue;
+      jacobian_.col(2 * i) = jacobian_.col(2 * j);
+      const double half = (length_[j] - tips_[j].covered) / 2;
+      if (!is_laid_[i]) begin(i, last_[i]);
+      grows_[i] = 1;
+      for (const int tip : {i, j}) length_[tip] = std::min(tips_[tip].longest, tips_[tip].covered + half);
+      set_turn_slope(i, last_[i].sifs);
+      before_place_.resize(0);
+      best_.reset();
+      return true;
+    }
+  }
+  return false;
+}
+
+/// With Broyden's matrix. Neutral tips that are tied move by the same, to equal advances, so that the mean of their
+/// equations is met.
+Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) const {
+  const int size = static_cast<int>(free.size());
+  const Eigen::VectorXd counted = believed(residual, advances(), groups_);
+  Eigen::MatrixXd jacobian = jacobian_;
+  add_least_slope(jacobian, groups_);
+  Eigen::MatrixXd matrix(size, size);
+  Eigen::VectorXd right(size);
+  for (int a = 0; a < size; ++a) {
+    right[a] = -counted[free[a]];
+    for (int b = 0; b < size; ++b) matrix(a, b) = jacobian(free[a], free[b]);
+  }
+  std::vector<int> column(free.size()), members;
+  const std::vector<double> advance = advances();
+  std::vector<double> sum;
+  std::vector<int> of_group(tips_.size(), -1);
+  for (int a = 0; a < size; ++a) {
+    const int tip = free[a] / 2;
+    const bool is_common = a % 2 == 0 && is_tied(tip);
+    if (is_common && of_group[groups_[tip]] >= 0) {
+      column[a] = of_group[groups_[tip]];
+    } else {
+      column[a] = static_cast<int>(members.size());
+      members.push_back(0);
+      sum.push_back(0);
+      if (is_common) of_group[groups_[tip]] = column[a];
+    }
+    ++members[column[a]];
+    if (is_common) sum[column[a]] += advance[tip];
+  }
+  const int unknowns = static_cast<int>(members.size());
+  if (unknowns == size) return matrix.fullPivLu().solve(right);
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(size, unknowns);
+  Eigen::VectorXd equal = Eigen::VectorXd::Zero(size);
+  for (int a = 0; a < size; ++a) {
+    spread(a, column[a]) = 1;
+    const int tip = free[a] / 2;
+    if (a % 2 == 0 && is_tied(tip)) equal[a] = sum[column[a]] / members[column[a]] - advance[tip];
+  }
+  const Eigen::MatrixXd reduced = spread.transpose() * matrix * spread;
+  return equal + spread * reduced.fullPivLu().solve(spread.transpose() * (right - matrix * equal));
+}
+
+/// Newton's step. A tip that would move back to where it was at the start of the step rests
 /// there.
 void Front::step(const Eigen::VectorXd& residual) {
   if (free_tips(residual)) return;
@@ -340,13 +441,11 @@ void Front::step(const Eigen::VectorXd& residual) {
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) free.insert(free.end(), {2 * i, 2 * i + 1});
   const int size = static_cast<int>(free.size());
-  Eigen::FullPivLU<Eigen::MatrixXd> matrix(jacobian_(free, free));
-  if (!matrix.isInvertible()) {
-    // Loads that were once found not to depend on lengths would leave the tips where they are.
-    forget();
-    matrix.compute(jacobian_(free, free));
-  }
-  Eigen::VectorXd move = matrix.solve(-residual(free));
+  // Loads that were once found not to depend on lengths would leave the tips where they are.
+  Eigen::MatrixXd jacobian = jacobian_;
+  add_least_slope(jacobian, groups_);
+  if (!Eigen::FullPivLU<Eigen::MatrixXd>(jacobian(free, free)).isInvertible()) forget();
+  Eigen::VectorXd move = newton_step(free, residual);
   double part = part_;
   for (int a = 0; a < size; a += 2) {
     const int i = free[a] / 2;

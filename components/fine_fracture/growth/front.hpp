@@ -52,7 +52,8 @@ struct FrontOptions {
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
 ///   K_eq = K_IC and K_II = 0 at tips that grow,    K_eq <= K_IC at tips that do not,
 /// by Broyden's method (Math. Comput. 19 (1965) 577), projected (Gay and Schnabel, Nonlin. Progr. 3 (1978) 245), for
-/// the tips that grow; which do is decided anew after each trial.
+/// the tips that grow; which do is decided anew after each trial. Tips of which the factors do not tell which one
+/// advances have equal advances, and the mean of their ln(K_eq/K_IC) is zero (neutral_tips.hpp).
 /// Of several solutions it seeks the one next to the start of the step.
 ///
 ///   Front front(…, states of the trial without growth, …);
@@ -82,7 +83,8 @@ class Front {
   void learn(const std::vector<FrontState>& states);
   Verdict verdict() const { return verdict_; }
   int trials() const { return trials_; }
-  double worst() const { return worst_; }  ///< the largest |ln(K_eq/K_IC)| of growing tips in the last trial
+  /// The largest |ln(K_eq/K_IC)| of growing tips in the last trial, of neutral ones their mean.
+  double worst() const { return worst_; }
   const std::string& reason() const { return reason_; }
   /// The derivative of (ln(K/K_IC), K_II/K_I) by (length/increment, angle), per tip, as it was learnt, without the
   /// part that depends on the length of the segment that turns; for the next step.
@@ -90,6 +92,7 @@ class Front {
 
  private:
   int count() const { return static_cast<int>(tips_.size()); }
+  bool is_tied(int tip) const { return groups_[tip] >= 0 && !is_parted_[tip]; }
   bool is_new(int tip) const { return tips_[tip].covered == 0; }
   double shortest(int tip) const { return std::max(options_.shortest, tips_[tip].least); }
   /// The length of a last segment that does not grow.
@@ -110,6 +113,12 @@ class Front {
   Eigen::VectorXd place() const;
   void update_jacobian(const Eigen::VectorXd& residual);
   bool free_tips(const Eigen::VectorXd& residual);
+  void find_neutral_tips(const Eigen::VectorXd& residual);
+  std::vector<double> advances() const;  ///< in increments
+  bool has_equal_advances() const;
+  bool share_advances(const Eigen::VectorXd& residual);
+  /// Newton's step in the unknowns `free`, those that are tied in common.
+  Eigen::VectorXd newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) const;
   /// The residual to go on from: that of the last trial, or of the best one if the last was much worse.
   Eigen::VectorXd return_to_best(const Eigen::VectorXd& residual);
   void step(const Eigen::VectorXd& residual);
@@ -119,6 +128,8 @@ class Front {
   double dt_;
   std::vector<char> grows_, is_laid_, is_stopped_;
   std::vector<char> was_unstable_;  ///< tips that were pushed on once, since their load did not fall with their length
+  std::vector<char> is_parted_;     ///< tips whose advance follows the difference of their K, though it is neutral
+  std::vector<int> groups_;         ///< of neutral tips that grow, see neutral_tips.hpp; -1: alone
   std::vector<double> length_, angle_;
   std::vector<FrontState> last_;
   Eigen::MatrixXd jacobian_;  ///< of residual() by (length/increment, angle), per tip

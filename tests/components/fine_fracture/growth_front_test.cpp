@@ -84,6 +84,62 @@ TEST(Front, FindsTipsThatShareTheirFluid) {
   EXPECT_NEAR(front.length(1) - 0.008, (0.33 - form.shared * sum) / form.own, 2e-8);
 }
 
+/// K of both falls with the growth of either, by the same: the error of a mesh in it must not choose a leader.
+TEST(Front, TipsThatAreNotToldFromOneAnotherShareTheAdvance) {
+  for (const double noise : {0.0, 1e-12, 1e-6, 1e-4, 1e-3}) {
+    ClosedForm form{{0.3 + noise, 0.3 - 0.5 * noise}, {tip(0.4), tip(-2.0)}};
+    form.own = 0;
+    const Front front = form.solved(options());
+    ASSERT_EQ(front.verdict(), Front::Verdict::found) << noise;
+    EXPECT_NEAR(front.length(0), 0.008 + (0.3 + 0.25 * noise) / (2 * form.shared), 2e-8) << noise;
+    EXPECT_NEAR(front.length(1), front.length(0), 1e-11) << noise;
+    EXPECT_LE(front.trials(), 12) << noise;
+  }
+}
+
+/// The same where one of them is below its toughness without growth, as in the first step with growth.
+TEST(Front, ATipThatIsHardlyLessLoadedGrowsToo) {
+  ClosedForm form{{0.3, 0.299}, {tip(0.4), tip(-2.0)}};
+  form.own = 0;
+  for (const double less : {0.3, 0.2996}) {
+    form.rise = {0.3 - less, 0.2994 - less};
+    const Front front = form.solved(options());
+    ASSERT_EQ(front.verdict(), Front::Verdict::found) << less;
+    EXPECT_NEAR(front.length(1), front.length(0), 1e-11) << less;
+  }
+}
+
+/// A difference beyond the error of a mesh counts: in stronger rock a tip rests, however neutral the two are.
+TEST(Front, ATipThatIsClearlyLessLoadedRests) {
+  ClosedForm form{{0.3, 0.25}, {tip(0.4), tip(-2.0)}};
+  form.own = 0;
+  const Front front = form.solved(options());
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(front.length(0), 0.008 + 0.3 / form.shared, 2e-8);
+  EXPECT_EQ(front.length(1), 0.008);
+}
+
+/// In between the advances differ continuously, by what the error of a mesh does not explain over the least slope.
+TEST(Front, AdvancesFollowADifferenceContinuously) {
+  for (const double difference : {0.0019, 0.0021, 0.003}) {
+    ClosedForm form{{0.3 + difference / 2, 0.3 - difference / 2}, {tip(0.4), tip(-2.0)}};
+    form.own = 0;
+    const Front front = form.solved(options());
+    ASSERT_EQ(front.verdict(), Front::Verdict::found) << difference;
+    const double beyond = std::max(0.0, difference / 2 - 1e-3);
+    EXPECT_NEAR(front.length(0) - front.length(1), 2 * beyond / 0.01 * options().increment, 2e-7) << difference;
+    EXPECT_NEAR(front.length(0) + front.length(1), 0.016 + 0.3 / form.shared, 4e-8) << difference;
+  }
+}
+
+/// Where the advances are well determined, the difference counts to the last digit; twins are equal.
+TEST(Front, RoundOffDoesNotPartTwins) {
+  const ClosedForm form{{0.3, 0.3 + 1e-12}, {tip(0.4), tip(-2.0)}};
+  const Front front = form.solved(options());
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(front.length(0), front.length(1), 1e-14);
+}
+
 /// The second tip would have to become shorter: it rests, and the first one takes all the fluid.
 TEST(Front, LetsATipRestThatTheOtherUnloads) {
   const ClosedForm form{{0.3, 0.05}, {tip(0.4), tip(-2.0)}};

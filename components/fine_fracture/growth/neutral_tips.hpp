@@ -1,0 +1,43 @@
+// Tips of which the factors do not tell which one advances, as both tips of a straight crack under one pressure.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace sprekk::fine_fracture {
+
+/// The pairs of tips for which an advance of one instead of the other changes ln K of both alike, but for what the mesh
+/// adds: there a difference in K between them tells nothing of their advances, however exactly it is computed. Of all
+/// advances with which the mean of ln K in such a group is right, the shortest are equal ones.
+/// The Jacobian is that of (ln K, K_II/K_I) by (length/increment, angle), per tip.
+
+/// Whether an advance of one tip instead of the other hardly changes the difference of ln K.
+bool is_neutral_pair(const Eigen::MatrixXd& jacobian, int one, int other);
+/// The same as far as the advance of `one` alone tells it.
+bool is_indifferent(const Eigen::MatrixXd& jacobian, int one, int other);
+
+/// What ln K of tips may be off their mean by, though it should be the same: the error of a mesh.
+inline constexpr double mesh_error = 1e-3;
+/// ln K over one increment: what is further off moves the tip on beside the others by this slope at least.
+inline constexpr double least_difference_slope = 0.01;
+
+/// Whether both have the same advance (increments) and the same K but for round-off: that chooses no leader.
+bool are_twins(const Eigen::VectorXd& residual, const std::vector<double>& advances, int one, int other);
+
+/// The group of each candidate, a number from 0 on; -1 where it is alone. A group is connected by neutral pairs and
+/// twins.
+std::vector<int> neutral_groups(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
+                                const std::vector<double>& advances, const std::vector<char>& candidates);
+
+/// The residual of which, in each group, the differences from its mean are less by the mesh's error, or none, and by
+/// what the least slope takes from them. `advances`: in increments, per tip.
+Eigen::VectorXd believed(const Eigen::VectorXd& residual, const std::vector<double>& advances,
+                         const std::vector<int>& groups);
+
+/// Adds the derivative of the least slope's part to the Jacobian.
+void add_least_slope(Eigen::MatrixXd& jacobian, const std::vector<int>& groups);
+
+/// Whether ln K of a tip is further from the mean of its group than the mesh's error.
+bool is_apart(const Eigen::VectorXd& residual, const std::vector<int>& groups, int tip);
+
+}  // namespace sprekk::fine_fracture
