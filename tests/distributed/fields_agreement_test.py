@@ -77,6 +77,11 @@ output: {every: 50 s}
 """
 
 
+def other_components(order, contact):
+    return (SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0").replace("contact/coulomb", f"contact/{contact}")
+            .replace("type: poromechanics/mpsa", f"type: poromechanics/fem\n    order: {order}"))
+
+
 def run(command, scene, folder):
     """[(time, grid of the matrix, grid of the fractures)]"""
     result = subprocess.run(command + ["run", "-q", str(scene), "-o", str(folder)], capture_output=True, text=True,
@@ -124,7 +129,9 @@ def check_cross(lines):
 failures = []
 with tempfile.TemporaryDirectory() as temporary:
     for name, text in (("closed cross", CLOSED_CROSS), ("short steps", SHORT_STEPS),
-                       ("mixed elements", SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0"))):
+                       ("mixed elements", SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0")),
+                       ("other components", other_components("second", "augmented_lagrangian")),
+                       ("other components of first order", other_components("first", "penalty"))):
         scene = Path(temporary) / f"{name.replace(' ', '_')}.yaml"
         scene.write_text(text)
         alone = run([program], scene, scene.with_suffix(".one"))

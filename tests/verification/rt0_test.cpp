@@ -1,12 +1,16 @@
 // matrix_flow/rt0 in scenes: orders, closed forms through the couplers, conservation, a turned twin, growth.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/mesh/build_mesh.hpp"
 #include "tests/verification/mandel_solution.hpp"
+#include "tests/verification/mesh_file.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {
@@ -153,6 +157,41 @@ time: {end: 1e-5 s, step: 1e-5 s}
 TEST(Rt0, LumpedFluxesKeepTheBoundsOnRectangles) {
   EXPECT_LT(lowest_pressure("exact"), -1e-4);
   EXPECT_GT(lowest_pressure("lumped"), -1e-15);
+}
+
+/// The integral of the squared pressure, and the largest flux, after three steps of a well in anisotropic rock. The
+/// pressures of its outer sides hold it.
+std::array<double, 2> around_a_well(const std::string& flux_mass, double degrees, const std::string& mesh) {
+  const Tensor turn = turned_by(degrees);
+  const Point well = turn * Point(0.31, 0.42);
+  SceneRun run = SceneRun::from_text(fmt::format(
+      "{{geometry: {{file: {}}}, components: {{pore: {{type: matrix_flow/rt0, permeability: {{along: 3 m^2, across: 1 "
+      "m^2, angle: {} deg}}, viscosity: 1 Pa*s, storage: 1 1/Pa, boundary: {{left: {{pressure: 1 Pa}}, top: "
+      "{{pressure: 0 Pa}}}}, wells: {{feed: {{at: [{:.17g} m, {:.17g} m], rate: 1 m^2/s}}}}, flux_mass: {}}}}}, "
+      "schedule: [{{solve: pore}}], time: {{end: 0.03 s, step: 0.01 s}}}}",
+      mesh, 20 + degrees, well.x(), well.y(), flux_mass));
+  run.run();
+  double sum = 0;
+  for (int c = 0; c < run.mesh().cell_count(); ++c)
+    sum += run.mesh().cell_measure[c] * std::pow(run.field("pore.pressure")[c], 2);
+  return {sum, fluxes_of(run).lpNorm<Eigen::Infinity>()};
+}
+
+TEST(Rt0, TurnsWithItsBox) {
+  SceneRun box = SceneRun::from_text(
+      "{geometry: {box: {x: [0 m, 1 m], y: [0 m, 1 m]}}, mesh: {size: 0.15 m}, components: {pore: {type: "
+      "matrix_flow/rt0, permeability: 1 m^2, viscosity: 1 Pa*s, storage: 1 1/Pa}}, schedule: [{solve: pore}], time: "
+      "{end: 1 s, step: 1 s}}");
+  const RawMesh mesh = to_raw_mesh(box.mesh());
+  for (const std::string flux_mass : {"exact", "lumped"}) {
+    const auto drawn =
+        around_a_well(flux_mass, 0, write_msh(mesh, Tensor::Identity(), Point::Zero(), "rt0_" + flux_mass));
+    for (const double degrees : {30.0, 77.0}) {
+      const auto turned =
+          around_a_well(flux_mass, degrees, write_msh(mesh, turned_by(degrees), Point::Zero(), "rt0_" + flux_mass));
+      for (int i = 0; i < 2; ++i) EXPECT_NEAR(turned[i] / drawn[i], 1, 1e-9) << flux_mass << " " << degrees;
+    }
+  }
 }
 
 TEST(Rt0, WingsGrowAndNoFluidIsLost) {

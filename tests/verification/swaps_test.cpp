@@ -3,31 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <tuple>
 
 #include "tests/verification/mandel_solution.hpp"
 #include "tests/verification/onset_crack.hpp"
 #include "tests/verification/scene_run.hpp"
+#include "tests/verification/swaps.hpp"
 
 namespace sprekk::testing {
 namespace {
 
-using Choice = std::tuple<std::string, std::string, std::string>;
-
-/// The flow, the rock ("fem_first": with its order) and the contact of a scene; an empty one stays.
-std::vector<Override> with(const Choice& choice, std::vector<Override> overrides) {
-  const auto& [flow, rock, contact] = choice;
-  if (!flow.empty()) overrides.push_back({"components.pore.type", "matrix_flow/" + flow});
-  overrides.push_back({"components.rock.type", "poromechanics/" + rock.substr(0, rock.find('_'))});
-  if (rock.starts_with("fem")) overrides.push_back({"components.rock.order", rock.substr(rock.find('_') + 1)});
-  if (!contact.empty()) overrides.push_back({"components.contact.type", "contact/" + contact});
-  return overrides;
-}
-
-std::string name_of(const ::testing::TestParamInfo<Choice>& info) {
-  const auto& [flow, rock, contact] = info.param;
-  return fmt::format("{}{}{}{}{}", flow, flow.empty() ? "" : "_", rock, contact.empty() ? "" : "_", contact);
-}
+std::string name_of_pair(const ::testing::TestParamInfo<Choice>& info) { return name_of(info.param); }
 
 const auto flows = ::testing::Values("mpfa", "tpfa", "rt0");
 const auto rocks = ::testing::Values("mpsa", "fem_first", "fem_second");
@@ -35,7 +20,7 @@ const auto contacts = ::testing::Values("coulomb", "augmented_lagrangian");
 const auto none = ::testing::Values("");
 
 class SwapsInMandel : public ::testing::TestWithParam<Choice> {};
-INSTANTIATE_TEST_SUITE_P(Pairs, SwapsInMandel, ::testing::Combine(flows, rocks, none), name_of);
+INSTANTIATE_TEST_SUITE_P(Pairs, SwapsInMandel, ::testing::Combine(flows, rocks, none), name_of_pair);
 
 /// On squares that are cut by alternating diagonals, where two-point fluxes are consistent.
 TEST_P(SwapsInMandel, AreOfSecondOrder) {
@@ -62,7 +47,7 @@ TEST_P(SwapsInMandel, AreOfSecondOrder) {
 }
 
 class SwapsInCracks : public ::testing::TestWithParam<Choice> {};
-INSTANTIATE_TEST_SUITE_P(Pairs, SwapsInCracks, ::testing::Combine(none, rocks, contacts), name_of);
+INSTANTIATE_TEST_SUITE_P(Pairs, SwapsInCracks, ::testing::Combine(none, rocks, contacts), name_of_pair);
 
 /// The jump in the middle of a crack of half-length 1 m over the closed one, with 40 cells on it.
 double middle_jump(SceneRun& run, int axis) {
@@ -92,7 +77,7 @@ TEST_P(SwapsInCracks, OpenLikeSneddonsAndSlipLikePhans) {
 }
 
 class SwapsInSection51 : public ::testing::TestWithParam<Choice> {};
-INSTANTIATE_TEST_SUITE_P(All, SwapsInSection51, ::testing::Combine(flows, rocks, contacts), name_of);
+INSTANTIATE_TEST_SUITE_P(All, SwapsInSection51, ::testing::Combine(flows, rocks, contacts), name_of_pair);
 
 /// Section 5.1 of the paper with 20 cells on the fracture, at the end of the injection. Finite elements of first order
 /// have a first-order error of slip at tips (4.3 % here); two-point fluxes are not consistent on this mesh, which
