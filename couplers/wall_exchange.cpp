@@ -86,10 +86,10 @@ class WallExchange : public Coupler {
 
     const FractureFluid::NormalPermeability kappa = fracture_.normal_permeability();
     const int walls = mesh_.wall_count();
-    SPREKK_ASSERT(kappa.value.size() == mesh_.fracture_cell_count(), kappa.value.size(), mesh_.fracture_cell_count());
+    SPREKK_ASSERT(kappa.value.size() == walls, kappa.value.size(), walls);
     Vector of_flux(walls), of_trace(walls), of_pressure(walls);
     for (int w = 0; w < walls; ++w) {
-      const double k = kappa.value[w / 2], scale = 1 / (k + matrix_conductance_[w]);
+      const double k = kappa.value[w], scale = 1 / (k + matrix_conductance_[w]);
       SPREKK_ASSERT(k >= 0 && std::isfinite(scale) && scale > 0, w, k, matrix_conductance_[w]);
       of_trace[w] = power_of_two_near(scale * k);
       of_flux[w] = of_trace[w] > 0 ? of_trace[w] / k : scale;
@@ -114,8 +114,8 @@ class WallExchange : public Coupler {
     Vector by_aperture(walls);
     for (int w = 0; w < walls; ++w) {
       const double difference =
-          of_trace[w] > 0 ? -flux.now()[w] / kappa.value[w / 2] : trace_now[w] - pressure.now()[w / 2];
-      by_aperture[w] = of_flux[w] * kappa.by_aperture[w / 2] * difference;
+          of_trace[w] > 0 ? -flux.now()[w] / kappa.value[w] : trace_now[w] - pressure.now()[w / 2];
+      by_aperture[w] = of_flux[w] * kappa.by_aperture[w] * difference;
     }
     assembly.derivative(flux, fracture_.aperture(), SparseMatrix(by_aperture.asDiagonal() * to_walls_));
   }

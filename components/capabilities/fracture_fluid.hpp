@@ -18,8 +18,8 @@ class FractureFluid {
   virtual Field& aperture() = 0;
   virtual const Vector& initial_aperture() const = 0;
 
-  /// The permeability normal to the fracture, kappa = 2 K/(mu a^2) (below Eq. 9 of the paper), m/(Pa s), for each
-  /// fracture cell at the current aperture, and its derivative by the aperture.
+  /// The permeability normal to the fracture, kappa = 2 K/(mu a^2) (below Eq. 9 of the paper), m/(Pa s), for each wall
+  /// at the current aperture, and its derivative by the aperture.
   struct NormalPermeability {
     Vector value, by_aperture;
   };

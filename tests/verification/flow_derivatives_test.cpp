@@ -111,5 +111,35 @@ TEST(FlowDerivatives, OfAGivenNormalPermeability) {
   expect_derivatives(run, spreads, rows, with(of_all_laws, {{"conduit.flux", "conduit.aperture"}}));
 }
 
+TEST(FlowDerivatives, OfWallsOfDifferentNormalPermeability) {
+  SceneRun run = SceneRun::from_text(scene("    wall_permeability: {left: 2 + y}"));
+  expect_derivatives(run, spreads, rows,
+                     with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
+}
+
+TEST(FlowDerivatives, OfInertia) {
+  for (const char* law : {"type: cubic, inertia: 3 + x", "type: cubic, inertia: 300 1/m, residual: 0.9 m",
+                          "type: rough, roughness: 0.4 m, inertia: 20 1/m"}) {
+    SceneRun run = SceneRun::from_text(scene(std::string("    law: {") + law + "}"));
+    expect_derivatives(
+        run, spreads, rows,
+        with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
+  }
+  SceneRun run = SceneRun::from_text(scene("    law: {type: constant, transmissivity: 2 + x, inertia: 3 1/m}"));
+  expect_derivatives(run, spreads, rows, with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}}));
+}
+
+TEST(FlowDerivatives, OfInertiaThatIsReleasedInPart) {
+  SceneRun run = SceneRun::from_text(scene("    law: {type: cubic, inertia: 30 1/m}"));
+  Field& flux = run.model().fields().at("conduit.flux");
+  flux.set(Vector::LinSpaced(flux.size(), -0.7, 1.1));
+  for (Part* part : run.model().parts()) {
+    part->hold_coefficients();
+    part->release_coefficients(0.3);
+  }
+  expect_derivatives(run, spreads, rows,
+                     with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
+}
+
 }  // namespace
 }  // namespace sprekk::testing

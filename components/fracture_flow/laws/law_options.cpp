@@ -23,6 +23,14 @@ Spec LawOptions::spec() {
                  .source = "Lomize 1951; Witherspoon et al. 1980"});
   spec.data("transmissivity", transmissivity,
             {.unit = "m^3", .range = non_negative(), .doc = "Of the constant law.", .in_time = true});
+  spec.data(
+      "inertia", inertia,
+      {.unit = "1/m",
+       .range = non_negative(),
+       .doc = "Forchheimer's coefficient beta, which adds beta rho Q |Q|/h^2 to the pressure gradient 12 mu Q/h^3 "
+              "of the flux Q in the hydraulic aperture h; 0 without inertia.",
+       .source = "Forchheimer 1901; Zimmerman et al. 2004",
+       .in_time = true});
   registered.add_sections(spec, hydraulic_laws());
   spec.check([this](const Node& node) {
     registered.check(node, type, "type");

@@ -16,6 +16,7 @@ struct LawOptions {
   std::optional<double> residual;      ///< m
   std::optional<double> roughness;     ///< m
   std::optional<Data> transmissivity;  ///< m^3, of a constant one
+  Data inertia;                        ///< 1/m, Forchheimer's coefficient
   LawChoice<HydraulicLaw, double> registered;
   Spec spec();
   /// `floor`: the hydraulic aperture does not fall below this either, m.

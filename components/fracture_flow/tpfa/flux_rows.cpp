@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "components/fracture_flow/tpfa/flux_rows.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "components/fracture_flow/tpfa/half_cell_apertures.hpp"
 #include "components/fracture_flow/tpfa/junction_apertures.hpp"
@@ -14,29 +15,35 @@ Conductance FractureFlow::conductance(const Link& link) const {
     const Transmissivity first = transmissivity(link.first, link.point);
     return {first.value / half, {{link.first, first.by_aperture / half}}};
   }
+  if (!options_.is_constant()) return conductance_by_opening(link);
   const double other_half = 0.5 * mesh_.fracture_cells[link.second].measure;
-  if (!options_.is_constant()) return conductance_by_opening(link, half, other_half);
   const Transmissivity first = transmissivity(link.first, link.point), second = transmissivity(link.second, link.point);
   if (first.value == 0 || second.value == 0) return {0, {}};
   return {1 / (half / first.value + other_half / second.value), {}};
 }
 
-Conductance FractureFlow::conductance_by_opening(const Link& link, double half, double other_half) const {
+std::array<FractureFlow::HydraulicHalf, 2> FractureFlow::halves_by_opening(const Link& link) const {
   const auto halves_of = [&](const Vector& aperture) {
-    const auto at = [&](int cell, double half_length) {
-      return CellAperture{half_length, aperture[cell], aperture[cell] - initial_aperture_[cell]};
+    const auto at = [&](int cell) {
+      return CellAperture{0.5 * mesh_.fracture_cells[cell].measure, aperture[cell],
+                          aperture[cell] - initial_aperture_[cell]};
     };
-    return half_cell_apertures(at(link.first, half), at(link.second, other_half));
+    return half_cell_apertures(at(link.first), at(link.second));
   };
   const std::array<HalfCellAperture, 2> halves = halves_of(aperture_.now());
   const std::array<HalfCellAperture, 2> held = is_held() ? halves_of(held_aperture_) : halves;
-  const std::array<double, 2> lengths = {half, other_half};
+  return {HydraulicHalf{hydraulic_aperture(halves[0].value, held[0].value), halves[0].by_aperture},
+          HydraulicHalf{hydraulic_aperture(halves[1].value, held[1].value), halves[1].by_aperture}};
+}
+
+Conductance FractureFlow::conductance_by_opening(const Link& link) const {
+  const std::array<HydraulicHalf, 2> halves = halves_by_opening(link);
   const std::array<int, 2> cells = {link.first, link.second};
   double resistance = 0;
   std::array<double, 2> by_aperture = {0, 0};
   for (int i = 0; i < 2; ++i) {
-    const auto [a, by_present] = hydraulic_aperture(halves[i].value, held[i].value);
-    const double own = 12 * viscosity_[cells[i]] * lengths[i] / (a * a * a);
+    const auto [a, by_present] = halves[i].hydraulic;
+    const double own = 12 * viscosity_[cells[i]] * (0.5 * mesh_.fracture_cells[cells[i]].measure) / (a * a * a);
     resistance += own;
     for (int k = 0; k < 2; ++k) by_aperture[k] -= 3 * own / a * by_present * halves[i].by_aperture[k];
   }
@@ -47,7 +54,10 @@ Conductance FractureFlow::conductance_by_opening(const Link& link, double half, 
 std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
   std::vector<JunctionFluxes> fluxes;
   for (const Junction& junction : mesh_.junctions) {
-    fluxes.emplace_back(junction, options_.is_constant() ? given_halves(junction) : halves_by_opening(junction));
+    std::vector<JunctionFluxes::Half> halves =
+        options_.is_constant() ? given_halves(junction) : halves_by_opening(junction);
+    if (has_inertia()) slow_down(junction, halves);
+    fluxes.emplace_back(junction, std::move(halves));
   }
   return fluxes;
 }
@@ -93,13 +103,6 @@ double FractureFlow::pressure_drop(const Link& link) const {
   return pressure_.now()[link.first] - second - link.gravity;
 }
 
-struct FractureFlow::FluxRows {
-  double dt;
-  Vector of_flux, drop;
-  std::vector<Triplet> by_flux, by_pressure, by_aperture;  ///< by_flux: off the diagonal, which is of_flux
-  double largest_pressure = 0;
-};
-
 void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(flux_)) return;
   const int points = flux_.size(), count = mesh_.fracture_cell_count();
@@ -107,7 +110,9 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
   const std::vector<JunctionFluxes> at_junctions = junction_fluxes();
   for (const Link& link : links_) {
     if (link.junction == none) {
-      add_row(link, conductance(link), rows);
+      const Conductance c = conductance(link);
+      add_row(link, c, rows);
+      if (has_inertia()) add_inertia(link, c, rows);
       continue;
     }
     const JunctionFluxes::Flux flux = at_junctions[link.junction].flux(link.place);
@@ -149,6 +154,8 @@ void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& row
   // The derivative of scale (q − C dp) by an aperture, where d scale / da = −scale^2 dC/da.
   for (const auto& [cell, by] : c.by_aperture)
     rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
+  for (const auto& [point, by] : c.by_flux)
+    rows.by_flux.emplace_back(link.point, point, -scale * by * dp - scale * scale * by * (q - c.value * dp));
 }
 
 /// Adds zero entries wherever any hub would have entries: the hub of a junction may change from one iteration to the
@@ -171,9 +178,12 @@ void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, F
     rows.drop[link.point] -= scale * share.value * q;
     rows.by_flux.emplace_back(link.point, point, -scale * share.value);
     for (const auto& [cell, by] : share.by_aperture) rows.by_aperture.emplace_back(link.point, cell, -scale * by * q);
+    for (const auto& [other, by] : share.by_flux) rows.by_flux.emplace_back(link.point, other, -scale * by * q);
   }
   for (const auto& [cell, by] : flux.conductance.by_aperture)
     rows.by_aperture.emplace_back(link.point, cell, -scale * scale * by * rest);
+  for (const auto& [other, by] : flux.conductance.by_flux)
+    rows.by_flux.emplace_back(link.point, other, -scale * scale * by * rest);
 }
 
 }  // namespace sprekk::fracture_flow

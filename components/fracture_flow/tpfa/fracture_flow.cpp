@@ -55,6 +55,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
   law_ = options_.law.make(options_.aperture_floor);
   viscosity_ = property(options_.viscosity);
   compressibility_ = property(options_.fluid_compressibility);
+  inertia_ = property(options_.law.inertia);
   const double start = context.start_time;
   if (const std::optional<Data>& given = options_.given_transmissivity()) {
     given_transmissivity_ = {*given, whole_cells(mesh_), Mean::of_values, start};
@@ -63,11 +64,15 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
   }
   if (options_.normal_permeability_value)
     given_normal_permeability_ = {*options_.normal_permeability_value, whole_cells(mesh_), Mean::of_values, start};
+  for (int wall = 0; wall < 2; ++wall)
+    if (const std::optional<Data>& given = options_.wall_permeability[wall])
+      given_wall_permeability_[wall] = {*given, whole_cells(mesh_), Mean::of_values, start};
 }
 
 std::vector<const Data*> FractureFlow::properties() const {
-  std::vector<const Data*> data = {&options_.viscosity, &options_.fluid_compressibility};
-  for (const std::optional<Data>* given : {&options_.given_transmissivity(), &options_.normal_permeability_value})
+  std::vector<const Data*> data = {&options_.viscosity, &options_.fluid_compressibility, &options_.law.inertia};
+  for (const std::optional<Data>* given : {&options_.given_transmissivity(), &options_.normal_permeability_value,
+                                           &options_.wall_permeability[0], &options_.wall_permeability[1]})
     if (*given) data.push_back(&**given);
   return data;
 }
@@ -129,9 +134,9 @@ void FractureFlow::make_links(const StepTime& step) {
 }
 
 void FractureFlow::evaluate_data(const StepTime& step) {
-  for (Property* property : {&viscosity_, &compressibility_}) property->evaluate(step);
-  for (MeansAlong* means :
-       {&given_transmissivity_, &transmissivity_of_half_[0], &transmissivity_of_half_[1], &given_normal_permeability_})
+  for (Property* property : {&viscosity_, &compressibility_, &inertia_}) property->evaluate(step);
+  for (MeansAlong* means : {&given_transmissivity_, &transmissivity_of_half_[0], &transmissivity_of_half_[1],
+                            &given_normal_permeability_, &given_wall_permeability_[0], &given_wall_permeability_[1]})
     means->evaluate(step);
   make_links(step);
   prescribe(step);
@@ -150,12 +155,13 @@ HydraulicAperture FractureFlow::hydraulic_aperture(int cell) const {
 
 void FractureFlow::set_search_mode(SearchMode mode) {
   held_aperture_ = mode == SearchMode::piecewise_linear ? aperture_.now() : Vector();
+  held_flux_ = mode == SearchMode::piecewise_linear && has_inertia() ? flux_.now() : Vector();
   released_share_ = 0;
 }
 
 void FractureFlow::release_coefficients(double share) {
   released_share_ = share;
-  if (share == 1) held_aperture_ = Vector();
+  if (share == 1) held_aperture_ = held_flux_ = Vector();
 }
 
 FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
@@ -179,17 +185,20 @@ FractureFlow::Transmissivity FractureFlow::cubic_law(int cell) const {
 }
 
 FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
-  const int count = mesh_.fracture_cell_count();
-  NormalPermeability kappa{Vector(count), Vector::Zero(count)};
-  for (int i = 0; i < count; ++i) {
-    if (options_.normal_permeability == "constant") {
-      kappa.value[i] = given_normal_permeability_[i];
-      continue;
+  const int walls = mesh_.wall_count();
+  NormalPermeability kappa{Vector(walls), Vector::Zero(walls)};
+  for (int w = 0; w < walls; ++w) {
+    const int i = w / 2;
+    if (options_.wall_permeability[w % 2]) {
+      kappa.value[w] = given_wall_permeability_[w % 2][i];
+    } else if (options_.normal_permeability == "constant") {
+      kappa.value[w] = given_normal_permeability_[i];
+    } else {
+      const auto [a, by_present] = hydraulic_aperture(i);
+      const Transmissivity t = transmissivity(i);
+      kappa.value[w] = 2 * t.value / (a * a);
+      kappa.by_aperture[w] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a) * by_present;
     }
-    const auto [a, by_present] = hydraulic_aperture(i);
-    const Transmissivity t = transmissivity(i);
-    kappa.value[i] = 2 * t.value / (a * a);
-    kappa.by_aperture[i] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a) * by_present;
   }
   return kappa;
 }

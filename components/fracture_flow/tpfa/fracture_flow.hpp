@@ -22,9 +22,9 @@ namespace sprekk::fracture_flow {
 /// its second cell (m^2/s). Each row of p balances the volume of fluid of one cell over the step (m^2):
 ///   L (a − a_old) + L a c_p (p − p_old) + dt (sum of Q out of it) − dt q = 0,
 /// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series
-/// (half_cell_apertures.hpp). With Q as an unknown a fracture may conduct 1e12 times better than rock without loss of
-/// digits: Q is not computed from a difference of nearly equal pressures, and the flux out of one cell enters the next
-/// one to the bit. Properties are those at the end of the step.
+/// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
+/// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
+/// pressures, and the flux out of one cell enters the next one to the bit. Properties are those at the end of the step.
 class FractureFlow : public Component, public FractureFluid {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
@@ -76,12 +76,24 @@ class FractureFlow : public Component, public FractureFluid {
   };
   Conductance conductance(const Link& link) const;
   /// The conductance by the cubic law, from the apertures of the half cells.
-  Conductance conductance_by_opening(const Link& link, double half, double other_half) const;
+  Conductance conductance_by_opening(const Link& link) const;
+  /// The hydraulic aperture of a half cell, with the derivatives of its aperture by those of both cells at a point.
+  struct HydraulicHalf {
+    HydraulicAperture hydraulic;
+    std::array<double, 2> by_aperture;
+  };
+  std::array<HydraulicHalf, 2> halves_by_opening(const Link& link) const;
   std::vector<JunctionFluxes> junction_fluxes() const;
   std::vector<JunctionFluxes::Half> given_halves(const Junction& junction) const;
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   double pressure_drop(const Link& link) const;
   struct FluxRows;
+  bool has_inertia() const { return !options_.law.inertia.is_zero(); }
+  Conductance inertia(const Link& link) const;
+  void add_inertia(const Link& link, const Conductance& conductance, FluxRows& rows) const;
+  void slow_down(const Junction& junction, std::vector<JunctionFluxes::Half>& halves) const;
+  /// The size of a flux, and its derivative, m^2/s, as inertia takes it: held, or released in part.
+  std::array<double, 2> size_of_flux(double now, double held) const;
   void assemble_fluxes(Assembly& assembly, const StepTime& step) const;
   void add_row(const Link& link, const Conductance& conductance, FluxRows& rows) const;
   void add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const;
@@ -104,10 +116,13 @@ class FractureFlow : public Component, public FractureFluid {
   Vector initial_aperture_;
   std::unique_ptr<HydraulicLaw> law_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one
+  Vector held_flux_;           ///< the same, for inertia
   double released_share_ = 0;  ///< share of the change from the held to the present apertures that the cubic law takes
   Property viscosity_, compressibility_;
+  Property inertia_;  ///< 1/m, one a cell; without values where there is none
   MeansAlong given_transmissivity_, given_normal_permeability_;  ///< m^3, m/(Pa s), one a cell
   std::array<MeansAlong, 2> transmissivity_of_half_;             ///< by FractureCell::points
+  std::array<MeansAlong, 2> given_wall_permeability_;            ///< by Wall, m/(Pa s), one a cell
   std::vector<Link> links_;
   Vector source_;  ///< m^2/s, one a cell
   struct Prescribed {

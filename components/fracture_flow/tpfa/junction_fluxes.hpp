@@ -8,10 +8,12 @@
 
 namespace sprekk::fracture_flow {
 
-/// A factor of a flux (m^2/(Pa s), unless said otherwise) and its derivatives by the apertures of fracture cells.
+/// A factor of a flux (m^2/(Pa s), unless said otherwise) and its derivatives by the apertures of fracture cells, and
+/// where inertia counts by the fluxes through points.
 struct Conductance {
   double value;
   std::vector<std::pair<int, double>> by_aperture;
+  std::vector<std::pair<int, double>> by_flux = {};
 };
 
 /// The equations of the fluxes at a junction. With t_i the conductance from the centre of cell i to the junction, the
@@ -24,10 +26,12 @@ struct Conductance {
 /// from pressures; the others follow from these fluxes: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
 class JunctionFluxes {
  public:
-  /// The conductance t_i, m^2/(Pa s), and its derivatives by the apertures of the junction's cells.
+  /// The conductance t_i, m^2/(Pa s), and its derivatives by the apertures of the junction's cells and by the flux out
+  /// of cell i into the junction.
   struct Half {
     double value;
     Vector by_aperture;
+    double by_outflow = 0;
   };
   /// `halves`: one for each of the junction's cells.
   JunctionFluxes(const Junction& junction, std::vector<Half> halves);
@@ -49,6 +53,8 @@ class JunctionFluxes {
  private:
   Flux::Part part(int from, int to, double sign) const;
   int point_between(int one, int other) const;
+  /// Adds the derivative by the flux out of a cell, given by its place, as derivatives by the fluxes through points.
+  void add_outflow(int place, double derivative, std::vector<std::pair<int, double>>& by_flux) const;
   /// Derivatives by the apertures of the junction's cells, with their numbers.
   std::vector<std::pair<int, double>> by_cell(const Vector& by_aperture) const;
 

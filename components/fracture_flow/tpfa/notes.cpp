@@ -40,12 +40,20 @@ void FractureFlow::note_input(Notes& notes) const {
     note("gravity", origin_,
          "gravity has no effect on the flow of '" + name() +
              "' (its fluid_density is 0) give a density, or remove the gravity");
+  if (has_inertia() && options_.fluid_density == 0)
+    note("inertia", origin_,
+         "the inertia of the law of '" + name() +
+             "' has no effect (its fluid_density is 0) give a density, or remove the inertia");
   if (options_.transmissivity_value && !options_.is_constant())
     note("transmissivity_value", origin_,
          "'transmissivity_value' of '" + name() +
              "' has no effect (the transmissivity follows the cubic law) write 'transmissivity: constant', or remove "
              "it");
-  if (options_.normal_permeability_value && options_.normal_permeability != "constant")
+  if (options_.normal_permeability_value && options_.wall_permeability[0] && options_.wall_permeability[1])
+    note("normal_permeability_value", origin_,
+         "'normal_permeability_value' of '" + name() +
+             "' has no effect (both walls have a value under wall_permeability) remove one of the two");
+  else if (options_.normal_permeability_value && options_.normal_permeability != "constant")
     note("normal_permeability_value", origin_,
          "'normal_permeability_value' of '" + name() +
              "' has no effect (it follows the cubic law) write 'normal_permeability: constant', or remove it");

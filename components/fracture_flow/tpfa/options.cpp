@@ -99,6 +99,20 @@ Spec Options::spec() {
              .range = non_negative(),
              .doc = "Of a normal permeability that does not follow from the aperture.",
              .in_time = true});
+  Spec walls("wall_permeability",
+             "Walls of different normal permeability, as by a filter cake or a skin on one of them.");
+  const auto wall = [&](const char* key, std::optional<Data>& value, const char* side) {
+    walls.data(key, value,
+               {.unit = "m/(Pa*s)",
+                .range = non_negative(),
+                .doc = std::string("Of the wall on the ") + side +
+                       " as one looks from the first to the last point of the fracture; without it, it is that of "
+                       "normal_permeability.",
+                .in_time = true});
+  };
+  wall("left", wall_permeability[0], "left");
+  wall("right", wall_permeability[1], "right");
+  spec.section("wall_permeability", walls, {.doc = "The normal permeability kappa of single walls."});
   spec.vector("gravity", gravity,
               {.unit = "m/s^2",
                .doc = "Acceleration of gravity.",
@@ -107,7 +121,7 @@ Spec Options::spec() {
   spec.quantity("fluid_density", fluid_density,
                 {.unit = "kg/m^3",
                  .range = non_negative(),
-                 .doc = "Density of the fluid; matters with gravity only.",
+                 .doc = "Density of the fluid; matters with gravity, and with the inertia of `law`, only.",
                  .material = true});
   static Injection example_injection;
   spec.named_sections("injection", injection_spec(example_injection),

@@ -1,6 +1,7 @@
 // The parameters of the flow in fractures.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,8 +45,10 @@ struct Options {
   LawOptions law;
   std::string normal_permeability = "cubic_law";
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
-  VectorData gravity;                             ///< m/s^2
-  double fluid_density = 1000;                    ///< kg/m^3
+  /// m/(Pa s), by Wall: of a wall that has a normal permeability of its own.
+  std::array<std::optional<Data>, 2> wall_permeability;
+  VectorData gravity;           ///< m/s^2
+  double fluid_density = 1000;  ///< kg/m^3
   std::map<std::string, Injection> injections;
   std::map<std::string, PrescribedPressure> prescribed;
   std::map<std::string, Data> boundary;  ///< pressure by side, Pa
