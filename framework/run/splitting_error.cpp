@@ -25,10 +25,6 @@ const std::string key = "splitting_error.";
 
 double largest_of(const Vector& values) { return values.size() > 0 ? values.lpNorm<Eigen::Infinity>() : 0; }
 
-}  // namespace
-
-namespace {
-
 bool solves_in_turn(const Model& model) {
   return std::ranges::any_of(sampled_steps(model.scene().time),
                              [&](const StepTime& step) { return model.schedule().systems_in_turn(step) > 1; });

@@ -3,24 +3,20 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "components/fine_fracture/growth/kink.hpp"
 #include "components/fine_fracture/growth/neutral_tips.hpp"
+#include "components/fine_fracture/growth/turn_slope.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double turn_slope = 0.5;   ///< d(K_II/K_I)/d angle of a short kink (Cotterell and Rice 1980)
-constexpr double of_bend = 8.0 / 3;  ///< int theta/sqrt(x) dx over the root of the length, along an arc
-constexpr double least_turn_slope = 0.3, steepest_turn_slope = 20;
 constexpr double first_slope = -0.3;          ///< of ln K_eq over one increment, as long as none is known
 constexpr double shared_slope = -0.2;         ///< the same by the growth of another tip
 constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one tells no slope between two meshes
 constexpr double first_part = 0.25;           ///< of an increment: the first trial of a tip without a known speed
-constexpr double least_fresh = 0.1;           ///< of a move: what is left of it across earlier ones, to learn from
 constexpr double gain = 0.5;                  ///< of the norm of the best trial: what counts as progress
 constexpr int patience = 8;                   ///< trials without progress
 constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
@@ -29,8 +25,6 @@ constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside
 constexpr double largest_turn = 0.3;          ///< rad, between two trials
 constexpr double largest_factor = 3;          ///< between lengths of a new segment in two trials
 constexpr double largest_advance = 0.6;       ///< of an increment, between two trials
-constexpr int halvings = 40;                  ///< of the range of a first length
-constexpr double nearby = 1.01;               ///< of a length: for the slope of the expansion of a kink
 constexpr double at_limit = 1e-9;             ///< of a length that is at its limit, but for rounding
 constexpr double equal_advances = 1e-9;       ///< of an increment: what is left of differences of neutral tips
 constexpr double no_motion = 1e-300;          ///< no division by zero
@@ -72,8 +66,8 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
   if (!any_grows()) verdict_ = Verdict::found;
   if (slopes.rows() == 2 * count()) {
     is_experienced_ = true;
-    jacobian_ = slopes;
-    scale_turns(jacobian_, without_growth, false);
+    slopes_.jacobian = slopes;
+    scale_turns(slopes_.jacobian, without_growth, false);
     return;
   }
   for (int i = 0; i < count(); ++i)
@@ -134,48 +128,28 @@ void Front::begin(int i, const FrontState& state) {
     angle_[i] = tip.ahead + std::clamp(tip.turning * (length_[i] - tip.covered), -largest_turn, largest_turn);
     return;
   }
-  // The longest kink at whose end K_eq has not come down to the toughness, as long as the loads stay.
-  double low = options_.shortest, high = std::min(tip.longest, tip.speed > 0 ? options_.increment : half);
-  const auto end_of = [&](double s) { return after_kink(state.sifs, local_symmetry_angle(state.sifs, s), s); };
-  const auto is_short = [&](double s) { return equivalent_sif(end_of(s)) > tip.toughness; };
-  if (tip.speed > 0) {
-    low = std::clamp(tip.speed * dt_, low, high);
-  } else if (is_short(high)) {
-    low = high;
-  } else if (is_short(low)) {
-    for (int k = 0; k < halvings; ++k) {
-      const double middle = std::sqrt(low * high);
-      (is_short(middle) ? low : high) = middle;
-    }
-  }
-  length_[i] = low;
-  angle_[i] = tip.angle + local_symmetry_angle(state.sifs, low);
-  const double near = nearby * low;
-  const double slope = std::log(equivalent_sif(end_of(near)) / equivalent_sif(end_of(low))) / (near - low);
-  if (std::isfinite(slope)) jacobian_(2 * i, 2 * i) = std::min(slope * options_.increment, first_slope);
+  const double low = options_.shortest, high = std::min(tip.longest, tip.speed > 0 ? options_.increment : half);
+  length_[i] = tip.speed > 0 ? std::clamp(tip.speed * dt_, low, high)
+                             : longest_overloaded_kink(state.sifs, tip.toughness, low, high);
+  angle_[i] = tip.angle + local_symmetry_angle(state.sifs, length_[i]);
+  const double slope = log_slope_of_kink(state.sifs, length_[i]);
+  if (std::isfinite(slope)) slopes_.jacobian(2 * i, 2 * i) = std::min(slope * options_.increment, first_slope);
 }
 
-/// By the expansion of a kink: compression along the tip makes the direction of long segments stiffer. K_II is
-/// theta(0)/2 K_I - sqrt(2/pi) T int theta/sqrt(x) dx, x behind the tip: theta = 1 along a straight segment, and
-/// 2 - 2x/length along an arc. K_I is not below the toughness where a tip grows, however small it is in a trial.
 double Front::turn_slope_of(int tip, const Sifs& sifs, double length) const {
-  const bool is_bent = tips_[tip].is_bent;
-  const double end_turn = is_bent ? 2 * turn_slope : turn_slope, along = is_bent ? of_bend : 2;
-  const double k1 = std::max(sifs.k1, tips_[tip].toughness);
-  if (!(k1 > 0)) return end_turn;
-  const double slope = end_turn - along * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) / k1;
-  return std::clamp(slope, least_turn_slope, steepest_turn_slope);
+  return turn_slope(sifs, tips_[tip].toughness, length, tips_[tip].is_bent);
 }
 
 void Front::set_turn_slope(int i, const Sifs& sifs) {
-  jacobian_(2 * i + 1, 2 * i + 1) = turn_slope_of(i, sifs, length_[i]);
+  slopes_.jacobian(2 * i + 1, 2 * i + 1) = turn_slope_of(i, sifs, length_[i]);
 }
 
 void Front::make_jacobian() {
-  jacobian_ = Eigen::MatrixXd::Zero(2 * count(), 2 * count());
+  slopes_.jacobian = Eigen::MatrixXd::Zero(2 * count(), 2 * count());
   for (int i = 0; i < count(); ++i) {
-    for (int j = 0; j < count(); ++j) jacobian_(2 * i, 2 * j) = i == j ? first_slope + shared_slope : shared_slope;
-    jacobian_(2 * i + 1, 2 * i + 1) = turn_slope;
+    for (int j = 0; j < count(); ++j)
+      slopes_.jacobian(2 * i, 2 * j) = i == j ? first_slope + shared_slope : shared_slope;
+    slopes_.jacobian(2 * i + 1, 2 * i + 1) = short_kink_turn_slope;
   }
 }
 
@@ -185,7 +159,7 @@ void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>
   for (int j = 0; j < count(); ++j) {
     if (!(length_[j] > 0)) continue;
     const double across = length_[j] / options_.increment,
-                 turn = grows_[j] ? turn_slope_of(j, states[j].sifs, length_[j]) : turn_slope;
+                 turn = grows_[j] ? turn_slope_of(j, states[j].sifs, length_[j]) : short_kink_turn_slope;
     for (int i = 0; i < count(); ++i) {
       jacobian(2 * i, 2 * j + 1) *= inverse ? 1 / across : across;
       jacobian(2 * i + 1, 2 * j + 1) *= inverse ? 1 / turn : turn;
@@ -194,7 +168,7 @@ void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>
 }
 
 Eigen::MatrixXd Front::slopes() const {
-  Eigen::MatrixXd slopes = jacobian_;
+  Eigen::MatrixXd slopes = slopes_.jacobian;
   scale_turns(slopes, last_, true);
   // Nothing is known of the turns of a tip that rests.
   for (int i = 0; i < count(); ++i)
@@ -228,23 +202,11 @@ Eigen::VectorXd Front::place() const {
   return values;
 }
 
-/// Broyden's update in the unknowns that were changed, projected: what was learnt from other moves of this step stays.
 void Front::update_jacobian(const Eigen::VectorXd& residual) {
-  if (before_place_.size() == 0) {
-    learnt_.clear();
-    return;
-  }
-  const Eigen::VectorXd moved = place() - before_place_;
-  if (moved.squaredNorm() == 0) return;
-  Eigen::VectorXd fresh = moved;
-  for (const Eigen::VectorXd& direction : learnt_) fresh -= fresh.dot(direction) * direction;
-  if (fresh.norm() < least_fresh * moved.norm()) {
-    learnt_.clear();
-    fresh = moved;
-  }
-  const Eigen::VectorXd missed = residual - before_residual_ - jacobian_ * moved;
-  jacobian_ += missed * fresh.transpose() / fresh.dot(moved);
-  learnt_.push_back(fresh.normalized());
+  if (before_place_.size() == 0)
+    slopes_.forget_moves();
+  else
+    slopes_.update(place() - before_place_, residual - before_residual_);
 }
 
 void Front::learn(const std::vector<FrontState>& states) {
@@ -290,7 +252,7 @@ void Front::forget() {
   for (int i = 0; i < count(); ++i)
     if (grows_[i] && last_[i].is_evaluated) set_turn_slope(i, last_[i].sifs);
   is_experienced_ = false;
-  learnt_.clear();
+  slopes_.forget_moves();
 }
 
 /// After a trial that is much worse than the best one, the experience of an earlier search is dropped, or else the next
@@ -344,7 +306,7 @@ bool Front::free_tips(const Eigen::VectorXd& residual) {
 void Front::find_neutral_tips(const Eigen::VectorXd& residual) {
   std::vector<char> candidates(tips_.size(), 0);
   for (int i = 0; i < count(); ++i) candidates[i] = grows_[i] && !is_new(i) && last_[i].is_evaluated;
-  groups_ = neutral_groups(jacobian_, residual, advances(), candidates);
+  groups_ = neutral_groups(slopes_.jacobian, residual, advances(), candidates);
   for (int i = 0; i < count(); ++i) {
     if (!is_apart(residual, groups_, i)) continue;
     for (int j = 0; j < count(); ++j)
@@ -372,9 +334,9 @@ bool Front::share_advances(const Eigen::VectorXd& residual) {
   for (int i = 0; i < count(); ++i) {
     if (grows_[i] || is_stopped_[i] || is_parted_[i] || is_new(i) || !last_[i].is_evaluated) continue;
     for (int j = 0; j < count(); ++j) {
-      if (!grows_[j] || is_new(j) || is_parted_[j] || !is_indifferent(jacobian_, j, i)) continue;
+      if (!grows_[j] || is_new(j) || is_parted_[j] || !is_indifferent(slopes_.jacobian, j, i)) continue;
       if (residual[2 * i] < residual[2 * j] - 2 * mesh_error) continue;
-      jacobian_.col(2 * i) = jacobian_.col(2 * j);
+      slopes_.jacobian.col(2 * i) = slopes_.jacobian.col(2 * j);
       const double half = (length_[j] - tips_[j].covered) / 2;
       if (!is_laid_[i]) begin(i, last_[i]);
       grows_[i] = 1;
@@ -388,52 +350,31 @@ bool Front::share_advances(const Eigen::VectorXd& residual) {
   return false;
 }
 
-/// With Broyden's matrix. Neutral tips that are tied move by the same, to equal advances, so that the mean of their
-/// equations is met.
-Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) const {
-  const int size = static_cast<int>(free.size());
-  const Eigen::VectorXd counted = believed(residual, advances(), groups_);
-  Eigen::MatrixXd jacobian = jacobian_;
-  add_least_slope(jacobian, groups_);
-  Eigen::MatrixXd matrix(size, size);
-  Eigen::VectorXd right(size);
-  for (int a = 0; a < size; ++a) {
-    right[a] = -counted[free[a]];
-    for (int b = 0; b < size; ++b) matrix(a, b) = jacobian(free[a], free[b]);
-  }
-  std::vector<int> column(free.size()), members;
+/// With Broyden's matrix. The advances of neutral tips become equal, so that the mean of their equations is met.
+Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) {
   const std::vector<double> advance = advances();
-  std::vector<double> sum;
-  std::vector<int> of_group(tips_.size(), -1);
-  for (int a = 0; a < size; ++a) {
-    const int tip = free[a] / 2;
-    const bool is_common = a % 2 == 0 && is_tied(tip);
-    if (is_common && of_group[groups_[tip]] >= 0) {
-      column[a] = of_group[groups_[tip]];
-    } else {
-      column[a] = static_cast<int>(members.size());
-      members.push_back(0);
-      sum.push_back(0);
-      if (is_common) of_group[groups_[tip]] = column[a];
-    }
-    ++members[column[a]];
-    if (is_common) sum[column[a]] += advance[tip];
+  const auto with_least_slope = [&] {
+    Eigen::MatrixXd jacobian = slopes_.jacobian;
+    add_least_slope(jacobian, groups_);
+    return Eigen::MatrixXd(jacobian(free, free));
+  };
+  Eigen::MatrixXd matrix = with_least_slope();
+  if (!matrix.fullPivLu().isInvertible()) {
+    // Loads that were once found not to depend on lengths would leave the tips where they are.
+    forget();
+    matrix = with_least_slope();
   }
-  const int unknowns = static_cast<int>(members.size());
-  if (unknowns == size) return matrix.fullPivLu().solve(right);
-  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(size, unknowns);
-  Eigen::VectorXd equal = Eigen::VectorXd::Zero(size);
-  for (int a = 0; a < size; ++a) {
-    spread(a, column[a]) = 1;
+  Eigen::VectorXd from = Eigen::VectorXd::Zero(matrix.rows());
+  std::vector<int> ties(free.size(), -1);
+  for (std::size_t a = 0; a < free.size(); a += 2) {
     const int tip = free[a] / 2;
-    if (a % 2 == 0 && is_tied(tip)) equal[a] = sum[column[a]] / members[column[a]] - advance[tip];
+    from[a] = advance[tip];
+    if (is_tied(tip)) ties[a] = groups_[tip];
   }
-  const Eigen::MatrixXd reduced = spread.transpose() * matrix * spread;
-  return equal + spread * reduced.fullPivLu().solve(spread.transpose() * (right - matrix * equal));
+  return tied_move(matrix, -believed(residual, advance, groups_)(free), from, ties);
 }
 
-/// Newton's step. A tip that would move back to where it was at the start of the step rests
-/// there.
+/// Newton's step. A tip that would move back to where it was at the start of the step rests there.
 void Front::step(const Eigen::VectorXd& residual) {
   if (free_tips(residual)) return;
   const Eigen::VectorXd from = place();
@@ -441,10 +382,6 @@ void Front::step(const Eigen::VectorXd& residual) {
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) free.insert(free.end(), {2 * i, 2 * i + 1});
   const int size = static_cast<int>(free.size());
-  // Loads that were once found not to depend on lengths would leave the tips where they are.
-  Eigen::MatrixXd jacobian = jacobian_;
-  add_least_slope(jacobian, groups_);
-  if (!Eigen::FullPivLU<Eigen::MatrixXd>(jacobian(free, free)).isInvertible()) forget();
   Eigen::VectorXd move = newton_step(free, residual);
   double part = part_;
   for (int a = 0; a < size; a += 2) {

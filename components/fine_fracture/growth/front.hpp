@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "components/fine_fracture/growth/broyden.hpp"
 #include "components/fine_fracture/growth/mixed_mode.hpp"
 #include "framework/types.hpp"
 
@@ -51,10 +52,9 @@ struct FrontOptions {
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
 ///   K_eq = K_IC and K_II = 0 at tips that grow,    K_eq <= K_IC at tips that do not,
-/// by Broyden's method (Math. Comput. 19 (1965) 577), projected (Gay and Schnabel, Nonlin. Progr. 3 (1978) 245), for
-/// the tips that grow; which do is decided anew after each trial. Tips of which the factors do not tell which one
-/// advances have equal advances, and the mean of their ln(K_eq/K_IC) is zero (neutral_tips.hpp).
-/// Of several solutions it seeks the one next to the start of the step.
+/// by Broyden's method for the tips that grow; which do is decided anew after each trial. Tips of which the factors do
+/// not tell which one advances have equal advances, and the mean of their ln(K_eq/K_IC) is zero (neutral_tips.hpp). Of
+/// several solutions it seeks the one next to the start of the step.
 ///
 ///   Front front(…, states of the trial without growth, …);
 ///   while (front.verdict() == again) front.learn(states of the trial with lengths(), angles());
@@ -118,7 +118,7 @@ class Front {
   bool has_equal_advances() const;
   bool share_advances(const Eigen::VectorXd& residual);
   /// Newton's step in the unknowns `free`, those that are tied in common.
-  Eigen::VectorXd newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) const;
+  Eigen::VectorXd newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual);
   /// The residual to go on from: that of the last trial, or of the best one if the last was much worse.
   Eigen::VectorXd return_to_best(const Eigen::VectorXd& residual);
   void step(const Eigen::VectorXd& residual);
@@ -132,9 +132,8 @@ class Front {
   std::vector<int> groups_;         ///< of neutral tips that grow, see neutral_tips.hpp; -1: alone
   std::vector<double> length_, angle_;
   std::vector<FrontState> last_;
-  Eigen::MatrixXd jacobian_;  ///< of residual() by (length/increment, angle), per tip
+  Broyden slopes_;  ///< of residual() by (length/increment, angle), per tip
   Eigen::VectorXd before_place_, before_residual_;
-  std::vector<Eigen::VectorXd> learnt_;  ///< orthonormal: the directions in which the Jacobian is that of this step
   /// The best trial so far with the tips that grow now.
   struct Best {
     Eigen::VectorXd place, residual;

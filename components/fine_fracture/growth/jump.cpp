@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/fine_fracture/growth/turn_slope.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::fine_fracture {
@@ -12,7 +13,6 @@ namespace {
 constexpr double part_of_increment = 0.25;  ///< that the leading tip advances from trial to trial
 constexpr double length_power = 0.35;       ///< Eq. 13 of the paper
 constexpr double largest_turn = 0.3;        ///< rad, between two trials
-constexpr double turn_slope = 0.5;          ///< of K_II/K_I by the direction of a short kink, as in Front
 constexpr double close_enough = 1e-3;       ///< |ln(K_eq/K_IC)| of the leading tip where a jump ends
 constexpr int most_closings = 6;            ///< trials of regula falsi
 constexpr double least_part = 0.1;          ///< of the last part that regula falsi leaves
@@ -25,7 +25,7 @@ double log_load(double load) { return std::log(std::max(least_load, load)); }
 /// The change of direction that makes K_II vanish at the end of a segment, by the expansion of a kink.
 double turn_of(const Sifs& sifs, double length, bool is_bent) {
   if (!(sifs.k1 > 0)) return 0;
-  const double slope = turn_slope + std::max(0.0, -sifs.t_stress) * std::sqrt(length) / sifs.k1;
+  const double slope = short_kink_turn_slope + std::max(0.0, -sifs.t_stress) * std::sqrt(length) / sifs.k1;
   return std::clamp(-std::atan2(sifs.k2, sifs.k1) / (is_bent ? 2 * slope : slope), -largest_turn, largest_turn);
 }
 

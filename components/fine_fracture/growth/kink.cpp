@@ -122,4 +122,29 @@ double local_symmetry_angle(const Sifs& sifs, double length, double limit) {
   return local_symmetry_angle(sifs, 0, limit);
 }
 
+namespace {
+
+double load_after_kink(const Sifs& sifs, double length) {
+  return equivalent_sif(after_kink(sifs, local_symmetry_angle(sifs, length), length));
+}
+
+}  // namespace
+
+double longest_overloaded_kink(const Sifs& sifs, double toughness, double low, double high) {
+  constexpr int halvings = 40;  // of the range of lengths
+  if (load_after_kink(sifs, high) > toughness) return high;
+  if (load_after_kink(sifs, low) <= toughness) return low;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = std::sqrt(low * high);
+    (load_after_kink(sifs, middle) > toughness ? low : high) = middle;
+  }
+  return low;
+}
+
+double log_slope_of_kink(const Sifs& sifs, double length) {
+  constexpr double nearby = 1.01;  // of the length
+  const double longer = nearby * length;
+  return std::log(load_after_kink(sifs, longer) / load_after_kink(sifs, length)) / (longer - length);
+}
+
 }  // namespace sprekk::fine_fracture

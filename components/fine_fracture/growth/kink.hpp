@@ -26,4 +26,11 @@ Sifs after_kink(const Sifs& sifs, double angle, double length = 0);
 /// angle of an infinitesimal kink. A length of 0 is the principle of local symmetry (Goldstein and Salganik 1974).
 double local_symmetry_angle(const Sifs& sifs, double length = 0, double limit = 1.5);
 
+/// The longest kink (m, between `low` and `high`) in the direction of local symmetry at whose end K_eq has not come
+/// down to the toughness (Pa sqrt(m)), as long as the loads stay; `low` where there is none.
+double longest_overloaded_kink(const Sifs& sifs, double toughness, double low, double high);
+
+/// d ln K_eq / d length (1/m) at the end of such a kink; not finite where K_eq vanishes.
+double log_slope_of_kink(const Sifs& sifs, double length);
+
 }  // namespace sprekk::fine_fracture

@@ -1,7 +1,9 @@
 #include "components/fine_fracture/growth/neutral_tips.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sprekk::fine_fracture {
 
@@ -90,6 +92,35 @@ void add_least_slope(Eigen::MatrixXd& jacobian, const std::vector<int>& groups) 
     jacobian(row, row) -= least_difference_slope;
     for (const int j : members) jacobian(row, 2 * j) += least_difference_slope / static_cast<double>(members.size());
   }
+}
+
+Eigen::VectorXd tied_move(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, const Eigen::VectorXd& from,
+                          const std::vector<int>& ties) {
+  const int size = static_cast<int>(ties.size());
+  std::map<int, int> column_of_tie;
+  std::vector<int> column(ties.size()), members;
+  std::vector<double> sum;
+  for (int a = 0; a < size; ++a) {
+    const auto tied = ties[a] < 0 ? column_of_tie.end() : column_of_tie.find(ties[a]);
+    column[a] = tied == column_of_tie.end() ? static_cast<int>(members.size()) : tied->second;
+    if (tied == column_of_tie.end()) {
+      members.push_back(0);
+      sum.push_back(0);
+      if (ties[a] >= 0) column_of_tie[ties[a]] = column[a];
+    }
+    ++members[column[a]];
+    sum[column[a]] += from[a];
+  }
+  const int unknowns = static_cast<int>(members.size());
+  if (unknowns == size) return matrix.fullPivLu().solve(right);
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(size, unknowns);
+  Eigen::VectorXd to_equal = Eigen::VectorXd::Zero(size);
+  for (int a = 0; a < size; ++a) {
+    spread(a, column[a]) = 1;
+    if (ties[a] >= 0) to_equal[a] = sum[column[a]] / members[column[a]] - from[a];
+  }
+  const Eigen::MatrixXd reduced = spread.transpose() * matrix * spread;
+  return to_equal + spread * reduced.fullPivLu().solve(spread.transpose() * (right - matrix * to_equal));
 }
 
 bool is_apart(const Eigen::VectorXd& residual, const std::vector<int>& groups, int tip) {

@@ -37,6 +37,11 @@ Eigen::VectorXd believed(const Eigen::VectorXd& residual, const std::vector<doub
 /// Adds the derivative of the least slope's part to the Jacobian.
 void add_least_slope(Eigen::MatrixXd& jacobian, const std::vector<int>& groups);
 
+/// The move x with matrix x = right, in which unknowns of the same tie (a number from 0 on; -1: none) get equal values
+/// `from` + x. Of their equations the sum is met.
+Eigen::VectorXd tied_move(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, const Eigen::VectorXd& from,
+                          const std::vector<int>& ties);
+
 /// Whether ln K of a tip is further from the mean of its group than the mesh's error.
 bool is_apart(const Eigen::VectorXd& residual, const std::vector<int>& groups, int tip);
 
