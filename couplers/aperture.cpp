@@ -43,6 +43,21 @@ class Aperture : public Coupler {
     assembly.linear(aperture, normal_, contact_.jump(), -1);
   }
 
+  static void note_absence(const std::vector<Component*>& components, Notes& notes) {
+    for (const Component* contact : components) {
+      if (!dynamic_cast<const FractureContact*>(contact)) continue;
+      for (const Component* fluid : components) {
+        const auto* capable = dynamic_cast<const FractureFluid*>(fluid);
+        if (!capable || capable->initial_aperture().size() == 0 || capable->viscosity_between_walls(0) == 0) continue;
+        notes.add("no aperture between " + contact->name() + " and " + fluid->name(),
+                  "the aperture in " + fluid->name() + " stays what it is at the start, however far " +
+                      contact->name() +
+                      " opens or dilates (no coupler aperture stands between them) add '- {type: aperture, between: [" +
+                      contact->name() + ", " + fluid->name() + "]}' to 'couplers:', unless that is meant");
+      }
+    }
+  }
+
  private:
   FractureContact& contact_;
   FractureFluid& fluid_;

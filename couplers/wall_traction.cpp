@@ -44,7 +44,8 @@ class WallTraction : public Coupler {
         options_(options),
         rock_(context.the<RockWalls>()),
         contact_(context.find<FractureContact>()),
-        fluid_(context.find<FractureFluid>()) {
+        fluid_(context.find<FractureFluid>()),
+        fluid_left_out_(fluid_ ? "" : context.left_out<FractureFluid>()) {
     if (!contact_ && !fluid_)
       throw InputError(context.origin, "coupler " + name() + " has nothing that acts on the walls",
                        "it joins the rock with a contact law, the fluid in the fractures, or both",
@@ -56,6 +57,14 @@ class WallTraction : public Coupler {
   }
 
   void evaluate_data(const StepTime& step) override { alpha_.evaluate(step); }
+
+  void note_input(Notes& notes) const override {
+    if (fluid_left_out_.empty()) return;
+    notes.add(name() + " without " + fluid_left_out_,
+              fmt::format("the pressure of {0} does not push the walls of fractures apart ({0} is not in the `between` "
+                          "of the coupler {1}) add it there, unless that is meant",
+                          fluid_left_out_, name()));
+  }
 
   std::vector<Dependence> dependences() const override {
     if (!contact_) return {};
@@ -141,7 +150,8 @@ class WallTraction : public Coupler {
   RockWalls& rock_;
   FractureContact* contact_;
   FractureFluid* fluid_;
-  Property alpha_;  ///< alpha_i of Eq. 4 of the paper, with a fluid
+  std::string fluid_left_out_;  ///< a component of the scene that the coupler does not stand between
+  Property alpha_;              ///< alpha_i of Eq. 4 of the paper, with a fluid
   std::uint64_t loaded_with_ = 0;
   Vector compliance_;     ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
   Operator normal_load_;  ///< `dimension` fracture cells × fracture cells: pressure pushes the plus wall along −n

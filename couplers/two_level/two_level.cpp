@@ -55,6 +55,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
         rock_(context.the<RockState>()),
         walls_(context.the<RockWalls>()),
         fluid_(context.find<FractureFluid>()),
+        fluid_left_out_(fluid_ ? "" : context.left_out<FractureFluid>()),
         contact_(context.find<FractureContact>()),
         location_(mesh_),
         displacement_(mesh_, is_cell_centred() ? NodalValues::From::mean_of_cells : NodalValues::From::cells_and_faces),
@@ -68,6 +69,15 @@ class TwoLevel : public Coupler, public TipSurroundings {
 
   void begin_step(const StepTime&) override {}
   void assemble(Assembly&, const StepTime&) const override {}
+
+  void note_input(Notes& notes) const override {
+    if (fluid_left_out_.empty()) return;
+    notes.add(
+        name() + " without " + fluid_left_out_,
+        fmt::format("walls that grow on the fine level carry no fluid pressure ({} is not in the `between` of the "
+                    "coupler {}) add it there, unless that is meant",
+                    fluid_left_out_, name()));
+  }
 
   void update() override {
     if (updated_for_ == version()) return;
@@ -178,6 +188,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   RockState& rock_;
   RockWalls& walls_;
   FractureFluid* fluid_;
+  std::string fluid_left_out_;  ///< a component of the scene that the coupler does not stand between
   FractureContact* contact_;
   PointLocation location_;
   mutable int last_cell_ = none;  ///< the cell of the last place that was looked for: the next is often in it, too

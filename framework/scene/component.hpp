@@ -1,6 +1,7 @@
 // The base classes of components and couplers, and the input of their constructors.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <string>
@@ -35,14 +36,16 @@ class Component : public Part {
 /// What a coupler is built from: the components that it stands between, asked for by capability.
 class CouplerContext {
  public:
+  /// `scene`: all components of the scene, of which the coupler stands between some.
   CouplerContext(std::string name, const Mesh& mesh, FieldStore& fields, std::vector<Component*> between,
-                 double start_time, Origin origin)
+                 std::vector<Component*> scene, double start_time, Origin origin)
       : name(std::move(name)),
         mesh(mesh),
         fields(fields),
         start_time(start_time),
         origin(std::move(origin)),
-        between_(std::move(between)) {}
+        between_(std::move(between)),
+        scene_(std::move(scene)) {}
 
   const std::string name;  ///< its type; "type#2" for a second coupler of that type
   const Mesh& mesh;
@@ -71,6 +74,14 @@ class CouplerContext {
       }
     return found;
   }
+  /// The name of a component of the scene that has this capability and that the coupler does not stand between;
+  /// empty where there is none. For notes on what a coupler lacks that can do without.
+  template <class Capability>
+  std::string left_out() const {
+    for (Component* component : scene_)
+      if (dynamic_cast<Capability*>(component) && !std::ranges::count(between_, component)) return component->name();
+    return {};
+  }
   /// Throws InputError if one of the components was not asked for.
   void check_all_used() const;
   /// Lets the coupler determine an input field; throws InputError if another coupler does.
@@ -81,7 +92,7 @@ class CouplerContext {
   InputError ambiguous(const std::string& promise) const;
   std::string between_text() const;
 
-  std::vector<Component*> between_;
+  std::vector<Component*> between_, scene_;
   mutable std::set<Component*> used_;
 };
 

@@ -50,13 +50,15 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
     }));
     parts_.push_back(components_.back().get());
   }
+  std::vector<Component*> all;
+  for (const auto& component : components_) all.push_back(component.get());
   for (const Scene::CouplerEntry& entry : scene_.couplers) {
     std::vector<Component*> between;
     for (const std::string& name : entry.between)
-      for (const auto& component : components_)
-        if (component->name() == name) between.push_back(component.get());
+      for (Component* component : all)
+        if (component->name() == name) between.push_back(component);
     now_doing("coupler " + entry.name);
-    const CouplerContext context(entry.name, mesh_, fields_, between, scene_.time.start, entry.origin);
+    const CouplerContext context(entry.name, mesh_, fields_, between, all, scene_.time.start, entry.origin);
     couplers_.push_back(refusing_bad_data([&] { return entry.build(context); }));
     context.check_all_used();
     parts_.push_back(couplers_.back().get());

@@ -66,6 +66,18 @@ void PrintTo(const Input& input, std::ostream* text) {
   for (const std::string& setting : input.settings) *text << ", " << setting;
 }
 
+const std::string all_but_aperture =
+    "{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}";
+
+Settings with_tips(const std::string& between) {
+  return {"components.tips={type: fine_fracture/quarter_point, size: 0.4 m}",
+          "couplers=[" + all_but_aperture +
+              ", {type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, "
+              "conduit]}, {type: two_level, between: " +
+              between + "}]",
+          "schedule=[{solve: [pore, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"};
+}
+
 class InputNotes : public ::testing::TestWithParam<Input> {};
 
 TEST_P(InputNotes, AreToldByCheck) {
@@ -122,6 +134,19 @@ INSTANTIATE_TEST_SUITE_P(
               {"components.conduit.boundary.right={pressure: 1 MPa}",
                "geometry.fractures.crack.points=[[0.3 m, 0.5 m], [1 m, 0.5 m]]"},
               ""},
+        Input{"fractured.yaml",
+              {"couplers=[" + all_but_aperture + ", {type: wall_traction, between: [rock, contact, conduit]}]"},
+              "the aperture in conduit stays what it is at the start, however far contact opens"},
+        Input{"fractured.yaml",
+              {"couplers=[" + all_but_aperture + ", {type: wall_traction, between: [rock, contact, conduit]}]",
+               "components.conduit.transmissivity=constant", "components.conduit.transmissivity_value=1e-12 m^3"},
+              ""},
+        Input{"fractured.yaml",
+              {"couplers=[" + all_but_aperture +
+               ", {type: aperture, between: [contact, conduit]}, {type: wall_traction, between: [rock, contact]}]"},
+              "the pressure of conduit does not push the walls of fractures apart"},
+        Input{"fractured.yaml", with_tips("[rock, tips]"), "walls that grow on the fine level carry no fluid pressure"},
+        Input{"fractured.yaml", with_tips("[rock, tips, conduit]"), ""},
         Input{"fractured.yaml",
               {"components.conduit.transmissivity_value=1e-12 m^3"},
               "'transmissivity_value' of 'conduit' has no effect"},

@@ -27,8 +27,23 @@ Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     tip.end = end;
     tip.name = name_of(mesh_, end);
     tip.coarse_size = original_size(mesh_, end);
+    check_size(tip);
     tips_.push_back(std::move(tip));
   }
+}
+
+/// Displacements of the outline are linear over coarse cells: a square that cannot keep one of them away from its tip
+/// has wrong factors (half of K_II with a quarter of a cell).
+void Tips::check_size(const Tip& tip) const {
+  const double least = 2 * tip.coarse_size / largest_enlargement;
+  if (options_.size >= least) return;
+  throw InputError(origin_,
+                   fmt::format("'size' of {} is {:.4g} m, and the mesh at the tip {} has edges of {:.4g} m", name(),
+                               options_.size, tip.name, tip.coarse_size),
+                   fmt::format("the square around a tip, enlarged by half, must reach one of them beyond it: 'size' is "
+                               "at least {:.4g} m; ten of them give factors within 1 %",
+                               least),
+                   "choose a larger 'size', or a smaller mesh.fracture_size");
 }
 
 const FractureCell& Tips::last_cell(const TipEnd& end) const { return end_cell(mesh_, end); }

@@ -190,8 +190,8 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
   constexpr double more = 1 + 1e-9;  // exceeds rounding, so that domains of mirrored scenes are mirrored
   if (outline) box = {(*outline)[0], (*outline)[2]};
   // A domain is made larger by small steps until no side is near to a fracture.
-  constexpr double largest = 1.5, step = 0.02;
-  for (double factor = 1; !outline && factor < largest && widest * more < gap; factor += step) {
+  constexpr double step = 0.02;
+  for (double factor = 1; !outline && factor < largest_enlargement && widest * more < gap; factor += step) {
     const Point half = Point::Constant(0.5 * factor * size);
     const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
     const double found = smallest_gap(larger, rock, paths);
