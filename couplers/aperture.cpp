@@ -48,7 +48,7 @@ class Aperture : public Coupler {
       if (!dynamic_cast<const FractureContact*>(contact)) continue;
       for (const Component* fluid : components) {
         const auto* capable = dynamic_cast<const FractureFluid*>(fluid);
-        if (!capable || capable->initial_aperture().size() == 0 || capable->viscosity_between_walls(0) == 0) continue;
+        if (!capable || !capable->follows_aperture()) continue;
         notes.add("no aperture between " + contact->name() + " and " + fluid->name(),
                   "the aperture in " + fluid->name() + " stays what it is at the start, however far " +
                       contact->name() +

@@ -28,6 +28,8 @@ class FractureFluid {
   /// The viscosity in a fracture cell whose transmissivity follows from its opening (w^3/(12 mu) where it is wide),
   /// Pa s; 0 where the transmissivity does not depend on the opening.
   virtual double viscosity_between_walls(int cell) const = 0;
+  /// Whether the pressure follows the aperture: not with a given transmissivity, nor where all of it is prescribed.
+  virtual bool follows_aperture() const = 0;
 };
 
 }  // namespace sprekk

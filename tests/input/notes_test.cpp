@@ -142,6 +142,10 @@ INSTANTIATE_TEST_SUITE_P(
                "components.conduit.transmissivity=constant", "components.conduit.transmissivity_value=1e-12 m^3"},
               ""},
         Input{"fractured.yaml",
+              {"couplers=[" + all_but_aperture + ", {type: wall_traction, between: [rock, contact, conduit]}]",
+               "components.conduit.prescribed.all={pressure: 1 MPa}", "components.conduit.injection="},
+              ""},
+        Input{"fractured.yaml",
               {"couplers=[" + all_but_aperture +
                ", {type: aperture, between: [contact, conduit]}, {type: wall_traction, between: [rock, contact]}]"},
               "the pressure of conduit does not push the walls of fractures apart"},

@@ -184,6 +184,10 @@ FractureFlow::Transmissivity FractureFlow::cubic_law(int cell) const {
   return {a * a * a / (12 * viscosity), a * a / (4 * viscosity) * by_present};
 }
 
+bool FractureFlow::follows_aperture() const {
+  return !options_.is_constant() && std::ranges::count(is_prescribed_, 0) > 0;
+}
+
 FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
   const int walls = mesh_.wall_count();
   NormalPermeability kappa{Vector(walls), Vector::Zero(walls)};

@@ -51,6 +51,7 @@ class FractureFlow : public Component, public FractureFluid {
   const Vector& initial_aperture() const override { return initial_aperture_; }
   NormalPermeability normal_permeability() const override;
   double viscosity_between_walls(int cell) const override { return options_.is_constant() ? 0 : viscosity_[cell]; }
+  bool follows_aperture() const override;
 
  private:
   /// K/mu (m^2/(Pa s) times m, Eq. 8 of the paper) of a cell and its derivative by the aperture.
