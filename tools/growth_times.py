@@ -1,4 +1,4 @@
-"""When a tip that grows by increments has a length."""
+"""When a tip that grows has a length: by increments after steps, or continuously within them."""
 
 import numpy as np
 
@@ -18,3 +18,11 @@ def time_to(wanted, time, length):
         return times[0] if before[0] >= wanted else np.nan
     speed = (times[after] - times[after - 1]) / (before[after] - before[after - 1])
     return times[after - 1] + (wanted - before[after - 1]) * speed
+
+
+def time_within_steps(wanted, time, length):
+    """The same for growth within steps: the length is continuous, and the tip has the toughness at the end of each step."""
+    after = int(np.argmax(length >= wanted))
+    if length[after] < wanted:
+        return np.nan
+    return float(np.interp(wanted, length[after - 1:after + 1], time[after - 1:after + 1]))

@@ -16,7 +16,7 @@ import numpy as np
 
 import closed_forms as exact
 from cases import run_scene
-from growth_times import time_to
+from growth_times import time_to, time_within_steps
 from paths import apart
 from run_results import ROOT, RunResults
 
@@ -27,7 +27,7 @@ HOUR = 3600
 @dataclass
 class Parameter:
     symbol: str
-    default: str  # the scene's value
+    default: str  # the scene's value, or "" where the scene has none of these
     others: dict  # {value: settings}
 
 
@@ -119,13 +119,17 @@ def wings_errors(measured, reference):
     return errors
 
 
-INCREMENT, THRESHOLD = "components.tips.growth.increment", "couplers.4.propagation_threshold"
+INCREMENT, UPDATE = "components.tips.growth.increment", "schedule.1.update"
 MESH_RATIO = parameter("ε_m", "components.tips.mesh_ratio", "0.5", "1", "0.25")
 
 
-def refined(coarse, step, increment):
-    return {"mesh.fracture_size": coarse, "components.tips.size": "1 m", "time.step": step,
-            INCREMENT: increment}
+def together(increment, **others):
+    """The increment, the cells of fractures and the step, all in the ratio of the scene."""
+    return {INCREMENT: f"{increment} mm", "mesh.fracture_size": f"{2 * increment} mm", "time.step": f"{increment / 10} h", **others}
+
+
+def finer(increment, size):
+    return together(increment, **{"mesh.size": size, "components.tips.size": "1 m"})
 
 
 PROBLEMS = {
@@ -142,23 +146,18 @@ PROBLEMS = {
         answer_errors={"K_II while injecting": 0.01e6 / 1.33e6}),
     "wings": Problem(
         "Wings of section 5.2", "paper/wing_cracks.yaml",
-        {"dH": parameter("ΔH", "mesh.fracture_size", "20 mm", "40 mm", "10 mm", "5 mm"),
-         "threshold": parameter("ε_p", THRESHOLD, "0.5", "2", "1", "0.25"),
+        {"together": Parameter("increment = ΔH/2 = Δt·10 mm/h", "10 mm", {f"{length} mm": together(length) for length in (20, 5)}),
+         "held": Parameter("growth after steps, together", "", {
+             f"{length} mm": together(length, **{UPDATE: "after_step"}) for length in (20, 10, 5)}),
+         "dH": parameter("ΔH", "mesh.fracture_size", "20 mm", "40 mm", "10 mm"),
          "step": parameter("Δt", "time.step", "1 h", "2 h", "0.5 h"),
          "increment": parameter("increment", INCREMENT, "10 mm", "20 mm", "5 mm"),
-         # Both together: what a tip may add in a step.
-         "advance": Parameter("increment = ε_p ΔH", "10 mm", {
-             f"{length} mm": {INCREMENT: f"{length} mm", THRESHOLD: str(length / 20)} for length in (20, 5, 2.5)}),
          "l": parameter("l", "components.tips.size", "0.5 m", "0.3 m", "1 m"),
-         "mesh_ratio": MESH_RATIO},
+         "growth": parameter("grading of the mesh", "mesh.growth", "0.2", "0.1")},
         wings_measured, wings_errors,
         {"time to 0.1 m": "relative error", "time to 0.25 m": "relative error", "path": "distance (mm)"},
         {"output.every": "1000 h"}, meshes=3,
-        # A tip adds increment or ε_p ΔH in a step, whichever is more: half of the scene's 10 mm in the third, an eighth in the first.
-        references={
-            REFERENCE: {**refined("5 mm", "0.125 h", "1.25 mm"), THRESHOLD: "0.25"},
-            SECOND: refined("5 mm", "0.25 h", "2.5 mm"),
-            "third reference": refined("10 mm", "0.5 h", "5 mm")}),
+        references={REFERENCE: finer(2.5, "0.025 m"), SECOND: finer(5, "0.05 m")}),
 }
 
 

@@ -10,14 +10,14 @@ from two_level import PROBLEMS, REFERENCE, SECOND, better, compared, front
 
 COLOURS = {"dH": "#c8553d", "l": "#1b6ca8", "mesh_ratio": "#7b4b94", "threshold": "#3a7d44", "step": "#d19a1d",
            "increment": "#17929b", "growth": "#8a6d3b",
-           "advance": "#e0559a"}
+           "together": "#e0559a", "held": "#444444"}
 
 
 def varied(problem, cases):
     """{parameter: [(value, case)]}, by value, the default among them."""
     found = {}
     for key, parameter in problem.parameters.items():
-        values = sorted((parameter.default, *parameter.others), key=lambda value: float(value.split()[0]))
+        values = sorted(filter(None, (parameter.default, *parameter.others)), key=lambda value: float(value.split()[0]))
         named = [(value, "default" if value == parameter.default else f"{key}={value}") for value in values]
         found[key] = [(value, cases[name]) for value, name in named if name in cases]
     return found
@@ -57,7 +57,7 @@ def figure(name, cases, quantity):
     for key, results in varied(problem, known).items():
         parameter = problem.parameters[key]
         axes.plot(*zip(*[point(result) for _, result in results]), "o-", color=COLOURS[key], markersize=4.5, linewidth=1.1, zorder=4,
-                  label=f"{parameter.symbol} (scene: {parameter.default})")
+                  label=parameter.symbol + (f" (scene: {parameter.default})" if parameter.default else ""))
     if "default" in known:
         axes.plot(*point(known["default"]), "*", color="black", markersize=13, zorder=5, label="the scene")
     references = [point(known[reference]) for reference in problem.references if reference in known]
@@ -116,6 +116,8 @@ HEADINGS = ["changed", "meshes", "processor seconds", "steps", "refused", "fine 
 def verdicts(name, cases):
     problem, body = PROBLEMS[name], []
     for key, parameter in problem.parameters.items():
+        if not parameter.default:
+            continue
         found = [better(cases, key, quantity) for quantity in problem.units]
         body.append([f"{parameter.symbol} = {parameter.default}", *(", ".join(
             f"{label(problem, case)} ({f'error {100 * gain:.0f} % smaller' if gain else 'same error'})"
