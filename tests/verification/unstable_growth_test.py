@@ -110,11 +110,11 @@ class UnstableGrowth(unittest.TestCase):
     def tearDown(self):
         self.holder.cleanup()
 
-    def run_scene(self, *scenes):
-        run = subprocess.run([SPREKK, "run", *scenes, "-q", "-o", self.folder / "out"], capture_output=True, text=True,
+    def run_scene(self, *scenes, out="out"):
+        run = subprocess.run([SPREKK, "run", *scenes, "-q", "-o", self.folder / out], capture_output=True, text=True,
                              timeout=300)
         self.assertEqual(run.returncode, 0, run.stderr)
-        results = sprekk.Results(self.folder / "out")
+        results = sprekk.Results(self.folder / out)
         return results.rows, results.record["notes"]
 
     def test_a_crack_far_above_its_toughness(self):
@@ -139,6 +139,24 @@ class UnstableGrowth(unittest.TestCase):
                 self.assertLess(0.99 * low, row[f"tips.main_{end}.K_I"])
                 self.assertLess(row[f"tips.main_{end}.K_I"], 1.01 * high)
                 self.assertLess(abs(row[f"tips.main_{end}.K_II"]), 0.02 * high)
+
+    def test_from_which_load_on_the_state_is_held(self):
+        """A pressure that jumps in one step to 1.35 or to 1.8 times the critical one. Below one and a half times, half of the
+        energy of a continuous advance, or less, is left over, and tips jump with all equations; above, the state is held."""
+        for load, is_held in ((1.35, False), (1.8, True)):
+            net = load * TOUGHNESS / math.sqrt(math.pi * HALF_LENGTH) * 1e-6  # MPa
+            scene = CRACK.replace('"(10.9 + t/36000) MPa"', f'"(10.9 + {net - 0.9}*(t > 1800)) MPa"')
+            (self.folder / "crack.yaml").write_text(scene.replace("end: 6 h", "end: 40 min"))
+            rows, notes = self.run_scene(self.folder / "crack.yaml", out=str(load))
+            lengths = [row["tips.main_first.length"] for row in rows]
+            first = next(length for length in lengths if length > 0)
+            self.assertEqual(any("jumps" in note["topic"] for note in notes), not is_held, load)
+            if is_held:
+                self.assertAlmostEqual(first, INCREMENT, delta=1e-9)
+                counters = json.loads((self.folder / str(load) / "run.json").read_text())["counters"]
+                self.assertEqual(counters["steps with growth held"], sum(a > b for a, b in zip(lengths[1:], lengths)))
+            else:
+                self.assertGreater(first, 1.1 * INCREMENT)
 
     def test_a_crack_under_a_prescribed_pressure(self):
         (self.folder / "crack.yaml").write_text(CRACK)

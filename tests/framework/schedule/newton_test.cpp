@@ -231,5 +231,27 @@ TEST(PathSearch, SaysThatItLeadsToInfinity) {
   EXPECT_NE(status.reason.find("infinity"), std::string::npos) << status.reason;
 }
 
+TEST(PathSearch, LooksALongWayForTheNextPieceButNotForEver) {
+  // Behind the hill at 1 the line falls by 0.4 to a valley that is `lengths` updates away, and rises by 0.5 from there
+  // on.
+  const auto valley = [](double lengths) { return Point(1 + 0.5 * lengths, -0.2 - 0.2 * lengths); };
+  const auto solve = [&](PolylineEquation& equation, double lengths) {
+    return equation.solve({{-10, -9}, {1, -0.2}, valley(lengths)}, 0.5, 0, 10);
+  };
+  for (const double lengths : {2.0, 1e3, 1e6}) {
+    PolylineEquation equation;
+    const StepStatus status = solve(equation, lengths);
+    EXPECT_TRUE(status.converged) << lengths << ": " << status.reason;
+    const double root = valley(lengths).x() - 2 * valley(lengths).y();
+    EXPECT_NEAR(equation.x.now()[0], root, 1e-12 * root);
+  }
+  // From 1e9 updates on a ray counts as one without a further piece.
+  for (const double lengths : {4e8, 2.5e9}) {
+    PolylineEquation equation;
+    const StepStatus status = solve(equation, lengths);
+    EXPECT_EQ(status.reason.find("infinity") != std::string::npos, lengths > 1e9) << lengths << ": " << status.reason;
+  }
+}
+
 }  // namespace
 }  // namespace sprekk
