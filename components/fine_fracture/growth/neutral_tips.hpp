@@ -1,4 +1,4 @@
-// Tips of which the factors do not tell which one advances, as both tips of a straight crack under one pressure.
+// Tips whose factors do not tell which of them advances, for example both tips of a straight crack under one pressure.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,22 +6,22 @@
 
 namespace sprekk::fine_fracture {
 
-/// The pairs of tips for which an advance of one instead of the other changes ln K of both alike, but for what the mesh
-/// adds: there a difference in K between them tells nothing of their advances, however exactly it is computed. Of all
-/// advances with which the mean of ln K in such a group is right, the shortest are equal ones.
+/// Two tips are neutral if an advance changes ln K of both by the same amount, whichever of them advances. The
+/// difference of their factors is then the error of the mesh, and does not tell which of them advances. Many advances
+/// give the mean of ln K in a group of such tips the right value; the shortest of them are equal ones, and are taken.
 /// The Jacobian is that of (ln K, K_II/K_I) by (length/increment, angle), per tip.
 
 /// Whether an advance of one tip instead of the other hardly changes the difference of ln K.
 bool is_neutral_pair(const Eigen::MatrixXd& jacobian, int one, int other);
-/// The same as far as the advance of `one` alone tells it.
+/// The same, judged by the advance of `one` alone.
 bool is_indifferent(const Eigen::MatrixXd& jacobian, int one, int other);
 
-/// What ln K of tips may be off their mean by, though it should be the same: the error of a mesh.
+/// By how much ln K of neutral tips may be off their mean: the error of a mesh.
 inline constexpr double mesh_error = 1e-3;
-/// ln K over one increment: what is further off moves the tip on beside the others by this slope at least.
+/// ln K over one increment: a tip that is further off the mean advances more than the others by the excess over this.
 inline constexpr double least_difference_slope = 0.01;
 
-/// Whether both have the same advance (increments) and the same K but for round-off: that chooses no leader.
+/// Whether both have the same advance (increments) and the same K but for round-off, which must not choose a leader.
 bool are_twins(const Eigen::VectorXd& residual, const std::vector<double>& advances, int one, int other);
 
 /// The group of each candidate, a number from 0 on; -1 where it is alone. A group is connected by neutral pairs and
