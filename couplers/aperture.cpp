@@ -1,6 +1,7 @@
 // aperture: the opening of a fracture makes room for fluid and lets it flow (below Eq. 8 of the paper).
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
+#include "framework/assembly/follows_waiting.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -16,7 +17,10 @@ struct ApertureOptions {
   }
 };
 
-class Aperture : public Coupler {
+/// Determines the aperture. Where the flow is solved while the walls wait, the aperture would stay whatever the
+/// pressure is, and fluid that cannot leave an open fracture would get a pressure of any size: with the stabilization
+/// fixed_stress the aperture follows the pressure as the walls do.
+class Aperture : public Coupler, public FollowsWaiting {
  public:
   Aperture(const CouplerContext& context, const ApertureOptions&)
       : Coupler(context.name), contact_(context.the<FractureContact>()), fluid_(context.the<FractureFluid>()) {
@@ -30,6 +34,12 @@ class Aperture : public Coupler {
   }
 
   void begin_step(const StepTime&) override {}
+
+  std::vector<std::string> stabilizations() const override { return {"fixed_stress"}; }
+  std::vector<Following> following(const std::string& stabilization) const override {
+    if (stabilization != "fixed_stress" || !fluid_.follows_aperture()) return {};
+    return {{&fluid_.aperture(), &fluid_.pressure()}};
+  }
 
   /// The pressure holds the fracture open, and what opens stores fluid.
   void hold_constants(ConstantModes& modes) const override { modes.hold(fluid_.pressure()); }

@@ -38,6 +38,7 @@ IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<Schedule
       log_(context.log),
       anderson_(options.anderson) {
   for (const Field* field : inside_->unknowns()) fields_.push_back(&context.fields.at(field->name()));
+  inside_->iterate_with(inside_->unknowns());
 }
 
 /// The changes of the fields by the passes of one step, and whether they only grow.
@@ -49,6 +50,7 @@ class IterateStep::Changes {
     if (sizes_.size() <= watched || !(sizes_.back() > clearly * sizes_[sizes_.size() - 1 - watched])) return false;
     return std::is_sorted(sizes_.end() - watched - 1, sizes_.end());
   }
+  bool has_grown() const { return sizes_.size() > 1 && sizes_.back() > sizes_[sizes_.size() - 2]; }
   /// By which factor a pass changes more than the one before, in the mean of the last passes: what grows slower has
   /// been left behind by then.
   double factor() const { return std::pow(sizes_.back() / sizes_[sizes_.size() - 1 - last], 1.0 / last); }
@@ -103,12 +105,15 @@ StepStatus IterateStep::run(const StepTime& step) {
   scales_.assign(fields_.size(), 1);
   ResidualCheck check;
   Changes changes;
+  std::uint64_t last_state = 0;
   int of_newton = 0;
   for (int pass = 1; pass <= options_.at_most; ++pass) {
     const Vector before = pass > 1 ? scaled_values() : Vector();
     const StepStatus inner = inside_->run(step);
     if (!inner.converged) return {false, fmt::format("pass {}: {}", pass, inner.reason), pass};
     of_newton = std::max(of_newton, inner.effort());
+    std::uint64_t state = 0;
+    for (const Part* part : parts_) state = state * 1000003 + part->discrete_state();
 
     Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
     assemble_all(assembly, parts_, step);
@@ -129,7 +134,12 @@ StepStatus IterateStep::run(const StepTime& step) {
                           "first, or accelerate with 'anderson'",
                           most_changed(change), changes.factor()),
               pass};
-    if (options_.anderson > 0) set_scaled_values(anderson_.next(before, scaled_values()));
+    if (options_.anderson == 0) continue;
+    // Earlier passes tell of this one as long as the passes are one smooth map: not across a change of the discrete
+    // state, and not where what they told has led further away.
+    if (state != last_state || changes.has_grown()) anderson_.forget();
+    last_state = state;
+    set_scaled_values(anderson_.next(before, scaled_values()));
   }
   return {false,
           fmt::format("no convergence in {} passes (the residual of {} is {:.2g} of its terms)", options_.at_most,

@@ -27,6 +27,7 @@ class IterateStep : public ScheduleStep {
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
   int systems_in_turn(const StepTime& step) const override { return std::min(1, inside_->systems_in_turn(step)); }
+  void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
   std::string describe() const override { return "iterate"; }
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }

@@ -10,6 +10,7 @@
 #include "framework/linear/linear_solver.hpp"
 #include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_step.hpp"
+#include "framework/schedule/waiting_response.hpp"
 
 namespace sprekk {
 
@@ -52,8 +53,9 @@ class Newton {
   ~Newton();
 
   /// `stabilization`: diagonals; each, times the change of its field since the start of this call, is added to the
-  /// residual of that field.
-  StepStatus solve(const StepTime& step, const Stabilization& stabilization = {});
+  /// residual of that field. `responses`: the same for one field in the equation of another.
+  StepStatus solve(const StepTime& step, const Stabilization& stabilization = {},
+                   const std::vector<ResponseTerm>& responses = {});
 
   /// What assembly and linear solver have done since the start.
   LinearCounts counts() const;
@@ -113,6 +115,7 @@ class Newton {
   bool was_left_ = false;              ///< whether the last attempt ended at Until::search
   StepTime last_failed_path_;          ///< the last step whose path failed; a hardly shorter step does not try again
   const Stabilization* stabilization_ = nullptr;
+  const std::vector<ResponseTerm>* responses_ = nullptr;
   std::map<const Field*, Vector> start_;
 };
 

@@ -46,6 +46,8 @@ class ScheduleStep {
   virtual void check() const {
     for (const ScheduleStep* child : children()) child->check();
   }
+  /// Tells the unknowns of an iteration around the step: those that it does not solve for itself wait meanwhile.
+  virtual void iterate_with(const std::vector<const Field*>& /*unknowns*/) {}
   /// One line for the graph and for messages.
   virtual std::string describe() const = 0;
   virtual std::vector<const ScheduleStep*> children() const { return {}; }

@@ -14,6 +14,9 @@ class SequenceStep : public ScheduleStep {
   int systems_in_turn(const StepTime& step) const override;
   bool solves(const Field& field, const StepTime& step) const override;
   std::vector<const Field*> solved_first(const StepTime& step) const override;
+  void iterate_with(const std::vector<const Field*>& unknowns) override {
+    for (auto& inner : steps_) inner->iterate_with(unknowns);
+  }
   std::string describe() const override { return "sequence"; }
   std::vector<const ScheduleStep*> children() const override;
   void add_counts(LinearCounts& counts) const override;

@@ -13,7 +13,8 @@ void require_offered(const SolveOptions& options, const std::vector<Part*>& part
   std::vector<std::string> offered = {"none"};
   for (const Part* part : parts) {
     const std::vector<std::string> more = part->stabilizations();
-    offered.insert(offered.end(), more.begin(), more.end());
+    for (const std::string& name : more)
+      if (std::ranges::count(offered, name) == 0) offered.push_back(name);
   }
   if (std::find(offered.begin(), offered.end(), options.stabilization) == offered.end())
     throw unknown_name(options.stabilization_origin, "stabilization", options.stabilization, offered);
@@ -28,6 +29,21 @@ void require_together(const SolveOptions& options, const std::vector<Part*>& par
       if (is_solved(dependence.component) && !is_solved(dependence.on))
         throw InputError(options.origin, "'" + dependence.component + "' is solved without '" + dependence.on + "'",
                          dependence.because, "name both in one 'solve'");
+}
+
+/// The pairs of fields of a stabilization that are both solved for.
+std::vector<Following> followers(const std::string& stabilization, const std::vector<Part*>& parts,
+                                 const std::vector<Field*>& solved) {
+  std::vector<Following> pairs;
+  if (stabilization == "none") return pairs;
+  for (const Part* part : parts) {
+    const auto* follows = dynamic_cast<const FollowsWaiting*>(part);
+    if (!follows) continue;
+    for (const Following& pair : follows->following(stabilization))
+      if (std::ranges::count(solved, pair.row) > 0 && std::ranges::count(solved, pair.column) > 0)
+        pairs.push_back(pair);
+  }
+  return pairs;
 }
 
 }  // namespace
@@ -86,6 +102,7 @@ SolveStep::SolveStep(const SolveOptions& options, const ScheduleContext& context
     : options_(options),
       parts_(context.parts),
       fields_(context.solved_fields(options.components)),
+      mesh_(context.mesh),
       newton_(context.mesh, fields_, context.parts, options.linear, options.newton, describe(), context.log) {
   require_offered(options, context.parts);
   require_together(options, context.parts);
@@ -97,12 +114,27 @@ std::string SolveStep::describe() const {
   return text;
 }
 
+const std::vector<ResponseTerm>& SolveStep::responses(const StepTime& step) {
+  static const std::vector<ResponseTerm> none;
+  if (!is_response_made_) {
+    is_response_made_ = true;
+    const std::vector<Following> pairs = followers(options_.stabilization, parts_, fields_);
+    std::vector<const Field*> waiting;
+    for (const Field* field : iterated_)
+      if (std::ranges::count(fields_, field) == 0) waiting.push_back(field);
+    if (!pairs.empty() && !waiting.empty())
+      response_ = std::make_unique<WaitingResponse>(mesh_, waiting, parts_, pairs, options_.linear);
+  }
+  return response_ ? response_->update(step) : none;
+}
+
 void SolveStep::check() const {
   if (options_.stabilization == "none") return;
   Stabilization stabilization;
   for (const Part* part : parts_) part->stabilize(options_.stabilization, stabilization);
   const auto is_solved = [&](const auto& entry) { return std::ranges::count(fields_, entry.first) > 0; };
   if (stabilization.empty() || std::ranges::any_of(stabilization, is_solved)) return;
+  if (!followers(options_.stabilization, parts_, fields_).empty()) return;
   throw InputError(options_.stabilization_origin, "'stabilize: " + options_.stabilization + "' has no effect here",
                    "it is for " + stabilization.begin()->first->name() + ", which this step does not solve for",
                    "give it to the 'solve' of '" + stabilization.begin()->first->spec().owner + "'");
@@ -117,12 +149,15 @@ StepStatus SolveStep::run(const StepTime& step) {
     if (options_.stabilization != "none") part->stabilize(options_.stabilization, stabilization);
   }
   newton_.set_preconditioner_stabilization(preconditioning);
-  const StepStatus status = newton_.solve(step, stabilization);
+  const StepStatus status = newton_.solve(step, stabilization, responses(step));
   if (status.converged)
     for (Part* part : parts_) part->after_solve(fields_, step);
   return status;
 }
 
-void SolveStep::add_counts(LinearCounts& counts) const { counts += newton_.counts(); }
+void SolveStep::add_counts(LinearCounts& counts) const {
+  counts += newton_.counts();
+  if (response_) counts += response_->counts();
+}
 
 }  // namespace sprekk

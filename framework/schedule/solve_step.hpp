@@ -3,6 +3,7 @@
 
 #include "framework/config/spec.hpp"
 #include "framework/schedule/schedule_context.hpp"
+#include "framework/schedule/waiting_response.hpp"
 
 namespace sprekk {
 
@@ -28,15 +29,22 @@ class SolveStep : public ScheduleStep {
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {fields_.begin(), fields_.end()}; }
   int systems_in_turn(const StepTime&) const override { return fields_.empty() ? 0 : 1; }
+  void iterate_with(const std::vector<const Field*>& unknowns) override { iterated_ = unknowns; }
   void check() const override;
   std::string describe() const override;
   void add_counts(LinearCounts& counts) const override;
 
  private:
+  const std::vector<ResponseTerm>& responses(const StepTime& step);
+
   SolveOptions options_;
   std::vector<Part*> parts_;
   std::vector<Field*> fields_;
+  const Mesh& mesh_;
   Newton newton_;
+  std::vector<const Field*> iterated_;         ///< in the iteration around the step
+  std::unique_ptr<WaitingResponse> response_;  ///< of a stabilization that contains one; made when data are known
+  bool is_response_made_ = false;
 };
 
 Spec newton_spec(NewtonOptions& options);  ///< of the section `newton:`

@@ -24,6 +24,7 @@ class SubcycleStep : public ScheduleStep {
   int systems_in_turn(const StepTime& step) const override { return inside_->systems_in_turn(step); }
   bool solves(const Field& field, const StepTime& step) const override { return inside_->solves(field, step); }
   std::vector<const Field*> solved_first(const StepTime& step) const override { return inside_->solved_first(step); }
+  void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
   std::string describe() const override;
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
