@@ -45,7 +45,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 NewCommand::NewCommand(CLI::App& app, const std::vector<TemplateFile>& templates)
     : command_(app.add_subcommand(
-          "new", "Writes a folder with a component, a coupler or a law to start from, outside of this tree")),
+          "new",
+          "Writes a folder with a component, a coupler, a law or an accelerator to start from, outside of this tree")),
       templates_(templates) {
   command_->add_option("kind", kind_, "What it is")->required()->check(CLI::IsMember(kinds()));
   command_->add_option("name", type_, "The name of its type, for example my_part or heat_flow/my_part")

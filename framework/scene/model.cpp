@@ -65,7 +65,8 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   }
   std::map<std::string, Part*> named;
   for (const auto& component : components_) named[component->name()] = component.get();
-  schedule_ = scene_.schedule({mesh_, fields_, parts_, std::move(log), named, scene_.time.step, &growing_});
+  schedule_ =
+      scene_.schedule({mesh_, fields_, parts_, std::move(log), named, scene_.time.step, &growing_, &histories_});
   now_doing("the first evaluation of all data");
   check_determined();
   refusing_bad_data([this] { check_data(); });
@@ -144,21 +145,25 @@ StepStatus Model::attempt(const StepTime& step) {
 void Model::accept() {
   fields_.accept();
   for (Part* part : parts_) part->accepted();
+  for (StepHistory* history : histories_) history->accepted();
 }
 
 void Model::rewind() {
   fields_.rewind();
   for (Part* part : parts_) part->rewound();
+  for (StepHistory* history : histories_) history->rewound();
 }
 
 std::map<std::string, Vector> Model::extra_state() const {
   std::map<std::string, Vector> state;
   for (const Part* part : parts_) part->save(state);
+  for (const StepHistory* history : histories_) history->save(state);
   return state;
 }
 
 void Model::restore_extra_state(const std::map<std::string, Vector>& state) {
   for (Part* part : parts_) part->restore(state);
+  for (StepHistory* history : histories_) history->restore(state);
 }
 
 std::vector<double> Model::switch_times() const {

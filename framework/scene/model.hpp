@@ -8,6 +8,7 @@
 #include "framework/scene/scene.hpp"
 #include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/schedule_step.hpp"
+#include "framework/schedule/step_history.hpp"
 
 namespace sprekk {
 
@@ -42,7 +43,7 @@ class Model {
 
   /// The steps of the schedule that let the mesh grow.
   const std::vector<GrowStep*>& growing() const { return growing_; }
-  /// The state that parts keep outside of fields, for checkpoints (Part::save, Part::restore).
+  /// The state that parts and the schedule keep outside of fields, for checkpoints.
   std::map<std::string, Vector> extra_state() const;
   void restore_extra_state(const std::map<std::string, Vector>& state);
 
@@ -65,6 +66,7 @@ class Model {
   std::vector<std::unique_ptr<Coupler>> couplers_;
   std::vector<Part*> parts_;
   std::vector<GrowStep*> growing_;
+  std::vector<StepHistory*> histories_;
   std::unique_ptr<ScheduleStep> schedule_;
   std::vector<Probe> probes_;
 };

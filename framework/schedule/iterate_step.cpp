@@ -20,25 +20,50 @@ Spec IterateOptions::spec() {
                   .doc = "Largest residual of any equation, without stabilization, over the largest of its terms."});
   until.integer("at_most", at_most, {.range = between(1, 100000), .doc = "Passes before the step is refused."});
   spec.section("until", until, {.doc = "When the iteration has converged."});
-  Spec accelerate("accelerate", "Acceleration of the fixed-point iteration.");
-  accelerate.integer(
-      "anderson", anderson,
-      {.range = between(0, 50), .doc = "Earlier passes that Anderson acceleration combines; 0 is none."});
-  spec.section("accelerate", accelerate, {.doc = "Acceleration of the fixed-point iteration."});
+  spec.section("accelerate", acceleration.spec(), {.doc = "Acceleration of the fixed-point iteration."});
   return spec;
 }
 
 IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside,
                          const ScheduleContext& context)
     : options_(options),
-
       inside_(std::move(inside)),
       parts_(context.parts),
       system_(context.mesh, inside_->unknowns()),
       log_(context.log),
-      anderson_(options.anderson) {
-  for (const Field* field : inside_->unknowns()) fields_.push_back(&context.fields.at(field->name()));
+      accelerator_(options.acceleration.build()) {
   inside_->iterate_with(inside_->unknowns());
+  std::vector<std::string> names;
+  for (const Field* field : inside_->unknowns()) {
+    fields_.push_back(&context.fields.at(field->name()));
+    names.push_back(field->name());
+  }
+  const std::vector<std::string>& over = options_.acceleration.over;
+  for (const std::string& name : over)
+    if (!std::ranges::count(names, name))
+      throw unknown_name(options_.acceleration.over_origin, "field that is solved inside", name, names);
+  for (std::size_t u = 0; u < fields_.size(); ++u)
+    if (over.empty() || std::ranges::count(over, names[u])) accelerated_.push_back(u);
+  if (!accelerator_ || !context.histories) return;
+  history_ = fmt::format("iterate.{}.", context.histories->size());
+  context.histories->push_back(this);
+}
+
+void IterateStep::accepted() { accelerator_->accepted(); }
+
+void IterateStep::rewound() { accelerator_->rewound(); }
+
+void IterateStep::save(std::map<std::string, Vector>& state) const {
+  std::map<std::string, Vector> own;
+  accelerator_->save(own);
+  for (auto& [name, values] : own) state[history_ + name] = std::move(values);
+}
+
+void IterateStep::restore(const std::map<std::string, Vector>& state) {
+  std::map<std::string, Vector> own;
+  for (const auto& [name, values] : state)
+    if (name.starts_with(history_)) own[name.substr(history_.size())] = values;
+  accelerator_->restore(own);
 }
 
 /// The changes of the fields by the passes of one step, and whether they only grow.
@@ -50,7 +75,6 @@ class IterateStep::Changes {
     if (sizes_.size() <= watched || !(sizes_.back() > clearly * sizes_[sizes_.size() - 1 - watched])) return false;
     return std::is_sorted(sizes_.end() - watched - 1, sizes_.end());
   }
-  bool has_grown() const { return sizes_.size() > 1 && sizes_.back() > sizes_[sizes_.size() - 2]; }
   /// By which factor a pass changes more than the one before, in the mean of the last passes: what grows slower has
   /// been left behind by then.
   double factor() const { return std::pow(sizes_.back() / sizes_[sizes_.size() - 1 - last], 1.0 / last); }
@@ -80,10 +104,39 @@ Vector IterateStep::scaled_values() const {
   return values;
 }
 
-void IterateStep::set_scaled_values(const Vector& values) {
-  SPREKK_EXPECT(values.size() == system_.size(), values.size(), system_.size());
-  for (std::size_t u = 0; u < fields_.size(); ++u)
-    fields_[u]->set(scales_[u] * values.segment(system_.first(static_cast<int>(u)), fields_[u]->size()));
+Vector IterateStep::accelerated_values() const {
+  Eigen::Index size = 0, next = 0;
+  for (const std::size_t u : accelerated_) size += fields_[u]->size();
+  Vector values(size);
+  for (const std::size_t u : accelerated_) {
+    values.segment(next, fields_[u]->size()) = fields_[u]->now();
+    next += fields_[u]->size();
+  }
+  return values;
+}
+
+void IterateStep::begin_acceleration() {
+  acceleration_scale_.resize(accelerated_values().size());
+  Eigen::Index next = 0;
+  for (const std::size_t u : accelerated_) {
+    acceleration_scale_.segment(next, fields_[u]->size()).setConstant(scales_[u]);
+    next += fields_[u]->size();
+  }
+  accelerator_->begin(acceleration_scale_);
+}
+
+void IterateStep::accelerate(const Vector& before) {
+  const Vector x = before.cwiseQuotient(acceleration_scale_);
+  const Vector image = accelerated_values().cwiseQuotient(acceleration_scale_);
+  Vector step = accelerator_->next(x, image) - x;
+  if (const double longest = options_.acceleration.largest_step * (image - x).norm(); longest > 0)
+    step *= std::min(1.0, longest / std::max(longest, step.norm()));
+  const Vector values = (x + step).cwiseProduct(acceleration_scale_);
+  Eigen::Index next = 0;
+  for (const std::size_t u : accelerated_) {
+    fields_[u]->set(values.segment(next, fields_[u]->size()));
+    next += fields_[u]->size();
+  }
 }
 
 void IterateStep::choose_scales() {
@@ -101,7 +154,6 @@ void IterateStep::choose_scales() {
 }
 
 StepStatus IterateStep::run(const StepTime& step) {
-  anderson_.forget();
   scales_.assign(fields_.size(), 1);
   ResidualCheck check;
   Changes changes;
@@ -109,6 +161,7 @@ StepStatus IterateStep::run(const StepTime& step) {
   int of_newton = 0;
   for (int pass = 1; pass <= options_.at_most; ++pass) {
     const Vector before = pass > 1 ? scaled_values() : Vector();
+    const Vector accelerated = accelerator_ ? accelerated_values() : Vector();
     const StepStatus inner = inside_->run(step);
     if (!inner.converged) return {false, fmt::format("pass {}: {}", pass, inner.reason), pass};
     of_newton = std::max(of_newton, inner.effort());
@@ -123,6 +176,10 @@ StepStatus IterateStep::run(const StepTime& step) {
     if (check.converged) return {true, "", pass, 0, of_newton};
     if (pass == 1) {
       choose_scales();
+      if (!accelerator_) continue;
+      begin_acceleration();
+      last_state = state;
+      accelerate(accelerated);
       continue;
     }
     const Vector change = scaled_values() - before;
@@ -134,12 +191,11 @@ StepStatus IterateStep::run(const StepTime& step) {
                           "first, or accelerate with 'anderson'",
                           most_changed(change), changes.factor()),
               pass};
-    if (options_.anderson == 0) continue;
-    // Earlier passes tell of this one as long as the passes are one smooth map: not across a change of the discrete
-    // state, and not where what they told has led further away.
-    if (state != last_state || changes.has_grown()) anderson_.forget();
+    if (!accelerator_) continue;
+    // Earlier passes tell of this one as long as the passes are one smooth map.
+    if (state != last_state) accelerator_->forget();
     last_state = state;
-    set_scaled_values(anderson_.next(before, scaled_values()));
+    accelerate(accelerated);
   }
   return {false,
           fmt::format("no convergence in {} passes (the residual of {} is {:.2g} of its terms)", options_.at_most,

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
+#include "framework/acceleration/registry.hpp"
 #include "framework/config/spec.hpp"
-#include "framework/schedule/anderson.hpp"
 #include "framework/schedule/schedule_context.hpp"
+#include "framework/schedule/step_history.hpp"
 
 namespace sprekk {
 
@@ -14,15 +18,16 @@ namespace sprekk {
 struct IterateOptions {
   double relative = 1e-8;
   int at_most = 60;
-  int anderson = 0;
+  AccelerationOptions acceleration;
   Spec spec();
 };
 
-/// Repeats the steps inside, with Anderson acceleration if wanted. The iteration has converged when the residual of all
+/// Repeats the steps inside, accelerated if wanted. The iteration has converged when the residual of all
 /// equations that are solved inside, without stabilization, is small against their own terms; small updates do not
 /// count. A step is refused early where the changes of passes only grow.
-class IterateStep : public ScheduleStep {
+class IterateStep : public ScheduleStep, public StepHistory {
  public:
+  /// Throws InputError for a field to accelerate that is not solved inside.
   IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
@@ -31,13 +36,20 @@ class IterateStep : public ScheduleStep {
   std::string describe() const override { return "iterate"; }
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
+  void accepted() override;
+  void rewound() override;
+  void save(std::map<std::string, Vector>& state) const override;
+  void restore(const std::map<std::string, Vector>& state) override;
 
  private:
   class Changes;
   void choose_scales();
+  void begin_acceleration();
+  /// Sets the accelerated fields to the next iterate; `before`: their values before the pass.
+  void accelerate(const Vector& before);
+  Vector accelerated_values() const;
   std::string most_changed(const Vector& change) const;  ///< the field whose part of a scaled change is largest
   Vector scaled_values() const;
-  void set_scaled_values(const Vector& values);
 
   IterateOptions options_;
   std::unique_ptr<ScheduleStep> inside_;
@@ -45,8 +57,11 @@ class IterateStep : public ScheduleStep {
   std::vector<Field*> fields_;
   BlockSystem system_;
   IterationLog log_;
-  Anderson anderson_;
-  std::vector<double> scales_;  ///< one for each field, from the first pass
+  std::vector<double> scales_;                ///< one for each field, from the first pass
+  std::unique_ptr<Accelerator> accelerator_;  ///< nullptr for none
+  std::vector<std::size_t> accelerated_;      ///< which of the fields
+  Vector acceleration_scale_;                 ///< one for each of their values
+  std::string history_;                       ///< what its values in a checkpoint begin with
 };
 
 }  // namespace sprekk

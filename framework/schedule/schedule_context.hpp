@@ -18,9 +18,10 @@ struct ScheduleContext {
   FieldStore& fields;
   std::vector<Part*> parts;  ///< all components and couplers
   IterationLog log;
-  std::map<std::string, Part*> named = {};          ///< the components by their names in the scene
-  double standard_step = 0;                         ///< s
-  std::vector<class GrowStep*>* growing = nullptr;  ///< collects the steps that change the mesh
+  std::map<std::string, Part*> named = {};               ///< the components by their names in the scene
+  double standard_step = 0;                              ///< s
+  std::vector<class GrowStep*>* growing = nullptr;       ///< collects the steps that change the mesh
+  std::vector<class StepHistory*>* histories = nullptr;  ///< collects the steps that learn from time steps
 
   /// The solved fields of the named components: their unknowns, and their inputs that a coupler determines.
   std::vector<Field*> solved_fields(const std::vector<std::string>& components) const;
