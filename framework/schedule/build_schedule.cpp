@@ -3,6 +3,7 @@
 
 #include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/iterate_step.hpp"
+#include "framework/schedule/jacobi_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/sequence_step.hpp"
 #include "framework/schedule/solve_step.hpp"
@@ -79,13 +80,20 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   IterateOptions options;
   const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading, [&](ScheduleReading& inner) {
     inner.is_iterated = true;
-    inner.tightest_until = std::min(inner.tightest_until, options.relative);
+    inner.tightest_until = std::min(inner.tightest_until, options.until.tightest());
     // What is iterated must be solved more tightly than the iteration asks for, or it would stall.
     constexpr double tighter = 0.1;
-    inner.newton.residual = std::min(inner.newton.residual, tighter * options.relative);
+    inner.newton.residual = std::min(inner.newton.residual, tighter * options.until.tightest());
   });
-  return [options, inside](const ScheduleContext& context) {
-    return std::make_unique<IterateStep>(options, inside(context), context);
+  const Node& steps = *node.find("iterate")->find("steps");
+  if (options.order == "jacobi" && (!steps.is_list() || steps.items.size() < 2))
+    throw InputError(node.find("iterate")->find("order")->origin, "'order: jacobi' has no effect",
+                     "there is one step inside", "remove it, or split the step");
+  return [options, inside](const ScheduleContext& context) -> std::unique_ptr<ScheduleStep> {
+    std::unique_ptr<ScheduleStep> steps = inside(context);
+    if (auto* sequence = dynamic_cast<SequenceStep*>(steps.get()); sequence && options.order == "jacobi")
+      steps = std::make_unique<JacobiStep>(sequence->take_steps(), context.fields);
+    return std::make_unique<IterateStep>(options, std::move(steps), context);
   };
 }
 

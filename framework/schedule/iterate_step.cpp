@@ -14,30 +14,38 @@ namespace sprekk {
 
 Spec IterateOptions::spec() {
   Spec spec("iterate", "Repeats the steps inside until the coupled residual of all their equations is small.");
-  Spec until("until", "When the iteration has converged.");
-  until.quantity("relative", relative,
-                 {.range = strictly_between(0, 1),
-                  .doc = "Largest residual of any equation, without stabilization, over the largest of its terms."});
-  until.integer("at_most", at_most, {.range = between(1, 100000), .doc = "Passes before the step is refused."});
-  spec.section("until", until, {.doc = "When the iteration has converged."});
+  spec.section("until", until.spec(), {.doc = "When the iteration has converged."});
+  spec.choice("order", order,
+              {{"gauss_seidel", "each step takes what those before it in the pass have found"},
+               {"jacobi", "each step takes what the others have found in the pass before"}},
+              {.doc = "What the steps of a pass know of one another."});
   spec.section("accelerate", acceleration.spec(), {.doc = "Acceleration of the fixed-point iteration."});
   return spec;
 }
+
+namespace {
+
+std::vector<Field*> fields_of(const ScheduleStep& inside, const ScheduleContext& context) {
+  std::vector<Field*> fields;
+  for (const Field* field : inside.unknowns()) fields.push_back(&context.fields.at(field->name()));
+  return fields;
+}
+
+}  // namespace
 
 IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside,
                          const ScheduleContext& context)
     : options_(options),
       inside_(std::move(inside)),
       parts_(context.parts),
+      fields_(fields_of(*inside_, context)),
+      criteria_(options.until, fields_),
       system_(context.mesh, inside_->unknowns()),
       log_(context.log),
       accelerator_(options.acceleration.build()) {
   inside_->iterate_with(inside_->unknowns());
   std::vector<std::string> names;
-  for (const Field* field : inside_->unknowns()) {
-    fields_.push_back(&context.fields.at(field->name()));
-    names.push_back(field->name());
-  }
+  for (const Field* field : fields_) names.push_back(field->name());
   const std::vector<std::string>& over = options_.acceleration.over;
   for (const std::string& name : over)
     if (!std::ranges::count(names, name))
@@ -159,9 +167,12 @@ StepStatus IterateStep::run(const StepTime& step) {
   Changes changes;
   std::uint64_t last_state = 0;
   int of_newton = 0;
-  for (int pass = 1; pass <= options_.at_most; ++pass) {
+  for (int pass = 1; pass <= options_.until.at_most; ++pass) {
     const Vector before = pass > 1 ? scaled_values() : Vector();
     const Vector accelerated = accelerator_ ? accelerated_values() : Vector();
+    std::vector<Vector> values_before;
+    if (criteria_.need_changes())
+      for (const Field* field : fields_) values_before.push_back(field->now());
     const StepStatus inner = inside_->run(step);
     if (!inner.converged) return {false, fmt::format("pass {}: {}", pass, inner.reason), pass};
     of_newton = std::max(of_newton, inner.effort());
@@ -170,10 +181,14 @@ StepStatus IterateStep::run(const StepTime& step) {
 
     Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
     assemble_all(assembly, parts_, step);
-    check = check_residual(assembly, system_, options_.relative);
-    if (log_) log_({step, "iterate", pass, check.largest, check.equation, 0, 1});
+    check = check_residual(assembly, system_, options_.until.tightest());
+    const Vector change = pass > 1 ? Vector(scaled_values() - before) : Vector();
+    if (log_) log_({step, "iterate", pass, check.largest, check.equation, change.norm(), 1});
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", pass};
-    if (check.converged) return {true, "", pass, 0, of_newton};
+    const auto residual_holds = [&](double bound) {
+      return bound == options_.until.tightest() ? check.converged : check_residual(assembly, system_, bound).converged;
+    };
+    if (criteria_.hold(pass, residual_holds, values_before)) return {true, "", pass, 0, of_newton};
     if (pass == 1) {
       choose_scales();
       if (!accelerator_) continue;
@@ -182,7 +197,6 @@ StepStatus IterateStep::run(const StepTime& step) {
       accelerate(accelerated);
       continue;
     }
-    const Vector change = scaled_values() - before;
     changes.add(change);
     if (changes.only_grow())
       return {false,
@@ -198,9 +212,9 @@ StepStatus IterateStep::run(const StepTime& step) {
     accelerate(accelerated);
   }
   return {false,
-          fmt::format("no convergence in {} passes (the residual of {} is {:.2g} of its terms)", options_.at_most,
+          fmt::format("no convergence in {} passes (the residual of {} is {:.2g} of its terms)", options_.until.at_most,
                       check.equation, check.largest),
-          options_.at_most};
+          options_.until.at_most};
 }
 
 }  // namespace sprekk

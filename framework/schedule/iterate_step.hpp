@@ -9,6 +9,7 @@
 
 #include "framework/acceleration/registry.hpp"
 #include "framework/config/spec.hpp"
+#include "framework/schedule/convergence_criteria.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/step_history.hpp"
 
@@ -16,15 +17,15 @@ namespace sprekk {
 
 /// Parameters of an `iterate` step.
 struct IterateOptions {
-  double relative = 1e-8;
-  int at_most = 60;
+  UntilOptions until;
+  std::string order = "gauss_seidel";
   AccelerationOptions acceleration;
   Spec spec();
 };
 
-/// Repeats the steps inside, accelerated if wanted. The iteration has converged when the residual of all
-/// equations that are solved inside, without stabilization, is small against their own terms; small updates do not
-/// count. A step is refused early where the changes of passes only grow.
+/// Repeats the steps inside, accelerated if wanted. Unless the scene says otherwise, the iteration has converged when
+/// the residual of all equations that are solved inside, without stabilization, is small against their own terms; small
+/// updates do not count. A step is refused early where the changes of passes only grow.
 class IterateStep : public ScheduleStep, public StepHistory {
  public:
   /// Throws InputError for a field to accelerate that is not solved inside.
@@ -55,6 +56,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   std::unique_ptr<ScheduleStep> inside_;
   std::vector<Part*> parts_;
   std::vector<Field*> fields_;
+  ConvergenceCriteria criteria_;
   BlockSystem system_;
   IterationLog log_;
   std::vector<double> scales_;                ///< one for each field, from the first pass

@@ -20,6 +20,9 @@ class SequenceStep : public ScheduleStep {
   std::string describe() const override { return "sequence"; }
   std::vector<const ScheduleStep*> children() const override;
   void add_counts(LinearCounts& counts) const override;
+  const std::vector<std::unique_ptr<ScheduleStep>>& steps() const { return steps_; }
+  /// Gives its steps away; it has none then.
+  std::vector<std::unique_ptr<ScheduleStep>> take_steps() { return std::move(steps_); }
 
  private:
   std::vector<std::unique_ptr<ScheduleStep>> steps_;

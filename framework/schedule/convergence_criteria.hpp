@@ -1,0 +1,62 @@
+// When an iteration over the steps of a schedule has converged.
+#pragma once
+
+#include <functional>
+#include <list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/spec.hpp"
+#include "framework/field/field.hpp"
+
+namespace sprekk {
+
+/// One condition of `until:`: a bound of the coupled residual, or of the change of a field by a pass.
+struct CriterionOptions {
+  std::optional<double> residual, relative;
+  std::optional<std::string> change_of, absolute;
+  Origin origin, field_origin, absolute_origin;
+  Spec spec();
+};
+
+/// Parameters of `until:`.
+struct UntilOptions {
+  double relative = 1e-8;
+  bool is_relative_given = false;
+  int at_most = 60, at_least = 1;
+  std::list<CriterionOptions> all, any;
+  Spec spec();
+  /// The smallest bound of the residual that is asked for; `relative` where none is.
+  double tightest() const;
+};
+
+/// The conditions of one iteration: all of `all`, and one of `any` where there are some.
+class ConvergenceCriteria {
+ public:
+  /// `fields`: those that are solved inside. Throws InputError for others, and for amounts in another unit than the
+  /// field's.
+  ConvergenceCriteria(const UntilOptions& options, const std::vector<Field*>& fields);
+  /// Whether the iteration has converged after a pass. `residual_holds`: whether the coupled residual is below a bound.
+  /// `before`: the values of all fields before the pass. In the first pass nothing is known of changes that would
+  /// vanish by themselves.
+  bool hold(int pass, const std::function<bool(double)>& residual_holds, const std::vector<Vector>& before) const;
+  bool need_changes() const { return need_changes_; }
+
+ private:
+  struct Criterion {
+    double bound = 0;
+    const Field* field = nullptr;  ///< nullptr for the residual
+    std::size_t place = 0;         ///< of the field
+    bool is_relative = true;
+  };
+  static std::vector<Criterion> made(const std::list<CriterionOptions>& options, const std::vector<Field*>& fields);
+  static bool holds(const Criterion& criterion, int pass, const std::function<bool(double)>& residual_holds,
+                    const std::vector<Vector>& before);
+
+  int at_least_;
+  bool need_changes_ = false;
+  std::vector<Criterion> all_, any_;
+};
+
+}  // namespace sprekk

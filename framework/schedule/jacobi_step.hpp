@@ -1,0 +1,22 @@
+// Steps that all begin from the same values.
+#pragma once
+
+#include "framework/field/field_store.hpp"
+#include "framework/schedule/sequence_step.hpp"
+
+namespace sprekk {
+
+/// Runs its steps one after the other, each from the values at the beginning: none sees what another has found (block
+/// Jacobi). In the end all fields have what the steps have found for them.
+class JacobiStep : public SequenceStep {
+ public:
+  JacobiStep(std::vector<std::unique_ptr<ScheduleStep>> steps, FieldStore& fields)
+      : SequenceStep(std::move(steps)), fields_(fields) {}
+  StepStatus run(const StepTime& step) override;
+  std::string describe() const override { return "all at once"; }
+
+ private:
+  FieldStore& fields_;
+};
+
+}  // namespace sprekk
