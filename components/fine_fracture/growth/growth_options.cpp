@@ -12,14 +12,18 @@ Spec GrowthOptions::spec() {
       "over yet), speed (m/s, what has grown in the step over its duration), grows (1: in this step), and, with a "
       "toughness, apparent_toughness (Pa*m^0.5, K_eq of the tip while it grows within steps: the toughness, and "
       "more by the viscosity of the fluid).");
-  spec.choice("direction", direction,
-              {{"implicit", "straight increments at whose end K_II vanishes: stable for any length of increment"},
-               {"explicit",
-                "maximum tangential stress at the old tip (the paper's Eq. 11): the path zigzags when the increment is "
-                "longer than "
-                "0.17 (K_I/T)^2"}},
-              {.doc = "How the direction of an increment is found.",
-               .source = "the paper's Eq. 11; Goldstein and Salganik 1974; Cotterell and Rice 1980"});
+  spec.choice(
+      "direction", direction,
+      {{"implicit", "straight increments at whose end K_II vanishes: stable for any length of increment"},
+       {"explicit",
+        "maximum tangential stress at the old tip (the paper's Eq. 11): the path zigzags when the increment is "
+        "longer than "
+        "0.17 (K_I/T)^2"},
+       {"largest_release",
+        "the kink at the old tip that releases most energy: explicit, and within 5.1 degrees of the one above"}},
+      {.doc = "How the direction of an increment is found.",
+       .source = "the paper's Eq. 11; Goldstein and Salganik 1974; Cotterell and Rice 1980; Amestoy and Leblond "
+                 "1992"});
   spec.choice("length", length,
               {{"arrest", "until K_eq falls to the toughness; the last increment is shortened to end there"},
                {"fixed", "whole increments until K_eq is below the toughness (the paper)"}},
@@ -36,7 +40,7 @@ Spec GrowthOptions::spec() {
                  .source = "the paper's Eq. 13"});
   spec.quantity("relaxation", relaxation,
                 {.range = {.low = 0, .high = 1, .low_allowed = false},
-                 .doc = "Part of the explicit angle that is taken; less than 1 delays the zigzag."});
+                 .doc = "Part of an explicit angle that is taken; less than 1 delays the zigzag."});
   spec.quantity("direction_tolerance", direction_tolerance,
                 {.range = strictly_between(0, 1), .doc = "Largest |K_II|/K_I at the end of an implicit increment."});
   spec.quantity("arrest_tolerance", arrest_tolerance,

@@ -10,7 +10,7 @@ namespace sprekk::fine_fracture {
 
 /// The section `growth:` of a scene. growth_options.cpp explains the choices for direction and length.
 struct GrowthOptions {
-  std::string direction = "implicit";  ///< implicit, explicit
+  std::string direction = "implicit";  ///< implicit, explicit, largest_release
   std::string length = "arrest";       ///< arrest, fixed
   double increment = 0;                ///< l_max of Eq. 13 of the paper, m
   double energy_exponent = 0.35;       ///< of Eq. 13 of the paper
@@ -24,6 +24,7 @@ struct GrowthOptions {
   int tries = 8;                       ///< evaluations of an increment before a looser result is accepted
 
   bool is_implicit() const { return direction == "implicit"; }
+  bool releases_most() const { return direction == "largest_release"; }
   bool seeks_arrest() const { return length == "arrest"; }
   double smallest_length() const { return smallest * increment; }  ///< m
   Spec spec();

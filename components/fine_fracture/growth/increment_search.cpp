@@ -50,7 +50,8 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
   forget_lengths();
   length_ = first_length();
   if (!options_.is_implicit()) {
-    angle_ = clamp_turn(options_.relaxation * maximum_tangential_angle(start_));
+    angle_ = clamp_turn(options_.relaxation *
+                        (options_.releases_most() ? largest_release_angle(start_) : maximum_tangential_angle(start_)));
     phase_ = Phase::direction_fixed;
   } else if (turns_away(start_, length_)) {
     fix_direction("tension along the tip turns it away from where K_II vanishes");

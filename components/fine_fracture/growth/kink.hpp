@@ -33,4 +33,9 @@ double longest_overloaded_kink(const Sifs& sifs, double toughness, double low, d
 /// d ln K_eq / d length (1/m) at the end of such a kink; not finite where K_eq vanishes.
 double log_slope_of_kink(const Sifs& sifs, double length);
 
+/// The angle (rad, at most `limit` in size) of the infinitesimal kink that releases most energy, k_1^2 + k_2^2, of
+/// those that open, k_1 > 0, and turn away from K_II; 0 where none does. In pure mode II 75.8 degrees by the series of
+/// Amestoy and Leblond; K_II vanishes at 77.3, and the tangential stress is largest at 70.5.
+double largest_release_angle(const Sifs& sifs, double limit = 1.5);
+
 }  // namespace sprekk::fine_fracture

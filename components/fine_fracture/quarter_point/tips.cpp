@@ -145,10 +145,11 @@ bool Tips::may_grow_within_steps() const {
 }
 
 void Tips::grow_within_steps() {
-  for (const auto& [is_wrong, option] : {std::pair(!options_.growth.seeks_arrest(), "'growth.length: fixed'"),
-                                         std::pair(!options_.growth.is_implicit(), "'growth.direction: explicit'")})
+  for (const auto& [is_wrong, option] :
+       {std::pair(!options_.growth.seeks_arrest(), std::string("'growth.length: fixed'")),
+        std::pair(!options_.growth.is_implicit(), "'growth.direction: " + options_.growth.direction + "'")})
     if (is_wrong)
-      throw InputError(origin_, std::string(option) + " has no meaning with growth within steps",
+      throw InputError(origin_, option + " has no meaning with growth within steps",
                        "lengths and directions follow from K_eq = K_IC and K_II = 0 at the end of each step",
                        "leave it out, or choose 'update: after_step'");
   grows_within_steps_ = true;

@@ -103,5 +103,58 @@ TEST(LocalSymmetry, tension_along_the_tip_that_outweighs_mode_one_leaves_the_inf
   EXPECT_EQ(local_symmetry_angle(sifs, 0.05), local_symmetry_angle(sifs, 0));
 }
 
+TEST(LargestRelease, is_between_the_two_other_criteria_in_pure_shear) {
+  EXPECT_NEAR(maximum_tangential_angle({0, 1}) / degree, -70.53, 0.01);
+  EXPECT_LT(local_symmetry_angle({0, 1}), largest_release_angle({0, 1}));
+}
+
+/// The polynomial through the values of boundary integrals, and where its largest value is.
+TEST(LargestRelease, is_that_of_the_boundary_integral_solution) {
+  const auto rows = published();
+  for (const double phase : {60.0, 75.0, 90.0, 100.0}) {
+    const double k1 = std::cos(phase * degree), k2 = std::sin(phase * degree);
+    const auto release = [&](double angle) {
+      double sum = 0;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& f = rows[i];
+        double weight = 1;
+        for (std::size_t j = 0; j < rows.size(); ++j)
+          if (j != i) weight *= (angle - rows[j][0]) / (f[0] - rows[j][0]);
+        sum += weight * (std::pow(-f[1] * k1 + f[2] * k2, 2) + std::pow(f[3] * k1 - f[4] * k2, 2));
+      }
+      return sum;
+    };
+    double best = 30;
+    for (double angle = 30; angle < 90; angle += 0.01)
+      if (release(angle) > release(best)) best = angle;
+    EXPECT_NEAR(largest_release_angle({k1, k2}) / degree, -best, 0.05) << phase;
+    if (phase == 90) {
+      EXPECT_NEAR(best, 75.76, 0.02);
+    }
+  }
+}
+
+TEST(LargestRelease, is_the_best_of_all_angles_and_turns_with_the_shear) {
+  for (const double phase : {-100.0, -90.0, -60.0, -10.0, 1.0, 30.0, 89.0}) {
+    const Sifs sifs{std::cos(phase * degree), std::sin(phase * degree)};
+    const double angle = largest_release_angle(sifs);
+    EXPECT_LT(angle * sifs.k2, 0);
+    EXPECT_NEAR(largest_release_angle({sifs.k1, -sifs.k2}), -angle, 1e-12);
+    const Sifs here = after_kink(sifs, angle);
+    EXPECT_GT(here.k1, 0);
+    for (double other = -85 * degree; other < 85 * degree; other += 0.01) {
+      const Sifs there = after_kink(sifs, other);
+      if (there.k1 > 0) {
+        EXPECT_LE(std::hypot(there.k1, there.k2), std::hypot(here.k1, here.k2) * (1 + 1e-12)) << phase;
+      }
+    }
+    // Within 2 degrees of where K_II vanishes, and a hair more or less shear turns it by a hair.
+    EXPECT_NEAR(angle, local_symmetry_angle(sifs), 2 * degree) << phase;
+    EXPECT_NEAR(largest_release_angle({sifs.k1, sifs.k2 * (1 + 1e-9)}), angle, 1e-7) << phase;
+  }
+  EXPECT_EQ(largest_release_angle({1, 0}), 0);
+  EXPECT_EQ(largest_release_angle({-1, 0.01}), 0);
+}
+
 }  // namespace
 }  // namespace sprekk::fine_fracture

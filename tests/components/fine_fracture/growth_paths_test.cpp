@@ -236,7 +236,7 @@ TEST(GrowTips, mirrored_problems_have_mirrored_paths) {
     options.at_most = 6;
     return grow_tips(tips, options, sifs, unlimited);
   };
-  for (const std::string direction : {"implicit", "explicit"}) {
+  for (const std::string direction : {"implicit", "explicit", "largest_release"}) {
     const std::vector<TipOutcome> up = problem(1, direction), down = problem(-1, direction);
     for (int i = 0; i < 2; ++i) {
       ASSERT_GE(up[i].increments, 2) << direction;
@@ -248,6 +248,25 @@ TEST(GrowTips, mirrored_problems_have_mirrored_paths) {
       }
     }
   }
+}
+
+/// In whatever direction the tip points, pure shear turns it by what the rules say, from there on.
+TEST(LargestRelease, is_the_first_direction_in_pure_shear) {
+  for (const auto& [direction, kink] :
+       std::vector<std::pair<std::string, double>>{{"explicit", -70.53}, {"largest_release", -75.76}})
+    for (const double turned : {0.0, 30.0, 123.0}) {
+      GrowingTip tip{.tip = Point(0.1, 0.2),
+                     .direction = Point(std::cos(turned * degree), std::sin(turned * degree)),
+                     .toughness = 1,
+                     .youngs_prime = 1,
+                     .path = {}};
+      const auto sifs = [](int, const std::vector<TipPath>& paths) {
+        return paths[0].added.empty() ? Sifs{0, 1} : Sifs{0.5, 0};
+      };
+      const TipOutcome outcome = grow_tips({tip}, whole_increments(direction, 0.01, 5), sifs, unlimited)[0];
+      ASSERT_EQ(outcome.increments, 1);
+      EXPECT_NEAR(std::remainder(degrees(tip.tip, outcome.path)[0] - turned - kink, 360), 0, 0.05);
+    }
 }
 
 }  // namespace
