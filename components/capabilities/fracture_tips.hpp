@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "components/capabilities/rock_state.hpp"
@@ -44,6 +45,8 @@ class TipSurroundings {
   /// Nothing where the walls stick, have grown, or where nothing tells their law.
   virtual std::optional<Sliding> sliding(int /*fracture*/, double /*s*/) const { return std::nullopt; }
   virtual Point wall_jump(int fracture, double s) const = 0;  ///< m, u(minus) − u(plus)
+  /// Why the jumps next to tips have an error that does not vanish on finer meshes; empty where they are right.
+  virtual std::string flaw_of_jumps() const { return {}; }
   /// The fluid pressure in the fracture cell at an end, Pa; 0 without a component for it.
   virtual double fluid_pressure(int fracture, bool at_end) const = 0;
   virtual double accepted_fluid_pressure(int fracture, bool at_end) const = 0;

@@ -1,6 +1,8 @@
 // Capabilities of the deformation of the matrix.
 #pragma once
 
+#include <string>
+
 #include "framework/assembly/linear_expression.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/field.hpp"
@@ -36,6 +38,9 @@ class RockWalls {
   virtual Field& wall_traction() = 0;
   /// u(minus) − u(plus) (Eq. 1 of the paper), m, (normal, tangential) of each fracture cell.
   virtual const LinearExpression& displacement_jump() const = 0;
+  /// Why the jumps of the cells at a tip have an error that does not vanish on finer meshes; empty where they are
+  /// right.
+  virtual std::string flaw_of_jumps() const { return {}; }
   /// How the traction on a fracture cell closes the jump of this cell while the unknown displacements stay, m/Pa,
   /// (normal, tangential) of each fracture cell; where walls are no more than unknown displacements, how it would if
   /// the unknowns of the cell's walls moved alone. A scale, right on the fracture cells that the process owns.

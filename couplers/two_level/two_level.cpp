@@ -138,6 +138,9 @@ class TwoLevel : public Coupler, public TipSurroundings {
                    cell.to_global({1, -law->dilation}), law->opening};
   }
   Point wall_jump(int fracture, double s) const override { return along_[fracture].jump(s, jump_); }
+  std::string flaw_of_jumps() const override {
+    return is_cell_centred() ? "those between cell centres count strain as slip" : walls_.flaw_of_jumps();
+  }
 
   double fluid_pressure(int fracture, bool at_end) const override {
     return fluid_ ? fluid_->pressure().now()[end_cell(fracture, at_end)] : 0;

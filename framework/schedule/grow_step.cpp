@@ -51,6 +51,10 @@ namespace {
 Growing* find_growing(const GrowOptions& options, const ScheduleContext& context) {
   const auto found = context.named.find(options.component);
   auto* growing = found == context.named.end() ? nullptr : dynamic_cast<Growing*>(found->second);
+  if (!growing && found != context.named.end())
+    if (const auto* fixed = dynamic_cast<const NotGrowing*>(found->second))
+      throw InputError(options.origin, "component '" + options.component + "' does not grow", fixed->why_no_growth(),
+                       "name a component of another type, or leave the step out");
   if (!growing)
     throw InputError(options.origin, "component '" + options.component + "' does not grow",
                      std::string("a 'grow' step needs a component that ") + Growing::promise,

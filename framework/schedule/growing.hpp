@@ -96,4 +96,11 @@ class Growing {
   virtual bool settling_costs_digits() const { return false; }
 };
 
+/// A component with fractures that stay as they are, for whoever names it in a `grow` step.
+class NotGrowing {
+ public:
+  virtual ~NotGrowing() = default;
+  virtual std::string why_no_growth() const = 0;
+};
+
 }  // namespace sprekk

@@ -237,6 +237,12 @@ Vector FemRock::mean_stress() const {
   return stress;
 }
 
+std::string FemRock::flaw_of_jumps() const {
+  if (order_ == ElementOrder::second) return {};
+  return "elements of first order have no field of a tip: the jumps of the cells there are a third too small on each "
+         "mesh";
+}
+
 Vector FemRock::outer_displacement() const {
   const RawDisplacement raw{mesh_};
   const Vector all = coefficients();

@@ -47,6 +47,7 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
   Field& wall_traction() override { return *wall_traction_; }
   const LinearExpression& displacement_jump() const override { return jump_.value; }
   Vector wall_compliance() override { return operators_.wall_compliance; }
+  std::string flaw_of_jumps() const override;
 
   const Field& displacement() const override { return displacement_; }
   Vector outer_displacement() const override;
