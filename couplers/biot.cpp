@@ -19,6 +19,7 @@ namespace {
 struct BiotOptions {
   Data biot_coefficient;
   double fixed_stress_factor = 1;
+  bool one_way = false;
   Spec spec() {
     Spec spec("biot",
               "Poroelastic coupling of the flow in the matrix and the deformation of the rock (the paper's Eqs. 5-7).");
@@ -34,6 +35,11 @@ struct BiotOptions {
                   {.range = positive(),
                    .doc = "The stabilization fixed_stress of split schemes is this times alpha^2/K.",
                    .source = "Kim, Tchelepi, Juanes 2011"});
+    spec.flag(
+        "one_way", one_way,
+        {.doc = "The pressure loads the rock, and the rock's change of volume stores no fluid: the flow is that in "
+                "pores of a volume that stays. A `storage` that has alpha^2/(lambda + 2 G) in it stands for the "
+                "volume where rock shortens along one axis under constant loads."});
     return spec;
   }
 };
@@ -43,6 +49,8 @@ struct BiotOptions {
 ///
 /// The "old" volume is the volume that the fluid balance has counted last (`counted_volume`). So a split scheme that is
 /// not iterated counts every change of volume once, if late.
+///
+/// One way, the first of these terms is left out, and nothing of the rock enters the balance of the fluid.
 ///
 /// alpha and the compressibility of the grains are taken at the end of the step. They multiply changes of the state: a
 /// change of alpha or of the compressibility alone moves no fluid.
@@ -88,6 +96,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
                   grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
       assembly.derivative(pressure, pressure, grains_);
     }
+    if (options_.one_way) return;
     assembly.linear(pressure, rock_.volume_change(), 1, &alpha_.values());
     SPREKK_EXPECT(rock_.volume_change().constant.size() == mesh_.cell_count(), rock_.volume_change().constant.size());
     assembly.add(pressure, -alpha_.values().cwiseProduct(counted_volume_.accepted()));
@@ -101,7 +110,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
     const Field& pressure = fluid_.pressure();
     if (std::find(solved.begin(), solved.end(), &pressure) == solved.end()) return;
     Vector stored = stored_.accepted() + grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted());
-    if (!decoupled_) {
+    if (!decoupled_ && !options_.one_way) {
       Vector volume = rock_.volume_change().now();
       replicate(mesh_, Location::cell, 1, volume);
       stored += alpha_.values().cwiseProduct(volume - counted_volume_.accepted());
@@ -114,7 +123,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
   /// of the same state on the new mesh. The difference of both totals is spread evenly over the new cells, so that the
   /// total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
-    if (decoupled_) return;
+    if (decoupled_ || options_.one_way) return;
     Vector volume = rock_.volume_change().now();
     replicate(mesh_, Location::cell, 1, volume);
     double difference = 0, area = 0;
@@ -133,7 +142,16 @@ class Biot : public Coupler, public StabilizesPreconditioner {
 
   /// The constant mode of the pressure loads the rock, and the grains store fluid.
   void hold_constants(ConstantModes& modes) const override {
-    if (!decoupled_) modes.hold(fluid_.pressure());
+    if (!decoupled_ && (!options_.one_way || has_grains_)) modes.hold(fluid_.pressure());
+  }
+
+  void note_input(Notes& notes) const override {
+    if (decoupled_ || !options_.one_way) return;
+    notes.add(
+        "coupled one way",
+        fmt::format("the rock of the coupler {} moves without storing fluid ('one_way: true'): the balance of fluid "
+                    "is that of pores whose volume stays, and misses alpha times the change of the rock's volume",
+                    name()));
   }
 
   void note_step(Notes& notes, const StepTime&) const override {
@@ -151,9 +169,11 @@ class Biot : public Coupler, public StabilizesPreconditioner {
 
   std::vector<double> switch_times() const override { return options_.biot_coefficient.switch_times(); }
 
-  std::vector<std::string> stabilizations() const override { return {"fixed_stress"}; }
+  std::vector<std::string> stabilizations() const override {
+    return options_.one_way ? std::vector<std::string>{} : std::vector<std::string>{"fixed_stress"};
+  }
   void stabilize(const std::string& scheme, Stabilization& stabilization) const override {
-    if (decoupled_ || scheme != "fixed_stress") return;
+    if (decoupled_ || options_.one_way || scheme != "fixed_stress") return;
     SPREKK_ASSERT(rock_.bulk_modulus().values().minCoeff() > 0, rock_.bulk_modulus().values().minCoeff());
     Vector diagonal(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c)
