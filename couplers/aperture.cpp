@@ -2,6 +2,7 @@
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "framework/assembly/follows_waiting.hpp"
+#include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -23,7 +24,10 @@ struct ApertureOptions {
 class Aperture : public Coupler, public FollowsWaiting {
  public:
   Aperture(const CouplerContext& context, const ApertureOptions&)
-      : Coupler(context.name), contact_(context.the<FractureContact>()), fluid_(context.the<FractureFluid>()) {
+      : Coupler(context.name),
+        mesh_(context.mesh),
+        contact_(context.the<FractureContact>()),
+        fluid_(context.the<FractureFluid>()) {
     context.determine(fluid_.aperture());
     const int cells = context.mesh.fracture_cell_count();
     std::vector<Triplet> entries;
@@ -53,6 +57,20 @@ class Aperture : public Coupler, public FollowsWaiting {
     assembly.linear(aperture, normal_, contact_.jump(), -1);
   }
 
+  /// Cells in the place of a replaced one share its opening as the contact has shared its jump, not evenly: otherwise
+  /// fluid would have to flow between them at once.
+  void carry_over(const Part& part, const MeshChange& change) override {
+    const Vector& old_jump = dynamic_cast<const Aperture&>(part).contact_.jump().accepted();
+    Vector evenly = Vector::Zero(fluid_.aperture().size());
+    for (const ReplacedPart& replaced : change.replaced_parts)
+      evenly[replaced.cell] +=
+          replaced.length / mesh_.fracture_cells[replaced.cell].measure * old_jump[dimension * replaced.old_cell];
+    Vector aperture = fluid_.aperture().accepted();
+    for (Eigen::Index i = 0; i < aperture.size(); ++i)
+      if (change.fracture_cell[i] == none) aperture[i] += contact_.jump().accepted()[dimension * i] - evenly[i];
+    fluid_.aperture().set_both(std::move(aperture));
+  }
+
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     for (const Component* contact : components) {
       if (!dynamic_cast<const FractureContact*>(contact)) continue;
@@ -69,6 +87,7 @@ class Aperture : public Coupler, public FollowsWaiting {
   }
 
  private:
+  const Mesh& mesh_;
   FractureContact& contact_;
   FractureFluid& fluid_;
   Operator normal_;  ///< fracture cells × `dimension` fracture cells: picks the opening

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "framework/invariants.hpp"
@@ -91,19 +92,50 @@ void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
   }
 }
 
-void FrictionalContact::carry_over(const Part&, const MeshChange& change) {
+namespace {
+
+/// Of the jump along a cell at the tip of a fracture, which falls with the square root of the distance to the tip: the
+/// part between the places `from` and `to`, shares of the length from the other end on.
+double part_at_tip(double from, double to) {
+  const auto beyond = [](double place) { return (1 - place) * std::sqrt(1 - place); };
+  return beyond(from) - beyond(to);
+}
+
+}  // namespace
+
+void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
   SPREKK_EXPECT(static_cast<int>(change.fracture_cell.size()) == mesh_.fracture_cell_count(),
                 change.fracture_cell.size());
+  const auto& before = dynamic_cast<const FrictionalContact&>(part);
   const Vector covered = covered_parts(change, mesh_);
+  // Where the end of slip comes to lie within a new closed cell, old cells have to follow.
+  const bool holds_all = covered.size() > 0 && covered.minCoeff() > 0;
   bonded_.resize(change.fracture_cell.size());
   Vector jump = jump_.accepted();
   for (std::size_t i = 0; i < bonded_.size(); ++i) {
-    bonded_[i] = change.fracture_cell[i] == none;
-    // A jump on a part of the cell is spread over its length: the volume stays.
-    if (bonded_[i]) jump.segment<dimension>(dimension * i) *= covered[i];
+    const bool is_new = change.fracture_cell[i] == none;
+    bonded_[i] = holds_all || is_new;
+    if (is_new) jump.segment<dimension>(dimension * i).setZero();
+  }
+  // The volume of a replaced cell stays. The parts of each follow one another towards the tip.
+  std::map<int, double> place;  // in an old cell, where its next part begins
+  for (const ReplacedPart& replaced : change.replaced_parts) {
+    const FractureCell& old = before.mesh_.fracture_cells[replaced.old_cell];
+    double& from = place[replaced.old_cell];
+    const double to = std::min(1.0, from + replaced.share);
+    const double share = before.is_at_tip(replaced.old_cell) ? part_at_tip(from, to) : to - from;
+    jump.segment<dimension>(dimension * replaced.cell) +=
+        share * old.measure / mesh_.fracture_cells[replaced.cell].measure *
+        before.jump_.accepted().segment<dimension>(dimension * replaced.old_cell);
+    from = to;
   }
   bonded_jump_ = jump;
   jump_.set_both(std::move(jump));
+}
+
+bool FrictionalContact::is_at_tip(int cell) const {
+  return std::ranges::any_of(mesh_.fracture_cells[cell].points,
+                             [&](int point) { return mesh_.fracture_points[point].kind == FracturePoint::Kind::tip; });
 }
 
 void FrictionalContact::settled(const MeshChange&) {

@@ -76,7 +76,9 @@ class FrictionalContact : public Component, public FractureContact, public Itera
     last_.resize(0);
   }
   /// Cells that have grown are bonded, [u] = 0, until the equilibrium on the new mesh with bonded cells has been found.
-  /// Cells that cover given-up ones are held meanwhile at the jump of these, with the same volume.
+  /// Cells that cover given-up ones are held meanwhile at the jump of these, with the same volume. Where tips only go
+  /// on in this way, all other cells are held, too: such a change of the mesh lets no walls slide or part, which with
+  /// friction would not be undone.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
   void observe_iterate(const std::vector<Field*>& unknowns) override;
@@ -118,6 +120,7 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
+  bool is_at_tip(int cell) const;
   const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
   struct Trial : TrialTraction<dimension - 1> {
     double gap;

@@ -6,6 +6,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/direct/kept_orderings.hpp"
+#include "framework/remeshing/continued_mesh.hpp"
 #include "framework/remeshing/move_tips.hpp"
 #include "framework/scene/change_mesh.hpp"
 
@@ -113,12 +114,17 @@ bool has_same_ends(const std::vector<PathExtension>& one, const std::vector<Path
 
 }  // namespace
 
-/// The mesh of the next trial: the last one that was made anew, with moved tips, as long as its cells allow. So the
-/// state depends smoothly on the positions of the tips.
+/// The mesh of the next trial: the last one with moved tips, as long as its cells allow, and at first the mesh that has
+/// been. So the state depends smoothly on the positions of the tips, and tips that go on meet no other discretization.
 GrownMesh MeshGrowth::trial_mesh(std::optional<TrialMesh>& made, std::size_t grow_step,
                                  const std::vector<PathExtension>& paths) {
+  const Mesh& before = model_->mesh();
+  const CavityOptions cavity = cavity_of(*model_, grow_step);
+  if (!made)
+    if (std::optional<GrownMesh> same = continued_mesh(before, paths, cavity))
+      made = TrialMesh{paths, std::move(*same)};
   if (made && has_same_ends(made->paths, paths)) {
-    std::optional<GrownMesh> moved = move_tips(model_->mesh(), made->mesh, paths, cavity_of(*model_, grow_step));
+    std::optional<GrownMesh> moved = move_tips(before, made->mesh, paths, cavity);
     if (moved) return std::move(*moved);
   }
   made = TrialMesh{paths, grow_mesh(*model_, grow_step, paths)};

@@ -10,7 +10,7 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double of_mean_slope = 0.25;  ///< of the slope of the mean: that of the difference is small beside it
-constexpr double same_load = 1e-8, same_advance = 1e-6;  ///< ln K, and increments, of twins
+constexpr double same_load = 1e-7, same_advance = 1e-6;  ///< ln K, and increments, of twins: as the search finds them
 
 bool is_small(double difference, double mean) {
   return std::abs(difference) < std::min(least_difference_slope, -of_mean_slope * mean);
