@@ -17,7 +17,7 @@ const char* const residual_doc =
 Spec CriterionOptions::spec() {
   Spec spec("condition", "A bound of the coupled residual, or of the change of a field by a pass.");
   spec.quantity("residual", residual, {.range = strictly_between(0, 1), .doc = residual_doc});
-  spec.text("change_of", change_of, {.doc = "A field that is solved inside, for example rock.displacement."});
+  spec.text("change_of", change_of, {.doc = "A field that is solved inside, by its whole name."});
   spec.quantity("relative", relative,
                 {.range = strictly_between(0, 1), .doc = "Largest change of the field over its largest value."});
   spec.text("absolute", absolute, {.doc = "Largest change of the field, with a unit."});
