@@ -24,6 +24,7 @@ EXEMPT = (
     ("framework/picture/", "how a drawing looks"),
     ("framework/report/", "how a page looks"),
     ("framework/compare/difference_page.cpp", "how a page looks"),
+    ("framework/schemes/scheme_picture.cpp", "how a drawing looks"),
     ("framework/compare/difference_tables.cpp", "how a text looks"),
     ("framework/converge/convergence.cpp", "how a text looks"),
     ("framework/command_line/", "how texts and the memory are arranged"),

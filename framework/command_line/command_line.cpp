@@ -17,6 +17,7 @@
 #include "framework/command_line/manual_page.hpp"
 #include "framework/command_line/new_command.hpp"
 #include "framework/command_line/scene_arguments.hpp"
+#include "framework/command_line/schemes_command.hpp"
 #include "framework/command_line/sweep_command.hpp"
 #include "framework/config/resolved_yaml.hpp"
 #include "framework/linear/linear_solver.hpp"
@@ -139,6 +140,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
       ->type_name("FOLDER");
   CompareCommand compare(app);
   ConvergeCommand converge(app);
+  SchemesCommand schemes(app);
   CLI::App* show_command =
       app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   scene.add_to(*show_command);
@@ -198,6 +200,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
 
     if (compare.is_called()) return static_cast<int>(compare.run());
     if (converge.is_called()) return static_cast<int>(converge.run());
+    if (schemes.is_called()) return static_cast<int>(schemes.run());
     if (sweep.is_called()) return static_cast<int>(sweep.run());
     if (*run_command) {
       const Scene read = scene.read();

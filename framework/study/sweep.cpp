@@ -140,7 +140,7 @@ void Sweep::finish(std::size_t i, int code) {
   const std::string text =
       fmt::format("[{}/{}] {}: {} {}", ++ended_, study_.runs.size(), state.name, status_text(state.status),
                   has_failed ? "(" + state.reason + ")" : "after " + seconds);
-  if (has_failed)
+  if (has_failed && options_.tells_failures)
     std::cerr << text << std::endl;
   else
     say(text);

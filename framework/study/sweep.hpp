@@ -16,6 +16,7 @@ struct SweepOptions {
   int processes = 0;                            ///< at a time; 0: as many as there are cores
   bool quiet = false;
   bool has_table = true;                   ///< prints the figures in the end, unless quiet
+  bool tells_failures = true;              ///< also when quiet
   bool only_list = false;                  ///< only list what would be done
   std::string program = "/proc/self/exe";  ///< the program with the command `run`
 };

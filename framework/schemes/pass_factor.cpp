@@ -1,0 +1,109 @@
+#include "framework/schemes/pass_factor.hpp"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "framework/assembly/assemble_all.hpp"
+#include "framework/assembly/block_system.hpp"
+
+namespace sprekk {
+
+namespace {
+
+constexpr int iterations = 150, counted = 100;  // of the power iteration, and those that the factor is the mean of
+
+}  // namespace
+
+/// The block of a group on the diagonal of M, factorized.
+class PassFactor::Group {
+ public:
+  std::vector<int> rows;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
+  bool is_regular = false;
+};
+
+PassFactor::~PassFactor() = default;
+
+PassFactor::PassFactor(const Model& model, const StepTime& step)
+    : model_(model), unknowns_(model.schedule().unknowns()) {
+  Assembly assembly(unknowns_, Assembly::Request::residual_and_derivatives);
+  assemble_all(assembly, model.parts(), step);
+  BlockSystem system(model.mesh(), unknowns_);
+  for (std::size_t u = 0; u <= unknowns_.size(); ++u)
+    first_.push_back(u < unknowns_.size() ? system.first(static_cast<int>(u)) : system.size());
+  matrix_ = system.matrix(assembly).local;
+}
+
+const PassFactor::Group* PassFactor::group(const std::vector<std::string>& components,
+                                           const std::string& stabilization) {
+  std::string key = stabilization + ":";
+  for (const std::string& component : components) key += component + " ";
+  std::unique_ptr<Group>& group = groups_[key];
+  if (group) return group.get();
+  group = std::make_unique<Group>();
+  Stabilization diagonals;
+  for (const Part* part : model_.parts())
+    if (!stabilization.empty()) part->stabilize(stabilization, diagonals);
+  std::vector<int> place(static_cast<std::size_t>(matrix_.cols()), -1);
+  Vector more = Vector::Zero(matrix_.cols());
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    if (!std::ranges::count(components, unknowns_[u]->spec().owner)) continue;
+    if (const auto found = diagonals.find(unknowns_[u]); found != diagonals.end())
+      more.segment(first_[u], first_[u + 1] - first_[u]) = found->second;
+    for (int row = first_[u]; row < first_[u + 1]; ++row) {
+      place[row] = static_cast<int>(group->rows.size());
+      group->rows.push_back(row);
+    }
+  }
+  const int size = static_cast<int>(group->rows.size());
+  std::vector<Triplet> entries;
+  for (int i = 0; i < size; ++i) {
+    const int row = group->rows[i];
+    for (SparseMatrix::InnerIterator entry(matrix_, row); entry; ++entry)
+      if (place[entry.col()] >= 0) entries.emplace_back(i, place[entry.col()], entry.value());
+    if (more[row] != 0) entries.emplace_back(i, i, more[row]);
+  }
+  Eigen::SparseMatrix<double> block(size, size);
+  block.setFromTriplets(entries.begin(), entries.end());
+  group->factors.compute(block);
+  group->is_regular = size > 0 && group->factors.info() == Eigen::Success;
+  return group.get();
+}
+
+std::optional<double> PassFactor::of(const Scheme& scheme) {
+  if (scheme.is_monolithic()) return 0;
+  std::vector<const Group*> groups;
+  for (std::size_t g = 0; g < scheme.groups.size(); ++g) {
+    groups.push_back(group(scheme.groups[g], g == scheme.stabilized ? scheme.stabilization : ""));
+    if (!groups.back()->is_regular) return std::nullopt;
+  }
+  std::mt19937 random(1);
+  Vector error(matrix_.cols());
+  for (double& entry : error) entry = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  // Errors of different fields differ in size: those that a pass makes do not, so the first pass comes before counting.
+  double logarithm = 0, size = 0;
+  for (int k = 0; k < iterations; ++k) {
+    // Of a Jacobi pass all groups see the residual of its beginning, of a Gauss-Seidel pass the latest.
+    Vector residual = matrix_ * error;
+    for (const Group* group : groups) {
+      if (!scheme.is_jacobi && group != groups.front()) residual = matrix_ * error;
+      Vector right(static_cast<Eigen::Index>(group->rows.size()));
+      for (Eigen::Index i = 0; i < right.size(); ++i) right[i] = residual[group->rows[i]];
+      const Vector change = group->factors.solve(right);
+      for (Eigen::Index i = 0; i < right.size(); ++i) error[group->rows[i]] -= change[i];
+    }
+    // The size of the fields that are solved last, as all others follow from them.
+    double norm = 0;
+    for (const int row : groups.back()->rows) norm = std::max(norm, std::abs(error[row]));
+    if (!std::isfinite(norm)) return std::nullopt;
+    if (norm == 0) return 0;
+    if (k >= iterations - counted) logarithm += std::log(norm / size);
+    error /= norm;
+    size = 1;
+  }
+  return std::exp(logarithm / counted);
+}
+
+}  // namespace sprekk

@@ -1,0 +1,162 @@
+#include "framework/schemes/scheme.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace sprekk {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+/// Letters, digits and '_' of a text.
+std::string word_of(const std::string& text) {
+  std::string word;
+  for (const unsigned char c : text) {
+    if (std::isalnum(c) != 0)
+      word += static_cast<char>(c);
+    else if (!word.empty() && word.back() != '_')
+      word += '_';
+  }
+  while (!word.empty() && word.back() == '_') word.pop_back();
+  return word;
+}
+
+/// Components that have unknowns, those that belong together as one.
+std::vector<Group> atoms(const Model& model) {
+  std::vector<Group> atoms;
+  for (const auto& component : model.components())
+    if (std::ranges::any_of(model.fields().all(), [&](const auto& field) {
+          return field->is_solved() && field->size() > 0 && field->spec().owner == component->name();
+        }))
+      atoms.push_back({component->name()});
+  const auto place_of = [&](const std::string& name) {
+    return std::ranges::find_if(atoms, [&](const Group& atom) { return std::ranges::count(atom, name) > 0; });
+  };
+  for (const Part* part : model.parts())
+    for (const Dependence& dependence : part->dependences()) {
+      const auto one = place_of(dependence.on), other = place_of(dependence.component);
+      if (one == atoms.end() || other == atoms.end() || one == other) continue;
+      one->insert(one->end(), other->begin(), other->end());
+      atoms.erase(other);
+    }
+  return atoms;
+}
+
+/// Puts the next atom into each group, or into one of its own.
+void partition(const std::vector<Group>& atoms, std::size_t next, std::vector<Group>& groups,
+               std::vector<std::vector<Group>>& all) {
+  if (next == atoms.size()) return all.push_back(groups);
+  for (std::size_t g = 0; g <= groups.size(); ++g) {
+    std::vector<Group> more = groups;
+    if (g == more.size()) more.emplace_back();
+    more[g].insert(more[g].end(), atoms[next].begin(), atoms[next].end());
+    partition(atoms, next + 1, more, all);
+  }
+}
+
+std::vector<std::vector<Group>> orders(const std::vector<Group>& groups) {
+  if (groups.size() == 2) return {groups, {groups[1], groups[0]}};
+  std::vector<std::size_t> place(groups.size());
+  for (std::size_t i = 0; i < place.size(); ++i) place[i] = i;
+  std::vector<std::vector<Group>> all;
+  do {
+    all.emplace_back();
+    for (const std::size_t i : place) all.back().push_back(groups[i]);
+  } while (!place.empty() && std::next_permutation(place.begin() + 1, place.end()));
+  return all;
+}
+
+/// The scheme with each stabilization that helps one of its groups: the coupler that offers it stands between groups.
+std::vector<Scheme> stabilized(const Model& model, const Scheme& scheme) {
+  std::vector<Scheme> all;
+  const auto& couplers = model.scene().couplers;
+  for (std::size_t k = 0; k < couplers.size(); ++k)
+    for (const std::string& name : model.couplers()[k]->stabilizations()) {
+      Stabilization diagonals;
+      model.couplers()[k]->stabilize(name, diagonals);
+      for (std::size_t g = 0; g < scheme.groups.size(); ++g) {
+        const auto is_in = [&](const std::string& component) {
+          return std::ranges::count(scheme.groups[g], component) > 0;
+        };
+        const bool has_field =
+            std::ranges::any_of(diagonals, [&](const auto& entry) { return is_in(entry.first->spec().owner); });
+        if (!has_field || std::ranges::all_of(couplers[k].between, is_in)) continue;
+        all.push_back(scheme);
+        all.back().stabilization = name;
+        all.back().stabilized = g;
+      }
+    }
+  return all;
+}
+
+}  // namespace
+
+std::string Scheme::name() const {
+  std::string text = is_jacobi ? "jacobi-" : "";
+  for (std::size_t g = 0; g < groups.size(); ++g) text += (g > 0 ? "-" : "") + joined(groups[g], "_");
+  if (!stabilization.empty()) text += "=" + stabilization;
+  if (!acceleration.empty()) text += "=" + word_of(acceleration);
+  return text;
+}
+
+std::string Scheme::split() const {
+  std::string text;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (g > 0) text += is_jacobi ? " ‖ " : " → ";
+    text += joined(groups[g], " ");
+    if (!stabilization.empty() && g == stabilized) text += " (" + stabilization + ")";
+  }
+  return text;
+}
+
+std::string Scheme::schedule(double until, int at_most, const std::vector<std::string>& behind) const {
+  std::string solves;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    solves += (g > 0 ? ", {solve: [" : "{solve: [") + joined(groups[g], ", ") + "]";
+    if (!stabilization.empty() && g == stabilized) solves += ", stabilize: " + stabilization;
+    solves += "}";
+  }
+  if (!is_monolithic())
+    solves =
+        fmt::format("{{iterate: {{until: {{relative: {}, at_most: {}}}, order: {}, accelerate: {{{}}}, steps: [{}]}}}}",
+                    until, at_most, is_jacobi ? "jacobi" : "gauss_seidel", acceleration, solves);
+  for (const std::string& step : behind) solves += ", " + step;
+  return "[" + solves + "]";
+}
+
+std::vector<Scheme> sensible_schemes(const Model& model, const std::vector<std::string>& accelerations) {
+  std::vector<std::vector<Group>> partitions;
+  std::vector<Group> begin;
+  partition(atoms(model), 0, begin, partitions);
+  std::vector<Scheme> splits, all;
+  for (const std::vector<Group>& groups : partitions) {
+    if (groups.size() == 1) {
+      all.emplace_back().groups = groups;
+      continue;
+    }
+    std::vector<Scheme> of_partition;
+    for (const std::vector<Group>& ordered : orders(groups)) of_partition.emplace_back().groups = ordered;
+    of_partition.emplace_back().groups = groups;
+    of_partition.back().is_jacobi = true;
+    for (const Scheme& scheme : of_partition) {
+      splits.push_back(scheme);
+      const std::vector<Scheme> more = stabilized(model, scheme);
+      splits.insert(splits.end(), more.begin(), more.end());
+    }
+  }
+  for (const Scheme& split : splits)
+    for (const std::string& acceleration : accelerations) {
+      all.push_back(split);
+      all.back().acceleration = acceleration;
+    }
+  return all;
+}
+
+}  // namespace sprekk

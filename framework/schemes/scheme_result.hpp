@@ -1,0 +1,38 @@
+// What runs of schemes have given.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/schemes/scheme.hpp"
+
+namespace sprekk {
+
+/// What a scheme has done.
+struct SchemeResult {
+  Scheme scheme;
+  std::string run;  ///< its folder below that of the atlas
+  bool is_done = false;
+  std::string reason;                ///< why not
+  std::vector<int> passes;           ///< of the accepted steps; Newton iterations of the monolithic scheme
+  double processor = 0;              ///< s
+  std::optional<double> measured;    ///< by which factor a pass multiplies the change of the one before, late in a step
+  std::optional<double> predicted;   ///< the same, of the equations of the first step; of schemes without acceleration
+  std::optional<double> difference;  ///< the largest of any field from the monolithic answer, over the field's range
+  int total_passes() const {
+    int sum = 0;
+    for (const int count : passes) sum += count;
+    return sum;
+  }
+};
+
+/// The results of the schemes for one pair of values.
+struct AtlasMap {
+  std::string scheme;
+  std::vector<std::pair<std::string, std::vector<std::string>>> axes;  ///< path, values; one or two
+  std::vector<SchemeResult> results;                                   ///< [second][first]
+};
+
+}  // namespace sprekk

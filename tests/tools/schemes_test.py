@@ -1,0 +1,123 @@
+#!/usr/bin/python3
+"""schemes_test.py SPREKK: `sprekk schemes` finds all partitions that make sense, converges to one answer, measures and predicts the
+factors of theory (Terzaghi's column that hardly conducts: drained alpha^2/(M_v S), Jacobi its root), draws maps, and refuses mistakes. Its
+page loads no other file."""
+
+import csv
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SPREKK = Path(sys.argv.pop(1)).resolve()
+TERZAGHI, NETWORK = ROOT / "configs/verification/terzaghi.yaml", ROOT / "configs/verification/regular_network.yaml"
+FRICTION = ROOT / "configs/tutorial/first_scene.yaml"
+# M_v = 2 Pa, K = 10/9 Pa, alpha = 1.
+P_WAVE, BULK = 2.0, 1.6666666666666667 / (3 * (1 - 2 * 0.25))
+TIGHT = ("components.pore.permeability=1e-9 m^2", "mesh.cells=[1, 40]")
+
+
+class Schemes(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name) / "atlas"
+
+    def call(self, scene, *words, settings=()):
+        return subprocess.run([SPREKK, "schemes", scene, "-o", self.folder, "-j", "1", *words,
+                               *(word for setting in settings for word in ("--set", setting))], capture_output=True, text=True, timeout=200)
+
+    def atlas(self, scene, *words, settings=()):
+        done = self.call(scene, *words, settings=settings)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.folder / "schemes.json").read_text(encoding="utf-8")), done.stdout
+
+    def test_factors_are_those_of_theory(self):
+        for storage in (1.25, 0.8):
+            self.folder = self.folder.with_name(f"atlas_{storage}")
+            found, said = self.atlas(TERZAGHI, "--accelerate", "none", "--steps", "1", "--at-most", "300", "--until", "1e-10",
+                                     settings=(*TIGHT, f"components.pore.storage={storage} 1/Pa"))
+            schemes = {one["name"]: one for one in found["schemes"]}
+            self.assertEqual(len(schemes), 7, list(schemes))
+            drained = 1 / (P_WAVE * storage)
+            for name, factor in (("pore-rock", drained), ("rock-pore", drained), ("jacobi-pore-rock", drained ** 0.5)):
+                self.assertAlmostEqual(schemes[name]["predicted"] / factor, 1, delta=0.02, msg=name)
+            # Of smooth modes. The largest is that of modes of the size of a cell, which MPSA's own term in the pressure moves.
+            smooth = (1 / BULK - 1 / P_WAVE) / (storage + 1 / BULK)
+            for name in ("pore-rock=fixed_stress", "rock-pore=fixed_stress"):
+                self.assertGreater(schemes[name]["predicted"], 0.98 * smooth, name)
+                self.assertLess(schemes[name]["predicted"], 0.5, name)
+            for name, one in schemes.items():
+                self.assertTrue(one["converged"], one)
+                self.assertLess(one["difference"], 1e-6, name)
+                if name not in ("pore_rock", "jacobi-pore-rock=fixed_stress"):  # the changes of the latter oscillate
+                    self.assertAlmostEqual(one["measured"] / one["predicted"], 1, delta=0.02, msg=name)
+            self.assertIn("cheapest", said)
+
+    def test_divergence_is_a_result(self):
+        found, _ = self.atlas(TERZAGHI, "--accelerate", "iqn_ils: {}", "--only", "pore-rock", "--steps", "1",
+                              settings=(*TIGHT, "components.pore.storage=0.2 1/Pa"))
+        schemes = {one["name"]: one for one in found["schemes"]}
+        plain, quick = schemes["pore-rock"], schemes["pore-rock=iqn_ils"]
+        self.assertFalse(plain["converged"])
+        self.assertIn("diverges", plain["reason"])
+        self.assertAlmostEqual(plain["predicted"], 2.5, delta=0.05)
+        self.assertAlmostEqual(plain["measured"], 2.5, delta=0.05)
+        self.assertTrue(quick["converged"])
+        self.assertLess(quick["difference"], 1e-6)
+
+    def test_partitions_of_four_components(self):
+        # Contact stays with rock: {pore, conduit, rock + contact} in one group, in two (3), in three (1).
+        found, _ = self.atlas(FRICTION, "--accelerate", "none", "--steps", "1", "--at-most", "25",
+                              settings=("mesh={size: 1.5 m, fracture_size: 0.5 m}",))
+        groups = {tuple(sorted("+".join(sorted(group)) for group in one["groups"])) for one in found["schemes"]}
+        expected = [["conduit+contact+pore+rock"], ["conduit+pore", "contact+rock"], ["conduit", "contact+pore+rock"],
+                    ["conduit+contact+rock", "pore"], ["conduit", "contact+rock", "pore"]]
+        self.assertEqual(groups, {tuple(sorted(partition)) for partition in expected})
+        three = [one for one in found["schemes"] if len(one["groups"]) == 3 and not one["stabilization"]]
+        self.assertEqual(sorted(one["order"] for one in three), ["gauss_seidel", "gauss_seidel", "jacobi"])
+        together = [one for one in found["schemes"] if one["stabilization"] and any({"pore", "rock"} <= set(group) for group in one["groups"])]
+        self.assertEqual(together, [])
+
+    def test_maps_and_files(self):
+        found, _ = self.atlas(NETWORK, "--accelerate", "iqn_imvj: {rank: 20}", "--only", "iqn", "--only", "jacobi", "--over",
+                              "components.conduit.transmissivity_value=1 m^3,1e-2 m^3", "--over", "mesh.size=0.2 m,0.25 m,0.3 m",
+                              settings=("mesh.size=0.2 m",))
+        maps = {one["scheme"]: one for one in found["maps"]}
+        self.assertTrue(all("iqn" in name or "jacobi" in name or name == "pore_conduit" for name in maps), list(maps))
+        one = maps["pore-conduit=iqn_imvj_rank_20"]
+        self.assertEqual(len(one["results"]), 6)
+        self.assertTrue(all(run["converged"] and run["difference"] < 1e-6 for run in one["results"]), one)
+        page = (self.folder / "schemes.html").read_text(encoding="utf-8")
+        self.assertNotRegex(page, r'(src|href)="(?!#|data:)')
+        pictures = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
+        self.assertGreaterEqual(len(pictures), 4)
+        for picture in pictures:
+            ET.fromstring(picture)
+        with open(self.folder / "schemes.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(found["schemes"]) + sum(len(map_["results"]) for map_ in found["maps"]))
+        # Another call keeps the runs.
+        before = (self.folder / "pore_conduit/history.csv").stat().st_mtime_ns
+        self.atlas(NETWORK, "--accelerate", "iqn_imvj: {rank: 20}", "--only", "iqn", settings=("mesh.size=0.2 m",))
+        self.assertEqual((self.folder / "pore_conduit/history.csv").stat().st_mtime_ns, before)
+
+    def test_mistakes(self):
+        for scene, words, said in ((TERZAGHI, ("--only", "roc-pore"), "rock-pore"),
+                                   (TERZAGHI, ("--accelerate", "iqn_isl: {}"), "iqn_ils"),
+                                   (TERZAGHI, ("--over", "time.step"), "gives no value"),
+                                   (TERZAGHI, ("--over", "time.step=1s,"), "value is missing"),
+                                   (TERZAGHI, ("--over", "a=1", "--over", "b=1", "--over", "c=1"), "two axes"),
+                                   (ROOT / "configs/verification/frictional_crack.yaml", (), "one scheme only")):
+            done = self.call(scene, *words)
+            self.assertEqual(done.returncode, 2, (words, done.stderr))
+            self.assertIn(said, done.stderr, words)
+
+
+if __name__ == "__main__":
+    unittest.main()
