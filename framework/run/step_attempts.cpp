@@ -2,15 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <new>
 #include <optional>
 
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/schedule/limits_step.hpp"
 
 namespace sprekk {
 
 StepAttempts::Outcome StepAttempts::run() {
+  if (const std::string why = limit_steps(); !why.empty()) return give_up(why);
   for (bool has_grown = false;;) {
     step_ = next_step();
     progress_.phase(fmt::format("step {} from {} over {}", state_.controller.steps() + 1, duration_text(step_.start),
@@ -61,9 +65,34 @@ MeshGrowth::Outcome StepAttempts::follow_growth() {
   return outcome;
 }
 
-/// The step that is due, unless growth at the speed of the last one needs a shorter one.
+std::string StepAttempts::limit_steps() {
+  longest_ = std::numeric_limits<double>::infinity();
+  const double start = state_.controller.time();
+  const auto limit = [&](const auto& parts) -> std::string {
+    for (const auto& part : parts) {
+      const auto* limiting = dynamic_cast<const LimitsStep*>(part.get());
+      if (!limiting) continue;
+      const double longest = -parallel::max(-limiting->longest_step(start));
+      if (!(longest >= state_.controller.smallest()))
+        return fmt::format("{} allows steps of {:.3g} s at most from {} on, less than the smallest ({})", part->name(),
+                           longest, duration_text(start), duration_text(state_.controller.smallest()));
+      longest_ = std::min(longest_, longest);
+    }
+    return {};
+  };
+  const std::string why = limit(state_.model->components());
+  return why.empty() ? limit(state_.model->couplers()) : why;
+}
+
+/// The step that is due, unless a part or growth at the speed of the last one needs a shorter one.
 StepTime StepAttempts::next_step() const {
   StepTime step = state_.controller.next();
+  // Equal parts, so that no tiny step is left.
+  constexpr double rounding = 1e-9;
+  if (const double parts = std::ceil(step.dt / longest_ - rounding); parts > 1) {
+    step.dt /= parts;
+    step.end = step.start + step.dt;
+  }
   if (const double longest = growth_.longest_step(); longest < step.dt) {
     step.dt = longest;
     step.end = step.start + step.dt;

@@ -1,6 +1,7 @@
 // One step of a run: attempts, ever smaller, until one has converged.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,8 @@ class StepAttempts {
   /// Makes one attempt and sets the status. Returns the outcome of the step when no other attempt is to follow.
   std::optional<Outcome> attempt(bool may_be_interrupted);
   StepTime next_step() const;
+  /// Why a part lets no step be as long as the smallest; empty where none forbids it. Collective.
+  std::string limit_steps();
   MeshGrowth::Outcome follow_growth();
   bool cut();
   Outcome give_up(const std::string& why);
@@ -44,6 +47,7 @@ class StepAttempts {
   Effort& effort_;
   Profile& profile_;
   Progress& progress_;
+  double longest_ = std::numeric_limits<double>::infinity();  ///< s, of this step, by parts that limit it
   StepTime step_;
   StepStatus status_;
   std::string reason_;

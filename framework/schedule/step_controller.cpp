@@ -134,6 +134,8 @@ StepTime StepController::next() const {
   return step;
 }
 
+double StepController::smallest() const { return options_.smallest.value_or(options_.step * smallest_part); }
+
 double StepController::grown() const {
   const double size = wanted_ * options_.grow;
   return failed_.wait > 0 && size >= failed_.size ? wanted_ : size;
@@ -164,15 +166,15 @@ void StepController::accepted(const StepTime& step, int iterations) {
     return;
   }
   if (iterations > options_.iterations)
-    wanted_ = std::max(options_.smallest.value_or(options_.step * smallest_part), wanted_ * options_.shrink);
+    wanted_ = std::max(smallest(), wanted_ * options_.shrink);
   else if (2 * iterations <= options_.iterations)
     wanted_ = std::min(options_.largest, grown());
 }
 
 bool StepController::rejected(const StepTime& step, double retry) {
   SPREKK_EXPECT(step.start == time_, step.start, time_);
-  const double smallest = options_.smallest.value_or(options_.step * smallest_part);
-  if (step.dt <= smallest) return false;
+  const double shortest = smallest();
+  if (step.dt <= shortest) return false;
   if (retry <= 0) {  // a step that asks for another size has not failed
     constexpr int longest_patience = 48;
     if (failed_.size > 0 && step.dt >= of_failed_size * failed_.size)
@@ -180,7 +182,7 @@ bool StepController::rejected(const StepTime& step, double retry) {
     failed_.size = step.dt;
     failed_.wait = failed_.patience;
   }
-  wanted_ = std::max(smallest, retry > 0 ? std::min(retry, step.dt) : step.dt * options_.shrink);
+  wanted_ = std::max(shortest, retry > 0 ? std::min(retry, step.dt) : step.dt * options_.shrink);
   return true;
 }
 

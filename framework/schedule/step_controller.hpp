@@ -62,6 +62,7 @@ class StepController {
   bool is_finished() const { return time_ >= options_.end; }
   double time() const { return time_; }
   int steps() const { return steps_; }
+  double smallest() const;                   ///< s, of rejected steps
   double wanted() const { return wanted_; }  ///< s, the size of the next step unless a target or a hold comes before
   StepTime next() const;
 
