@@ -1,10 +1,12 @@
 // Reads the `schedule:` of a scene into a function that builds its tree of steps.
 #include <algorithm>
 
+#include "framework/plugin/plugin.hpp"
 #include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/iterate_step.hpp"
 #include "framework/schedule/jacobi_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
+#include "framework/schedule/schedule_registry.hpp"
 #include "framework/schedule/sequence_step.hpp"
 #include "framework/schedule/solve_step.hpp"
 #include "framework/schedule/subcycle_step.hpp"
@@ -164,15 +166,27 @@ Spec example_with_steps() {
   return with_steps(options, inside);
 }
 
+std::vector<ScheduleKind>& kinds() {
+  static std::vector<ScheduleKind> kinds = {{"solve", read_solve, example_spec<SolveOptions>},
+                                            {"iterate", read_iterate, example_with_steps<IterateOptions>},
+                                            {"subcycle", read_subcycle, example_with_steps<SubcycleOptions>},
+                                            {"when", read_when, example_with_steps<WhenOptions>},
+                                            {"grow", read_grow, example_spec<GrowOptions>}};
+  return kinds;
+}
+
 }  // namespace
 
-const std::vector<ScheduleKind>& schedule_kinds() {
-  static const std::vector<ScheduleKind> kinds = {{"solve", read_solve, example_spec<SolveOptions>},
-                                                  {"iterate", read_iterate, example_with_steps<IterateOptions>},
-                                                  {"subcycle", read_subcycle, example_with_steps<SubcycleOptions>},
-                                                  {"when", read_when, example_with_steps<WhenOptions>},
-                                                  {"grow", read_grow, example_spec<GrowOptions>}};
-  return kinds;
+const std::vector<ScheduleKind>& schedule_kinds() { return kinds(); }
+
+RegisterScheduleStep::RegisterScheduleStep(const ScheduleKind& kind) {
+  for (const ScheduleKind& known : kinds())
+    if (known.key == kind.key) {
+      refuse_registration(kind.key);
+      return;
+    }
+  note_registration(kind.key);
+  kinds().push_back(kind);
 }
 
 namespace {
