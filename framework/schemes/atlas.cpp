@@ -147,7 +147,7 @@ std::vector<Atlas::Run> Atlas::planned() const {
 
 fs::path Atlas::write_study(const std::vector<Run>& runs) const {
   const TimeOptions& time = scene_.time;
-  constexpr double nearly = 0.999;  // of the step: it is not cut, since a scheme that needs that does not converge
+  // No step is cut: a scheme that needs that does not converge, and another step would have another answer.
   std::string text =
       "# Written by sprekk schemes; sprekk sweep runs it, too.\nname: " + yaml_quoted(folder_.filename().string()) +
       "\nscene: [";
@@ -159,7 +159,7 @@ fs::path Atlas::write_study(const std::vector<Run>& runs) const {
     text += "  " + yaml_quoted(path) + ": " + value + "\n";
   }
   text += fmt::format("  time.end: {:.17g} s\n  time.smallest: {:.17g} s\nruns:\n",
-                      std::min(time.end, time.start + options_.steps * time.step), nearly * time.step);
+                      std::min(time.end, time.start + options_.steps * time.step), time.step);
   for (const Run& run : runs) {
     text += "  " + yaml_quoted(run.name) +
             ":\n    schedule: " + schemes_[run.scheme].schedule(options_.until, options_.at_most, behind_) + "\n";
@@ -172,6 +172,12 @@ fs::path Atlas::write_study(const std::vector<Run>& runs) const {
   const fs::path file = folder_ / "schemes.yaml";
   write_atomically(file, text);
   return file;
+}
+
+/// "[Pa]" of "pore.pressure[Pa]".
+std::string unit_of(const std::string& array) {
+  const std::size_t begin = array.rfind('[');
+  return begin == std::string::npos ? "" : array.substr(begin);
 }
 
 /// The mean factor of the last changes by passes in the first step, before these are round-off.
@@ -191,13 +197,32 @@ std::optional<double> measured_factor(const CsvTable& coupling) {
   return std::pow(sizes.back() / sizes[sizes.size() - 1 - ratios], 1.0 / static_cast<double>(ratios));
 }
 
-/// The largest difference of any field from the monolithic answer.
+/// The largest absolute value of the last written fields, by unit: "[Pa]".
+std::map<std::string, double> sizes_of_fields(const ComparedRun& run) {
+  std::map<std::string, double> sizes;
+  for (const auto* snapshots : {&run.matrix, &run.fractures}) {
+    if (snapshots->empty()) continue;
+    for (const Grid::Values& array : read_grid(snapshots->back().file).arrays) {
+      double& size = sizes[unit_of(array.name)];
+      for (const double value : array.values) size = std::max(size, std::abs(value));
+    }
+  }
+  return sizes;
+}
+
+/// The largest difference of any field from the monolithic answer. Fields of one unit share a scale: where a jump is
+/// zero, its size is that of displacements.
 std::optional<double> difference_of_fields(const fs::path& reference, const fs::path& run) {
   const ComparedRun right = read_compared_run(reference), ours = read_compared_run(run);
-  const std::string of_fields = "the field ";
-  std::optional<double> largest;
-  for (const Deviation& deviation : deviations(run_difference(right, ours, {})))
-    if (deviation.quantity.starts_with(of_fields)) largest = std::max(largest.value_or(0), deviation.share);
+  const RunDifference difference = run_difference(right, ours, {});
+  if (!difference.written) return std::nullopt;
+  const std::map<std::string, double> sizes = sizes_of_fields(right);
+  double largest = 0;
+  for (const GridDifference* grid : {&difference.matrix, &difference.fractures})
+    for (const FieldDifference& field : grid->fields) {
+      const auto size = sizes.find(unit_of(field.array));
+      if (size != sizes.end() && size->second > 0) largest = std::max(largest, field.largest / size->second);
+    }
   return largest;
 }
 

@@ -29,9 +29,9 @@ std::string summary(const std::vector<SchemeResult>& results) {
                                        best->processor));
   double largest = 0;
   for (const SchemeResult& result : results) largest = std::max(largest, result.difference.value_or(0));
-  return text +
-         html_paragraph(fmt::format(
-             "The largest difference of any field from the monolithic answer, over its range, is {:.1g}.", largest));
+  return text + html_paragraph(fmt::format("The largest difference of any field from the monolithic answer, over the "
+                                           "largest value of its unit, is {:.1g}.",
+                                           largest));
 }
 
 std::string failures(const std::vector<SchemeResult>& results) {

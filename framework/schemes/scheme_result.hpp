@@ -15,12 +15,13 @@ struct SchemeResult {
   Scheme scheme;
   std::string run;  ///< its folder below that of the atlas
   bool is_done = false;
-  std::string reason;                ///< why not
-  std::vector<int> passes;           ///< of the accepted steps; Newton iterations of the monolithic scheme
-  double processor = 0;              ///< s
-  std::optional<double> measured;    ///< by which factor a pass multiplies the change of the one before, late in a step
-  std::optional<double> predicted;   ///< the same, of the equations of the first step; of schemes without acceleration
-  std::optional<double> difference;  ///< the largest of any field from the monolithic answer, over the field's range
+  std::string reason;               ///< why not
+  std::vector<int> passes;          ///< of the accepted steps; Newton iterations of the monolithic scheme
+  double processor = 0;             ///< s
+  std::optional<double> measured;   ///< by which factor a pass multiplies the change of the one before, late in a step
+  std::optional<double> predicted;  ///< the same, of the equations of the first step; of schemes without acceleration
+  std::optional<double>
+      difference;  ///< the largest of any field from the monolithic answer, over the largest value of its unit
   int total_passes() const {
     int sum = 0;
     for (const int count : passes) sum += count;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""accelerators_test.py SPREKK: iterated splits with each accelerator reach the monolithic answer, also where the plain iteration diverges;
+"""accelerators_test.py SPREKK: iterated splits with each accelerator reach the monolithic answer, also where the plain iteration diverges or hardly moves;
 quasi-Newton methods need no more passes than Anderson's, and fewer with what earlier steps have taught; a restarted run goes on to the bit;
 mistakes are refused."""
 
@@ -74,7 +74,7 @@ class Accelerators(unittest.TestCase):
                     self.assertLess(self.difference(ours, truth), 1e-7)
                     self.assertLess(max(self.passes(ours)), 40)
 
-    def test_rock_and_fractures_that_diverge_in_turn(self):
+    def test_rock_and_fractures_in_turn(self):
         settings = ("mesh.size=0.08 m", "time.smallest=0.9 s")
         truth = self.run_scene(NETWORK, *settings)
         split = "[{solve: pore}, {solve: conduit}]"
