@@ -46,6 +46,27 @@ std::vector<const Data*> SideCondition::data() const {
   return given;
 }
 
+std::vector<const Data*> Options::loads() const {
+  std::vector<const Data*> data;
+  for (const VectorData* vector : {&body_force, &gravity})
+    for (const Data& component : vector->component) data.push_back(&component);
+  data.push_back(&rock_density);
+  for (const auto& [side, condition] : boundary)
+    for (const Data* given : condition.data()) data.push_back(given);
+  return data;
+}
+
+bool Options::loads_depend_on_time() const {
+  const std::vector<const Data*> data = loads();
+  return std::any_of(data.begin(), data.end(), [](const Data* one) { return one->depends_on_time(); });
+}
+
+SymmetricTensor Options::initial_stress_at(const Place& place) const {
+  if (initial_stress.is_zero()) return SymmetricTensor::Zero();
+  const Tensor stress = initial_stress.at(place);
+  return SymmetricTensor(stress(0, 0), stress(1, 1), stress(0, 1));
+}
+
 namespace {
 
 void refuse_both(const Node& node, const char* one, const char* other) {

@@ -54,6 +54,11 @@ struct Options {
   TensorData initial_stress;         ///< Pa
   std::map<std::string, SideCondition> boundary;
   double large_strain = 0.01;  ///< from where on a note says that the theory of small strains ends
+  /// The data of all loads but the initial stress: those of the boundary, body force, density and gravity.
+  std::vector<const Data*> loads() const;
+  bool loads_depend_on_time() const;
+  /// Pa, (xx, yy, xy).
+  SymmetricTensor initial_stress_at(const Place& place) const;
   /// `type`, `doc`: of the component with its discretization.
   Spec spec(const std::string& type, const std::string& doc);
 };

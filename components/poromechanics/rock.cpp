@@ -55,7 +55,7 @@ void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, cons
   SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
   SPREKK_EXPECT(reference.size() == mesh_.cell_count(), pressure.name(), reference.size(), mesh_.cell_count());
   SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.name(), pressure.size(), mesh_.cell_count());
-  loads_.push_back({&pressure, alpha, reference, {}});
+  loads_.push_back({{&pressure, alpha, reference}, {}});
 }
 
 void Rock::change_alpha(const Field& pressure, const Vector& alpha) {
@@ -201,16 +201,9 @@ Point Rock::initial_load(int face) const {
   return mesh_.face_measure[face] * (initial_traction(face, 1) - initial_traction(face, 0));
 }
 
-bool Rock::depends_on_time() const {
-  return std::any_of(options_.boundary.begin(), options_.boundary.end(),
-                     [](const auto& side) { return side.second.depends_on_time(); }) ||
-         stiffness_.changes() || options_.body_force.depends_on_time() || options_.rock_density.depends_on_time() ||
-         options_.gravity.depends_on_time();
-}
-
 void Rock::evaluate_data(const StepTime& step) {
   const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
-  if (data_evaluated_ && (same_step || !depends_on_time())) return;
+  if (data_evaluated_ && (same_step || !(stiffness_.changes() || options_.loads_depend_on_time()))) return;
   data_evaluated_ = true;
   evaluated_for_ = step;
   boundary_applied_ = false;
@@ -295,8 +288,7 @@ Vector Rock::face_forces() const {
   Vector values = boundary_values_;
   if (wall_traction_) values += wall_forces_ * wall_traction_->now();
   Vector forces = operators_.force_displacement * displacement_.now() + operators_.force_boundary * values;
-  for (const Load& load : loads_)
-    forces += operators_.force_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  for (const Load& load : loads_) forces += operators_.force_stress * load.stress();
   for (int f = 0; f < mesh_.face_count(); ++f)
     forces.segment<2>(2 * f) += mesh_.face_measure[f] * initial_traction(f, 0);
   return forces;
@@ -306,30 +298,20 @@ Vector Rock::outer_displacement() const {
   Vector values = boundary_values_;
   if (wall_traction_) values += wall_forces_ * wall_traction_->now();
   Vector displacement = operators_.trace_displacement * displacement_.now() + operators_.trace_boundary * values;
-  for (const Load& load : loads_)
-    displacement += operators_.trace_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  for (const Load& load : loads_) displacement += operators_.trace_stress * load.stress();
   replicate(mesh_, Location::face, 2, displacement);
   return displacement;
 }
 
 Vector Rock::pore_stress() const {
   Vector stress = Vector::Zero(mesh_.cell_count());
-  for (const Load& load : loads_) stress -= load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  for (const Load& load : loads_) stress -= load.stress();
   return stress;
 }
 
-Eigen::Vector3d Rock::initial_stress(int cell, const Point& x) const {
+SymmetricTensor Rock::initial_stress(int cell, const Point& x) const {
   SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
-  if (options_.initial_stress.is_zero()) return Eigen::Vector3d::Zero();
-  const Eigen::Matrix2d stress = options_.initial_stress.at({x, mesh_.cell_region[cell], 0});
-  return {stress(0, 0), stress(1, 1), stress(0, 1)};
-}
-
-std::optional<LameParameters> Rock::stiffness(int cell) const {
-  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
-  if (options_.is_anisotropic) return std::nullopt;
-  const Stiffness& stiffness = stiffness_.of_cells()[cell];
-  return LameParameters{stiffness(0, 1), stiffness(2, 2)};
+  return options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
 }
 
 std::uint64_t Rock::properties_version() const {
@@ -339,12 +321,8 @@ std::uint64_t Rock::properties_version() const {
 }
 
 std::vector<double> Rock::switch_times() const {
-  std::vector<const Data*> data = stiffness_.data();
-  for (const VectorData* vector : {&options_.body_force, &options_.gravity})
-    for (const Data& component : vector->component) data.push_back(&component);
-  data.push_back(&options_.rock_density);
-  for (const auto& [side, condition] : options_.boundary)
-    for (const Data* given : condition.data()) data.push_back(given);
+  std::vector<const Data*> data = stiffness_.data(), loads = options_.loads();
+  data.insert(data.end(), loads.begin(), loads.end());
   return merged_switch_times(data);
 }
 

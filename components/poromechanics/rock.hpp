@@ -6,6 +6,7 @@
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
 #include "components/poromechanics/options.hpp"
+#include "components/poromechanics/pore_load.hpp"
 #include "components/poromechanics/rock_stiffness.hpp"
 #include "components/poromechanics/stress_discretization.hpp"
 #include "framework/scene/component.hpp"
@@ -49,8 +50,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   const Field& displacement() const override { return displacement_; }
   Vector outer_displacement() const override;
   Vector pore_stress() const override;
-  Eigen::Vector3d initial_stress(int cell, const Point& x) const override;
-  std::optional<LameParameters> stiffness(int cell) const override;
+  SymmetricTensor initial_stress(int cell, const Point& x) const override;
+  std::optional<LameParameters> stiffness(int cell) const override { return stiffness_.lame(cell); }
   std::uint64_t properties_version() const override;
 
   /// The total force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m, x and y); for tests and output.
@@ -61,9 +62,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   const std::vector<Stiffness>& stiffness_of_cells() const { return stiffness_.of_cells(); }
 
  private:
-  struct Load {
-    const Field* pressure;
-    Vector alpha, reference;
+  struct Load : PoreLoad {
     Operator force_on_cell;  ///< momentum rows of p
     std::uint64_t alpha_version = 1, used_version = 0;
   };
@@ -77,7 +76,6 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void use_operators();
   void use_loads();
   void map_walls();
-  bool depends_on_time() const;
   void apply_boundary();
   /// The traction of the initial stress of the cell on the given side (0 or 1) of a face, on the normal of the face,
   /// Pa.

@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <utility>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk::poromechanics {
 
 RockStiffness::RockStiffness(const Options& options, const Mesh& mesh, double start_time, std::string component,
@@ -40,6 +42,12 @@ void RockStiffness::compute() {
   Vector bulk_modulus(cells);
   for (int c = 0; c < cells; ++c) bulk_modulus[c] = moduli_[0][c] / (3 * (1 - 2 * moduli_[1][c]));
   bulk_modulus_.set(std::move(bulk_modulus));
+}
+
+std::optional<LameParameters> RockStiffness::lame(int cell) const {
+  SPREKK_EXPECT(is_index(cell, static_cast<int>(stiffness_.size())), cell, stiffness_.size());
+  if (options_.is_anisotropic) return std::nullopt;
+  return LameParameters{stiffness_[cell](0, 1), stiffness_[cell](2, 2)};
 }
 
 Stiffness RockStiffness::at(int c) const {

@@ -1,9 +1,11 @@
 // The stiffness of the rock in every cell.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "components/capabilities/rock_state.hpp"
 #include "components/poromechanics/options.hpp"
 #include "components/poromechanics/stiffness.hpp"
 #include "framework/assembly/property.hpp"
@@ -23,6 +25,7 @@ class RockStiffness {
   void evaluate(const StepTime& step);
 
   const std::vector<Stiffness>& of_cells() const { return stiffness_; }
+  std::optional<LameParameters> lame(int cell) const;             ///< none for anisotropic rock
   const Property& bulk_modulus() const { return bulk_modulus_; }  ///< Pa
   bool changes() const { return changes_; }                       ///< whether a property depends on time
   std::uint64_t version() const { return version_; }              ///< grows whenever a stiffness has changed

@@ -74,16 +74,9 @@ void FemRock::accept_pore_pressure(const Field& pressure, const Vector& alpha, c
 
 void FemRock::change_alpha(const Field& pressure, const Vector& alpha) {
   SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
-  for (Load& load : loads_)
+  for (PoreLoad& load : loads_)
     if (load.pressure == &pressure) load.alpha = alpha;
   ++alpha_version_;
-}
-
-bool FemRock::depends_on_time() const {
-  return std::any_of(options_.boundary.begin(), options_.boundary.end(),
-                     [](const auto& side) { return side.second.depends_on_time(); }) ||
-         stiffness_.changes() || options_.body_force.depends_on_time() || options_.rock_density.depends_on_time() ||
-         options_.gravity.depends_on_time();
 }
 
 void FemRock::discretize() {
@@ -109,7 +102,7 @@ void FemRock::discretize() {
 
 void FemRock::evaluate_data(const StepTime& step) {
   const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
-  if (data_evaluated_ && (same_step || !depends_on_time())) return;
+  if (data_evaluated_ && (same_step || !(stiffness_.changes() || options_.loads_depend_on_time()))) return;
   data_evaluated_ = true;
   evaluated_for_ = step;
   is_given_used_ = false;
@@ -131,7 +124,7 @@ FemRock::Quantity FemRock::quantity_of(LinearInFem operators, const std::vector<
     first += field->size();
   }
   if (wall_traction_) quantity.value.terms.push_back({wall_traction_, Operator(quantity.operators.of_traction)});
-  for (const Load& load : loads_) quantity.value.terms.push_back({load.pressure, {}});
+  for (const PoreLoad& load : loads_) quantity.value.terms.push_back({load.pressure, {}});
   return quantity;
 }
 
@@ -167,7 +160,7 @@ void FemRock::use_given() {
   for (Quantity* quantity : quantities()) {
     const LinearInFem& operators = quantity->operators;
     quantity->value.constant = operators.of_force * given_.forces + operators.of_given * given_.displacements;
-    for (const Load& load : loads_)
+    for (const PoreLoad& load : loads_)
       quantity->value.constant -= operators.of_stress * load.alpha.cwiseProduct(load.reference);
   }
 }
@@ -198,8 +191,7 @@ Vector FemRock::coefficients() const {
   }
   Vector values = all.of_displacement * unknown + all.of_force * given_.forces + all.of_given * given_.displacements;
   if (wall_traction_) values += all.of_traction * wall_traction_->now();
-  for (const Load& load : loads_)
-    values += all.of_stress * load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  for (const PoreLoad& load : loads_) values += all.of_stress * load.stress();
   return values;
 }
 
@@ -224,14 +216,12 @@ Vector FemRock::mean_stress() const {
     const Tensor gradient = mean_gradient(all, c);
     Eigen::Vector3d of_cell =
         stiffness_.of_cells()[c] * Eigen::Vector3d(gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
-    for (const Load& load : loads_) {
+    for (const PoreLoad& load : loads_) {
       const double pore = load.alpha[c] * (load.pressure->now()[c] - load.reference[c]);
       of_cell -= pore * Eigen::Vector3d(1, 1, 0);
     }
-    if (!options_.initial_stress.is_zero()) {
-      const Tensor initial = options_.initial_stress.at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
-      of_cell += Eigen::Vector3d(initial(0, 0), initial(1, 1), initial(0, 1));
-    }
+    if (!options_.initial_stress.is_zero())
+      of_cell += options_.initial_stress_at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
     stress.segment<symmetric_components>(symmetric_components * c) = of_cell;
   }
   return stress;
@@ -261,22 +251,13 @@ Vector FemRock::outer_displacement() const {
 
 Vector FemRock::pore_stress() const {
   Vector stress = Vector::Zero(mesh_.cell_count());
-  for (const Load& load : loads_) stress -= load.alpha.cwiseProduct(load.pressure->now() - load.reference);
+  for (const PoreLoad& load : loads_) stress -= load.stress();
   return stress;
 }
 
 SymmetricTensor FemRock::initial_stress(int cell, const Point& x) const {
   SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
-  if (options_.initial_stress.is_zero()) return SymmetricTensor::Zero();
-  const Tensor stress = options_.initial_stress.at({x, mesh_.cell_region[cell], 0});
-  return SymmetricTensor(stress(0, 0), stress(1, 1), stress(0, 1));
-}
-
-std::optional<LameParameters> FemRock::stiffness(int cell) const {
-  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
-  if (options_.is_anisotropic) return std::nullopt;
-  const Stiffness& stiffness = stiffness_.of_cells()[cell];
-  return LameParameters{stiffness(0, 1), stiffness(2, 2)};
+  return options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
 }
 
 void FemRock::output(std::vector<OutputField>& fields) const {
@@ -285,12 +266,8 @@ void FemRock::output(std::vector<OutputField>& fields) const {
 }
 
 std::vector<double> FemRock::switch_times() const {
-  std::vector<const Data*> data = stiffness_.data();
-  for (const VectorData* vector : {&options_.body_force, &options_.gravity})
-    for (const Data& component : vector->component) data.push_back(&component);
-  data.push_back(&options_.rock_density);
-  for (const auto& [side, condition] : options_.boundary)
-    for (const Data* given : condition.data()) data.push_back(given);
+  std::vector<const Data*> data = stiffness_.data(), loads = options_.loads();
+  data.insert(data.end(), loads.begin(), loads.end());
   return merged_switch_times(data);
 }
 

@@ -9,6 +9,7 @@
 #include "components/poromechanics/fem/fem_operators.hpp"
 #include "components/poromechanics/fem/given_loads.hpp"
 #include "components/poromechanics/options.hpp"
+#include "components/poromechanics/pore_load.hpp"
 #include "components/poromechanics/rock_stiffness.hpp"
 #include "framework/scene/component.hpp"
 
@@ -53,7 +54,7 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
   Vector outer_displacement() const override;
   Vector pore_stress() const override;
   SymmetricTensor initial_stress(int cell, const Point& x) const override;
-  std::optional<LameParameters> stiffness(int cell) const override;
+  std::optional<LameParameters> stiffness(int cell) const override { return stiffness_.lame(cell); }
   std::uint64_t properties_version() const override { return stiffness_.version() + alpha_version_; }
 
   /// All coefficients of the displacement (RawDisplacement), m; on every process. To be called after begin_step.
@@ -62,10 +63,6 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
   Vector mean_stress() const;
 
  private:
-  struct Load {
-    const Field* pressure;
-    Vector alpha, reference;
-  };
   /// A quantity, and what it is as a linear function of fields. Terms of pressures are the last ones.
   struct Quantity {
     LinearInFem operators;
@@ -73,7 +70,6 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
   };
   /// The unknown fields, in the order of their rows in FemOperators.
   std::vector<Field*> unknowns() const;
-  bool depends_on_time() const;
   void discretize();
   void use_loads();
   void use_given();
@@ -92,7 +88,7 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
   Field* wall_traction_ = nullptr;  ///< exists with fractures only
   RockStiffness stiffness_;
   Held held_;
-  std::vector<Load> loads_;
+  std::vector<PoreLoad> loads_;
 
   std::uint64_t discretized_mesh_ = 0, discretized_stiffness_ = 0, alpha_version_ = 1, used_alpha_ = 0;
   bool data_evaluated_ = false, is_given_used_ = false;  ///< given_ is in the constants of quantities

@@ -4,21 +4,14 @@
 
 #include <functional>
 
-#include "tests/components/meshes.hpp"
+#include "tests/components/matrix_flow/flow_set_ups.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
 
+using test::is_lower;
 using test::is_outer;
-
-/// Prescribed pressure and prescribed flux in turn; walls have prescribed flux.
-std::vector<FlowCondition> mixed_conditions(const Mesh& mesh) {
-  std::vector<FlowCondition> conditions(mesh.face_count(), FlowCondition::none);
-  for (int f = 0; f < mesh.face_count(); ++f)
-    if (is_outer(mesh, f))
-      conditions[f] = f % 2 == 0 && !test::is_wall(mesh, f) ? FlowCondition::pressure : FlowCondition::flux;
-  return conditions;
-}
+using test::mixed_conditions;
 
 template <class Pressure, class Flux>
 Vector boundary_values(const Mesh& mesh, const std::vector<FlowCondition>& conditions, Pressure pressure, Flux flux) {
@@ -50,9 +43,7 @@ TEST(Mpfa, IsExactForLinearPressuresInAnisotropicRock) {
   mobility << 3, 1.2, 1.2, 0.7;
   const Point gradient(1.3, -0.4);
   const auto pressure = [&](const Point& x) { return 2 + gradient.dot(x); };
-  for (const Mesh& mesh : {test::fractured_square(), test::square_with_single_corners(6), test::fractured_rectangles(),
-                           test::square_with_narrow_gaps(), test::fractured_square(test::mixed(0.1, 0.3)),
-                           generate_mesh(test::box(2, 1), test::structured(7, 5, 0.4))}) {
+  for (const Mesh& mesh : test::various_meshes()) {
     const auto flux = [&](int f) { return -test::face_vector(mesh, f).dot(mobility * gradient); };
     const auto conditions = mixed_conditions(mesh);
     const auto operators = discretize_mpfa(mesh, std::vector<Tensor>(mesh.cell_count(), mobility), conditions);
@@ -72,16 +63,8 @@ class MpfaLayers : public testing::TestWithParam<double> {};
 
 TEST_P(MpfaLayers, AreExact) {
   const double contrast = GetParam();
-  Geometry geometry = test::box(1, 1);
-  RegionGeometry lower;
-  lower.name = "lower";
-  lower.polygon = {Point(0, 0), Point(1, 0), Point(1, 0.5), Point(0, 0.5)};
-  geometry.regions = {lower};
-  const Mesh mesh = generate_mesh(geometry, test::unstructured(0.09, 0.3));
-  const auto is_lower = [](const Point& x) { return x[1] < 0.5; };
-  std::vector<Tensor> mobility(mesh.cell_count(), Tensor::Identity());
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    if (is_lower(mesh.cell_center[c])) mobility[c] *= contrast;
+  const Mesh mesh = test::two_layers();
+  const std::vector<Tensor> mobility = test::mobility_of_layers(mesh, contrast);
 
   const auto pressure = [&](const Point& x) { return is_lower(x) ? (x[1] - 0.5) / contrast : x[1] - 0.5; };
   const auto flux = [&](int f) { return -test::face_vector(mesh, f)[1]; };

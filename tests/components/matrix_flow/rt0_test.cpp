@@ -13,22 +13,15 @@
 #include "components/matrix_flow/rt0/flux_mass.hpp"
 #include "components/matrix_flow/rt0/tip_terms.hpp"
 #include "components/matrix_flow/tpfa/tpfa.hpp"
-#include "tests/components/meshes.hpp"
+#include "tests/components/matrix_flow/flow_set_ups.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
 
+using test::is_lower;
 using test::is_outer;
+using test::mixed_conditions;
 using OfPoint = std::function<double(const Point&)>;
-
-/// Prescribed pressure and prescribed flux in turn; walls have prescribed flux.
-std::vector<FlowCondition> mixed_conditions(const Mesh& mesh) {
-  std::vector<FlowCondition> conditions(mesh.face_count(), FlowCondition::none);
-  for (int f = 0; f < mesh.face_count(); ++f)
-    if (is_outer(mesh, f))
-      conditions[f] = f % 2 == 0 && !test::is_wall(mesh, f) ? FlowCondition::pressure : FlowCondition::flux;
-  return conditions;
-}
 
 /// With the pressures at the centres of cells and faces, and the fluxes of faces, of an exact solution: all operators
 /// give the same fluxes and traces, and the equations of the faces hold.
@@ -56,13 +49,9 @@ void expect_exact(const Mesh& mesh, const std::vector<Tensor>& mobility, const O
 }
 
 std::vector<Mesh> meshes() {
-  return {test::fractured_square(),
-          test::square_with_single_corners(6),
-          test::fractured_rectangles(),
-          test::square_with_narrow_gaps(),
-          test::fractured_square(test::mixed(0.1, 0.3)),
-          generate_mesh(test::box(2, 1), test::structured(7, 5, 0.4)),
-          generate_mesh(test::box(2, 1), test::rectangles(7, 5, 0.4))};
+  std::vector<Mesh> all = test::various_meshes();
+  all.push_back(generate_mesh(test::box(2, 1), test::rectangles(7, 5, 0.4)));
+  return all;
 }
 
 TEST(Rt0, IsExactForLinearPressuresInAnisotropicRock) {
@@ -77,19 +66,11 @@ TEST(Rt0, IsExactForLinearPressuresInAnisotropicRock) {
 
 /// Layers of mobility k below and 1 above y = 1/2. The pressure y / k has the flux (0, -1).
 TEST(Rt0, IsExactAcrossLayers) {
-  Geometry geometry = test::box(1, 1);
-  RegionGeometry lower;
-  lower.name = "lower";
-  lower.polygon = {Point(0, 0), Point(1, 0), Point(1, 0.5), Point(0, 0.5)};
-  geometry.regions = {lower};
-  const Mesh mesh = generate_mesh(geometry, test::unstructured(0.09, 0.3));
+  const Mesh mesh = test::two_layers();
   for (const double contrast : {1e-10, 1e-3, 1e3, 1e10}) {
-    const auto is_lower = [](const Point& x) { return x[1] < 0.5; };
-    std::vector<Tensor> mobility(mesh.cell_count(), Tensor::Identity());
-    for (int c = 0; c < mesh.cell_count(); ++c)
-      if (is_lower(mesh.cell_center[c])) mobility[c] *= contrast;
     expect_exact(
-        mesh, mobility, [&](const Point& x) { return is_lower(x) ? (x[1] - 0.5) / contrast : x[1] - 0.5; },
+        mesh, test::mobility_of_layers(mesh, contrast),
+        [&](const Point& x) { return is_lower(x) ? (x[1] - 0.5) / contrast : x[1] - 0.5; },
         [&](int f) { return -test::face_vector(mesh, f)[1]; }, 1e-11);
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/components/layers.hpp"
 #include "tests/components/poromechanics/exact_values.hpp"
 
 namespace sprekk::poromechanics {
@@ -23,12 +24,7 @@ class MpsaLayers : public testing::TestWithParam<double> {};
 
 TEST_P(MpsaLayers, AreExact) {
   const double contrast = GetParam(), lambda = 1.2, shear = 0.7;
-  Geometry geometry = test::box(1, 1);
-  RegionGeometry lower;
-  lower.name = "lower";
-  lower.polygon = {Point(0, 0), Point(1, 0), Point(1, 0.5), Point(0, 0.5)};
-  geometry.regions = {lower};
-  const Mesh mesh = generate_mesh(geometry, test::unstructured(0.09, 0.3));
+  const Mesh mesh = test::two_layers();
   const auto is_lower = [&](int c) { return mesh.cell_center[c][1] < 0.5; };
   std::vector<Stiffness> stiffness(mesh.cell_count(), isotropic_stiffness(lambda, shear));
   for (int c = 0; c < mesh.cell_count(); ++c)
