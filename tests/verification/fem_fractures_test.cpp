@@ -11,6 +11,23 @@
 namespace sprekk::testing {
 namespace {
 
+/// Jump (m) and contact traction (Pa) of each fracture cell, as vectors in space.
+struct OnFracture {
+  Point jump = Point::Zero(), traction = Point::Zero();
+};
+
+/// Compares the state of all fracture cells with what `exact` gives for each, to 1e-12 and 1e-11.
+template <class Exact>
+void expect_on_fractures(SceneRun& run, Exact exact, const std::string& which) {
+  const Vector jumps = run.field("contact.jump"), tractions = run.field("contact.traction");
+  for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
+    const FractureCell& cell = run.mesh().fracture_cells[i];
+    const OnFracture state = exact(cell);
+    EXPECT_LT((jumps.segment<2>(2 * i) - cell.to_local(state.jump)).norm(), 1e-12) << which << " cell " << i;
+    EXPECT_LT((tractions.segment<2>(2 * i) - cell.to_local(state.traction)).norm(), 1e-11) << which << " cell " << i;
+  }
+}
+
 void expect_patch(const std::string& scene, const Point& jump, const Point& traction) {
   SceneRun run = SceneRun::from_text(scene);
   ASSERT_TRUE(run.step());
@@ -75,12 +92,10 @@ TEST(FemJunctions, PartFourBlocksThatMoveAway) {
           mesh, order, u, u, u, u));
       ASSERT_TRUE(run.step());
       ASSERT_EQ(run.mesh().junctions.size(), 1u);
-      for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
-        const FractureCell& cell = run.mesh().fracture_cells[i];
-        const Point jump = cell.fracture == 0 ? Point(0, -3e-3) : Point(3e-3, 2e-4);  // of the minus wall
-        EXPECT_LT((run.field("contact.jump").segment<2>(2 * i) - cell.to_local(jump)).norm(), 1e-12) << mesh << order;
-        EXPECT_LT(run.field("contact.traction").segment<2>(2 * i).norm(), 1e-12) << mesh << order;
-      }
+      const auto parted = [](const FractureCell& cell) -> OnFracture {
+        return {.jump = cell.fracture == 0 ? Point(0, -3e-3) : Point(3e-3, 2e-4)};  // of the minus wall
+      };
+      expect_on_fractures(run, parted, std::string(mesh) + order);
     }
 }
 
@@ -103,12 +118,8 @@ TEST(FemJunctions, HoldUnderUniformStressWithTheirTips) {
           "s}}}}",
           fractures, mesh, order, u, u, u, u));
       ASSERT_TRUE(run.step());
-      for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
-        const FractureCell& cell = run.mesh().fracture_cells[i];
-        const Point traction = cell.to_local(stress * cell.normal);
-        EXPECT_LT(run.field("contact.jump").segment<2>(2 * i).norm(), 1e-12) << mesh << order;
-        EXPECT_LT((run.field("contact.traction").segment<2>(2 * i) - traction).norm(), 1e-11) << mesh << order;
-      }
+      const auto held = [&](const FractureCell& cell) -> OnFracture { return {.traction = stress * cell.normal}; };
+      expect_on_fractures(run, held, std::string(mesh) + order);
       const Vector of_cells = stress_of_cells(run);
       for (int c = 0; c < run.mesh().cell_count(); ++c)
         EXPECT_LT((of_cells.segment<3>(3 * c) - Eigen::Vector3d(stress(0, 0), stress(1, 1), stress(0, 1))).norm(),
