@@ -10,6 +10,14 @@ export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
 
+# A compiler cache, where one is in use, knows precompiled headers only with these.
+for leniency in pch_defines time_macros; do
+  case ",${CCACHE_SLOPPINESS:-}," in
+    *",$leniency,"*) ;;
+    *) export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:+$CCACHE_SLOPPINESS,}$leniency ;;
+  esac
+done
+
 build_folder=${SPREKK_BUILD:-$root/build/release}
 # nproc counts threads of OpenMP; a script that was called from another one would see one processor only.
 jobs=${SPREKK_JOBS:-$(env -u OMP_NUM_THREADS nproc)}

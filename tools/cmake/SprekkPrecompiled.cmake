@@ -1,19 +1,23 @@
-# Headers that most files include are compiled once. Two sets, each made by a target of its own, and reused by others with the same
-# options: `sprekk_headers` has the standard library and Eigen, `sprekk_scene_headers` also what every component includes.
+# Headers that most files include are compiled once. Three sets, each made by a target of its own, and reused by others with the same
+# options: `sprekk_headers` has the standard library and Eigen, `sprekk_assembly_headers` also what parts and steps of a schedule include,
+# `sprekk_scene_headers` also what every component includes.
 # Sources include what they use all the same (tests/includes_test.py), and compile without.
-option(SPREKK_PRECOMPILED_HEADERS "Compile headers that most files include once" OFF)
+option(SPREKK_PRECOMPILED_HEADERS "Compile headers that most files include once" ON)
 
 set(standard_headers <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numbers> <numeric>
                      <optional> <set> <span> <stdexcept> <string> <string_view> <utility> <vector>
                      <Eigen/Core> <Eigen/LU> <Eigen/SparseCore>)
-set(scene_headers ${standard_headers} <fmt/format.h> ${CMAKE_SOURCE_DIR}/framework/invariants.hpp
-                  ${CMAKE_SOURCE_DIR}/framework/config/spec.hpp ${CMAKE_SOURCE_DIR}/framework/scene/registry.hpp)
+set(assembly_headers ${standard_headers} ${CMAKE_SOURCE_DIR}/framework/invariants.hpp ${CMAKE_SOURCE_DIR}/framework/config/spec.hpp
+                     ${CMAKE_SOURCE_DIR}/framework/assembly/assembly.hpp ${CMAKE_SOURCE_DIR}/framework/assembly/part.hpp)
+set(scene_headers ${assembly_headers} <fmt/format.h> ${CMAKE_SOURCE_DIR}/framework/scene/registry.hpp)
 
 set(precompiled_options)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # For ccache, which compares what the preprocessor makes. And <string> that is precompiled gives more false alarms like those of
   # gcc.gnu.org bug 105651; builds without have the warnings.
-  set(precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+  # The compiler rarely has to collect garbage: it would walk through all of these headers each time.
+  set(precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread
+                          "SHELL:--param ggc-min-expand=1000" "SHELL:--param ggc-min-heapsize=524288")
 endif()
 
 # What tests spend their time in is in the libraries; -O3 of their own code is a third of a build from nothing.
@@ -45,6 +49,8 @@ function(sprekk_reuses target folder kind)
   # These include nearly all of what is below them.
   if(folder MATCHES "^(components|couplers|verification|framework/(scene|run|study))")
     target_precompile_headers(${target} REUSE_FROM sprekk_scene_${kind})
+  elseif(folder MATCHES "^framework/(assembly|schedule)" AND kind STREQUAL "headers")
+    target_precompile_headers(${target} REUSE_FROM sprekk_assembly_headers)
   else()
     target_precompile_headers(${target} REUSE_FROM sprekk_${kind})
   endif()
