@@ -1,6 +1,10 @@
 #include "framework/run/run_output.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <exception>
+#include <utility>
 
 #include "framework/config/input_error.hpp"
 #include "framework/output/build_info.hpp"
@@ -84,15 +88,26 @@ void RunOutput::write_history(const StepTime& step, int iterations, const std::v
   history_->append(step.end, row);
 }
 
-void RunOutput::write_iteration(const IterationRecord& record) {
+void RunOutput::write_iteration(const IterationRecord& record, const std::vector<std::string>& equations) {
   if (!parallel::is_root() || !coupling_) return;
-  coupling_->append(record.time.end, {{"step[s]", record.time.dt},
-                                      {"schedule", record.step},
-                                      {"iteration[1]", static_cast<double>(record.iteration)},
-                                      {"residual[1]", record.residual},
-                                      {"equation", record.equation},
-                                      {"update[1]", record.update},
-                                      {"step_length[1]", record.step_length}});
+  TableWriter::Row row = {{"step[s]", record.time.dt},
+                          {"schedule", record.step},
+                          {"iteration[1]", static_cast<double>(record.iteration)},
+                          {"residual[1]", record.residual},
+                          {"equation", record.equation},
+                          {"update[1]", record.update},
+                          {"step_length[1]", record.step_length},
+                          {"pass[1]", static_cast<double>(record.pass)}};
+  for (const std::string& name : equations) {
+    const auto found = std::ranges::find(record.residuals, name, &std::pair<std::string, double>::first);
+    const bool is_solved = found != record.residuals.end();
+    row.emplace_back("residual." + name + "[1]", is_solved ? fmt::format("{:.3g}", found->second) : std::string());
+  }
+  // A table that an older version has begun has fewer columns.
+  const std::vector<std::string>& known = coupling_->columns();
+  if (!known.empty())
+    std::erase_if(row, [&](const auto& entry) { return std::ranges::count(known, entry.first) == 0; });
+  coupling_->append(record.time.end, row);
 }
 
 void RunOutput::write_fields(double time, int step, const Model& model, const std::vector<OutputField>& fields) {

@@ -39,7 +39,8 @@ class RunOutput {
   /// locked the folder, or when a table is missing. Collective.
   void open(const std::optional<Continued>& from, bool with_fields);
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
-  void write_iteration(const IterationRecord& record);
+  /// `equations`: the names of all that have a column.
+  void write_iteration(const IterationRecord& record, const std::vector<std::string>& equations);
   void write_fields(double time, int step, const Model& model, const std::vector<OutputField>& fields);
   Rows rows() const;  ///< of the tables now; 0 on processes other than the first
   /// `rows`: those of the tables at the state of the checkpoint.

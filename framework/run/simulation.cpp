@@ -115,7 +115,10 @@ Simulation::Simulation(const Scene& scene, const RunOptions& options)
 
 IterationLog Simulation::log() {
   return [this](const IterationRecord& record) {
-    output_.write_iteration(record);
+    std::vector<std::string> equations;
+    for (const auto& field : state_.model->fields().all())
+      if (field->is_solved()) equations.push_back(field->name());
+    output_.write_iteration(record, equations);
     progress_.part(fmt::format("{}, iteration {}, residual {:.1e} of {}", record.step, record.iteration,
                                record.residual, record.equation),
                    true);

@@ -92,10 +92,18 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
     throw InputError(node.find("iterate")->find("order")->origin, "'order: jacobi' has no effect",
                      "there is one step inside", "remove it, or split the step");
   return [options, inside](const ScheduleContext& context) -> std::unique_ptr<ScheduleStep> {
-    std::unique_ptr<ScheduleStep> steps = inside(context);
+    const auto pass = std::make_shared<int>(0);
+    ScheduleContext numbered = context;
+    if (context.log)
+      numbered.log = [log = context.log, pass](const IterationRecord& record) {
+        IterationRecord in_pass = record;
+        if (in_pass.pass == 0) in_pass.pass = *pass;
+        log(in_pass);
+      };
+    std::unique_ptr<ScheduleStep> steps = inside(numbered);
     if (auto* sequence = dynamic_cast<SequenceStep*>(steps.get()); sequence && options.order == "jacobi")
       steps = std::make_unique<JacobiStep>(sequence->take_steps(), context.fields);
-    return std::make_unique<IterateStep>(options, std::move(steps), context);
+    return std::make_unique<IterateStep>(options, std::move(steps), context, pass);
   };
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/invariants.hpp"
@@ -34,7 +35,7 @@ std::vector<Field*> fields_of(const ScheduleStep& inside, const ScheduleContext&
 }  // namespace
 
 IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside,
-                         const ScheduleContext& context)
+                         const ScheduleContext& context, std::shared_ptr<int> pass)
     : options_(options),
       inside_(std::move(inside)),
       parts_(context.parts),
@@ -42,7 +43,8 @@ IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<Schedule
       criteria_(options.until, fields_),
       system_(context.mesh, inside_->unknowns()),
       log_(context.log),
-      accelerator_(options.acceleration.build()) {
+      accelerator_(options.acceleration.build()),
+      pass_(std::move(pass)) {
   inside_->iterate_with(inside_->unknowns());
   std::vector<std::string> names;
   for (const Field* field : fields_) names.push_back(field->name());
@@ -83,6 +85,11 @@ class IterateStep::Changes {
     if (sizes_.size() <= watched || !(sizes_.back() > clearly * sizes_[sizes_.size() - 1 - watched])) return false;
     return std::is_sorted(sizes_.end() - watched - 1, sizes_.end());
   }
+  /// Whether they are small and fall no more.
+  bool are_round_off() const {
+    return sizes_.size() > watched && *std::max_element(sizes_.end() - watched, sizes_.end()) < smallest &&
+           sizes_.back() > hardly_less * sizes_[sizes_.size() - 1 - watched];
+  }
   /// By which factor a pass changes more than the one before, in the mean of the last passes: what grows slower has
   /// been left behind by then.
   double factor() const { return std::pow(sizes_.back() / sizes_[sizes_.size() - 1 - last], 1.0 / last); }
@@ -90,7 +97,8 @@ class IterateStep::Changes {
  private:
   static constexpr int watched = 10;      // passes
   static constexpr double clearly = 1.5;  // over all of them
-  static constexpr int last = 3;          // passes, of the factor
+  static constexpr double smallest = 1e-8, hardly_less = 0.9;
+  static constexpr int last = 3;  // passes, of the factor
   std::vector<double> sizes_;
 };
 
@@ -110,6 +118,12 @@ Vector IterateStep::scaled_values() const {
   for (std::size_t u = 0; u < fields_.size(); ++u)
     values.segment(system_.first(static_cast<int>(u)), fields_[u]->size()) = fields_[u]->now() / scales_[u];
   return values;
+}
+
+void IterateStep::set_scaled_values(const Vector& values) {
+  SPREKK_EXPECT(values.size() == system_.size(), values.size(), system_.size());
+  for (std::size_t u = 0; u < fields_.size(); ++u)
+    fields_[u]->set(values.segment(system_.first(static_cast<int>(u)), fields_[u]->size()) * scales_[u]);
 }
 
 Vector IterateStep::accelerated_values() const {
@@ -166,8 +180,11 @@ StepStatus IterateStep::run(const StepTime& step) {
   ResidualCheck check;
   Changes changes;
   std::uint64_t last_state = 0;
+  std::multiset<std::uint64_t> seen_states;
+  bool is_cycling = false;
   int of_newton = 0;
   for (int pass = 1; pass <= options_.until.at_most; ++pass) {
+    *pass_ = pass;
     const Vector before = pass > 1 ? scaled_values() : Vector();
     const Vector accelerated = accelerator_ ? accelerated_values() : Vector();
     std::vector<Vector> values_before;
@@ -183,7 +200,8 @@ StepStatus IterateStep::run(const StepTime& step) {
     assemble_all(assembly, parts_, step);
     check = check_residual(assembly, system_, options_.until.tightest());
     const Vector change = pass > 1 ? Vector(scaled_values() - before) : Vector();
-    if (log_) log_({step, "iterate", pass, check.largest, check.equation, change.norm(), 1});
+    if (log_)
+      log_({step, "iterate", pass, check.largest, check.equation, change.norm(), 1, check.of_equations});
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", pass};
     const auto residual_holds = [&](double bound) {
       return bound == options_.until.tightest() ? check.converged : check_residual(assembly, system_, bound).converged;
@@ -198,6 +216,8 @@ StepStatus IterateStep::run(const StepTime& step) {
       continue;
     }
     changes.add(change);
+    // What passes that change nothing any more leave of a balance is lost in the round-off of the fields.
+    if (check.rows_hold && changes.are_round_off()) return {true, "", pass, 0, of_newton};
     if (changes.only_grow())
       return {false,
               fmt::format("the iteration diverges: each pass changes {} {:.3g} times as much as the one before (the "
@@ -205,10 +225,23 @@ StepStatus IterateStep::run(const StepTime& step) {
                           "first, or accelerate with 'anderson'",
                           most_changed(change), changes.factor()),
               pass};
-    if (!accelerator_) continue;
-    // Earlier passes tell of this one as long as the passes are one smooth map.
-    if (state != last_state) accelerator_->forget();
+    // A pass is a step of Newton's method, and may cycle between discrete states as that does: then it goes half of its
+    // way where the state has changed, and is not accelerated.
+    if (state != last_state) {
+      is_cycling = is_cycling || seen_states.count(state) > 1;
+      seen_states.insert(state);
+    }
+    if (is_cycling && state != last_state) {
+      constexpr double half = 0.5;
+      last_state = state;
+      set_scaled_values(before + half * change);
+      continue;
+    }
+    const bool is_other_state = state != last_state;
     last_state = state;
+    if (!accelerator_ || is_cycling) continue;
+    // Earlier passes tell of this one as long as the passes are one smooth map.
+    if (is_other_state) accelerator_->forget();
     accelerate(accelerated);
   }
   return {false,

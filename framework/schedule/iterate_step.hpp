@@ -28,8 +28,10 @@ struct IterateOptions {
 /// updates do not count. A step is refused early where the changes of passes only grow.
 class IterateStep : public ScheduleStep, public StepHistory {
  public:
-  /// Throws InputError for a field to accelerate that is not solved inside.
-  IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context);
+  /// `pass`: receives the number of the pass, for those who log what happens in it. Throws InputError for a field to
+  /// accelerate that is not solved inside.
+  IterateStep(const IterateOptions& options, std::unique_ptr<ScheduleStep> inside, const ScheduleContext& context,
+              std::shared_ptr<int> pass);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
   int systems_in_turn(const StepTime& step) const override { return std::min(1, inside_->systems_in_turn(step)); }
@@ -51,6 +53,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   Vector accelerated_values() const;
   std::string most_changed(const Vector& change) const;  ///< the field whose part of a scaled change is largest
   Vector scaled_values() const;
+  void set_scaled_values(const Vector& values);
 
   IterateOptions options_;
   std::unique_ptr<ScheduleStep> inside_;
@@ -59,6 +62,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   ConvergenceCriteria criteria_;
   BlockSystem system_;
   IterationLog log_;
+  std::shared_ptr<int> pass_;
   std::vector<double> scales_;                ///< one for each field, from the first pass
   std::unique_ptr<Accelerator> accelerator_;  ///< nullptr for none
   std::vector<std::size_t> accelerated_;      ///< which of the fields

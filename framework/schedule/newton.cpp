@@ -287,14 +287,14 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
   double length = 1, last_imbalance = std::numeric_limits<double>::infinity();
   ResidualCheck check = evaluate(step);
   recent_ = {check};
-  if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1});
+  if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1, check.of_equations});
   for (int iteration = 0;; ++iteration) {
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
     // As long as other equations do not hold, balances are not checked, and round-off of rows of the bulk needs no
     // back-solve.
     seeks_balance = seeks_balance || (check.rows_hold && !check.balances_hold);
     if (!seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
-    bool holds = check.converged;
+    bool holds = check.converged && iteration >= least_iterations_;
     if (check.rows_hold && !check.balances_hold && factored) {
       // An imbalance that another iteration does not reduce is lost in the round-off of the matrix. Sums of balances
       // may remove it; otherwise no smaller imbalance is possible.
@@ -314,7 +314,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
       Vector update;
       const LinearReport report = linear_->solve(right_hand_side(check), update);
       const double size = report.solved ? relative_size(update, check) : std::numeric_limits<double>::infinity();
-      if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0});
+      if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0, check.of_equations});
       if (size <= options_.update) return {true, "", iteration};
     }
     if (iteration == options_.at_most)
@@ -351,7 +351,9 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     recent_.push_back(check);
     constexpr std::size_t remembered = 3;  // states in the bound of a line search (Grippo and others 1986)
     if (recent_.size() > remembered) recent_.erase(recent_.begin());
-    if (log_) log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length});
+    if (log_)
+      log_({step, name_, iteration + 1, check.largest, check.equation, relative_size(update, check), length,
+            check.of_equations});
   }
 }
 

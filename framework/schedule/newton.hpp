@@ -59,6 +59,9 @@ class Newton {
 
   /// What assembly and linear solver have done since the start.
   LinearCounts counts() const;
+  /// Makes a call iterate once at least, also where the residuals hold from the start. In an iteration of several
+  /// solves a residual may be small against its own terms, and large against a balance that another solve keeps.
+  void iterate_at_least_once() { least_iterations_ = 1; }
   void set_preconditioner_stabilization(const Stabilization& stabilization);
 
  private:
@@ -109,6 +112,7 @@ class Newton {
   Products products_;
   std::unique_ptr<Assembly> assembly_;  ///< of the state that was looked at last
   int assemblies_ = 0;
+  int least_iterations_ = 0;
   std::vector<ResidualCheck> recent_;  ///< the last states
   bool state_has_changed_ = false;     ///< whether the discrete state has changed in this solve
   bool was_singular_ = false;          ///< whether the last attempt ended with a singular system

@@ -122,7 +122,7 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
     check = evaluate(step);
     if (log_)
       log_({step, name_, iteration, check.largest, check.equation, relative_size(update, check),
-            is_reversed ? -length : length});
+            is_reversed ? -length : length, check.of_equations});
     if (is_solution(check)) return {true, "", iteration + 1};
     has_crossed = crossing.has_value();
     if (has_crossed) {

@@ -138,6 +138,7 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
     check.magnitudes.push_back(magnitude);
     check.mean_squares.push_back(is_round_off ? 0 : squares / count);
     if (!is_round_off) relative = std::max(relative, largest / magnitude);
+    check.of_equations.emplace_back(assembly.unknowns()[u]->name(), relative);
     if (relative > check.largest) {
       check.largest = relative;
       check.equation = assembly.unknowns()[u]->name();

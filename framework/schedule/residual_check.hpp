@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/assembly/assembly.hpp"
@@ -19,7 +20,8 @@ struct ResidualCheck {
   std::vector<char> is_unbalanced;  ///< for each equation: it belongs to a quantity whose balance does not hold
   double largest = 0;               ///< over the equations: largest residual over the magnitude of the equation's terms
   std::string equation;             ///< the equation that has the largest
-  std::vector<char> is_round_off;   ///< for each equation: its residual is round-off of its terms
+  std::vector<std::pair<std::string, double>> of_equations;  ///< each: its name, and what `largest` is for it alone
+  std::vector<char> is_round_off;         ///< for each equation: its residual is round-off of its terms
   std::vector<char> is_round_off_in_sum;  ///< for each equation: the same for the sum of its rows, where that counts
   /// For each equation, and then for the sum of the rows of each: mean square of the residuals, magnitude of the terms,
   /// and largest error of fixed rows.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/assembly/part.hpp"
@@ -22,6 +23,9 @@ struct IterationRecord {
   std::string equation;    ///< the equation with that residual
   double update = 0;       ///< relative; 0 where none is computed
   double step_length = 1;  ///< of the line search; negative where a path turns against the update
+  /// Of each equation: its name, its largest residual over the magnitude of its terms.
+  std::vector<std::pair<std::string, double>> residuals = {};
+  int pass = 0;  ///< of the innermost iteration around the step; 0 without one
 };
 using IterationLog = std::function<void(const IterationRecord&)>;
 

@@ -29,7 +29,10 @@ class SolveStep : public ScheduleStep {
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {fields_.begin(), fields_.end()}; }
   int systems_in_turn(const StepTime&) const override { return fields_.empty() ? 0 : 1; }
-  void iterate_with(const std::vector<const Field*>& unknowns) override { iterated_ = unknowns; }
+  void iterate_with(const std::vector<const Field*>& unknowns) override {
+    iterated_ = unknowns;
+    newton_.iterate_at_least_once();
+  }
   void check() const override;
   std::string describe() const override;
   void add_counts(LinearCounts& counts) const override;

@@ -34,7 +34,7 @@ def check_fields(p, folder):
 
 def examine(program, chosen, number, folder, keep=False):
     """{number, outcome, failures, iterations, accepted, rejected, seconds}; the folder is removed unless it is kept."""
-    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update)
+    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme)
     shutil.rmtree(folder, ignore_errors=True)
     ended = run.run(program, scene.write(p, folder), folder / "results", chosen.limit)
     report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0,

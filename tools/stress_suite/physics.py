@@ -75,4 +75,6 @@ def stresses(p, t):
 def family_option(p):
     """Of tools/stress."""
     family = "" if p["family"] == "separate" else f" --family {p['family']}"
-    return family if p.get("update", "after_step") == "after_step" else f"{family} --update {p['update']}"
+    update = "" if p.get("update", "after_step") == "after_step" else f" --update {p['update']}"
+    scheme = p.get("solved", p.get("scheme", "monolithic"))
+    return family + update + ("" if scheme == "monolithic" or p["family"] == "growing" else f" --scheme {scheme}")

@@ -3,7 +3,7 @@
 import math
 import random
 
-from . import growing
+from . import growing, schemes
 
 
 def log_uniform(rng, low, high):
@@ -99,10 +99,10 @@ def meeting(rng):
 FAMILIES = ("separate", "meeting", "growing")
 
 
-def draw(seed, number, family="separate", update=growing.UPDATES[0]):
+def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=schemes.MONOLITHIC):
     rng = random.Random(f"{seed}:{number}" if family == "separate" else f"{family}:{seed}:{number}")
     if family == "growing":
         return {"seed": seed, "number": number, "family": family, "update": update, **growing.draw(rng)}
-    p = {"seed": seed, "number": number, "family": family, **material(rng), **geometry(rng), **loading(rng), **fluid(rng),
+    p = {"seed": seed, "number": number, "family": family, "solved": scheme, **material(rng), **geometry(rng), **loading(rng), **fluid(rng),
          **time(rng)}
     return p if family == "separate" else {**p, **meeting(rng)}

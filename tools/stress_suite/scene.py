@@ -2,7 +2,7 @@
 
 import math
 
-from . import fractures, growing, physics, twisted_mesh
+from . import fractures, growing, physics, schemes, twisted_mesh
 
 
 def box_and_mesh(p):
@@ -72,7 +72,7 @@ def write(p, folder):
              "couplers:", "  - {type: biot, between: [pore, rock]}", "  - {type: wall_exchange, between: [pore, conduit]}",
              "  - {type: wall_traction, between: [rock, contact, conduit]}",
              "  - {type: aperture, between: [contact, conduit]}", "",
-             "schedule: [{solve: [pore, rock, conduit, contact]}]", "",
+             schemes.schedule(p["solved"]), "",
              f"time: {{end: {physics.end(p)!r} s, step: {step!r} s}}", f"output: {{every: {step!r} s}}", ""]
     path = folder / "scene.yaml"
     path.write_text("\n".join(lines))
