@@ -75,6 +75,16 @@ class GrowthSchemes(unittest.TestCase):
         for tip in ("tips.main_first.", "tips.main_last."):
             self.assertLess(abs(other[tip + "K_eq"] / one[tip + "K_eq"] - 1), 2e-7)
 
+    def test_an_iterated_scheme_from_the_start(self):
+        # To 4 h: both wings grow from the second hour on, in steps that both schemes find.
+        together, iterated = (self.rows(f"{scheme[1:-1]}, {GROW}", end=4 * HOUR) for scheme in (TOGETHER, FIXED_STRESS))
+        self.assertEqual(len(together), len(iterated))
+        for one, other in zip(together, iterated):
+            self.assertLess(abs(other["fracture_pressure"] / one["fracture_pressure"] - 1), 1e-5)
+        for length in LENGTHS:
+            self.assertGreater(together[-1][length], 0.01)
+            self.assertLess(abs(iterated[-1][length] / together[-1][length] - 1), 1e-5)
+
     def test_substeps_tend_to_the_same_answer(self):
         # Over the same time in one step and in two, with and without substeps: a difference of first order in the step is halved.
         self.assertEqual(len(self.together), self.first + 1)
