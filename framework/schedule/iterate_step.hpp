@@ -62,11 +62,11 @@ class IterateStep : public ScheduleStep, public StepHistory {
   ConvergenceCriteria criteria_;
   BlockSystem system_;
   IterationLog log_;
-  std::shared_ptr<int> pass_;
   std::vector<double> scales_;                ///< one for each field, from the first pass
   std::unique_ptr<Accelerator> accelerator_;  ///< nullptr for none
   std::vector<std::size_t> accelerated_;      ///< which of the fields
   Vector acceleration_scale_;                 ///< one for each of their values
+  std::shared_ptr<int> pass_;                 ///< the number of the pass, for the log
   std::string history_;                       ///< what its values in a checkpoint begin with
 };
 
