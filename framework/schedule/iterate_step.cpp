@@ -200,8 +200,7 @@ StepStatus IterateStep::run(const StepTime& step) {
     assemble_all(assembly, parts_, step);
     check = check_residual(assembly, system_, options_.until.tightest());
     const Vector change = pass > 1 ? Vector(scaled_values() - before) : Vector();
-    if (log_)
-      log_({step, "iterate", pass, check.largest, check.equation, change.norm(), 1, check.of_equations});
+    if (log_) log_({step, "iterate", pass, check.largest, check.equation, change.norm(), 1, check.of_equations});
     if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", pass};
     const auto residual_holds = [&](double bound) {
       return bound == options_.until.tightest() ? check.converged : check_residual(assembly, system_, bound).converged;

@@ -105,13 +105,18 @@ const std::vector<std::vector<Override>> scenes = {
     {{"components.rock.type", "poromechanics/fem"}, {"components.rock.order", "second"}},
     {{"components.contact.type", "contact/penalty"}},
     {{"components.contact.type", "contact/augmented_lagrangian"}},
+    {{"components.other_tips", "{type: fine_fracture/jump_fit}"}},
     {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}}};
 INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa", "poromechanics/fem", "matrix_flow/rt0", "contact/penalty",
-                                 "contact/augmented_lagrangian"},
+  std::set<std::string> types = {"matrix_flow/tpfa",
+                                 "poromechanics/fem",
+                                 "matrix_flow/rt0",
+                                 "contact/penalty",
+                                 "contact/augmented_lagrangian",
+                                 "fine_fracture/jump_fit"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {

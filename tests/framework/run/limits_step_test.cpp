@@ -73,7 +73,8 @@ struct Result {
 
 /// A run over 1 s with a rate of 10 /s.
 Result run_of(const std::string& component, const std::string& time) {
-  const auto folder = std::filesystem::temp_directory_path() / "sprekk_limits_step_test";
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("sprekk_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "scene.yaml")
