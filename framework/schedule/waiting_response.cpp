@@ -100,7 +100,8 @@ ResponseTerm WaitingResponse::respond(const Following& pair, const StepTime& ste
     if (!linear_->solve(load, follows).solved)
       return {pair.row, pair.column, SparseMatrix(pair.row->size(), pair.column->size())};
     const Vector answer = answering * follows;
-    if (!is_finite(answer)) return {pair.row, pair.column, SparseMatrix(pair.row->size(), pair.column->size())};
+    if (parallel::max(is_finite(answer) ? 0.0 : 1.0) > 0)
+      return {pair.row, pair.column, SparseMatrix(pair.row->size(), pair.column->size())};
     const double least = negligible * (answer.size() > 0 ? answer.lpNorm<Eigen::Infinity>() : 0);
     for (int r = 0; r < answer.size(); ++r)
       if (std::abs(answer[r]) > least) response.emplace_back(r, c, answer[r]);
