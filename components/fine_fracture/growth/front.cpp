@@ -302,11 +302,15 @@ bool Front::free_tips(const Eigen::VectorXd& residual) {
 }
 
 /// The groups of tips that the Jacobian does not tell from one another. Where K of one is further from the mean than
-/// the error of a mesh explains, its advance follows the difference, less that error.
+/// the error of a mesh explains, its advance follows the difference, less that error. Groups are chosen while the front
+/// is far off, and stay when it is near: a slope near its bound would otherwise fall on one side or the other with each
+/// update of the Jacobian by a short move, and the search would look for another front each time.
 void Front::find_neutral_tips(const Eigen::VectorXd& residual) {
+  const bool is_chosen =
+      best_ && best_->norm < mesh_error && std::ranges::any_of(groups_, [](int g) { return g >= 0; });
   std::vector<char> candidates(tips_.size(), 0);
   for (int i = 0; i < count(); ++i) candidates[i] = grows_[i] && !is_new(i) && last_[i].is_evaluated;
-  groups_ = neutral_groups(slopes_.jacobian, residual, advances(), candidates);
+  if (!is_chosen) groups_ = neutral_groups(slopes_.jacobian, residual, advances(), candidates);
   for (int i = 0; i < count(); ++i) {
     if (!is_apart(residual, groups_, i)) continue;
     for (int j = 0; j < count(); ++j)
