@@ -20,8 +20,8 @@ struct Scheme {
   std::string acceleration;    ///< "anderson: 5", "iqn_ils: {}"; "" for none
 
   bool is_monolithic() const { return groups.size() == 1; }
-  std::string name() const;   ///< of a folder: "pore_conduit-rock_contact=fixed_stress=anderson_5"
-  std::string split() const;  ///< "pore conduit (fixed_stress) → rock contact"
+  std::string name() const;   ///< of a folder: "a_b-c_d=STABILIZATION=anderson_5"
+  std::string split() const;  ///< "a b (STABILIZATION) → c d"
   /// The value of `schedule:` as YAML on one line. `until`: of the coupled residual; `behind`: steps that follow.
   std::string schedule(double until, int at_most, const std::vector<std::string>& behind) const;
 };
