@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "components/fine_fracture/growth/kink.hpp"
-#include "components/fine_fracture/growth/neutral_tips.hpp"
+#include "components/fine_fracture/growth/linear_front.hpp"
+#include "components/fine_fracture/growth/most_equal_front.hpp"
 #include "components/fine_fracture/growth/turn_slope.hpp"
 #include "framework/invariants.hpp"
 
@@ -22,11 +23,14 @@ constexpr int patience = 8;                   ///< trials without progress
 constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
 constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
 constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
+constexpr double of_difference = 30;          ///< that of what tells advances apart: slopes of -0.3 over H's of 0.01
 constexpr double largest_turn = 0.3;          ///< rad, between two trials
 constexpr double largest_factor = 3;          ///< between lengths of a new segment in two trials
 constexpr double largest_advance = 0.6;       ///< of an increment, between two trials
 constexpr double at_limit = 1e-9;             ///< of a length that is at its limit, but for rounding
-constexpr double equal_advances = 1e-9;       ///< of an increment: what is left of differences of neutral tips
+constexpr double equal_advances = 1e-9;       ///< of an increment: what is left of differences of equal advances
+constexpr double of_differences = 0.1;        ///< of the tolerance of loads: that of what tells advances apart
+constexpr double alike = 0.01;                ///< of ln K over one increment: a tip unloads another as itself, but for this
 constexpr double no_motion = 1e-300;          ///< no division by zero
 
 double excess(const FrontState& state) {
@@ -48,8 +52,6 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
       is_laid_(tips_.size(), 0),
       is_stopped_(tips_.size(), 0),
       was_unstable_(tips_.size(), 0),
-      is_parted_(tips_.size(), 0),
-      groups_(tips_.size(), -1),
       length_(tips_.size(), 0),
       angle_(tips_.size(), 0),
       last_(without_growth) {
@@ -216,17 +218,17 @@ void Front::learn(const std::vector<FrontState>& states) {
   const Eigen::VectorXd found = residual(states);
   update_jacobian(found);
   last_ = states;
-  find_neutral_tips(found);
-  if (share_advances(found)) return;
-  const Eigen::VectorXd counted = believed(found, advances(), groups_);
+  const FrontEquations front = equations(found);
+  const Eigen::VectorXd counted = count_loads(found, front);
   worst_ = 0;
-  bool is_met = has_equal_advances();
+  bool is_met = has_equal_advances(found) &&
+                front.difference.lpNorm<Eigen::Infinity>() <= of_differences * options_.load_tolerance;
   for (int i = 0; i < count(); ++i) {
     if (!grows_[i]) {
-      if (!is_stopped_[i] && states[i].is_evaluated && excess(states[i]) > options_.load_tolerance) is_met = false;
+      if (may_start(i) && load_at_rest(i, found) > options_.load_tolerance) is_met = false;
       continue;
     }
-    const double load = groups_[i] < 0 ? excess(states[i]) : counted[2 * i];
+    const double load = counted[2 * i];
     const bool is_shortest = is_new(i) && length_[i] <= shortest(i) * (1 + at_limit);
     if (is_shortest && load < 0) continue;  // at rest, whatever its direction
     worst_ = std::max(worst_, std::abs(load));
@@ -258,8 +260,9 @@ void Front::forget() {
 /// After a trial that is much worse than the best one, the experience of an earlier search is dropped, or else the next
 /// step is shorter.
 Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
-  const Eigen::VectorXd counted = believed(residual, advances(), groups_);
-  double norm = 0;
+  const FrontEquations front = equations(residual);
+  const Eigen::VectorXd counted = count_loads(residual, front);
+  double norm = of_difference * front.difference.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) norm = std::max({norm, std::abs(counted[2 * i]), of_direction * std::abs(residual[2 * i + 1])});
   if (!best_ || norm <= much_worse * best_->norm) {
@@ -283,99 +286,148 @@ Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
   return best_->residual;
 }
 
-/// Lets tips above the toughness grow. Whether one of them was not in the last trial: then a trial with the new set
+/// Tips whose loads and advances are found in common. One with a new segment is found by itself.
+std::vector<int> Front::front_tips() const {
+  std::vector<int> tips;
+  for (int i = 0; i < count(); ++i)
+    if (grows_[i] && !is_new(i) && last_[i].is_evaluated) tips.push_back(i);
+  return tips;
+}
+
+double Front::advance(int tip) const { return (length_[tip] - tips_[tip].covered) / options_.increment; }
+
+Eigen::VectorXd Front::advances(const std::vector<int>& tips) const {
+  Eigen::VectorXd values(tips.size());
+  for (std::size_t k = 0; k < tips.size(); ++k) values[static_cast<Eigen::Index>(k)] = advance(tips[k]);
+  return values;
+}
+
+Eigen::VectorXd Front::loads(const std::vector<int>& tips, const Eigen::VectorXd& residual) {
+  Eigen::VectorXd values(tips.size());
+  for (std::size_t k = 0; k < tips.size(); ++k) values[static_cast<Eigen::Index>(k)] = residual[2 * tips[k]];
+  return values;
+}
+
+FrontEquations Front::equations(const Eigen::VectorXd& residual) const {
+  const std::vector<int> tips = front_tips();
+  return most_equal_front(loads(tips, residual), advances(tips), options_.mesh_error);
+}
+
+Eigen::VectorXd Front::count_loads(const Eigen::VectorXd& residual, const FrontEquations& front) const {
+  Eigen::VectorXd values = residual;
+  Eigen::Index k = 0;
+  for (const int tip : front_tips()) values[2 * tip] = front.residual[k++];
+  return values;
+}
+
+bool Front::has_equal_advances(const Eigen::VectorXd& residual) const {
+  const std::vector<int> tips = front_tips();
+  if (options_.mesh_error == 0 || tips.size() < 2) return true;
+  const Eigen::VectorXd advance = advances(tips);
+  return !advances_are_equal(loads(tips, residual), options_.mesh_error) ||
+         advance.maxCoeff() - advance.minCoeff() <= equal_advances;
+}
+
+/// What has to be positive for a tip at rest to grow.
+double Front::load_at_rest(int tip, const Eigen::VectorXd& residual) const {
+  const double load = residual[2 * tip];
+  if (is_new(tip) || options_.mesh_error == 0) return load;
+  const std::vector<int> growing = front_tips();
+  if (!growing.empty())
+    return load_beside_front(load, loads(growing, residual), advances(growing), options_.mesh_error);
+  std::vector<int> resting;
+  for (int i = 0; i < count(); ++i)
+    if (may_start(i) && !is_new(i)) resting.push_back(i);
+  const Eigen::VectorXd all = loads(resting, residual);
+  if (load < all.maxCoeff() - 2 * options_.mesh_error) return load;
+  return load_of_front_at_rest(all, options_.mesh_error);
+}
+
+/// Lets tips at rest grow that have to. Whether one of them was not in the last trial: then a trial with the new set
 /// comes before anything is concluded.
 bool Front::free_tips(const Eigen::VectorXd& residual) {
-  for (int i = 0; i < count(); ++i) {
-    if (grows_[i] || is_stopped_[i] || !last_[i].is_evaluated || residual[2 * i] <= options_.load_tolerance) continue;
-    best_.reset();
-    if (is_laid_[i]) {
-      grows_[i] = 1;
-      continue;
-    }
-    before_place_.resize(0);
-    begin(i, last_[i]);
-    set_turn_slope(i, last_[i].sifs);
-    return true;
-  }
-  return false;
-}
-
-/// The groups of tips that the Jacobian does not tell from one another. Where K of one is further from the mean than
-/// the error of a mesh explains, its advance follows the difference, less that error. Groups are chosen while the front
-/// is far off, and stay when it is near: a slope near its bound would otherwise fall on one side or the other with each
-/// update of the Jacobian by a short move, and the search would look for another front each time.
-void Front::find_neutral_tips(const Eigen::VectorXd& residual) {
-  const bool is_chosen =
-      best_ && best_->norm < mesh_error && std::ranges::any_of(groups_, [](int g) { return g >= 0; });
-  std::vector<char> candidates(tips_.size(), 0);
-  for (int i = 0; i < count(); ++i) candidates[i] = grows_[i] && !is_new(i) && last_[i].is_evaluated;
-  if (!is_chosen) groups_ = neutral_groups(slopes_.jacobian, residual, advances(), candidates);
-  for (int i = 0; i < count(); ++i) {
-    if (!is_apart(residual, groups_, i)) continue;
-    for (int j = 0; j < count(); ++j)
-      if (groups_[j] == groups_[i]) is_parted_[j] = 1;
-  }
-}
-
-std::vector<double> Front::advances() const {
-  std::vector<double> advances;
-  for (int i = 0; i < count(); ++i) advances.push_back((length_[i] - tips_[i].covered) / options_.increment);
-  return advances;
-}
-
-bool Front::has_equal_advances() const {
-  const std::vector<double> advance = advances();
+  std::vector<int> freed;
   for (int i = 0; i < count(); ++i)
-    for (int j = 0; j < i; ++j)
-      if (is_tied(i) && groups_[j] == groups_[i] && std::abs(advance[i] - advance[j]) > equal_advances) return false;
-  return true;
-}
-
-/// A tip at rest that is nearly as loaded as one that grows, and is unloaded by its growth as that one is, grows with
-/// it: a difference that the mesh may have made does not choose a leader. Whether there is one.
-bool Front::share_advances(const Eigen::VectorXd& residual) {
-  for (int i = 0; i < count(); ++i) {
-    if (grows_[i] || is_stopped_[i] || is_parted_[i] || is_new(i) || !last_[i].is_evaluated) continue;
-    for (int j = 0; j < count(); ++j) {
-      if (!grows_[j] || is_new(j) || is_parted_[j] || !is_indifferent(slopes_.jacobian, j, i)) continue;
-      if (residual[2 * i] < residual[2 * j] - 2 * mesh_error) continue;
-      slopes_.jacobian.col(2 * i) = slopes_.jacobian.col(2 * j);
-      const double half = (length_[j] - tips_[j].covered) / 2;
-      if (!is_laid_[i]) begin(i, last_[i]);
-      grows_[i] = 1;
-      for (const int tip : {i, j}) length_[tip] = std::min(tips_[tip].longest, tips_[tip].covered + half);
-      set_turn_slope(i, last_[i].sifs);
+    if (may_start(i) && load_at_rest(i, residual) > options_.load_tolerance) freed.push_back(i);
+  for (const int i : freed) {
+    best_.reset();
+    const bool was_laid = is_laid_[i], is_loaded = residual[2 * i] > options_.load_tolerance;
+    if (!was_laid) {
       before_place_.resize(0);
-      best_.reset();
-      return true;
+      begin(i, last_[i]);
+      set_turn_slope(i, last_[i].sifs);
     }
+    if (!is_loaded) begin_beside_front(i);
+    grows_[i] = 1;
+    if (!was_laid && is_loaded) return true;
   }
   return false;
 }
 
-/// With Broyden's matrix. The advances of neutral tips become equal, so that the mean of their equations is met.
+/// A tip that is below its toughness, but within the error of the mesh, begins without an advance. Where the growth of
+/// another unloads both alike, this holds for its own, too.
+void Front::begin_beside_front(int tip) {
+  length_[tip] = tips_[tip].covered;
+  angle_[tip] = tips_[tip].angle;
+  grows_[tip] = 0;
+  const std::vector<int> growing = front_tips();
+  if (growing.empty()) return;
+  const int leader = *std::ranges::max_element(growing, {}, [&](int i) { return advance(i); });
+  const double own = slopes_.jacobian(2 * leader, 2 * leader), shared = slopes_.jacobian(2 * tip, 2 * leader);
+  if (std::abs(own - shared) < alike) slopes_.jacobian.col(2 * tip) = slopes_.jacobian.col(2 * leader);
+}
+
+/// With Broyden's matrix, for which the equations of the front are solved as they are: only loads and directions are
+/// taken to be linear. Where this has no solution, these equations are linear, too.
 Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) {
-  const std::vector<double> advance = advances();
-  const auto with_least_slope = [&] {
+  if (const auto move = step_to_linear_front(free, residual)) return *move;
+  const std::vector<int> tips = front_tips();
+  const FrontEquations front = equations(residual);
+  const auto matrix_of_front = [&] {
     Eigen::MatrixXd jacobian = slopes_.jacobian;
-    add_least_slope(jacobian, groups_);
+    for (std::size_t a = 0; a < tips.size(); ++a) {
+      jacobian.row(2 * tips[a]).setZero();
+      for (std::size_t b = 0; b < tips.size(); ++b) {
+        const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
+        jacobian.row(2 * tips[a]) += front.by_load(row, column) * slopes_.jacobian.row(2 * tips[b]);
+        jacobian(2 * tips[a], 2 * tips[b]) += front.by_advance(row, column);
+      }
+    }
     return Eigen::MatrixXd(jacobian(free, free));
   };
-  Eigen::MatrixXd matrix = with_least_slope();
+  Eigen::MatrixXd matrix = matrix_of_front();
   if (!matrix.fullPivLu().isInvertible()) {
     // Loads that were once found not to depend on lengths would leave the tips where they are.
     forget();
-    matrix = with_least_slope();
+    matrix = matrix_of_front();
   }
-  Eigen::VectorXd from = Eigen::VectorXd::Zero(matrix.rows());
-  std::vector<int> ties(free.size(), -1);
-  for (std::size_t a = 0; a < free.size(); a += 2) {
-    const int tip = free[a] / 2;
-    from[a] = advance[tip];
-    if (is_tied(tip)) ties[a] = groups_[tip];
-  }
-  return tied_move(matrix, -believed(residual, advance, groups_)(free), from, ties);
+  return matrix.fullPivLu().solve(-count_loads(residual, front)(free));
+}
+
+/// The move by which all directions and the lengths of new segments follow the lengths of the other tips, and these
+/// lengths are those of the front.
+std::optional<Eigen::VectorXd> Front::step_to_linear_front(const std::vector<int>& free,
+                                                           const Eigen::VectorXd& residual) const {
+  const std::vector<int> tips = front_tips();
+  if (tips.empty()) return std::nullopt;
+  std::vector<int> lengths, others;
+  for (const int tip : tips) lengths.push_back(2 * tip);
+  for (const int unknown : free)
+    if (std::ranges::find(lengths, unknown) == lengths.end()) others.push_back(unknown);
+  const Eigen::MatrixXd& jacobian = slopes_.jacobian;
+  const Eigen::FullPivLU<Eigen::MatrixXd> factors(jacobian(others, others));
+  if (!factors.isInvertible()) return std::nullopt;
+  const Eigen::MatrixXd follow = -factors.solve(Eigen::MatrixXd(jacobian(others, lengths)));
+  const Eigen::VectorXd own = -factors.solve(Eigen::VectorXd(residual(others)));
+  const Eigen::VectorXd at = advances(tips);
+  const auto advances = linear_front({residual(lengths) + jacobian(lengths, others) * own,
+                                      jacobian(lengths, lengths) + jacobian(lengths, others) * follow, at},
+                                     options_.mesh_error);
+  if (!advances) return std::nullopt;
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(residual.size());
+  all(lengths) = *advances - at;
+  all(others) = own + follow * (*advances - at);
+  return Eigen::VectorXd(all(free));
 }
 
 /// Newton's step. A tip that would move back to where it was at the start of the step rests there.
@@ -387,11 +439,12 @@ void Front::step(const Eigen::VectorXd& residual) {
     if (grows_[i]) free.insert(free.end(), {2 * i, 2 * i + 1});
   const int size = static_cast<int>(free.size());
   Eigen::VectorXd move = newton_step(free, residual);
+  const Eigen::VectorXd counted = count_loads(residual, equations(residual));
   double part = part_;
   for (int a = 0; a < size; a += 2) {
     const int i = free[a] / 2;
     if (!std::isfinite(move[a]) || !std::isfinite(move[a + 1]))
-      move[a] = residual[free[a]] > 0 ? 0.5 : -0.5, move[a + 1] = 0;
+      move[a] = counted[free[a]] > 0 ? 0.5 : -0.5, move[a + 1] = 0;
     part = std::min(part, largest_advance / std::max(no_motion, std::abs(move[a])));
     part = std::min(part, largest_turn / std::max(no_motion, std::abs(move[a + 1])));
     if (is_new(i)) {
@@ -409,7 +462,7 @@ void Front::step(const Eigen::VectorXd& residual) {
     if (wanted <= least(i)) {
       // Back at the start of the step: the tip rests, unless it is there and above its toughness. Then its load rises
       // with its length.
-      const bool is_unstable = residual[2 * i] > 0 && length_[i] <= least(i) * (1 + at_limit);
+      const bool is_unstable = counted[2 * i] > 0 && length_[i] <= least(i) * (1 + at_limit);
       if (is_unstable && was_unstable_[i]) {
         verdict_ = Verdict::failed;
         reason_ = "the load of a tip rises with its length";
@@ -427,7 +480,7 @@ void Front::step(const Eigen::VectorXd& residual) {
       length_[i] = wanted;
     }
     if (length_[i] > tips_[i].longest) {
-      if (residual[2 * i] > 0 && from[2 * i] * options_.increment >= tips_[i].longest * (1 - at_limit)) {
+      if (counted[2 * i] > 0 && from[2 * i] * options_.increment >= tips_[i].longest * (1 - at_limit)) {
         verdict_ = Verdict::too_far;
         reason_ = "a tip grows further than its longest advance in one step";
         return;

@@ -9,6 +9,7 @@
 
 #include "components/fine_fracture/growth/broyden.hpp"
 #include "components/fine_fracture/growth/mixed_mode.hpp"
+#include "components/fine_fracture/growth/most_equal_front.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk::fine_fracture {
@@ -43,6 +44,7 @@ struct FrontState {
 
 /// Tolerances and limits of the search.
 struct FrontOptions {
+  double mesh_error = 1e-3;           ///< of ln K between tips, see most_equal_front.hpp; 0: each K is the toughness
   double load_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)|, or the excess, of growing tips
   double direction_tolerance = 1e-6;  ///< |K_II/K_I| of growing tips
   double increment = 0;               ///< m, the scale of advances
@@ -52,9 +54,9 @@ struct FrontOptions {
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
 ///   K_eq = K_IC and K_II = 0 at tips that grow,    K_eq <= K_IC at tips that do not,
-/// by Broyden's method for the tips that grow; which do is decided anew after each trial. Tips of which the factors do
-/// not tell which one advances have equal advances, and the mean of their ln(K_eq/K_IC) is zero (neutral_tips.hpp). Of
-/// several solutions it seeks the one next to the start of the step.
+/// by Broyden's method for the tips that grow; which do is decided anew after each trial. Of several tips K is known to
+/// the error of the mesh, and of all fronts within it the most equal one is sought (most_equal_front.hpp). Of several
+/// solutions it seeks the one next to the start of the step.
 ///
 ///   Front front(…, states of the trial without growth, …);
 ///   while (front.verdict() == again) front.learn(states of the trial with lengths(), angles());
@@ -83,7 +85,7 @@ class Front {
   void learn(const std::vector<FrontState>& states);
   Verdict verdict() const { return verdict_; }
   int trials() const { return trials_; }
-  /// The largest |ln(K_eq/K_IC)| of growing tips in the last trial, of neutral ones their mean.
+  /// The largest residual of the load of a growing tip in the last trial; of a tip alone |ln(K_eq/K_IC)|.
   double worst() const { return worst_; }
   const std::string& reason() const { return reason_; }
   /// The derivative of (ln(K/K_IC), K_II/K_I) by (length/increment, angle), per tip, as it was learnt, without the
@@ -92,7 +94,6 @@ class Front {
 
  private:
   int count() const { return static_cast<int>(tips_.size()); }
-  bool is_tied(int tip) const { return groups_[tip] >= 0 && !is_parted_[tip]; }
   bool is_new(int tip) const { return tips_[tip].covered == 0; }
   double shortest(int tip) const { return std::max(options_.shortest, tips_[tip].least); }
   /// The length of a last segment that does not grow.
@@ -112,13 +113,23 @@ class Front {
   Eigen::VectorXd residual(const std::vector<FrontState>& states) const;
   Eigen::VectorXd place() const;
   void update_jacobian(const Eigen::VectorXd& residual);
+  bool may_start(int tip) const { return !grows_[tip] && !is_stopped_[tip] && last_[tip].is_evaluated; }
+  std::vector<int> front_tips() const;
+  double advance(int tip) const;                                 ///< in increments
+  Eigen::VectorXd advances(const std::vector<int>& tips) const;  ///< in increments
+  static Eigen::VectorXd loads(const std::vector<int>& tips, const Eigen::VectorXd& residual);
+  /// Of front_tips().
+  FrontEquations equations(const Eigen::VectorXd& residual) const;
+  /// The residual with these equations in the place of the loads.
+  Eigen::VectorXd count_loads(const Eigen::VectorXd& residual, const FrontEquations& front) const;
+  bool has_equal_advances(const Eigen::VectorXd& residual) const;
+  double load_at_rest(int tip, const Eigen::VectorXd& residual) const;
   bool free_tips(const Eigen::VectorXd& residual);
-  void find_neutral_tips(const Eigen::VectorXd& residual);
-  std::vector<double> advances() const;  ///< in increments
-  bool has_equal_advances() const;
-  bool share_advances(const Eigen::VectorXd& residual);
-  /// Newton's step in the unknowns `free`, those that are tied in common.
+  void begin_beside_front(int tip);
+  /// Newton's step in the unknowns `free`.
   Eigen::VectorXd newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual);
+  std::optional<Eigen::VectorXd> step_to_linear_front(const std::vector<int>& free,
+                                                      const Eigen::VectorXd& residual) const;
   /// The residual to go on from: that of the last trial, or of the best one if the last was much worse.
   Eigen::VectorXd return_to_best(const Eigen::VectorXd& residual);
   void step(const Eigen::VectorXd& residual);
@@ -128,8 +139,6 @@ class Front {
   double dt_;
   std::vector<char> grows_, is_laid_, is_stopped_;
   std::vector<char> was_unstable_;  ///< tips that were pushed on once, since their load did not fall with their length
-  std::vector<char> is_parted_;     ///< tips whose advance follows the difference of their K, though it is neutral
-  std::vector<int> groups_;         ///< of neutral tips that grow, see neutral_tips.hpp; -1: alone
   std::vector<double> length_, angle_;
   std::vector<FrontState> last_;
   Broyden slopes_;  ///< of residual() by (length/increment, angle), per tip
