@@ -157,7 +157,8 @@ class StraightCrack(unittest.TestCase):
             self.assertLess(abs(its / mine - 1), 0.01)
 
     def test_viscous_tips_turned_by_30_degrees(self):
-        """Where the fluid is viscous both tips rest at their apparent toughness, and the box may be turned."""
+        """Where the fluid is viscous the advances take the energy that they release, both tips rest at their apparent toughness
+        but for the error of the mesh, and the box may be turned."""
         straight = self.rows(VISCOUS, refused=9)
         scene = SCENE
         for old, new in VISCOUS.items():
@@ -171,8 +172,11 @@ class StraightCrack(unittest.TestCase):
             late = [row for row in rows if row["tips.main_last.length"] > 0.02]
             self.assertGreater(len(late), 3)
             for row in late:
-                load = sum(row[f"tips.main_{end}.K_eq"] / row[f"tips.main_{end}.apparent_toughness"] for end in ("first", "last")) / 2
-                self.assertAlmostEqual(load, 1, delta=1e-6)
+                loads = [row[f"tips.main_{end}.K_eq"] / row[f"tips.main_{end}.apparent_toughness"] for end in ("first", "last")]
+                speeds = [row[f"tips.main_{end}.speed"] for end in ("first", "last")]
+                energy = sum(load * speed for load, speed in zip(loads, speeds)) / sum(speeds)
+                self.assertAlmostEqual(energy, 1, delta=1e-6)
+                self.assertLess(abs(loads[0] - loads[1]), 2.5e-3)
                 self.assertGreater(row["tips.main_last.apparent_toughness"], 1.1e6)
 
 

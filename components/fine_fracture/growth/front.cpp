@@ -30,8 +30,8 @@ constexpr double largest_advance = 0.6;       ///< of an increment, between two 
 constexpr double at_limit = 1e-9;             ///< of a length that is at its limit, but for rounding
 constexpr double equal_advances = 1e-9;       ///< of an increment: what is left of differences of equal advances
 constexpr double of_differences = 0.1;        ///< of the tolerance of loads: that of what tells advances apart
-constexpr double alike = 0.01;                ///< of ln K over one increment: a tip unloads another as itself, but for this
-constexpr double no_motion = 1e-300;          ///< no division by zero
+constexpr double alike = 0.01;        ///< of ln K over one increment: a tip unloads another as itself, but for this
+constexpr double no_motion = 1e-300;  ///< no division by zero
 
 double excess(const FrontState& state) {
   if (state.excess) return *state.excess;

@@ -44,8 +44,7 @@ FrontEquations most_equal_front(const Eigen::VectorXd& loads, const Eigen::Vecto
             Eigen::MatrixXd::Zero(count, count)};
 
   const Eigen::VectorXd weights = weights_of(advances);
-  const bool moves_weights =
-      has_advance(advances) && loads.maxCoeff() - loads.minCoeff() < nearly_found * mesh_error;
+  const bool moves_weights = has_advance(advances) && loads.maxCoeff() - loads.minCoeff() < nearly_found * mesh_error;
   FrontEquations front{Eigen::VectorXd::Constant(count, weights.dot(loads)), Eigen::VectorXd::Zero(count),
                        Eigen::VectorXd::Ones(count) * weights.transpose(), Eigen::MatrixXd::Zero(count, count)};
   for (Eigen::Index i = 0; i < count; ++i) {

@@ -7,7 +7,8 @@ namespace sprekk::fine_fracture {
 
 /// K at a tip is known up to an error of the mesh, e = 1e-3. Where an advance of one tip unloads another as much as
 /// itself, as at both ends of a straight crack under one pressure, this error over a slope near zero would decide which
-/// of them advances. So the loads r_i = ln(K/K_IC) of growing tips with the advances a_i need not vanish one by one, but
+/// of them advances. So the loads r_i = ln(K/K_IC) of growing tips with the advances a_i need not vanish one by one,
+/// but
 ///   r_m + g_i = 0,     r_m = sum_j w_j r_j,     g_i = sum_j w_j [S(r_i - r_j) - H(a_i - a_j)],     w_j = a_j / sum a,
 /// with S(x) = sign(x) max(0, |x| - 2e) and H(x) = 2e x / (|x| + d), d = 0.2 increments. As sum w_i g_i = 0, it means
 /// - r_m = 0: the tips together release the energy that their advances need;
@@ -28,8 +29,8 @@ struct FrontEquations {
 /// which leads to equal advances at once.
 FrontEquations most_equal_front(const Eigen::VectorXd& loads, const Eigen::VectorXd& advances, double mesh_error);
 
-/// What has to be positive for a tip at rest with this load to grow with the tips of the front (r_m + g of it). The load
-/// itself without a front, and without an error.
+/// What has to be positive for a tip at rest with this load to grow with the tips of the front (r_m + g of it). The
+/// load itself without a front, and without an error.
 double load_beside_front(double load, const Eigen::VectorXd& loads, const Eigen::VectorXd& advances, double mesh_error);
 
 /// What has to be positive for a front at rest to grow: the mean of the loads that differ from the largest by no more

@@ -118,7 +118,8 @@ TEST(Front, ATipThatIsHardlyLessLoadedGrowsToo) {
   }
 }
 
-/// A difference beyond the error of a mesh counts: in stronger rock a tip rests, however little the advances differ in what they do.
+/// A difference beyond the error of a mesh counts: in stronger rock a tip rests, however little the advances differ in
+/// what they do.
 TEST(Front, ATipThatIsClearlyLessLoadedRests) {
   ClosedForm form{{0.3, 0.25}, {tip(0.4), tip(-2.0)}};
   form.own = 0;
