@@ -225,11 +225,13 @@ MeshGrowth::Outcome MeshGrowth::before_acceptance() {
   return Outcome::nothing;
 }
 
-/// After a step in which growth was held.
+/// After a step in which growth was held. Short steps go on until nothing grows any more: tips that are above their
+/// toughness and cannot grow, since they are closed or would grow by less than the shortest increment, are not waited
+/// for.
 MeshGrowth::Outcome MeshGrowth::follow_held(std::size_t grow_step) {
   const GrowStep& grow = *model_->growing()[grow_step];
   ++held_;
-  const bool is_done = grow.extensions().empty() && grow.is_at_rest() && !grow.is_unsettled();
+  const bool is_done = grow.extensions().empty() && (grow.is_at_rest() || !grow.has_grown()) && !grow.is_unsettled();
   const double small = shortest_step(grow);
   const Outcome outcome = grow.extensions().empty() ? Outcome::nothing : take_over(grow_step);
   if (!is_done) controller_.hold(small);

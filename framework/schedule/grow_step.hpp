@@ -66,6 +66,8 @@ class GrowStep : public ScheduleStep {
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
   /// Whether no tip was above its toughness by more than the overshoot in the last attempt.
   bool is_at_rest() const { return load_.now <= 1 + options_.overshoot; }
+  /// Whether a tip grew in the last attempt; some that are above their toughness cannot.
+  bool has_grown() const { return has_grown_; }
   /// The largest load of all tips over the load 1 + overshoot/2 at which a refused step would be made to end.
   double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * options_.overshoot); }
   /// Solves for the components of `settle` at fixed values of everything else, with data as in the given step.
@@ -89,7 +91,7 @@ class GrowStep : public ScheduleStep {
   std::optional<StepTime> last_;    ///< that it was run for
   std::vector<PathExtension> extensions_;
   Holding holding_ = Holding::never;
-  bool is_held_ = false, rests_ = false;
+  bool is_held_ = false, rests_ = false, has_grown_ = false;
 };
 
 }  // namespace sprekk

@@ -61,6 +61,7 @@ class Growing {
   struct Growth {
     std::vector<PathExtension> extensions;  ///< the paths that the mesh is to take over
     bool arrested = true;                   ///< whether all tips came to rest before the mesh had to take paths over
+    bool any = false;                       ///< whether a tip has grown, in a path or in what the component keeps
   };
   /// Lets the tips grow until they arrest, or until the mesh must take their paths over. The component keeps a path
   /// that is too short for the mesh; such a path counts from the next step on, if this one is accepted. With growth

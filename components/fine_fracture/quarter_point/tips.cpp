@@ -257,6 +257,7 @@ Growing::Growth Tips::grow(const StepTime&) {
     tip.now.warm_start = outcome.warm_start;
     if (outcome.blocked && options_.meeting == "join") blocked.push_back(i);
     if (outcome.increments == 0) continue;
+    result.any = true;
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
     if (!is_long_enough(tip, tip.now.path)) continue;
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
