@@ -225,13 +225,11 @@ MeshGrowth::Outcome MeshGrowth::before_acceptance() {
   return Outcome::nothing;
 }
 
-/// After a step in which growth was held. Short steps go on until nothing grows any more: tips that are above their
-/// toughness and cannot grow, since they are closed or would grow by less than the shortest increment, are not waited
-/// for.
+/// After a step in which growth was held: short steps go on until it has come to rest.
 MeshGrowth::Outcome MeshGrowth::follow_held(std::size_t grow_step) {
   const GrowStep& grow = *model_->growing()[grow_step];
   ++held_;
-  const bool is_done = grow.extensions().empty() && (grow.is_at_rest() || !grow.has_grown()) && !grow.is_unsettled();
+  const bool is_done = grow.has_come_to_rest();
   const double small = shortest_step(grow);
   const Outcome outcome = grow.extensions().empty() ? Outcome::nothing : take_over(grow_step);
   if (!is_done) controller_.hold(small);

@@ -64,10 +64,11 @@ class GrowStep : public ScheduleStep {
   CavityOptions cavity() const { return growing_->cavity(); }
   /// Whether a growth event still shows at the tips.
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
-  /// Whether no tip was above its toughness by more than the overshoot in the last attempt.
-  bool is_at_rest() const { return load_.now <= 1 + options_.overshoot; }
-  /// Whether a tip grew in the last attempt; some that are above their toughness cannot.
-  bool has_grown() const { return has_grown_; }
+  /// Whether growth in the last attempt is at its end, and has settled: no tip was above its toughness by more than the
+  /// overshoot, or none grew. Tips that are closed, or would grow by less than the shortest increment, do not.
+  bool has_come_to_rest() const {
+    return extensions_.empty() && (load_.now <= 1 + options_.overshoot || !has_grown_) && !is_unsettled();
+  }
   /// The largest load of all tips over the load 1 + overshoot/2 at which a refused step would be made to end.
   double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * options_.overshoot); }
   /// Solves for the components of `settle` at fixed values of everything else, with data as in the given step.

@@ -325,6 +325,25 @@ TEST(GrowStep, HoldsTheStateWhereGrowthIsNotFollowed) {
     }
 }
 
+/// A tip above its toughness that does not grow is not waited for.
+TEST(GrowStep, ComesToRestWhenNothingGrows) {
+  for (const bool above : {false, true})
+    for (const bool grows : {false, true})
+      for (const bool settled : {false, true}) {
+        Schedule run("- {grow: tips, settle: [rock], update: within_step, overshoot: 0.02, settled: 0.01}");
+        run.tips.load = {.now = above ? 1.4 : 1.01, .unsettled = settled ? 0.009 : 0.011};
+        run.tips.growth.any = grows;
+        run.step().choose(GrowStep::Holding::always);
+        EXPECT_TRUE(run.schedule->run({0, standard, standard}).converged);
+        EXPECT_EQ(run.step().has_come_to_rest(), settled && !(above && grows));
+      }
+  Schedule run("- {grow: tips, settle: [rock], update: within_step}");
+  run.tips.load.now = 1.001;
+  run.tips.growth.extensions = {some_extension};
+  EXPECT_TRUE(run.schedule->run({0, standard, standard}).converged);
+  EXPECT_FALSE(run.step().has_come_to_rest());
+}
+
 TEST(GrowStep, KnowsWhetherItWasRunForAStep) {
   Schedule run("- {when: 't > 150', steps: [{grow: tips, settle: [rock], update: within_step}]}");
   const StepTime first{0, standard, standard}, second{standard, standard, 2 * standard};
