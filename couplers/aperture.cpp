@@ -37,6 +37,7 @@ class Aperture : public Coupler, public FollowsWaiting {
     normal_ = Operator(std::move(normal));
   }
 
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {}
 
   std::vector<std::string> stabilizations() const override { return {"fixed_stress"}; }

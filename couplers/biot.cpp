@@ -84,6 +84,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
     use_grains();
   }
 
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {}
 
   void assemble(Assembly& assembly, const StepTime&) const override {

@@ -59,6 +59,7 @@ class WallExchange : public Coupler {
     of_both_walls_.setFromTriplets(counts.begin(), counts.end());
   }
 
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {
     const Field& flux = walls_.wall_flux();
     SPREKK_EXPECT(flux.size() == mesh_.wall_count(), flux.name(), flux.size(), mesh_.wall_count());

@@ -72,6 +72,7 @@ class WallTraction : public Coupler {
              "while the rock is held so is the jump, and walls that stick may then have any traction"}};
   }
 
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {
     Vector compliance = rock_.wall_compliance();
     replicate(mesh_, Location::fracture_cell, dimension, compliance);

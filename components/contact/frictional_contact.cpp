@@ -23,7 +23,8 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
                   .components = dimension,
                   .role = Role::unknown(BlockKind::interface),
                   .unit = "Pa",
-                  .doc = "Contact traction on the plus wall, normal and tangential (f of the paper's Eqs. 2-4)"})),
+                  .doc = "Contact traction on the plus wall, normal and tangential (f of the paper's Eqs. 2-4)",
+                  .is_path_dependent = true})),
       jump_(context.fields.add(mesh_,
                                {.owner = context.name,
                                 .name = "jump",
@@ -32,7 +33,8 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
                                 .role = Role::input(BlockKind::interface),
                                 .unit = "m",
                                 .doc = "Displacement jump, normal (opening) and tangential (slip) (the paper's Eq. 1)",
-                                .needs_coupler = "wall_traction"})),
+                                .needs_coupler = "wall_traction",
+                                .is_path_dependent = true})),
       options_(options),
       multiplier_(multiplier),
       stiffness_factor_(stiffness_factor),
@@ -48,7 +50,9 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
                                         .location = Location::fracture_cell,
                                         .role = Role::derived(),
                                         .unit = "m",
-                                        .doc = "Path of slip and opening since the start, forth and back"});
+                                        .doc = "Path of slip and opening since the start, forth and back",
+                                        .accepted_with = traction_.name(),
+                                        .is_path_dependent = true});
   friction_ = Property(options_.friction, places, context.start_time);
   dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
   if (options_.dynamic_friction) dynamic_friction_ = Property(*options_.dynamic_friction, places, context.start_time);

@@ -70,6 +70,7 @@ class FrictionalContact : public Component, public FractureContact, public Itera
                     Multiplier multiplier = Multiplier::present, double stiffness_factor = 1);
 
   void evaluate_data(const StepTime& step) override;
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {
     back_slip_.clear();
     kept_.clear();

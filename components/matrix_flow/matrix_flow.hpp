@@ -64,6 +64,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
              Unknowns unknowns = Unknowns::on_cells);
 
   void evaluate_data(const StepTime& step) override;
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime& step) override;
   /// Discretizes on the new mesh; the unchanged part of the discretization of `before` is kept.
   void carry_over(const Part& before, const MeshChange& change) override;

@@ -25,6 +25,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   Rock(const ComponentContext& context, const Options& options, const StressDiscretization& discretization);
 
   void evaluate_data(const StepTime& step) override;
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime& step) override;
   /// Discretizes on the new mesh; the unchanged part of the discretization of `before` is kept.
   void carry_over(const Part& before, const MeshChange& change) override;

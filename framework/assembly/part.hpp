@@ -86,6 +86,11 @@ class Part {
   /// Adds this part's totals to those of the conserved quantities, by name.
   virtual void balance(std::map<std::string, Balance>&) const {}
 
+  /// Whether a time step may have two stages (TimeScheme::sdirk2): all that is stored is a change since the accepted
+  /// values, times coefficients at the end of the step, and all flows are those at its end. Then each stage is a step
+  /// of backward Euler from accepted values that are extrapolated.
+  virtual bool allows_stages() const { return false; }
+
   /// Changes whenever the discrete state (which cells stick, slip, are open) does; the cycle detector reads it.
   virtual std::uint64_t discrete_state() const { return 0; }
   /// Sets how the part supports Newton's method from now on.

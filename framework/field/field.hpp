@@ -33,6 +33,10 @@ struct FieldSpec {
   /// not a density or a mean. When the mesh changes, amounts are divided by measure, and all other values are averaged
   /// (Eq. 17 of the paper). Nodes and faces have no measure to divide by.
   bool is_amount = false;
+  /// Whether equations compare the value with the accepted one as a path that has been gone, in whatever time (slip,
+  /// with friction against it), and not as a rate. A scheme of two stages starts both from the same accepted value
+  /// then, since an extrapolated path would stay.
+  bool is_path_dependent = false;
   std::string full_name() const { return owner + "." + name; }
 };
 

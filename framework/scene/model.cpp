@@ -71,6 +71,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   check_determined();
   refusing_bad_data([this] { check_data(); });
   schedule_->check();
+  check_stages();
   check_constant_modes();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_);
 }
@@ -90,6 +91,18 @@ void Model::check_determined() const {
       throw InputError(scene_.schedule_origin(), "no step solves for " + field->name(),
                        "the schedule does not name component '" + spec.owner + "'", "add it to a 'solve'");
   }
+}
+
+void Model::check_stages() const {
+  if (scene_.time.scheme == TimeScheme::backward_euler) return;
+  const auto refuse = [&](const std::string& part) {
+    throw InputError(scene_.time.scheme_origin, part + " is of first order in time",
+                     "it does not say that a time step may have two stages", "leave 'scheme' out, or the part");
+  };
+  for (const auto& component : components_)
+    if (!component->allows_stages()) refuse("component '" + component->name() + "'");
+  for (const auto& coupler : couplers_)
+    if (!coupler->allows_stages()) refuse("coupler '" + coupler->name() + "'");
 }
 
 void Model::check_data() {

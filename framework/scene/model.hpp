@@ -56,6 +56,7 @@ class Model {
 
  private:
   void check_determined() const;
+  void check_stages() const;
   void check_data();
   void check_constant_modes() const;
 

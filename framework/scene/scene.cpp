@@ -291,7 +291,8 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   read_couplers(scene, read);
   const Node& schedule = *whole.find("schedule");
   scene.linear.bulk_changes_often = has_step(schedule, "grow");
-  scene.schedule = read_schedule(schedule, {component_names(scene), scene.linear, scene.newton, read});
+  scene.schedule =
+      read_schedule(schedule, {component_names(scene), scene.linear, scene.newton, read, scene.time.scheme});
   note_unused_materials(scene, materials_used);
   note_times(scene);
   return scene;

@@ -40,6 +40,16 @@ void check_components(const std::vector<std::string>& names, const Node& node, c
   }
 }
 
+/// The step in the stages of the scheme, unless a step around it takes them.
+ScheduleBuilder in_stages(const ScheduleBuilder& step, const ScheduleReading& reading) {
+  if (reading.scheme == TimeScheme::backward_euler || reading.is_in_stages) return step;
+  return [step, scheme = reading.scheme, waiting = reading.waiting](const ScheduleContext& context) {
+    ScheduleContext inside = context;
+    inside.pass = nullptr;
+    return std::make_unique<SubcycleStep>(SubcycleOptions{1, waiting}, scheme, step(inside), context);
+  };
+}
+
 ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
   SolveOptions options;
   options.newton = reading.newton;
@@ -56,7 +66,8 @@ ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
     throw InputError(node.find("newton")->origin, "'newton: residual' is larger than 'until: relative'",
                      "the iteration would never see residuals that the solve inside leaves",
                      "lower it to a tenth of 'relative', or leave it out: then it is");
-  return [options](const ScheduleContext& context) { return std::make_unique<SolveStep>(options, context); };
+  return in_stages([options](const ScheduleContext& context) { return std::make_unique<SolveStep>(options, context); },
+                   reading);
 }
 
 /// The spec of a step that has steps inside; `inside` receives them.
@@ -78,6 +89,15 @@ ScheduleBuilder read_inside(const Node& node, Options& options, ScheduleReading 
   return read_schedule(*inside, reading);
 }
 
+/// Whether a `subcycle` of several substeps is among the steps.
+bool has_substeps(const Node& steps) {
+  const Node* cycle = steps.find("subcycle");
+  const Node* count = cycle ? cycle->find("count") : nullptr;
+  if (count && count->scalar != "1") return true;
+  return std::ranges::any_of(steps.items, has_substeps) ||
+         std::ranges::any_of(steps.entries, [](const Node::Entry& entry) { return has_substeps(entry.value); });
+}
+
 ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   IterateOptions options;
   const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading, [&](ScheduleReading& inner) {
@@ -86,14 +106,19 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
     // What is iterated must be solved more tightly than the iteration asks for, or it would stall.
     constexpr double tighter = 0.1;
     inner.newton.residual = std::min(inner.newton.residual, tighter * options.until.tightest());
+    const Node* steps = node.find("iterate")->find("steps");
+    options.has_substeps = has_substeps(*steps);
+    inner.is_in_stages = reading.is_in_stages || !options.has_substeps;
   });
   const Node& steps = *node.find("iterate")->find("steps");
+  if (options.has_substeps) options.until.require_changes();
   if (options.order == "jacobi" && (!steps.is_list() || steps.items.size() < 2))
     throw InputError(node.find("iterate")->find("order")->origin, "'order: jacobi' has no effect",
                      "there is one step inside", "remove it, or split the step");
-  return [options, inside](const ScheduleContext& context) -> std::unique_ptr<ScheduleStep> {
+  const ScheduleBuilder iterate = [options, inside](const ScheduleContext& context) -> std::unique_ptr<ScheduleStep> {
     const auto pass = std::make_shared<int>(0);
     ScheduleContext numbered = context;
+    numbered.pass = pass;
     if (context.log)
       numbered.log = [log = context.log, pass](const IterationRecord& record) {
         IterationRecord in_pass = record;
@@ -105,19 +130,27 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
       steps = std::make_unique<JacobiStep>(sequence->take_steps(), context.fields);
     return std::make_unique<IterateStep>(options, std::move(steps), context, pass);
   };
+  return options.has_substeps ? iterate : in_stages(iterate, reading);
 }
 
 ScheduleBuilder read_subcycle(const Node& node, const ScheduleReading& reading) {
   SubcycleOptions options;
+  bool takes_stages = false;
   const ScheduleBuilder inside = read_inside(*node.find("subcycle"), options, reading, [&](ScheduleReading& inner) {
+    takes_stages = !reading.is_in_stages && !has_substeps(*node.find("subcycle")->find("steps"));
     inner.is_substep = inner.is_substep || options.count > 1;
+    inner.is_in_stages = reading.is_in_stages || takes_stages;
+    inner.waiting = options.waiting;
   });
-  if (reading.is_iterated && options.count > 1)
-    throw InputError(node.find("subcycle")->origin, "'subcycle' stands inside of an 'iterate'",
-                     "the iteration tests the residual of one whole step, which substeps do not have",
-                     "put the 'iterate' inside of the 'subcycle', or leave one of them out");
-  return [options, inside](const ScheduleContext& context) {
-    return std::make_unique<SubcycleStep>(options, inside(context), context);
+  if (reading.is_iterated && reading.is_substep && options.count > 1)
+    throw InputError(node.find("subcycle")->origin, "a 'subcycle' stands inside of another one, in an 'iterate'",
+                     "passes compare substeps with those of the pass before, one level of them",
+                     "multiply the counts of both");
+  const TimeScheme scheme = takes_stages ? reading.scheme : TimeScheme::backward_euler;
+  return [options, inside, scheme](const ScheduleContext& context) {
+    ScheduleContext alone = context;
+    alone.pass = nullptr;
+    return std::make_unique<SubcycleStep>(options, scheme, inside(alone), context);
   };
 }
 

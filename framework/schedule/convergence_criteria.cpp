@@ -94,6 +94,15 @@ double UntilOptions::tightest() const {
   return least;
 }
 
+void UntilOptions::require_changes() const {
+  for (const auto* conditions : {&all, &any})
+    for (const CriterionOptions& condition : *conditions)
+      if (condition.residual)
+        throw InputError(condition.origin, "there is no residual to be bounded",
+                         "steps inside take substeps, of which the residual of a whole step is none",
+                         "write 'relative', or bound changes by 'change_of'");
+}
+
 ConvergenceCriteria::ConvergenceCriteria(const UntilOptions& options, const std::vector<Field*>& fields)
     : at_least_(options.at_least), all_(made(options.all, fields)), any_(made(options.any, fields)) {
   if (options.is_relative_given || (all_.empty() && any_.empty())) all_.push_back({options.relative});

@@ -29,6 +29,8 @@ struct UntilOptions {
   Spec spec();
   /// The smallest bound of the residual that is asked for; `relative` where none is.
   double tightest() const;
+  /// Throws InputError for conditions on a residual, which an iteration over substeps does not have.
+  void require_changes() const;
 };
 
 /// The conditions of one iteration: all of `all`, and one of `any` where there are some.

@@ -9,7 +9,6 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/invariants.hpp"
-#include "framework/schedule/residual_check.hpp"
 
 namespace sprekk {
 
@@ -175,6 +174,39 @@ void IterateStep::choose_scales() {
   }
 }
 
+ResidualCheck IterateStep::check_changes(const std::vector<Vector>& before) const {
+  std::map<std::string, double> largest;
+  for (const Field* field : fields_)
+    if (field->size() > 0) {
+      double& l = largest[field->spec().unit];
+      l = std::max({l, field->now().lpNorm<Eigen::Infinity>(), field->accepted().lpNorm<Eigen::Infinity>()});
+    }
+  ResidualCheck check;
+  for (std::size_t u = 0; u < fields_.size(); ++u) {
+    if (fields_[u]->size() == 0) continue;
+    const double scale = largest[fields_[u]->spec().unit];
+    const double change = (fields_[u]->now() - before[u]).lpNorm<Eigen::Infinity>();
+    check.finite = check.finite && fields_[u]->now().allFinite();
+    const double relative = scale > 0 ? change / scale : 0;
+    check.of_equations.emplace_back(fields_[u]->name(), relative);
+    if (relative < check.largest && !check.equation.empty()) continue;
+    check.largest = relative;
+    check.equation = fields_[u]->name();
+  }
+  return check;
+}
+
+namespace {
+
+/// Whether the error that passes leave is below a bound, from what the last two of them have changed.
+bool is_error_below(double bound, double change, double change_before) {
+  constexpr double far_below = 1e-2;  // of the bound: changes so small may be round-off, and fall no more
+  if (change <= far_below * bound) return true;
+  return change <= bound && change < change_before && change * change / (change_before - change) <= bound;
+}
+
+}  // namespace
+
 StepStatus IterateStep::run(const StepTime& step) {
   scales_.assign(fields_.size(), 1);
   ResidualCheck check;
@@ -183,12 +215,13 @@ StepStatus IterateStep::run(const StepTime& step) {
   std::multiset<std::uint64_t> seen_states;
   bool is_cycling = false;
   int of_newton = 0;
+  double change_before = 0;
   for (int pass = 1; pass <= options_.until.at_most; ++pass) {
     *pass_ = pass;
     const Vector before = pass > 1 ? scaled_values() : Vector();
     const Vector accelerated = accelerator_ ? accelerated_values() : Vector();
     std::vector<Vector> values_before;
-    if (criteria_.need_changes())
+    if (criteria_.need_changes() || options_.has_substeps)
       for (const Field* field : fields_) values_before.push_back(field->now());
     const StepStatus inner = inside_->run(step);
     if (!inner.converged) return {false, fmt::format("pass {}: {}", pass, inner.reason), pass};
@@ -197,12 +230,16 @@ StepStatus IterateStep::run(const StepTime& step) {
     for (const Part* part : parts_) state = state * 1000003 + part->discrete_state();
 
     Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
-    assemble_all(assembly, parts_, step);
-    check = check_residual(assembly, system_, options_.until.tightest());
+    if (!options_.has_substeps) assemble_all(assembly, parts_, step);
+    change_before = check.largest;
+    check = options_.has_substeps ? check_changes(values_before)
+                                  : check_residual(assembly, system_, options_.until.tightest());
     const Vector change = pass > 1 ? Vector(scaled_values() - before) : Vector();
     if (log_) log_({step, "iterate", pass, check.largest, check.equation, change.norm(), 1, check.of_equations});
-    if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", pass};
+    if (!check.finite)
+      return {false, (options_.has_substeps ? "" : "the residual of ") + check.equation + " is not finite", pass};
     const auto residual_holds = [&](double bound) {
+      if (options_.has_substeps) return pass > 2 && is_error_below(bound, check.largest, change_before);
       return bound == options_.until.tightest() ? check.converged : check_residual(assembly, system_, bound).converged;
     };
     if (criteria_.hold(pass, residual_holds, values_before)) return {true, "", pass, 0, of_newton};
@@ -244,8 +281,9 @@ StepStatus IterateStep::run(const StepTime& step) {
     accelerate(accelerated);
   }
   return {false,
-          fmt::format("no convergence in {} passes (the residual of {} is {:.2g} of its terms)", options_.until.at_most,
-                      check.equation, check.largest),
+          fmt::format("no convergence in {} passes ({} of {} is {:.2g} of its {})", options_.until.at_most,
+                      options_.has_substeps ? "the last change" : "the residual", check.equation, check.largest,
+                      options_.has_substeps ? "largest value" : "terms"),
           options_.until.at_most};
 }
 

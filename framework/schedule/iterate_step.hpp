@@ -10,6 +10,7 @@
 #include "framework/acceleration/registry.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/schedule/convergence_criteria.hpp"
+#include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/step_history.hpp"
 
@@ -20,12 +21,15 @@ struct IterateOptions {
   UntilOptions until;
   std::string order = "gauss_seidel";
   AccelerationOptions acceleration;
+  bool has_substeps = false;  ///< whether steps inside take substeps
   Spec spec();
 };
 
 /// Repeats the steps inside, accelerated if wanted. Unless the scene says otherwise, the iteration has converged when
 /// the residual of all equations that are solved inside, without stabilization, is small against their own terms; small
-/// updates do not count. A step is refused early where the changes of passes only grow.
+/// updates do not count. Where steps inside take substeps the equations of a whole step are not fulfilled, and the
+/// estimated error of all fields takes the place of the residual: what a pass changes them by, times ρ/(1 − ρ), with ρ
+/// the factor from the last pass to this one. A step is refused early where the changes of passes only grow.
 class IterateStep : public ScheduleStep, public StepHistory {
  public:
   /// `pass`: receives the number of the pass, for those who log what happens in it. Throws InputError for a field to
@@ -51,6 +55,8 @@ class IterateStep : public ScheduleStep, public StepHistory {
   /// Sets the accelerated fields to the next iterate; `before`: their values before the pass.
   void accelerate(const Vector& before);
   Vector accelerated_values() const;
+  /// The largest change of each field by a pass over the largest value of any field of its unit.
+  ResidualCheck check_changes(const std::vector<Vector>& before) const;
   std::string most_changed(const Vector& change) const;  ///< the field whose part of a scaled change is largest
   Vector scaled_values() const;
   void set_scaled_values(const Vector& values);

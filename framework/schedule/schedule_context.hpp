@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "framework/config/spec.hpp"
 #include "framework/schedule/newton.hpp"
 #include "framework/schedule/schedule_step.hpp"
+#include "framework/schedule/time_scheme.hpp"
 
 namespace sprekk {
 
@@ -22,6 +24,7 @@ struct ScheduleContext {
   double standard_step = 0;                              ///< s
   std::vector<class GrowStep*>* growing = nullptr;       ///< collects the steps that change the mesh
   std::vector<class StepHistory*>* histories = nullptr;  ///< collects the steps that learn from time steps
+  std::shared_ptr<const int> pass = nullptr;             ///< of the innermost iteration around a step, if there is one
 
   /// The solved fields of the named components: their unknowns, and their inputs that a coupler determines.
   std::vector<Field*> solved_fields(const std::vector<std::string>& components) const;
@@ -33,10 +36,13 @@ struct ScheduleReading {
   LinearOptions linear;                      ///< for a `solve` without options of its own
   NewtonOptions newton;
   ReadContext read;
-  bool is_iterated = false;   ///< whether the step that is being read is inside an `iterate`
-  double tightest_until = 1;  ///< of the `iterate` around it: its `until: relative`
-  bool is_substep = false;    ///< whether it is inside a `subcycle` of several substeps
-  bool is_followed = false;   ///< whether a step that solves or grows stands behind it
+  TimeScheme scheme = TimeScheme::backward_euler;
+  bool is_in_stages = false;       ///< whether a step around it takes the stages of the scheme
+  std::string waiting = "linear";  ///< what fields that a step does not solve for do during its stages
+  bool is_iterated = false;        ///< whether the step that is being read is inside an `iterate`
+  double tightest_until = 1;       ///< of the `iterate` around it: its `until: relative`
+  bool is_substep = false;         ///< whether it is inside a `subcycle` of several substeps
+  bool is_followed = false;        ///< whether a step that solves or grows stands behind it
 };
 /// Makes a step once the model is there.
 using ScheduleBuilder = std::function<std::unique_ptr<ScheduleStep>(const ScheduleContext& context)>;

@@ -58,6 +58,10 @@ Spec TimeOptions::spec() {
   spec.quantity("end", end, {.unit = "s", .doc = "End of the run.", .required = true});
   spec.quantity("step", step,
                 {.unit = "s", .range = positive(), .doc = "Time step; the first one when adaptive.", .required = true});
+  spec.choice("scheme", scheme_name,
+              {{"backward_euler", "first order: one stage"},
+               {"sdirk2", "second order: two stages, each as dear as a step of backward Euler"}},
+              {.doc = "The scheme in time.", .source = "Alexander 1977"});
   spec.quantity(
       "smallest", smallest,
       {.unit = "s", .range = positive(), .doc = "A rejected step is not cut below this; by default step/1e6."});
@@ -83,6 +87,8 @@ Spec TimeOptions::spec() {
                         "the end, would add up to less than this share of the largest value of every unknown."});
   spec.check([this](const Node& node) {
     if (const Node* given = node.find("stop")) stop.origin = given->origin;
+    if (const Node* given = node.find("scheme")) scheme_origin = given->origin;
+    scheme = scheme_name == "sdirk2" ? TimeScheme::sdirk2 : TimeScheme::backward_euler;
     if (end <= start)
       throw InputError(node.origin, "the run has no duration", "its end is not after its start", "raise 'end'");
     constexpr double most_steps = 1e9;

@@ -8,14 +8,18 @@
 
 #include "framework/assembly/part.hpp"
 #include "framework/config/spec.hpp"
+#include "framework/schedule/time_scheme.hpp"
 
 namespace sprekk {
 
 /// Parameters of a scene's `time:`.
 struct TimeOptions {
-  double start = 0;                ///< s
-  double end = 0;                  ///< s
-  double step = 0;                 ///< s, size of the first step and, unless adaptive, of all
+  double start = 0;  ///< s
+  double end = 0;    ///< s
+  double step = 0;   ///< s, size of the first step and, unless adaptive, of all
+  std::string scheme_name = "backward_euler";
+  TimeScheme scheme = TimeScheme::backward_euler;  ///< the same
+  Origin scheme_origin;
   std::optional<double> smallest;  ///< s; a rejected step is not cut below it
   bool adaptive = false;
   double largest = 0;  ///< s, of adaptive steps

@@ -11,31 +11,87 @@ namespace sprekk {
 Spec SubcycleOptions::spec() {
   Spec spec("subcycle", "The steps inside take several smaller time steps; all other fields wait.");
   spec.integer("count", count, {.range = between(1, 1000000), .doc = "Substeps of each step.", .required = true});
+  spec.choice("waiting", waiting,
+              {{"held", "they keep their latest values"},
+               {"linear",
+                "they go from their values at the start of the step to the latest ones, which count at its "
+                "end"}},
+              {.doc = "What the fields that wait do meanwhile."});
   return spec;
 }
 
-SubcycleStep::SubcycleStep(const SubcycleOptions& options, std::unique_ptr<ScheduleStep> inside,
-                           const ScheduleContext& context)
-    : options_(options), inside_(std::move(inside)), parts_(context.parts) {
-  for (const Field* field : inside_->unknowns()) fields_.push_back(&context.fields.at(field->name()));
-  const std::size_t solved = fields_.size();
-  for (const auto& field : context.fields.all())
+namespace {
+
+/// Adds the cumulative balances that are accepted with these fields.
+void add_balances(const FieldStore& store, std::vector<Field*>& fields) {
+  const std::size_t solved = fields.size();
+  for (const auto& field : store.all())
     for (std::size_t i = 0; i < solved; ++i)
-      if (field->spec().accepted_with == fields_[i]->name()) fields_.push_back(field.get());
+      if (field->spec().accepted_with == fields[i]->name()) fields.push_back(field.get());
 }
 
-std::string SubcycleStep::describe() const { return fmt::format("subcycle {}", options_.count); }
+}  // namespace
+
+SubcycleStep::SubcycleStep(const SubcycleOptions& options, TimeScheme scheme, std::unique_ptr<ScheduleStep> inside,
+                           const ScheduleContext& context)
+    : options_(options), scheme_(scheme), inside_(std::move(inside)), parts_(context.parts), pass_(context.pass) {
+  for (const Field* field : inside_->unknowns()) fields_.push_back(&context.fields.at(field->name()));
+  solved_ = fields_.size();
+  for (const auto& field : context.fields.all())
+    if (field->is_solved() && std::ranges::count(fields_, field.get()) == 0) waiting_.push_back(field.get());
+  add_balances(context.fields, fields_);
+  add_balances(context.fields, waiting_);
+}
+
+std::string SubcycleStep::describe() const {
+  return options_.count > 1 ? fmt::format("subcycle {}", options_.count) : inside_->describe();
+}
+
+std::vector<const ScheduleStep*> SubcycleStep::children() const {
+  return options_.count > 1 ? std::vector<const ScheduleStep*>{inside_.get()} : inside_->children();
+}
+
+std::vector<SubcycleStep::Piece> SubcycleStep::pieces(const StepTime& step) const {
+  std::vector<Piece> pieces;
+  const int count = options_.count;
+  for (int i = 0; i < count; ++i) {
+    const double from = double(i) / count, to = i + 1 == count ? 1.0 : double(i + 1) / count;
+    StepTime substep;
+    substep.start = step.start + step.dt * i / count;
+    substep.end = i + 1 == count ? step.end : step.start + step.dt * (i + 1) / count;
+    substep.dt = step.dt / count;
+    SPREKK_ASSERT(substep.end > substep.start && substep.end <= step.end, substep.start, substep.end, step.end);
+    if (scheme_ == TimeScheme::backward_euler) {
+      pieces.push_back({substep, from, to, false, true});
+      continue;
+    }
+    const double part = sdirk2_share * substep.dt, share = sdirk2_share / count;
+    pieces.push_back({{substep.start, part, substep.start + part}, from, from + share, false, false});
+    pieces.push_back({{substep.end - part, part, substep.end}, to - share, to, true, true});
+  }
+  return pieces;
+}
 
 StepStatus SubcycleStep::run(const StepTime& step) {
-  std::vector<Vector> start;
+  Values start;
+  Course course;
   for (const Field* field : fields_) start.push_back(field->accepted());
+  for (const Field* field : waiting_) {
+    course.from.push_back(field->accepted());
+    course.to.push_back(field->now());
+  }
   const auto put_back = [&] {
     SPREKK_ASSERT(start.size() == fields_.size(), start.size(), fields_.size());
     for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->set_accepted(start[i]);
+    if (options_.waiting == "held") return;
+    for (std::size_t i = 0; i < waiting_.size(); ++i) {
+      waiting_[i]->set(course.to[i]);
+      waiting_[i]->set_accepted(course.from[i]);
+    }
   };
   StepStatus status;
   try {
-    status = take_substeps(step);
+    status = take(pieces(step), course);
   } catch (...) {  // a datum has no value in a substep: fields are put back to the start of the step
     put_back();
     throw;
@@ -45,21 +101,60 @@ StepStatus SubcycleStep::run(const StepTime& step) {
   return status;
 }
 
-StepStatus SubcycleStep::take_substeps(const StepTime& step) {
+void SubcycleStep::let_wait(const Course& course, const Piece& piece) {
+  if (options_.waiting == "held") return;
+  SPREKK_ASSERT(course.from.size() == waiting_.size(), course.from.size(), waiting_.size());
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    const Vector change = course.to[i] - course.from[i];
+    waiting_[i]->set(piece.end == 1 ? course.to[i] : Vector(course.from[i] + piece.end * change));
+    waiting_[i]->set_accepted(course.from[i] + piece.begin * change);
+  }
+}
+
+void SubcycleStep::begin_from_last_pass(std::size_t piece, double begin, double end) {
+  SPREKK_ASSERT(piece < last_end_.size(), piece, last_end_.size());
+  for (std::size_t i = 0; i < solved_; ++i)
+    fields_[i]->set(last_end_[piece][i] + fields_[i]->accepted() - last_begin_[piece][i] + (end - begin) * moved_[i]);
+}
+
+StepStatus SubcycleStep::take(const std::vector<Piece>& pieces, const Course& course) {
+  const bool begins_anew = pieces.size() == 1 || !has_last_pass() || last_end_.size() != pieces.size();
+  if (begins_anew) {
+    last_begin_.assign(pieces.size(), Values(solved_));
+    last_end_ = last_begin_;
+  }
+  moved_.resize(solved_);
+  for (std::size_t i = 0; i < solved_ && !begins_anew; ++i) moved_[i] = fields_[i]->now() - last_end_.back()[i];
+
   StepStatus status{true, "", 0};
-  for (int i = 0; i < options_.count && status.converged; ++i) {
-    StepTime substep;
-    substep.start = step.start + step.dt * i / options_.count;
-    substep.end = i + 1 == options_.count ? step.end : step.start + step.dt * (i + 1) / options_.count;
-    substep.dt = step.dt / options_.count;
-    SPREKK_ASSERT(substep.end > substep.start && substep.end <= step.end, substep.start, substep.end, step.end);
-    begin_step(parts_, substep);
-    const StepStatus inner = inside_->run(substep);
+  Values start;  // of the substep
+  for (std::size_t k = 0; k < pieces.size() && status.converged; ++k) {
+    const Piece& piece = pieces[k];
+    if (!piece.is_second_stage) {
+      start.clear();
+      for (const Field* field : fields_) start.push_back(field->accepted());
+    } else {
+      for (std::size_t i = 0; i < fields_.size(); ++i)
+        if (!fields_[i]->spec().is_path_dependent)
+          fields_[i]->set_accepted(start[i] + sdirk2_extrapolation * (fields_[i]->now() - start[i]));
+    }
+    let_wait(course, piece);
+    if (!begins_anew) begin_from_last_pass(k, piece.begin, piece.end);
+    begin_step(parts_, piece.time);
+    const StepStatus inner = inside_->run(piece.time);
     status.iterations = std::max(status.iterations, inner.iterations);
     status.of_newton = std::max(status.of_newton, inner.effort());
     status.converged = inner.converged;
-    if (!inner.converged) status.reason = fmt::format("substep {}: {}", i + 1, inner.reason);
-    for (Field* field : fields_) field->accept();
+    if (!inner.converged)
+      status.reason = options_.count > 1
+                          ? fmt::format("substep {}: {}", k * options_.count / pieces.size() + 1, inner.reason)
+                          : inner.reason;
+    for (std::size_t i = 0; i < solved_ && pass_; ++i) {
+      last_begin_[k][i] = fields_[i]->accepted();
+      last_end_[k][i] = fields_[i]->now();
+    }
+    if (piece.ends_substep)
+      for (Field* field : fields_) field->accept();
   }
   return status;
 }

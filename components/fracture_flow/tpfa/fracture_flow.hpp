@@ -32,6 +32,7 @@ class FractureFlow : public Component, public FractureFluid {
   /// Cells that have grown start with the pressure of their neighbours; a parameter says whether they start with fluid.
   void carry_over(const Part& before, const MeshChange& change) override;
   void evaluate_data(const StepTime& step) override;
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void set_search_mode(SearchMode mode) override;

@@ -32,6 +32,7 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
   FemRock(const ComponentContext& context, const FemOptions& options);
 
   void evaluate_data(const StepTime& step) override;
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
