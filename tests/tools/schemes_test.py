@@ -5,6 +5,7 @@ page loads no other file."""
 
 import csv
 import json
+import math
 import re
 import subprocess
 import sys
@@ -58,6 +59,24 @@ class Schemes(unittest.TestCase):
                 if name not in ("pore_rock", "jacobi-pore-rock=fixed_stress"):  # the changes of the latter oscillate
                     self.assertAlmostEqual(one["measured"] / one["predicted"], 1, delta=0.02, msg=name)
             self.assertIn("cheapest", said)
+
+    def test_smooth_modes_have_the_factors_of_the_closed_formula(self):
+        # Where the smoothest mode is the slowest: little stabilization (L = 0.2 alpha^2/K), or fluid that moves, which damps shorter modes more.
+        storage, step = 0.8, 0.01
+        coupling, part = 1 / P_WAVE, 0.2 / BULK
+        longest = (math.pi / 2) ** 2  # q^2 of the column of 1 m, drained at one end
+        cases = {"still": (TIGHT, 0.0), "moving": (("components.pore.permeability=2 m^2", "mesh.cells=[1, 40]"), 2 * step * longest)}
+        for case, (settings, moved) in cases.items():
+            self.folder = self.folder.with_name(f"atlas_{case}")
+            found, _ = self.atlas(TERZAGHI, "--accelerate", "none", "--steps", "1", "--at-most", "300", "--until", "1e-10", settings=(
+                *settings, f"components.pore.storage={storage} 1/Pa", "couplers.0.fixed_stress_factor=0.2"))
+            schemes = {one["name"]: one for one in found["schemes"]}
+            drained, held = coupling / (storage + moved), (coupling - part) / (storage + part + moved)
+            # Jacobi's order: (S + L + D) m^2 = L m - alpha^2/M_v, with two roots of one size.
+            both = (coupling / (storage + part + moved)) ** 0.5
+            for name, factor in (("pore-rock", drained), ("rock-pore", drained), ("jacobi-pore-rock", drained ** 0.5),
+                                 ("pore-rock=fixed_stress", held), ("rock-pore=fixed_stress", held), ("jacobi-pore-rock=fixed_stress", both)):
+                self.assertAlmostEqual(schemes[name]["predicted"] / factor, 1, delta=0.02, msg=f"{case} {name}")
 
     def test_divergence_is_a_result(self):
         found, _ = self.atlas(TERZAGHI, "--accelerate", "iqn_ils: {}", "--only", "pore-rock", "--steps", "1",

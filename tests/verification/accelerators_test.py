@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """accelerators_test.py SPREKK: iterated splits with each accelerator reach the monolithic answer, also where the plain iteration diverges or hardly moves;
 quasi-Newton methods need no more passes than Anderson's, and fewer with what earlier steps have taught; a restarted run goes on to the bit;
-mistakes are refused."""
+two processes take the same passes; mistakes are refused."""
 
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -37,14 +38,14 @@ class Accelerators(unittest.TestCase):
         self.folder = Path(temporary.name)
         self.runs = 0
 
-    def call(self, command, scene, *settings):
-        return subprocess.run([SPREKK, *command, scene, *(word for setting in settings for word in ("--set", setting))],
+    def call(self, command, scene, *settings, before=()):
+        return subprocess.run([*before, SPREKK, *command, scene, *(word for setting in settings for word in ("--set", setting))],
                               capture_output=True, text=True, timeout=100)
 
-    def run_scene(self, scene, *settings, restart=None):
+    def run_scene(self, scene, *settings, restart=None, before=()):
         self.runs += 1
         folder = restart or self.folder / str(self.runs)
-        run = self.call(["run", "-q", *(("--restart", folder / "checkpoint.h5") if restart else ("-o", folder))], scene, *settings)
+        run = self.call(["run", "-q", *(("--restart", folder / "checkpoint.h5") if restart else ("-o", folder))], scene, *settings, before=before)
         self.assertEqual(run.returncode, 0, run.stderr)
         return sprekk.Results(folder)
 
@@ -117,6 +118,19 @@ class Accelerators(unittest.TestCase):
             # What was learned counts: without it the run differs.
             alone = self.run_scene(MANDEL, iterated("iqn_ils: {}", DRAINED, 1e-6), "time.end=8632 s")
             self.assertFalse(np.array_equal(self.passes(alone), self.passes(whole)))
+
+    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    def test_two_processes_take_the_same_passes(self):
+        for scene, steps, settings, accelerators in ((MANDEL, DRAINED, ("time.end=2158 s", "mesh.size=0.25 m"), (*ACCELERATORS[:6], OF_INTERFACE)),
+                                                     (FRICTION, FIXED_STRESS, ("time.end=8 h", "mesh.size=1 m"), ACCELERATORS[2:6:3])):
+            for accelerator in accelerators:
+                with self.subTest(scene=scene.stem, accelerator=accelerator):
+                    one, two = (self.run_scene(scene, *settings, iterated(accelerator, steps), before=before)
+                                for before in ((), ("mpirun", "-n", "2", "--oversubscribe")))
+                    self.assertEqual(self.passes(one), self.passes(two))
+                    for column, values in one.history.items():
+                        if "seconds" not in column and "error" not in column:
+                            self.assertLess(abs(values - two.history[column]).max(), 1e-7 * max(abs(values).max(), 1e-12), column)
 
     def test_mistakes(self):
         for accelerator, words in (("aitken: {}, iqn_ils: {}", ("accelerate one iteration", "remove one")),
