@@ -12,6 +12,16 @@ SweepCommand::SweepCommand(CLI::App& app)
   command_->add_option("-j,--jobs", options_.processes, "Runs at a time; as many as there are cores by default")
       ->type_name("COUNT")
       ->check(CLI::Range(1, 1024));
+  command_
+      ->add_option("--launcher", options_.launchers,
+                   "A command that starts runs, as 'srun -n 1', or a template, as 'ssh node2 {command}'; also "
+                   "several times")
+      ->type_name("COMMAND")
+      ->allow_extra_args(false);
+  command_
+      ->add_option("--repeats", options_.repeats, "How often a run that a launcher has lost is repeated; 2 by default")
+      ->type_name("COUNT")
+      ->check(CLI::Range(0, 100));
   command_->add_flag("--list", options_.only_list, "Says what would be done with each run, and does nothing");
   command_->add_flag("-q,--quiet", options_.quiet, "Prints nothing unless something is wrong");
 }

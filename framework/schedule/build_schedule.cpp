@@ -46,7 +46,7 @@ ScheduleBuilder in_stages(const ScheduleBuilder& step, const ScheduleReading& re
   return [step, scheme = reading.scheme, waiting = reading.waiting](const ScheduleContext& context) {
     ScheduleContext inside = context;
     inside.pass = nullptr;
-    return std::make_unique<SubcycleStep>(SubcycleOptions{1, waiting}, scheme, step(inside), context);
+    return std::make_unique<SubcycleStep>(SubcycleOptions{1, waiting, true}, scheme, step(inside), context);
   };
 }
 

@@ -44,11 +44,11 @@ SubcycleStep::SubcycleStep(const SubcycleOptions& options, TimeScheme scheme, st
 }
 
 std::string SubcycleStep::describe() const {
-  return options_.count > 1 ? fmt::format("subcycle {}", options_.count) : inside_->describe();
+  return options_.is_implied ? inside_->describe() : fmt::format("subcycle {}", options_.count);
 }
 
 std::vector<const ScheduleStep*> SubcycleStep::children() const {
-  return options_.count > 1 ? std::vector<const ScheduleStep*>{inside_.get()} : inside_->children();
+  return options_.is_implied ? inside_->children() : std::vector<const ScheduleStep*>{inside_.get()};
 }
 
 std::vector<SubcycleStep::Piece> SubcycleStep::pieces(const StepTime& step) const {

@@ -14,6 +14,7 @@ namespace sprekk {
 struct SubcycleOptions {
   int count = 2;
   std::string waiting = "held";
+  bool is_implied = false;  ///< by the scheme in time: the schedule of the scene does not name it
   Spec spec();
 };
 

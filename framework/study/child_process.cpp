@@ -64,8 +64,8 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
   posix_spawn_file_actions_adddup2(&spawn.actions, 1, 2);
   posix_spawnattr_setflags(&spawn.attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(&spawn.attributes, 0);
-  const int failure = posix_spawn(&process_, program.c_str(), &spawn.actions, &spawn.attributes, pointers(words).data(),
-                                  pointers(variables).data());
+  const int failure = posix_spawnp(&process_, program.c_str(), &spawn.actions, &spawn.attributes,
+                                   pointers(words).data(), pointers(variables).data());
   if (failure != 0) throw std::runtime_error("cannot start " + program + " (" + std::strerror(failure) + ")");
 }
 

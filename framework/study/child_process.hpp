@@ -15,8 +15,9 @@ namespace sprekk {
 /// signal on once.
 class ChildProcess {
  public:
-  /// Starts `program`, whose output is appended to `log`. Its environment is the environment that this process was
-  /// started with (MPI adds variables that must not be inherited) and `settings`. Throws std::runtime_error.
+  /// Starts `program`, which is looked for along the path where it is a name alone, and whose output is appended to
+  /// `log`. Its environment is the environment that this process was started with (MPI adds variables that must not be
+  /// inherited) and `settings`. Throws std::runtime_error.
   ChildProcess(const std::string& program, const std::vector<std::string>& arguments, const std::filesystem::path& log,
                const std::map<std::string, std::string>& settings);
 

@@ -13,6 +13,7 @@
 #include "framework/picture/display_unit.hpp"
 #include "framework/picture/history_panel.hpp"
 #include "framework/picture/text_table.hpp"
+#include "framework/report/html.hpp"
 #include "framework/scene/model.hpp"
 
 namespace sprekk {
@@ -145,7 +146,7 @@ std::string Comparison::record(const std::vector<Row>& rows, const std::vector<R
   return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string Comparison::picture(const fs::path& folder, const std::vector<RunState>& states) const {
+std::vector<Panel> Comparison::panels(const fs::path& folder, const std::vector<RunState>& states) const {
   std::vector<CsvTable> histories;
   for (const RunState& state : states) histories.push_back(history_of(folder, state));
   std::vector<Panel> panels;
@@ -159,7 +160,85 @@ std::string Comparison::picture(const fs::path& folder, const std::vector<RunSta
     }
     panels.push_back(history_panel(column_name(column).quantity, column_name(column).unit, curves));
   }
-  return svg_document(panels, panels.size() > 1 ? 2 : 1);
+  return panels;
+}
+
+std::string Comparison::picture(const fs::path& folder, const std::vector<RunState>& states) const {
+  const std::vector<Panel> all = panels(folder, states);
+  return svg_document(all, all.size() > 1 ? 2 : 1);
+}
+
+std::vector<Comparison::Spread> Comparison::spreads(const std::vector<Row>& rows) const {
+  std::vector<std::string> groups;
+  for (const StudyRun& run : study_.runs)
+    if (!run.samples_of.empty() && std::ranges::count(groups, run.samples_of) == 0) groups.push_back(run.samples_of);
+  std::vector<Spread> spreads;
+  for (const std::string& group : groups)
+    for (std::size_t k = 0; k < figures_.size(); ++k) {
+      std::vector<double> numbers;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (study_.runs[i].samples_of == group) numbers.push_back(rows[i].figures[k]);
+      spreads.push_back({group, k, distribution_of(numbers)});
+    }
+  return spreads;
+}
+
+std::string Comparison::quantiles(const std::vector<Spread>& spreads) const {
+  std::string text = "samples of,figure,count[1],mean,deviation";
+  for (const double share : quantile_shares) text += fmt::format(",{:g} %", 100 * share);
+  text += "\n";
+  for (const Spread& spread : spreads) {
+    text += csv_text(spread.samples_of) + "," + csv_text(figures_[spread.figure].heading()) +
+            fmt::format(",{},{},{}", spread.distribution.count, csv_number(spread.distribution.mean),
+                        csv_number(spread.distribution.deviation));
+    for (const double quantile : spread.distribution.quantiles) text += "," + csv_number(quantile);
+    text += "\n";
+  }
+  return text;
+}
+
+Comparison::Table Comparison::spread_table(const std::vector<Spread>& spreads) const {
+  Table cells(1, {"samples of", "figure", "runs", "mean", "deviation"});
+  for (const double share : quantile_shares) cells.front().push_back(fmt::format("{:g} %", 100 * share));
+  for (const Spread& spread : spreads) {
+    const Figure& figure = figures_[spread.figure];
+    const Distribution& of = spread.distribution;
+    cells.push_back({spread.samples_of, figure.name(), std::to_string(of.count), display_text(of.mean, figure.unit()),
+                     display_text(of.deviation, figure.unit())});
+    for (const double quantile : of.quantiles) cells.back().push_back(display_text(quantile, figure.unit()));
+  }
+  return cells;
+}
+
+Comparison::Table Comparison::figure_table(const std::vector<Row>& rows, const std::vector<RunState>& states) const {
+  Table cells(1, {"run"});
+  for (const Figure& figure : figures_) {
+    cells.front().push_back(figure.name());
+    if (study_.reference) cells.front().push_back("deviation");
+  }
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    cells.push_back({states[i].name});
+    for (std::size_t k = 0; k < figures_.size(); ++k) {
+      cells.back().push_back(display_text(rows[i].figures[k], figures_[k].unit()));
+      if (!study_.reference) continue;
+      const double deviation = rows[i].deviations[k];
+      cells.back().push_back(std::isfinite(deviation) ? fmt::format("{:+.2f} %", deviation) : "–");
+    }
+  }
+  return cells;
+}
+
+std::string Comparison::page(const fs::path& folder, const std::vector<Row>& rows,
+                             const std::vector<RunState>& states) const {
+  std::string body;
+  if (study_.has_samples)
+    body += html_section("quantiles", "Quantiles of the samples", html_table(spread_table(spreads(rows)), 2));
+  body += html_section("figures", "Figures of the runs", html_table(figure_table(rows, states)));
+  body += html_section("history", "Against time", html_panels(panels(folder, states)));
+  return html_page(
+      study_.name,
+      {{"quantiles", "Quantiles of the samples"}, {"figures", "Figures of the runs"}, {"history", "Against time"}},
+      body);
 }
 
 void Comparison::write_record(const fs::path& folder, const std::vector<RunState>& states) const {
@@ -170,26 +249,14 @@ void Comparison::write(const fs::path& folder, const std::vector<RunState>& stat
   const std::vector<Row> all = rows(folder, states);
   write_atomically(folder / "sweep.csv", csv(all, states));
   write_atomically(folder / "sweep.svg", picture(folder, states));
+  write_atomically(folder / "sweep.html", page(folder, all, states));
+  if (study_.has_samples) write_atomically(folder / "quantiles.csv", quantiles(spreads(all)));
   write_atomically(folder / "sweep.json", record(all, states));
 }
 
 std::string Comparison::text(const fs::path& folder, const std::vector<RunState>& states) const {
   const std::vector<Row> all = rows(folder, states);
-  std::vector<std::vector<std::string>> cells(1, {"run"});
-  for (const Figure& figure : figures_) {
-    cells.front().push_back(figure.name());
-    if (study_.reference) cells.front().push_back("deviation");
-  }
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    cells.push_back({states[i].name});
-    for (std::size_t k = 0; k < figures_.size(); ++k) {
-      cells.back().push_back(display_text(all[i].figures[k], figures_[k].unit()));
-      if (!study_.reference) continue;
-      const double deviation = all[i].deviations[k];
-      cells.back().push_back(std::isfinite(deviation) ? fmt::format("{:+.2f} %", deviation) : "–");
-    }
-  }
-  return text_table(cells);
+  return text_table(study_.has_samples ? spread_table(spreads(all)) : figure_table(all, states));
 }
 
 }  // namespace sprekk

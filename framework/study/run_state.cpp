@@ -91,15 +91,19 @@ Action next_action(const StudyRun& run, const std::map<std::string, RunState>& r
   return fs::exists(run_folder / "checkpoint.h5") ? Action::go_on : Action::start;
 }
 
-void record_end(RunState& state, int code, const fs::path& run_folder, const fs::path& log) {
+void record_end(RunState& state, int code, const fs::path& run_folder, const fs::path& log, bool launched) {
   using Status = RunState::Status;
+  const json record = read_json(run_folder / "run.json");
+  const bool is_whole = record.is_object() && record.contains("exit") && record.contains("program");
+  const int own = is_whole ? record["exit"].value("code", -1) : -1;
+  // What a run says of its end counts more than what has started it: a connection may be lost after the last step.
+  if (launched && own == static_cast<int>(ExitCode::done)) code = own;
+  state.is_lost = launched && code != own && code != static_cast<int>(ExitCode::wrong_input);
   state.exit_code = code;
   state.status = code == static_cast<int>(ExitCode::done)          ? Status::done
                  : code == static_cast<int>(ExitCode::interrupted) ? Status::interrupted
                                                                    : Status::failed;
   state.reason.clear();
-  const json record = read_json(run_folder / "run.json");
-  const bool is_whole = record.is_object() && record.contains("exit") && record.contains("program");
   if (is_whole) {
     state.seconds += record.value("seconds", 0.0);
     state.program = record["program"].value("version", "") + " " + record["program"].value("git_commit", "");

@@ -17,10 +17,11 @@ struct RunState {
 
   std::string name, identity;
   Status status = Status::waiting;
-  int exit_code = -1;   ///< of the run, or minus the number of the signal that ended it
-  std::string reason;   ///< why the run failed
-  double seconds = 0;   ///< wall time of all its parts
-  std::string program;  ///< version and commit of the program
+  int exit_code = -1;    ///< of the run, or minus the number of the signal that ended it
+  std::string reason;    ///< why the run failed
+  double seconds = 0;    ///< wall time of all its parts
+  std::string program;   ///< version and commit of the program
+  bool is_lost = false;  ///< it has ended without a word of its own: where it ran has failed
 };
 
 /// What to do with a run: keep its results, start it, or continue it from its checkpoint.
@@ -34,8 +35,10 @@ std::map<std::string, RunState> read_states(const std::filesystem::path& folder)
 Action next_action(const StudyRun& run, const std::map<std::string, RunState>& remembered,
                    const std::filesystem::path& folder);
 
-/// Sets the state of a run that has ended with `code`, from run.json in `run_folder` and from the log.
-void record_end(RunState& state, int code, const std::filesystem::path& run_folder, const std::filesystem::path& log);
+/// Sets the state of a run that has ended with `code`, from run.json in `run_folder` and from the log. `launched`: the
+/// code is that of a launcher.
+void record_end(RunState& state, int code, const std::filesystem::path& run_folder, const std::filesystem::path& log,
+                bool launched = false);
 
 std::string status_text(RunState::Status status);  ///< "done", "failed", …
 

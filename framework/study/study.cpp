@@ -31,36 +31,78 @@ std::string folder_text(const std::string& text) {
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
-/// "step=1h,fracture_size=10mm"; with whole paths where two paths have the same last part.
-std::string grid_name(const std::vector<Setting>& settings) {
+/// One of the values that runs are combined of: "step=1h", and what it sets.
+struct Level {
   std::string name;
-  for (const Setting& setting : settings) {
-    const auto same = std::count_if(settings.begin(), settings.end(), [&](const Setting& other) {
-      return last_part(other.path) == last_part(setting.path);
-    });
-    name += (name.empty() ? "" : ",") + (same == 1 ? last_part(setting.path) : setting.path) + "=" +
-            folder_text(setting.value);
+  std::vector<Setting> settings;
+  std::string choice, option;  ///< of a choice
+  bool is_sample = false;
+};
+using Factor = std::vector<Level>;
+
+/// The last part of a path, or the whole path where something else has that name.
+std::string short_name(const StudyOptions& options, const std::string& path) {
+  const auto same = std::ranges::count_if(
+      options.grid, [&](const StudyOptions::Axis& axis) { return last_part(axis.path) == last_part(path); });
+  const bool is_choice =
+      std::ranges::any_of(options.choices, [&](const auto& choice) { return choice.name == last_part(path); });
+  return same == 1 && !is_choice ? last_part(path) : path;
+}
+
+std::vector<Factor> factors(const StudyOptions& options) {
+  std::vector<Factor> factors;
+  for (const StudyOptions::Choice& choice : options.choices) {
+    factors.emplace_back();
+    for (const StudyOptions::Choice::Option& option : choice.options)
+      factors.back().push_back({choice.name + "=" + option.name, option.settings, choice.name, option.name});
   }
+  for (const StudyOptions::Axis& axis : options.grid) {
+    factors.emplace_back();
+    for (const Setting& value : axis.values)
+      factors.back().push_back({short_name(options, axis.path) + "=" + folder_text(value.value), {value}, "", ""});
+  }
+  if (!options.samples.is_given) return factors;
+  factors.emplace_back();
+  const std::vector<std::vector<std::string>> samples = options.samples.draw();
+  const std::size_t digits = std::to_string(samples.size()).size();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    Level level{"sample=" + std::string(digits - number.size(), '0') + number, {}, "", "", true};
+    auto value = samples[i].begin();
+    for (const DistributionOptions& distribution : options.samples.of)
+      level.settings.push_back({distribution.path, *value++, distribution.origin, distribution.origin});
+    factors.back().push_back(level);
+  }
+  return factors;
+}
+
+/// "step=1h,fracture_size=10mm", cut where it is too long for the name of a folder.
+std::string short_enough(const std::string& name) {
   return name.size() <= longest_name ? name : name.substr(0, longest_name - 17) + "-" + text_identity(name);
 }
 
-std::vector<StudyRun> grid_runs(const StudyOptions& options) {
-  std::vector<std::vector<Setting>> combinations;
-  if (!options.grid.empty()) combinations.emplace_back();
-  for (const StudyOptions::Axis& axis : options.grid) {
-    std::vector<std::vector<Setting>> longer;
-    if (combinations.size() * axis.values.size() > most_runs)
-      throw InputError(axis.values.front().key_origin, "the grid has too many runs",
-                       "more than " + std::to_string(most_runs), "shorten its lists");
-    for (const auto& combination : combinations)
-      for (const Setting& value : axis.values) {
-        longer.push_back(combination);
-        longer.back().push_back(value);
-      }
-    combinations = std::move(longer);
-  }
+/// A run for each combination.
+std::vector<StudyRun> combined_runs(const StudyOptions& options) {
   std::vector<StudyRun> runs;
-  for (const auto& combination : combinations) runs.push_back({grid_name(combination), combination, {}, ""});
+  const std::vector<Factor> all = factors(options);
+  if (!all.empty()) runs.emplace_back();
+  for (const Factor& factor : all) {
+    std::vector<StudyRun> longer;
+    if (runs.size() * factor.size() > most_runs)
+      throw InputError(factor.front().settings.empty() ? Origin{} : factor.front().settings.front().key_origin,
+                       "the study has too many runs", "more than " + std::to_string(most_runs), "shorten its lists");
+    for (const StudyRun& run : runs)
+      for (const Level& level : factor) {
+        StudyRun next = run;
+        if (level.is_sample) next.samples_of = run.name.empty() ? "all" : run.name;
+        next.name += (run.name.empty() ? "" : ",") + level.name;
+        next.settings.insert(next.settings.end(), level.settings.begin(), level.settings.end());
+        if (!level.choice.empty()) next.chosen[level.choice] = level.option;
+        longer.push_back(std::move(next));
+      }
+    runs = std::move(longer);
+  }
+  for (StudyRun& run : runs) run.name = short_enough(run.name);
   return runs;
 }
 
@@ -87,7 +129,10 @@ std::vector<std::string> varied_keys(const StudyOptions& options) {
   const auto add = [&](const std::string& path) {
     if (std::find(keys.begin(), keys.end(), path) == keys.end()) keys.push_back(path);
   };
+  for (const StudyOptions::Choice& choice : options.choices) add(choice.name);
   for (const StudyOptions::Axis& axis : options.grid) add(axis.path);
+  if (options.samples.is_given)
+    for (const DistributionOptions& distribution : options.samples.of) add(distribution.path);
   for (const StudyOptions::NamedRun& run : options.runs)
     for (const Setting& setting : run.settings) add(setting.path);
   return keys;
@@ -125,7 +170,10 @@ void read_scenes(Study& study) {
   for (StudyRun& run : study.runs) {
     try {
       const Scene scene = study.scene_of(run);
-      for (const std::string& key : study.keys) run.values.push_back(value_of(scene, key));
+      for (const std::string& key : study.keys) {
+        const auto option = run.chosen.find(key);
+        run.values.push_back(option != run.chosen.end() ? option->second : value_of(scene, key));
+      }
       run.identity = scene_identity(scene.whole, fs::path(study.scene_files.front()).parent_path());
     } catch (const InputError& error) {
       for (const std::string& problem : error.problems())
@@ -157,7 +205,9 @@ Study read_study(const std::string& file) {
   check_study_name(study.name, options.name ? whole.find("name")->origin : Origin{file});
   study.scene_files = scene_files(options, fs::path(file).parent_path());
   study.keys = varied_keys(options);
-  study.runs = grid_runs(options);
+  study.runs = combined_runs(options);
+  study.has_samples = options.samples.is_given;
+  for (const std::string& launcher : options.launchers) study.launchers.emplace_back(launcher, options.launcher_origin);
   for (const StudyOptions::NamedRun& run : options.runs) study.runs.push_back({run.name, run.settings, {}, ""});
   check_names_differ(study.runs);
   for (StudyRun& run : study.runs) run.settings.insert(run.settings.begin(), options.set.begin(), options.set.end());

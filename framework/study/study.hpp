@@ -2,11 +2,14 @@
 //
 //   scene: onset.yaml
 //   grid: {time.step: [0.5 h, 1 h], mesh.fracture_size: [10 mm, 20 mm]}
+//   choices: {flow: {mpfa: {components.pore.type: matrix_flow/mpfa}, tpfa: {components.pore.type: matrix_flow/tpfa}}}
+//   samples: {count: 64, of: {time.step: {from: 1 h, to: 2 h}}}
 //   runs: {reference: {time.step: 0.25 h, mesh.fracture_size: 5 mm}}
 //   compare: {plot: [p_C], table: {final p_C: {of: p_C, at: end}}, reference: reference}
 #pragma once
 
 #include <list>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +17,8 @@
 
 #include "framework/scene/scene.hpp"
 #include "framework/study/figure.hpp"
+#include "framework/study/launcher.hpp"
+#include "framework/study/samples.hpp"
 
 namespace sprekk {
 
@@ -31,6 +36,17 @@ struct StudyOptions {
     std::string path;
     std::vector<Setting> values;
   };
+  /// One of several sets of settings, under one name in the names of runs and in tables.
+  struct Choice {
+    std::string name;
+    /// A name, and what it stands for.
+    struct Option {
+      std::string name;
+      std::vector<Setting> settings;
+    };
+    std::vector<Option> options;
+    Origin origin;
+  };
   /// A run with its own settings.
   struct NamedRun {
     std::string name;
@@ -41,6 +57,10 @@ struct StudyOptions {
   std::vector<std::string> scene;
   std::vector<Setting> set;
   std::vector<Axis> grid;
+  std::vector<Choice> choices;
+  SampleOptions samples;
+  std::vector<std::string> launchers;
+  Origin launcher_origin;
   std::vector<NamedRun> runs;
   std::vector<std::string> plot;
   std::list<FigureOptions> table;
@@ -51,22 +71,26 @@ struct StudyOptions {
 
 /// A run of a study.
 struct StudyRun {
-  std::string name;                 ///< of the run and of its folder
-  std::vector<Setting> settings;    ///< all, in the order in which they are applied
-  std::vector<std::string> values;  ///< of the study's keys in the scene of the run
-  std::string identity;             ///< changes with anything that the run reads
+  std::string name;                                ///< of the run and of its folder
+  std::vector<Setting> settings;                   ///< all, in the order in which they are applied
+  std::vector<std::string> values;                 ///< of the study's keys in the scene of the run
+  std::string identity;                            ///< changes with anything that the run reads
+  std::map<std::string, std::string> chosen = {};  ///< the options of choices, by the choices' names
+  std::string samples_of = "";                     ///< the name without the number of the sample; "" for none
 };
 
 /// All runs of a study, and what is to be compared.
 struct Study {
   std::string name;
   std::vector<std::string> scene_files;
-  std::vector<std::string> keys;  ///< the paths that differ between runs
+  std::vector<std::string> keys;  ///< the paths that differ between runs, and the names of choices
   std::vector<StudyRun> runs;
   std::vector<std::string> plot;  ///< columns, as the user wrote them
   Origin plot_origin;
   std::list<FigureOptions> table;
   std::optional<std::string> reference;  ///< the name of a run
+  std::vector<Launcher> launchers = {};
+  bool has_samples = false;
 
   Scene scene_of(const StudyRun& run) const;
 };

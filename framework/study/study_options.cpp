@@ -36,11 +36,26 @@ StudyOptions::Axis read_axis(const Node::Entry& entry) {
 }
 
 /// Names of runs become names of folders.
-void check_run_name(const Node::Entry& entry) {
+void check_run_name(const Node::Entry& entry, const std::string& what = "a run") {
   const auto is_allowed = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '='; };
   if (entry.key.empty() || !std::all_of(entry.key.begin(), entry.key.end(), is_allowed))
-    throw InputError(entry.origin, "a run cannot be called " + quoted(entry.key),
+    throw InputError(entry.origin, what + " cannot be called " + quoted(entry.key),
                      "names of runs are made of letters, digits, '_', '-' and '='", "choose another name");
+}
+
+/// "scheme: {monolithic: {schedule: …}, split: {schedule: …, newton.residual: …}}".
+StudyOptions::Choice read_choice(const Node::Entry& entry) {
+  check_run_name(entry, "a choice");
+  if (!entry.value.is_map() || entry.value.entries.empty())
+    throw InputError(entry.value.origin, "the choice " + quoted(entry.key) + " has no options",
+                     "it gives values by path for each of its names",
+                     "write '" + entry.key + ": {small: {mesh.size: 1 m}, large: {mesh.size: 2 m}}'");
+  StudyOptions::Choice choice{entry.key, {}, entry.origin};
+  for (const Node::Entry& option : entry.value.entries) {
+    check_run_name(option, "an option");
+    choice.options.push_back({option.key, read_settings(option.value, "the option " + quoted(option.key))});
+  }
+  return choice;
 }
 
 Origin origin_of(const Node& map, const std::string& key) {
@@ -87,6 +102,22 @@ Spec StudyOptions::spec() {
                 for (const Node::Entry& entry : node.entries) grid.push_back(read_axis(entry));
               },
               {.doc = "Lists of values by path: one run for each combination."});
+  spec.custom("choices",
+              [this](const Node& node) {
+                if (!node.is_map() && !node.is_null())
+                  throw InputError(node.origin, "'choices' is not a map", "it gives the options of each choice by name",
+                                   "write '{scheme: {monolithic: {…}, split: {…}}}'");
+                for (const Node::Entry& entry : node.entries) choices.push_back(read_choice(entry));
+              },
+              {.doc = "Sets of values by name, for schemes and types that are exchanged: one run for each combination, "
+                      "also with those of the grid."});
+  spec.section("samples", samples.spec(),
+               {.doc = "Values drawn from distributions: so many runs for each combination of the others."},
+               &samples.is_given);
+  spec.texts("launcher", launchers,
+             {.doc = "A command that starts runs, such as 'srun -n 1', or a template with {command} for all of it in "
+                     "one word: 'ssh node2 {command}'. Of several each starts its share; a run that one of them has "
+                     "lost is repeated by another."});
   spec.custom("runs",
               [this](const Node& node) {
                 if (!node.is_map() && !node.is_null())
@@ -101,8 +132,10 @@ Spec StudyOptions::spec() {
   spec.section("compare", compare_spec(*this), {.doc = "What of the runs is compared."});
   spec.check([this](const Node& node) {
     scene_origin = origin_of(node, "scene");
-    if (grid.empty() && runs.empty())
-      throw InputError(node.origin, "the study has no runs", "'grid' and 'runs' say which there are",
+    launcher_origin = origin_of(node, "launcher");
+    if (grid.empty() && choices.empty() && runs.empty() && !samples.is_given)
+      throw InputError(node.origin, "the study has no runs",
+                       "'grid', 'choices', 'samples' and 'runs' say which there are",
                        "write 'grid: {time.step: [1 h, 2 h]}'");
   });
   return spec;

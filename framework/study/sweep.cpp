@@ -55,6 +55,7 @@ class Sweep {
   struct Working {
     std::size_t run;
     ChildProcess process;
+    std::size_t launcher;
   };
 
   void plan();
@@ -62,7 +63,8 @@ class Sweep {
   void make_folder() const;
   void start(std::size_t run);
   void collect_ended();
-  void finish(std::size_t run, int code);
+  void finish(const Working& working, int code);
+  std::size_t next_launcher(std::size_t run) const;
   void say(const std::string& text) const;
   fs::path run_folder(std::size_t run) const { return folder_ / study_.runs[run].name; }
   fs::path log(std::size_t run) const { return folder_ / (study_.runs[run].name + ".log"); }
@@ -75,14 +77,21 @@ class Sweep {
   std::vector<RunState> states_;
   std::vector<Action> actions_;
   std::list<Working> working_;
+  std::vector<Launcher> launchers_;
+  std::vector<std::vector<std::size_t>> lost_by_;  ///< of each run: the launchers that have lost it
+  std::vector<std::size_t> again_;                 ///< runs to be repeated
   std::size_t ended_ = 0;
+  bool is_interrupted_ = false;
 };
 
 Sweep::Sweep(const Study& study, const SweepOptions& options)
     : study_(study),
       options_(options),
       folder_(options.folder.value_or(fs::path("results") / study.name)),
-      comparison_(study) {
+      comparison_(study),
+      launchers_(study.launchers),
+      lost_by_(study.runs.size()) {
+  for (const std::string& launcher : options.launchers) launchers_.emplace_back(launcher, Origin{"--launcher"});
   plan();
 }
 
@@ -127,14 +136,42 @@ void Sweep::start(std::size_t i) {
   if (!goes_on) fs::remove_all(run_folder(i));
   arguments.insert(arguments.end(), {"-o", run_folder(i).string()});
   if (goes_on) arguments.emplace_back("--restart");
-  working_.push_back({i, ChildProcess(options_.program, arguments, log(i),
-                                      {{"OPENBLAS_NUM_THREADS", "1"}, {"OMP_NUM_THREADS", "1"}})});
+  const std::map<std::string, std::string> environment = {{"OPENBLAS_NUM_THREADS", "1"}, {"OMP_NUM_THREADS", "1"}};
+  if (launchers_.empty()) {
+    working_.push_back({i, ChildProcess(options_.program, arguments, log(i), environment), 0});
+    return;
+  }
+  // Elsewhere this process is not known.
+  arguments.insert(arguments.begin(), fs::canonical(options_.program).string());
+  const std::size_t launcher = next_launcher(i);
+  std::vector<std::string> words = launchers_[launcher].words(arguments, environment);
+  const std::string program = words.front();
+  words.erase(words.begin());
+  working_.push_back({i, ChildProcess(program, words, log(i), environment), launcher});
 }
 
-void Sweep::finish(std::size_t i, int code) {
+/// The launcher with the fewest runs, of those that have not lost this one.
+std::size_t Sweep::next_launcher(std::size_t run) const {
+  std::vector<std::size_t> load(launchers_.size());
+  for (const Working& working : working_) ++load[working.launcher];
+  // Any number of runs is less than having lost this one once.
+  for (const std::size_t launcher : lost_by_[run]) load[launcher] += study_.runs.size();
+  return static_cast<std::size_t>(std::ranges::min_element(load) - load.begin());
+}
+
+void Sweep::finish(const Working& working, int code) {
+  const std::size_t i = working.run;
   RunState& state = states_[i];
   const double before = state.seconds;
-  record_end(state, code, run_folder(i), log(i));
+  record_end(state, code, run_folder(i), log(i), !launchers_.empty());
+  if (state.is_lost && static_cast<int>(lost_by_[i].size()) < options_.repeats && !is_interrupted_) {
+    lost_by_[i].push_back(working.launcher);
+    actions_[i] = fs::exists(run_folder(i) / "checkpoint.h5") ? Action::go_on : Action::start;
+    again_.push_back(i);
+    say(fmt::format("{}: lost by '{}' ({}), and repeated", state.name, launchers_[working.launcher].text(),
+                    state.reason));
+    return;
+  }
   const std::string seconds = duration_text(state.seconds - before);
   const bool has_failed = state.status == RunState::Status::failed;
   const std::string text =
@@ -150,7 +187,7 @@ void Sweep::finish(std::size_t i, int code) {
 void Sweep::collect_ended() {
   for (auto it = working_.begin(); it != working_.end();) {
     const std::optional<int> code = it->process.exit_code();
-    if (code) finish(it->run, *code);
+    if (code) finish(*it, *code);
     it = code ? working_.erase(it) : std::next(it);
   }
 }
@@ -181,7 +218,7 @@ ExitCode Sweep::execute() {
   comparison_.write_record(folder_, states_);
   const std::size_t at_a_time = static_cast<std::size_t>(options_.processes > 0 ? options_.processes : host().cores);
   int passed_on = 0;
-  for (std::size_t next = 0; next < states_.size() || !working_.empty();) {
+  for (std::size_t next = 0; next < states_.size() || !working_.empty() || !again_.empty();) {
     if (next < states_.size() && actions_[next] == Action::keep) {
       ++next;
       continue;
@@ -189,8 +226,15 @@ ExitCode Sweep::execute() {
     if (passed_on < signals.count()) {
       passed_on = signals.count();
       next = states_.size();  // no further run is started
+      again_.clear();
+      is_interrupted_ = true;
       for (const Working& working : working_) working.process.signal(SIGINT);
       say("interrupted: the runs end after the steps that they are in");
+    }
+    if (!again_.empty() && working_.size() < at_a_time) {
+      start(again_.front());
+      again_.erase(again_.begin());
+      continue;
     }
     if (next < states_.size() && working_.size() < at_a_time) {
       start(next++);
