@@ -14,7 +14,7 @@ SweepCommand::SweepCommand(CLI::App& app)
       ->check(CLI::Range(1, 1024));
   command_
       ->add_option("--launcher", options_.launchers,
-                   "A command that starts runs, as 'srun -n 1', or a template, as 'ssh node2 {command}'; also "
+                   "A command that starts runs, as 'srun', or a template, as 'ssh node2 {command}'; also "
                    "several times")
       ->type_name("COMMAND")
       ->allow_extra_args(false);

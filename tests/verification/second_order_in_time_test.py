@@ -4,6 +4,7 @@ properties and steps that change; it is of second order for a column, a block an
 schemes have the monolithic answer; fluid is conserved; a restart goes on to the bit; parts of first order are refused."""
 
 import math
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -49,14 +50,14 @@ class SecondOrderInTime(unittest.TestCase):
         self.folder = Path(temporary.name)
         self.runs = 0
 
-    def call(self, command, scene, *settings):
-        return subprocess.run([SPREKK, *command, scene, *(word for setting in settings for word in ("--set", setting))],
+    def call(self, command, scene, *settings, before=()):
+        return subprocess.run([*before, SPREKK, *command, scene, *(word for setting in settings for word in ("--set", setting))],
                               capture_output=True, text=True, timeout=200)
 
-    def run_scene(self, scene, *settings, restart=None):
+    def run_scene(self, scene, *settings, restart=None, before=()):
         self.runs += 1
         folder = restart or self.folder / str(self.runs)
-        run = self.call(["run", "-q", *(("--restart", folder / "checkpoint.h5") if restart else ("-o", folder))], scene, *settings)
+        run = self.call(["run", "-q", *(("--restart", folder / "checkpoint.h5") if restart else ("-o", folder))], scene, *settings, before=before)
         self.assertEqual(run.returncode, 0, run.stderr)
         return sprekk.Results(folder)
 
@@ -141,6 +142,13 @@ class SecondOrderInTime(unittest.TestCase):
         for column, values in whole.history.items():
             if "seconds" not in column:
                 self.assertTrue(np.array_equal(values, parts.history[column]), column)
+
+    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    def test_on_two_processes(self):
+        settings = (SDIRK2, "time.end=8 h", "mesh.size=1 m")
+        one, two = (self.run_scene(FRACTURE, *settings, before=before) for before in ((), ("mpirun", "-n", "2", "--oversubscribe")))
+        for column in ("injection_pressure[Pa]", "slip.t[m]", "fluid_stored[m^2]", "fluid_outflow[m^2]"):
+            self.assertLess(np.abs(one[column] - two[column]).max(), 1e-8 * np.abs(one[column]).max(), column)
 
     def test_parts_of_first_order_are_refused(self):
         answer = self.call(["check"], CONFIGS / "paper/wing_cracks.yaml", SDIRK2)
