@@ -1,70 +1,12 @@
-// Linear operators of Darcy flow on the matrix, for any discretization.
+// The names of flux operators in this folder.
 #pragma once
 
-#include <vector>
-
-#include "framework/mesh/mesh.hpp"
-#include "framework/types.hpp"
+#include "components/capabilities/flux_discretization.hpp"
 
 namespace sprekk::matrix_flow {
 
-/// What is prescribed on a face: nothing on inner faces, the pressure, or the flux, as on walls of fractures.
-enum class FlowCondition { none, pressure, flux };
-
-/// What a discretization has in addition if the pressures h of inner faces (one for each face, Pa; those of other faces
-/// are not used by anything) are unknowns beside those of the cells. Matrices without rows where they are none:
-///   flux through every face (m^2/s): … + flux h
-///   pressure at the centre of every boundary and wall face (Pa): … + trace h
-///   the equations of h, one for each face (m^2/s): continuity_cell p + continuity_face h + continuity_boundary b = 0
-/// The equation of an inner face says that as much leaves one cell as enters the other. On other faces it says that h
-/// is the trace, times a conductance.
-struct FacePressureOperators {
-  SparseMatrix flux;                 ///< faces × faces
-  SparseMatrix trace;                ///< faces × faces; rows of inner faces are empty
-  SparseMatrix continuity_cell;      ///< faces × cells
-  SparseMatrix continuity_face;      ///< faces × faces
-  SparseMatrix continuity_boundary;  ///< faces × faces
-
-  void swap(FacePressureOperators& other) {
-    flux.swap(other.flux);
-    trace.swap(other.trace);
-    continuity_cell.swap(other.continuity_cell);
-    continuity_face.swap(other.continuity_face);
-    continuity_boundary.swap(other.continuity_boundary);
-  }
-};
-
-/// Fluxes and traces as linear functions of pressures p (one for each cell, Pa), boundary values b (one for each face:
-/// the pressure at the face centre on `pressure` faces, the outward flux integrated over the face, m^2/s, on `flux`
-/// faces, ignored inside) and changes s of the prescribed pressure along `pressure` faces, from the first to the second
-/// node (one for each face, Pa, ignored elsewhere):
-///   flux through every face, out of face_cells[f][0], integrated over it (m^2/s):
-///     flux_cell p + flux_boundary b + flux_change s
-///   pressure at the centre of every boundary and wall face (Pa):
-///     trace_cell p + trace_boundary b + trace_change s
-struct FluxOperators {
-  SparseMatrix flux_cell;       ///< faces × cells
-  SparseMatrix flux_boundary;   ///< faces × faces
-  SparseMatrix flux_change;     ///< faces × faces
-  SparseMatrix trace_cell;      ///< faces × cells; rows of inner faces are empty
-  SparseMatrix trace_boundary;  ///< faces × faces; rows of inner faces are empty
-  SparseMatrix trace_change;    ///< the same
-  /// faces × faces, diagonal: every node around which fluxes are not exact for linear pressures, in equal parts on its
-  /// faces; the sum is the number of these nodes
-  SparseMatrix blended_nodes;
-  FacePressureOperators faces = {};
-
-  /// Eigen copies sparse matrices when they are moved; swap does not.
-  void swap(FluxOperators& other) {
-    flux_cell.swap(other.flux_cell);
-    flux_boundary.swap(other.flux_boundary);
-    flux_change.swap(other.flux_change);
-    trace_cell.swap(other.trace_cell);
-    trace_boundary.swap(other.trace_boundary);
-    trace_change.swap(other.trace_change);
-    blended_nodes.swap(other.blended_nodes);
-    faces.swap(other.faces);
-  }
-};
+using sprekk::FacePressureOperators;
+using sprekk::FlowCondition;
+using sprekk::FluxOperators;
 
 }  // namespace sprekk::matrix_flow

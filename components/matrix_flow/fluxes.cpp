@@ -51,6 +51,13 @@ const Vector& MatrixFlow::face_fluxes() const {
   return with_walls_.fluxes;
 }
 
+std::vector<MatrixFluxes::Derivative> MatrixFlow::face_flux_derivatives() const {
+  std::vector<Derivative> derivatives = {{&pressure_, &operators_.flux_cell}};
+  if (face_pressure_) derivatives.push_back({face_pressure_, &operators_.faces.flux});
+  if (wall_flux_) derivatives.push_back({wall_flux_, &flux_of_wall_flux_});
+  return derivatives;
+}
+
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/matrix_flow/flux_operators.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
@@ -56,7 +57,7 @@ struct Options {
 /// then (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for a constant density.
 /// Properties may change with time, and are taken at the end of the step; a change of the storage S alone moves no
 /// fluid.
-class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
+class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, public MatrixFluxes {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
@@ -90,8 +91,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
 
-  /// The flux through every face, out of face_cells[f][0], integrated over it (m^2/s); for tests and output.
-  const Vector& face_fluxes() const;
+  const Vector& face_fluxes() const override;
+  std::vector<Derivative> face_flux_derivatives() const override;
+  std::vector<FluidSource> fluid_sources() const override { return sources_; }
 
  protected:
   const Mesh& mesh() const { return mesh_; }
@@ -165,7 +167,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls {
   Vector boundary_changes_;              ///< of the prescribed pressures, one a face, see FluxOperators
   Vector boundary_fluxes_;               ///< the flux through each face by boundary values alone, m^2/s
   LinearExpression wall_pressure_;
-  Vector source_;  ///< m^2/s, one a cell
+  Vector source_;                     ///< m^2/s, one a cell
+  std::vector<FluidSource> sources_;  ///< the same by name
 
   /// The flow at one state of the pressure, without the fluxes through walls.
   struct Flow {

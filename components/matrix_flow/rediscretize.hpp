@@ -7,8 +7,7 @@
 namespace sprekk::matrix_flow {
 
 /// A discretization of the flux: see discretize_mpfa.
-using Discretize = FluxOperators (*)(const Mesh&, const std::vector<Tensor>&, const std::vector<FlowCondition>&,
-                                     const std::vector<char>&);
+using Discretize = DiscretizeFlux;
 
 /// The arguments of a discretization of the flux, for all nodes.
 struct FlowInputs {

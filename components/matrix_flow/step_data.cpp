@@ -61,17 +61,25 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
 
 void MatrixFlow::evaluate_sources(const StepTime& step) {
   source_ = Vector::Zero(mesh_.cell_count());
-  if (!options_.source.is_zero())
+  sources_.clear();
+  if (!options_.source.is_zero()) {
+    FluidSource& spread = sources_.emplace_back(FluidSource{"source", {}});
     for (int c = 0; c < mesh_.cell_count(); ++c) {
       const auto density = [&](const Point& at) {
         return value_in_step(options_.source, {at, mesh_.cell_region[c], 0}, step);
       };
       source_[c] = mesh_.cell_measure[c] *
                    (options_.source.depends_on_space() ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
+      spread.rates.emplace_back(c, source_[c]);
     }
+  }
   for (const auto& [name, well] : options_.wells) {
     const double rate = value_in_step(well.rate, {well.at, 0, 0}, step);
-    for (const auto& [cell, weight] : well_cells_.at(name)) source_[cell] += weight * rate;
+    FluidSource& at_well = sources_.emplace_back(FluidSource{name, {}});
+    for (const auto& [cell, weight] : well_cells_.at(name)) {
+      source_[cell] += weight * rate;
+      at_well.rates.emplace_back(cell, weight * rate);
+    }
     SPREKK_ASSERT(std::isfinite(rate), name, rate);
   }
 }

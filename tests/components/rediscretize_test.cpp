@@ -227,8 +227,8 @@ TEST(Rediscretize, CountsNodesWithBlendedFluxesOnce) {
   for (int step = 0; step < 20; ++step) {
     const std::vector<Tensor> before = mobility;
     mobility[mesh.cell_count() / 2 + step % 3] *= 1.5;
-    auto made = rediscretize(matrix_flow::discretize_mpfa, {mesh, before, conditions}, operators,
-                             {mesh, mobility, conditions}, identity(mesh));
+    auto made = matrix_flow::rediscretize(matrix_flow::discretize_mpfa, {mesh, before, conditions}, operators,
+                                          {mesh, mobility, conditions}, identity(mesh));
     EXPECT_LT(made.regions, mesh.node_count());
     expect_same(made.operators, whole());
     operators.swap(made.operators);

@@ -4,7 +4,8 @@
 Fractures that cross, closed at first, and opened by fluid that is injected into one of them: both hold half of it, and
 the opening where they cross is 0.675 of a single crack's (configs/verification/pressurized_cross.yaml), on two
 processes as on one. And rock whose pressures no flow smooths in so short a step, where cells around a node exchange
-volume, on a mesh that grows fast from a fracture and has nodes of both processes.
+volume, on a mesh that grows fast from a fracture and has nodes of both processes. And heat that water carries from an
+injection and a well through crossing fractures and rock, which it loads.
 """
 
 import subprocess
@@ -75,6 +76,39 @@ schedule: [{solve: [pore, rock, conduit, contact]}]
 time: {end: 100 s, step: 50 s}
 output: {every: 50 s}
 """
+HEAT = """
+geometry:
+  box: {x: [-8, 8], y: [-8, 8]}
+  fractures: {main: {points: [[-3.9, -1.2], [3.9, 1.2]]}, other: {points: [[-1.5, 3], [1.2, -3.5]]}}
+mesh: {size: 1.5, fracture_size: 0.4}
+materials:
+  {viscosity: 1.0e-3 Pa*s, fluid_compressibility: 4.0e-10 1/Pa, fluid_heat_capacity: 4.2e6 J/(m^3*K), young_modulus: 10 GPa,
+   poisson_ratio: 0.2}
+components:
+  pore: {type: matrix_flow/mpfa, permeability: 1.0e-14 m^2, porosity: 0.1, boundary: {top: {pressure: 0 Pa}},
+         wells: {w: {at: [-5, -5], rate: 2.0e-6 m^2/s}}}
+  rock: {type: poromechanics/mpsa, boundary: {left: {displacement: [0 m, 0 m]}}}
+  conduit:
+    type: fracture_flow/tpfa
+    initial_aperture: 0.2 mm
+    injection: {inlet: {fracture: main, at: [-3.9, -1.2], rate: 1.0e-5 m^2/s}}
+    prescribed: {outlet: {fracture: other, at: [1.2, -3.5], pressure: 0 Pa}}
+  heat: {type: matrix_heat/mpfa, conductivity: 2.5 W/(m*K), heat_capacity: 2.2e6 J/(m^3*K), initial_temperature: 350 K,
+         boundary: {top: {temperature: 350 K}}}
+  water: {type: fracture_heat/tpfa, aperture: 0.2 mm, conductivity: 0.6 W/(m*K), heat_capacity: 4.2e6 J/(m^3*K),
+          initial_temperature: 350 K}
+couplers:
+  - {type: biot, between: [pore, rock], biot_coefficient: 0.7}
+  - {type: wall_exchange, between: [pore, conduit]}
+  - {type: wall_traction, between: [rock, conduit]}
+  - {type: heat_advection, between: [pore, conduit, heat, water],
+     injected: {inlet: {temperature: 320 K}, w: {temperature: 330 K}}}
+  - {type: heat_exchange, between: [heat, water]}
+  - {type: thermal_stress, between: [heat, rock], expansion: 1.0e-5 1/K}
+schedule: [{solve: [pore, rock, conduit, heat, water]}]
+time: {end: 10 day, step: 2 day}
+output: {every: 2 day}
+"""
 
 
 def other_components(order, contact):
@@ -131,7 +165,7 @@ with tempfile.TemporaryDirectory() as temporary:
     for name, text in (("closed cross", CLOSED_CROSS), ("short steps", SHORT_STEPS),
                        ("mixed elements", SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0")),
                        ("other components", other_components("second", "augmented_lagrangian")),
-                       ("other components of first order", other_components("first", "penalty"))):
+                       ("other components of first order", other_components("first", "penalty")), ("heat", HEAT)):
         scene = Path(temporary) / f"{name.replace(' ', '_')}.yaml"
         scene.write_text(text)
         alone = run([program], scene, scene.with_suffix(".one"))

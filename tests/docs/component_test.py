@@ -38,5 +38,5 @@ explained = call("explain", "heat_flow/tpfa")
 assert explained.returncode == 0 and "Conductivity of the rock." in explained.stdout, explained
 wrong = call("check", str(folder / "heated_column.yaml"), "--set", "components.heat.conductivity=3 W/m")
 assert wrong.returncode == 2 and "conductivity" in wrong.stderr, wrong
-unjoined = call("check", str(folder / "heated_column.yaml"), "--set", "couplers=[{type: thermal_stress, between: [rock], expansion: 1e-5 1/K}]")
+unjoined = call("check", str(folder / "heated_column.yaml"), "--set", "couplers=[{type: heating_stress, between: [rock], expansion: 1e-5 1/K}]")
 assert unjoined.returncode == 2 and "determines the temperature of the matrix" in unjoined.stderr, unjoined

@@ -2,7 +2,7 @@
 """Code blocks of the pages in docs/.
 
 pages.py extract PAGE FOLDER writes every block whose fence says file=PATH to FOLDER/PATH, and leaves files alone that have
-not changed, so that nothing is built anew without need.
+not changed, so that nothing is built anew without need. Sources there that are not in the page any more are removed.
 """
 
 import re
@@ -54,6 +54,9 @@ def pages():
 
 
 def extract(page, folder):
+    for old in Path(folder).rglob("*.[ch]pp"):
+        if old.relative_to(folder).as_posix() not in files(page):
+            old.unlink()
     for path, text in files(page).items():
         file = Path(folder) / path
         if file.exists() and file.read_text(encoding="utf-8") == text:

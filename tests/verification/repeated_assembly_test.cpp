@@ -98,6 +98,24 @@ TEST_P(RepeatedAssembly, GivesTheSameBits) {
   }
 }
 
+/// The scene with heat in rock and fractures, which the fluid carries and which loads the rock.
+std::vector<Override> with_heat(const std::string& type) {
+  return {
+      {"components.heat", "{type: matrix_heat/" + type +
+                              ", conductivity: 2.5 W/(m*K), heat_capacity: 2.2e6 J/(m^3*K), initial_temperature: "
+                              "350 K, boundary: {left: {temperature: 340 K}}}"},
+      {"components.water",
+       "{type: fracture_heat/tpfa, aperture: 0.1 mm, conductivity: 0.6 W/(m*K), "
+       "heat_capacity: 4.2e6 J/(m^3*K), initial_temperature: 350 K}"},
+      {"couplers",
+       "[{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}, {type: "
+       "wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, {type: "
+       "two_level, between: [rock, conduit, tips, contact]}, {type: heat_advection, between: [pore, conduit, heat, "
+       "water], fluid_heat_capacity: 4.2e6 J/(m^3*K)}, {type: heat_exchange, between: [heat, water]}, {type: "
+       "thermal_stress, between: [heat, rock], expansion: 1e-5 1/K}]"},
+      {"schedule", "[{solve: [pore, rock, conduit, contact, heat, water]}, {grow: tips, settle: [rock, contact]}]"}};
+}
+
 const std::vector<std::vector<Override>> scenes = {
     {},
     {{"components.pore.type", "matrix_flow/tpfa"}},
@@ -106,7 +124,9 @@ const std::vector<std::vector<Override>> scenes = {
     {{"components.contact.type", "contact/penalty"}},
     {{"components.contact.type", "contact/augmented_lagrangian"}},
     {{"components.other_tips", "{type: fine_fracture/jump_fit}"}},
-    {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}}};
+    {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}},
+    with_heat("mpfa"),
+    with_heat("tpfa")};
 INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
@@ -116,7 +136,13 @@ TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
                                  "matrix_flow/rt0",
                                  "contact/penalty",
                                  "contact/augmented_lagrangian",
-                                 "fine_fracture/jump_fit"},
+                                 "fine_fracture/jump_fit",
+                                 "matrix_heat/mpfa",
+                                 "matrix_heat/tpfa",
+                                 "fracture_heat/tpfa",
+                                 "heat_advection",
+                                 "heat_exchange",
+                                 "thermal_stress"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/fracture_flow/laws/hydraulic_law.hpp"
 #include "components/fracture_flow/tpfa/junction_fluxes.hpp"
@@ -25,7 +26,7 @@ namespace sprekk::fracture_flow {
 /// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
 /// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
 /// pressures, and the flux out of one cell enters the next one to the bit. Properties are those at the end of the step.
-class FractureFlow : public Component, public FractureFluid {
+class FractureFlow : public Component, public FractureFluid, public FractureFluxes {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
@@ -53,6 +54,9 @@ class FractureFlow : public Component, public FractureFluid {
   NormalPermeability normal_permeability() const override;
   double viscosity_between_walls(int cell) const override { return options_.is_constant() ? 0 : viscosity_[cell]; }
   bool follows_aperture() const override;
+  const Field& flux() const override { return flux_; }
+  std::vector<FluidSource> fluid_sources() const override { return sources_; }
+  std::vector<FluidReservoir> fluid_reservoirs() const override;
 
  private:
   /// K/mu (m^2/(Pa s) times m, Eq. 8 of the paper) of a cell and its derivative by the aperture.
@@ -126,7 +130,8 @@ class FractureFlow : public Component, public FractureFluid {
   std::array<MeansAlong, 2> transmissivity_of_half_;             ///< by FractureCell::points
   std::array<MeansAlong, 2> given_wall_permeability_;            ///< by Wall, m/(Pa s), one a cell
   std::vector<Link> links_;
-  Vector source_;  ///< m^2/s, one a cell
+  Vector source_;                     ///< m^2/s, one a cell
+  std::vector<FluidSource> sources_;  ///< the same by name
   struct Prescribed {
     int cell;
     double pressure, scale;

@@ -87,14 +87,19 @@ int FractureFlow::region_of(int cell) const {
 
 void FractureFlow::prescribe(const StepTime& step) {
   source_ = Vector::Zero(mesh_.fracture_cell_count());
+  sources_.clear();
   for (const auto& [name, injection] : options_.injections) {
     const std::vector<int> cells = cells_at(mesh_, injection.where);
+    FluidSource source{name, {}};
     double length = 0;
     for (const int cell : cells) length += mesh_.fracture_cells[cell].measure;
     for (const int cell : cells) {
       const FractureCell& at = mesh_.fracture_cells[cell];
-      source_[cell] += value_in_step(injection.rate, {at.center, region_of(cell), 0}, step) * at.measure / length;
+      const double rate = value_in_step(injection.rate, {at.center, region_of(cell), 0}, step) * at.measure / length;
+      source_[cell] += rate;
+      source.rates.emplace_back(cell, rate);
     }
+    sources_.push_back(std::move(source));
   }
   prescribed_.clear();
   is_prescribed_.assign(mesh_.fracture_cell_count(), 0);
@@ -106,6 +111,15 @@ void FractureFlow::prescribe(const StepTime& step) {
       prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(cell), 0}, step),
                              storage > 0 ? storage : at.measure});
     }
+  // The balance of a cell with a prescribed pressure is not solved: what is injected there has no effect.
+  for (FluidSource& source : sources_)
+    std::erase_if(source.rates, [&](const auto& rate) { return is_prescribed_[rate.first] != 0; });
+}
+
+std::vector<FluidReservoir> FractureFlow::fluid_reservoirs() const {
+  std::vector<FluidReservoir> reservoirs;
+  for (const auto& [name, given] : options_.prescribed) reservoirs.push_back({name, cells_at(mesh_, given.where)});
+  return reservoirs;
 }
 
 }  // namespace sprekk::fracture_flow

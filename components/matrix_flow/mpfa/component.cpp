@@ -27,6 +27,7 @@ class Mpfa : public MatrixFlow {
 };
 
 const RegisterComponent<Mpfa, MpfaOptions> registration("matrix_flow/mpfa");
+const RegisterFluxDiscretization discretization("mpfa", discretize_mpfa);
 
 }  // namespace
 }  // namespace sprekk::matrix_flow

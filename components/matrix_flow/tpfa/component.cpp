@@ -20,6 +20,7 @@ class Tpfa : public MatrixFlow {
 };
 
 const RegisterComponent<Tpfa, TpfaOptions> registration("matrix_flow/tpfa");
+const RegisterFluxDiscretization discretization("tpfa", discretize_tpfa);
 
 }  // namespace
 }  // namespace sprekk::matrix_flow

@@ -1,0 +1,54 @@
+// Capabilities of flow: the fluxes of fluid, for what the fluid carries with it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/field/field.hpp"
+
+namespace sprekk {
+
+/// Fluid that enters from outside of rock and fractures at a named place of the scene (or with a negative rate leaves).
+struct FluidSource {
+  std::string name;
+  std::vector<std::pair<int, double>> rates;  ///< cells, and m^2/s
+};
+
+/// A named place whose pressure is prescribed: what enters there makes up for what flows away.
+struct FluidReservoir {
+  std::string name;
+  std::vector<int> cells;
+};
+
+/// Capability: gives the fluxes of fluid in the matrix. To be used after Part::begin_step of all parts.
+class MatrixFluxes {
+ public:
+  static constexpr const char* promise = "gives the fluxes of fluid in the matrix";
+  virtual ~MatrixFluxes() = default;
+  /// The present flux through every face, out of face_cells[f][0], integrated over it, m^2/s; right on the faces of
+  /// the cells that the process owns.
+  virtual const Vector& face_fluxes() const = 0;
+  /// A derivative of face_fluxes: faces × values of the field. It stays until the next step begins.
+  struct Derivative {
+    const Field* field;
+    const SparseMatrix* matrix;
+  };
+  virtual std::vector<Derivative> face_flux_derivatives() const = 0;
+  /// What enters cells in this step.
+  virtual std::vector<FluidSource> fluid_sources() const = 0;
+};
+
+/// Capability: gives the fluxes of fluid along fractures. To be used after Part::begin_step of all parts.
+class FractureFluxes {
+ public:
+  static constexpr const char* promise = "gives the fluxes of fluid along the fractures";
+  virtual ~FractureFluxes() = default;
+  /// The flux through every point of the fractures, from its first to its second cell, or out of its only cell, m^2/s.
+  virtual const Field& flux() const = 0;
+  /// What enters fracture cells in this step, without those of reservoirs.
+  virtual std::vector<FluidSource> fluid_sources() const = 0;
+  virtual std::vector<FluidReservoir> fluid_reservoirs() const = 0;
+};
+
+}  // namespace sprekk

@@ -1,0 +1,211 @@
+#include "components/fracture_heat/fracture_heat.hpp"
+
+#include <algorithm>
+
+#include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/property.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk::fracture_heat {
+namespace {
+
+Spec side_spec(Data& temperature) {
+  Spec spec("boundary condition of heat in fractures", "For fractures that end on this side.");
+  spec.data("temperature", temperature,
+            {.unit = "K",
+             .doc = "Temperature where fractures meet this side, also of fluid that enters there.",
+             .required = true,
+             .in_time = true});
+  return spec;
+}
+
+}  // namespace
+
+Spec Options::spec() {
+  Spec spec("fracture_heat/tpfa", "Heat in fractures: conduction along piecewise linear fractures by two points.");
+  spec.ignore("type");
+  spec.data("aperture", aperture,
+            {.unit = "m",
+             .range = positive(),
+             .doc = "Thickness of what stores and conducts heat at the start: the initial aperture of the flow.",
+             .required = true,
+             .fixed = "what enters later brings its own heat capacity"});
+  spec.data("conductivity", conductivity,
+            {.unit = "W/(m*K)",
+             .range = positive(),
+             .doc = "Thermal conductivity of what fills the fracture (water: 0.6 W/(m*K)).",
+             .required = true,
+             .fixed = "the fluxes are discretized once"});
+  spec.data("heat_capacity", heat_capacity,
+            {.unit = "J/(m^3*K)",
+             .range = positive(),
+             .doc = "Heat capacity per volume of what fills the fracture (water: 4.2e6 J/(m^3*K)).",
+             .required = true,
+             .fixed = "heat is counted by changes of the temperature"});
+  spec.data("initial_temperature", initial_temperature,
+            {.unit = "K", .doc = "Temperature at the start.", .fixed = "it is what the run starts from"});
+  static Data example;
+  spec.named_sections("boundary", side_spec(example),
+                      [this](const std::string& side, const Origin& origin) {
+                        boundary_origins[side] = origin;
+                        return side_spec(boundary[side]);
+                      },
+                      {.doc = "Temperatures where fractures end on a side; else nothing is conducted there."});
+  return spec;
+}
+
+FractureHeat::FractureHeat(const ComponentContext& context, const Options& options)
+    : Component(context.name),
+      mesh_(context.mesh),
+      options_(options),
+      temperature_(context.fields.add(mesh_, {.owner = context.name,
+                                              .name = "temperature",
+                                              .location = Location::fracture_cell,
+                                              .role = Role::unknown(BlockKind::interface),
+                                              .unit = "K",
+                                              .doc = "Temperature in the fractures"})),
+      cumulative_(context.fields.add(mesh_, {.owner = context.name,
+                                             .name = "cumulative_heat",
+                                             .location = Location::fracture_cell,
+                                             .components = 2,
+                                             .role = Role::derived(),
+                                             .unit = "J/m",
+                                             .doc = "Heat stored, and conducted out through ends on sides",
+                                             .accepted_with = temperature_.name(),
+                                             .is_amount = true})) {
+  if (mesh_.fracture_cell_count() == 0)
+    throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
+                     "add fractures to `geometry:` or remove the component");
+  for (const auto& [side, origin] : options_.boundary_origins)
+    if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
+      throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
+  const std::vector<Place> places = fracture_cell_places(mesh_);
+  const auto values = [&](const Data& data) { return Property(data, places, context.start_time).values(); };
+  temperature_.set_both(values(options_.initial_temperature));
+  const Vector aperture = values(options_.aperture), conductivity = values(options_.conductivity);
+  capacity_ = values(options_.heat_capacity).cwiseProduct(aperture);
+  half_conductance_ = 2 * conductivity.cwiseProduct(aperture);
+  wall_conductance_.resize(mesh_.wall_count());
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    capacity_[i] *= mesh_.fracture_cells[i].measure;
+    half_conductance_[i] /= mesh_.fracture_cells[i].measure;
+    wall_conductance_[2 * i] = wall_conductance_[2 * i + 1] = 2 * conductivity[i] / aperture[i];
+  }
+  capacity_of_temperature_ = Operator(diagonal_matrix(capacity_));
+  connect();
+}
+
+const Data* FractureHeat::end_condition(int point) const {
+  const FracturePoint& at = mesh_.fracture_points[point];
+  if (at.kind != FracturePoint::Kind::on_boundary) return nullptr;
+  const auto found = options_.boundary.find(mesh_.side_names[at.side]);
+  return found == options_.boundary.end() ? nullptr : &found->second;
+}
+
+std::optional<double> FractureHeat::end_temperature(int point) const {
+  if (!end_condition(point)) return std::nullopt;
+  return end_temperature_[point];
+}
+
+void FractureHeat::connect() {
+  const int points = static_cast<int>(mesh_.fracture_points.size()), cells = mesh_.fracture_cell_count();
+  conductance_to_end_ = Vector::Zero(points);
+  std::vector<Triplet> entries, ends;
+  const auto join = [&](int first, int second, double conductance) {
+    entries.insert(entries.end(), {{first, first, conductance}, {first, second, -conductance}});
+    entries.insert(entries.end(), {{second, second, conductance}, {second, first, -conductance}});
+  };
+  for (int p = 0; p < points; ++p) {
+    const FracturePoint& point = mesh_.fracture_points[p];
+    if (point.kind == FracturePoint::Kind::junction) continue;
+    if (point.cells.size() == 2) {
+      const double first = half_conductance_[point.cells[0]], second = half_conductance_[point.cells[1]];
+      join(point.cells[0], point.cells[1], first * second / (first + second));
+    } else if (end_condition(p)) {
+      conductance_to_end_[p] = half_conductance_[point.cells[0]];
+      entries.emplace_back(point.cells[0], point.cells[0], conductance_to_end_[p]);
+      ends.emplace_back(point.cells[0], point.cells[0], conductance_to_end_[p]);
+    }
+  }
+  // Halves that meet in a point without storage: a star, which is the same as a conductor between each two of them.
+  for (const Junction& junction : mesh_.junctions) {
+    double sum = 0;
+    for (const int cell : junction.cells) sum += half_conductance_[cell];
+    for (std::size_t i = 0; i < junction.cells.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const int a = junction.cells[i], b = junction.cells[j];
+        join(a, b, half_conductance_[a] * half_conductance_[b] / sum);
+      }
+  }
+  SparseMatrix outflow(cells, cells), leaving(cells, cells);
+  outflow.setFromTriplets(entries.begin(), entries.end());
+  leaving.setFromTriplets(ends.begin(), ends.end());
+  outflow_of_temperature_ = Operator(std::move(outflow), std::move(leaving));
+}
+
+void FractureHeat::evaluate_data(const StepTime& step) {
+  end_temperature_ = Vector::Zero(static_cast<int>(mesh_.fracture_points.size()));
+  for (int p = 0; p < end_temperature_.size(); ++p) {
+    const Data* given = end_condition(p);
+    if (!given) continue;
+    const FracturePoint& point = mesh_.fracture_points[p];
+    const int region = mesh_.cell_region[mesh_.face_cells[mesh_.fracture_cells[point.cells[0]].faces[0]][0]];
+    end_temperature_[p] = value_in_step(*given, {point.position, region, 0}, step);
+  }
+}
+
+Vector FractureHeat::leaving() const {
+  Vector leaving = Vector::Zero(mesh_.fracture_cell_count());
+  for (int p = 0; p < conductance_to_end_.size(); ++p) {
+    if (conductance_to_end_[p] == 0) continue;
+    const int cell = mesh_.fracture_points[p].cells[0];
+    leaving[cell] += conductance_to_end_[p] * (temperature_.now()[cell] - end_temperature_[p]);
+  }
+  return leaving;
+}
+
+void FractureHeat::assemble(Assembly& assembly, const StepTime& step) const {
+  if (!assembly.has_row(temperature_)) return;
+  SPREKK_EXPECT(step.dt > 0, step.dt);
+  BalanceRows heat(assembly, temperature_, "heat");
+  const double largest = temperature_.now().lpNorm<Eigen::Infinity>();
+  heat.store(capacity_.cwiseProduct(temperature_.now() - temperature_.accepted()),
+             capacity_.lpNorm<Eigen::Infinity>() * largest);
+  assembly.derivative(temperature_, temperature_, capacity_of_temperature_);
+  Vector outflow = outflow_of_temperature_.entries() * temperature_.now();
+  for (int p = 0; p < conductance_to_end_.size(); ++p)
+    if (conductance_to_end_[p] != 0)
+      outflow[mesh_.fracture_points[p].cells[0]] -= conductance_to_end_[p] * end_temperature_[p];
+  heat.exchange(step.dt * outflow, step.dt * leaving(),
+                step.dt * half_conductance_.lpNorm<Eigen::Infinity>() * largest);
+  assembly.derivative(temperature_, temperature_, outflow_of_temperature_, step.dt);
+}
+
+void FractureHeat::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
+  if (std::find(solved.begin(), solved.end(), &temperature_) == solved.end()) return;
+  const Vector leaving = this->leaving();
+  Vector sums = cumulative_.accepted();
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    sums[2 * i] += capacity_[i] * (temperature_.now()[i] - temperature_.accepted()[i]);
+    sums[2 * i + 1] += step.dt * leaving[i];
+  }
+  cumulative_.set(std::move(sums));
+}
+
+void FractureHeat::balance(std::map<std::string, Balance>& balances) const {
+  Balance& heat = balances["heat"];
+  heat.unit = "J/m";
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    heat.stored += cumulative_.now()[2 * i];
+    heat.outflow += cumulative_.now()[2 * i + 1];
+    heat.throughput += cumulative_.now().segment<2>(2 * i).lpNorm<1>();
+  }
+}
+
+std::vector<double> FractureHeat::switch_times() const {
+  std::vector<const Data*> data;
+  for (const auto& [side, temperature] : options_.boundary) data.push_back(&temperature);
+  return merged_switch_times(data);
+}
+
+}  // namespace sprekk::fracture_heat

@@ -1,0 +1,65 @@
+// Heat in fractures, conducted by two points along piecewise linear fractures.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/capabilities/temperature.hpp"
+#include "framework/config/spec.hpp"
+#include "framework/scene/component.hpp"
+
+namespace sprekk::fracture_heat {
+
+/// Parameters of heat in fractures.
+struct Options {
+  Data aperture;             ///< m
+  Data conductivity;         ///< W/(m K)
+  Data heat_capacity;        ///< J/(m^3 K)
+  Data initial_temperature;  ///< K
+  std::map<std::string, Data> boundary;
+  std::map<std::string, Origin> boundary_origins;
+  Spec spec();
+};
+
+/// Unknown: the temperature T of every fracture cell, a mean across the aperture a. Each row balances its heat over the
+/// step (J/m):
+///   C a L (T − T_old) + dt (sum of the conducted fluxes out of it) = 0,
+/// the flux between two cells through the resistances L/(2 k a) of their halves in series. Where more than two cells
+/// meet, each half leads to the junction, which stores nothing. What comes through the walls, and what flowing fluid
+/// carries, is added by couplers; a is the aperture at the start of the run, and fluid that enters later brings its own
+/// heat capacity.
+class FractureHeat : public Component, public FractureTemperature {
+ public:
+  FractureHeat(const ComponentContext& context, const Options& options);
+
+  void evaluate_data(const StepTime& step) override;
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly& assembly, const StepTime& step) const override;
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
+  void balance(std::map<std::string, Balance>& balances) const override;
+  std::vector<double> switch_times() const override;
+
+  Field& temperature() override { return temperature_; }
+  std::optional<double> end_temperature(int point) const override;
+  const Vector& wall_conductance() const override { return wall_conductance_; }
+
+ private:
+  const Data* end_condition(int point) const;  ///< nullptr where there is none
+  void connect();
+  Vector leaving() const;  ///< W/m, of each cell: what is conducted out through ends on sides
+
+  const Mesh& mesh_;
+  Options options_;
+  Field& temperature_;
+  Field& cumulative_;        ///< (stored, outflow) of each fracture cell since the start, J/m
+  Vector capacity_;          ///< J/(m K)
+  Vector half_conductance_;  ///< W/(m K), of half a cell, along it
+  Vector wall_conductance_;
+  Operator capacity_of_temperature_, outflow_of_temperature_;
+  Vector conductance_to_end_;  ///< W/(m K), of each fracture point on a side with a temperature; else 0
+  Vector end_temperature_;     ///< K, of each fracture point
+};
+
+}  // namespace sprekk::fracture_heat

@@ -1,0 +1,333 @@
+// heat_advection: flowing fluid carries heat through the matrix, along fractures and through their walls.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "couplers/heat_advection/streams.hpp"
+#include "framework/assembly/balance_rows.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+/// Fluid that is injected at a place of the scene.
+struct Injected {
+  Origin origin;
+  Data temperature;  ///< K
+};
+
+struct HeatAdvectionOptions {
+  double fluid_heat_capacity = 0;  ///< J/(m^3 K)
+  std::map<std::string, Injected> injected;
+  Spec spec() {
+    Spec spec("heat_advection",
+              "Flowing fluid carries heat, with the temperature of the cell that it comes from (upwind): through the "
+              "matrix, along fractures and through their walls, where the coupler stands between flow and heat.");
+    spec.ignore("type").ignore("between");
+    spec.quantity("fluid_heat_capacity", fluid_heat_capacity,
+                  {.unit = "J/(m^3*K)",
+                   .range = positive(),
+                   .doc = "Heat capacity of the fluid per volume (water: 4.2e6 J/(m^3*K)).",
+                   .required = true,
+                   .material = true});
+    static Injected example;
+    const auto injected_spec = [](Injected& at) {
+      Spec inner("injected fluid", "The fluid that a well, an injection or a prescribed pressure lets in.");
+      inner.data("temperature", at.temperature,
+                 {.unit = "K", .doc = "Its temperature.", .required = true, .in_time = true});
+      return inner;
+    };
+    spec.named_sections("injected", injected_spec(example),
+                        [this, injected_spec](const std::string& key, const Origin& origin) {
+                          injected[key].origin = origin;
+                          return injected_spec(injected[key]);
+                        },
+                        {.doc = "Temperatures by the name of the place in the flow; fluid without one enters with the "
+                                "temperature of the cell."});
+    return spec;
+  }
+};
+
+/// Adds to the heat balance of each cell what streams of fluid carry (Stream). With the fluid m that has entered the
+/// cell since the start (m^2), by the same streams, it stores c (m T − m_old T_old), and what enters is c dt q T of
+/// where it comes from. Together with m = m_old + dt (sum of q) this is
+///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)),
+/// so that a uniform temperature stays uniform whatever the fluxes are, and nothing is lost or made: heat is conserved
+/// in each schedule, also where the streams are those of a flow that is solved before or after.
+class HeatAdvection : public Coupler {
+ public:
+  HeatAdvection(const CouplerContext& context, const HeatAdvectionOptions& options)
+      : Coupler(context.name), mesh_(context.mesh), options_(options) {
+    matrix_ = context.find<MatrixFluxes>();
+    fracture_ = context.find<FractureFluxes>();
+    walls_ = context.find<MatrixWalls>();
+    rock_.heat = context.find<MatrixTemperature>();
+    fracture_heat_ = context.find<FractureTemperature>();
+    if (!(matrix_ && rock_.heat) && !(fracture_ && fracture_heat_))
+      throw InputError(context.origin, "coupler " + name() + " has no flow that carries heat",
+                       "it needs the flow and the heat of the matrix, of the fractures, or of both",
+                       "name such components in `between`, or remove the coupler for conduction alone");
+    if (rock_.heat && matrix_) add_fields(context, rock_, rock_.heat->temperature(), Location::cell, "rock");
+    if (fracture_heat_ && fracture_)
+      add_fields(context, fractures_, fracture_heat_->temperature(), Location::fracture_cell, "fractures");
+  }
+
+  /// Heat that is carried through the walls in a step is the same for both sides.
+  std::vector<Dependence> dependences() const override {
+    if (!rock_.temperature || !fractures_.temperature) return {};
+    const std::string rock = rock_.temperature->spec().owner, fracture = fractures_.temperature->spec().owner;
+    const std::string because = "what the fluid carries out of the one it carries into the other in the same step";
+    return {{rock, fracture, because}, {fracture, rock, because}};
+  }
+
+  void evaluate_data(const StepTime& step) override {
+    injected_.clear();
+    for (const auto& [name, given] : options_.injected)
+      injected_.emplace_back(name, value_in_step(given.temperature, Place{}, step));
+    check_names();
+  }
+  void begin_step(const StepTime&) override {}
+
+  void assemble(Assembly& assembly, const StepTime& step) const override {
+    if (rock_.temperature && assembly.has_row(*rock_.temperature))
+      add(assembly, rock_, streams_of_rock(sources()), step);
+    if (fractures_.temperature && assembly.has_row(*fractures_.temperature))
+      add(assembly, fractures_, streams_of_fractures(sources()), step);
+  }
+
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
+    const auto has = [&](const Field* field) {
+      return field && std::find(solved.begin(), solved.end(), field) != solved.end();
+    };
+    if (has(rock_.temperature)) count(rock_, streams_of_rock(sources()), step);
+    if (has(fractures_.temperature)) count(fractures_, streams_of_fractures(sources()), step);
+  }
+
+  void balance(std::map<std::string, Balance>& balances) const override {
+    Balance& heat = balances["heat"];
+    heat.unit = "J/m";
+    for (const Medium* place : {&rock_, &fractures_}) {
+      if (!place->temperature) continue;
+      const Vector& sums = place->cumulative->now();
+      for (int i = 0; i < place->temperature->size(); ++i) {
+        heat.stored += sums[3 * i];
+        heat.injected += sums[3 * i + 1];
+        heat.outflow += sums[3 * i + 2];
+        heat.throughput += sums.segment<3>(3 * i).lpNorm<1>();
+      }
+    }
+  }
+
+  /// The temperature of the fluid that leaves at each named place of the flow, or of that which enters.
+  void report(std::vector<Quantity>& quantities) const override {
+    const auto mean = [&](const std::string& place, const Vector& temperature, auto&& rates) {
+      double rate = 0, sum = 0;
+      for (const auto& [cell, each] : rates) {
+        rate += std::abs(each);
+        sum += std::abs(each) * temperature[cell];
+      }
+      quantities.push_back({name() + "." + place + ".temperature", "K", rate > 0 ? sum / rate : 0.0});
+    };
+    if (rock_.temperature)
+      for (const FluidSource& source : matrix_->fluid_sources())
+        if (source.name != "source") mean(source.name, rock_.temperature->now(), source.rates);
+    if (!fractures_.temperature) return;
+    const Vector& temperature = fractures_.temperature->now();
+    for (const FluidSource& source : fracture_->fluid_sources()) mean(source.name, temperature, source.rates);
+    for (const FluidReservoir& reservoir : fracture_->fluid_reservoirs()) {
+      std::vector<std::pair<int, double>> rates;
+      for (const Stream& stream : streams_of_fractures(sources()))
+        if (stream.flux == Stream::Flux::none && std::ranges::count(reservoir.cells, stream.cell))
+          rates.emplace_back(stream.cell, stream.rate);
+      mean(reservoir.name, temperature, rates);
+    }
+  }
+
+  std::vector<double> switch_times() const override {
+    std::vector<const Data*> data;
+    for (const auto& [name, given] : options_.injected) data.push_back(&given.temperature);
+    return merged_switch_times(data);
+  }
+
+  static void note_absence(const std::vector<Component*>& components, Notes& notes) {
+    for (const Component* flow : components)
+      for (const Component* heat : components) {
+        const bool in_rock = dynamic_cast<const MatrixFluxes*>(flow) && dynamic_cast<const MatrixTemperature*>(heat);
+        const bool in_fractures =
+            dynamic_cast<const FractureFluxes*>(flow) && dynamic_cast<const FractureTemperature*>(heat);
+        if (!in_rock && !in_fractures) continue;
+        notes.add("no heat_advection between " + flow->name() + " and " + heat->name(),
+                  "the fluid of " + flow->name() + " carries no heat of " + heat->name() +
+                      " (no coupler heat_advection stands between them) add one, with both in `between`, unless that "
+                      "is meant");
+      }
+  }
+
+ private:
+  /// The rock, or the fractures.
+  struct Medium {
+    MatrixTemperature* heat = nullptr;
+    Field* temperature = nullptr;  ///< nullptr without flow or heat there
+    Field* received = nullptr;     ///< m, m^2
+    Field* cumulative = nullptr;   ///< (stored, injected, outflow) since the start, J/m
+    Location location = Location::cell;
+  };
+
+  void add_fields(const CouplerContext& context, Medium& place, Field& temperature, Location location,
+                  const std::string& where) {
+    place.temperature = &temperature;
+    place.location = location;
+    place.received = &context.fields.add(mesh_, {.owner = context.name,
+                                                 .name = "received_in_" + where,
+                                                 .location = location,
+                                                 .role = Role::derived(),
+                                                 .unit = "m^2",
+                                                 .doc = "Fluid that has entered each cell, as its heat is counted",
+                                                 .accepted_with = temperature.name(),
+                                                 .is_amount = true});
+    place.cumulative =
+        &context.fields.add(mesh_, {.owner = context.name,
+                                    .name = "cumulative_in_" + where,
+                                    .location = location,
+                                    .components = 3,
+                                    .role = Role::derived(),
+                                    .unit = "J/m",
+                                    .doc = "Heat of received fluid, and what fluid carried in from outside and out",
+                                    .accepted_with = temperature.name(),
+                                    .is_amount = true});
+  }
+
+  StreamSources sources() const {
+    StreamSources sources{mesh_, matrix_, walls_};
+    if (walls_ && mesh_.wall_count() > 0 && walls_->wall_flux().is_solved()) sources.wall_flux = &walls_->wall_flux();
+    sources.fracture = fracture_;
+    sources.matrix_heat = rock_.temperature ? rock_.heat : nullptr;
+    sources.fracture_heat = fractures_.temperature ? fracture_heat_ : nullptr;
+    sources.injected = injected_;
+    return sources;
+  }
+
+  /// Throws DataError for a temperature of a place that the flow does not have.
+  void check_names() const {
+    std::vector<std::string> known;
+    if (rock_.temperature)
+      for (const FluidSource& source : matrix_->fluid_sources()) known.push_back(source.name);
+    if (fractures_.temperature) {
+      for (const FluidSource& source : fracture_->fluid_sources()) known.push_back(source.name);
+      for (const FluidReservoir& reservoir : fracture_->fluid_reservoirs()) known.push_back(reservoir.name);
+    }
+    for (const auto& [name, given] : options_.injected)
+      if (!std::ranges::count(known, name))
+        throw DataError(unknown_name(given.origin, "place where the flow lets fluid in", name, known).what());
+  }
+
+  double temperature_of(const Medium& place, const Stream& stream) const {
+    const double own = place.temperature->now()[stream.cell];
+    if (stream.rate <= 0) return own;
+    switch (stream.from) {
+      case Stream::From::given:
+        return stream.temperature;
+      case Stream::From::rock_cell:
+        return rock_.temperature->now()[stream.index];
+      case Stream::From::fracture_cell:
+        return fractures_.temperature->now()[stream.index];
+      case Stream::From::own:
+        break;
+    }
+    return own;
+  }
+
+  void add(Assembly& assembly, const Medium& place, const std::vector<Stream>& streams, const StepTime& step) const {
+    const Field& temperature = *place.temperature;
+    const double scale = options_.fluid_heat_capacity * step.dt;
+    const Vector capacity = options_.fluid_heat_capacity * place.received->accepted();
+    Vector carried = Vector::Zero(temperature.size()), through_sides = carried;
+    double largest = 0, largest_rate = 0;
+    std::vector<Triplet> own, of_rock, of_fractures;
+    std::array<std::vector<Triplet>, 3> by_flux;  // by Stream::Flux
+    for (const Stream& stream : streams) {
+      SPREKK_ASSERT(std::isfinite(stream.rate), stream.cell, stream.rate);
+      if (stream.rate <= 0 || stream.from == Stream::From::own) continue;
+      const double difference = temperature.now()[stream.cell] - temperature_of(place, stream);
+      const double amount = scale * stream.rate * difference;
+      carried[stream.cell] += amount;
+      if (stream.is_outside) through_sides[stream.cell] += std::abs(amount);
+      largest = std::max(largest, std::abs(amount));
+      largest_rate = std::max(largest_rate, stream.rate);
+      own.emplace_back(stream.cell, stream.cell, scale * stream.rate);
+      if (stream.from == Stream::From::rock_cell) of_rock.emplace_back(stream.cell, stream.index, -scale * stream.rate);
+      if (stream.from == Stream::From::fracture_cell)
+        of_fractures.emplace_back(stream.cell, stream.index, -scale * stream.rate);
+      if (stream.flux != Stream::Flux::none)
+        by_flux[static_cast<int>(stream.flux)].emplace_back(stream.cell, stream.flux_index,
+                                                            scale * stream.by_flux * difference);
+    }
+    assembly.add(temperature, capacity.cwiseProduct(temperature.now() - temperature.accepted()));
+    assembly.add(temperature, carried);
+    assembly.compare_with(temperature, largest);
+    assembly.compare_round_off(temperature, scale * largest_rate * temperature.now().lpNorm<Eigen::Infinity>());
+    BalanceRows(assembly, temperature).add_turnover(through_sides);
+    if (!assembly.wants_derivatives()) return;
+    const auto block = [&](const std::vector<Triplet>& entries, int columns) {
+      SparseMatrix matrix(temperature.size(), columns);
+      matrix.setFromTriplets(entries.begin(), entries.end());
+      return matrix;
+    };
+    assembly.diagonal(temperature, temperature, capacity);
+    std::vector<Triplet>& same = place.location == Location::cell ? of_rock : of_fractures;
+    same.insert(same.end(), own.begin(), own.end());
+    for (const auto& [other, entries] : {std::pair{&rock_, &of_rock}, std::pair{&fractures_, &of_fractures}})
+      if (other->temperature && !entries->empty())
+        assembly.derivative(temperature, *other->temperature, block(*entries, other->temperature->size()));
+    const auto entries_of = [&](Stream::Flux flux) -> const std::vector<Triplet>& {
+      return by_flux[static_cast<int>(flux)];
+    };
+    if (const auto& entries = entries_of(Stream::Flux::face); !entries.empty()) {
+      const SparseMatrix of_faces = block(entries, mesh_.face_count());
+      for (const MatrixFluxes::Derivative& derivative : matrix_->face_flux_derivatives())
+        if (assembly.has_row(*derivative.field))
+          assembly.derivative(temperature, *derivative.field, SparseMatrix(of_faces * *derivative.matrix));
+    }
+    if (const auto& entries = entries_of(Stream::Flux::wall); !entries.empty())
+      assembly.derivative(temperature, walls_->wall_flux(), block(entries, mesh_.wall_count()));
+    if (const auto& entries = entries_of(Stream::Flux::fracture_point); !entries.empty())
+      assembly.derivative(temperature, fracture_->flux(), block(entries, fracture_->flux().size()));
+  }
+
+  void count(Medium& place, const std::vector<Stream>& streams, const StepTime& step) {
+    const Vector& temperature = place.temperature->now();
+    Vector sums = place.cumulative->accepted(), received = place.received->accepted();
+    for (const Stream& stream : streams) {
+      received[stream.cell] += step.dt * stream.rate;
+      if (!stream.is_outside) continue;
+      const double heat = options_.fluid_heat_capacity * step.dt * stream.rate * temperature_of(place, stream);
+      if (stream.rate > 0)
+        sums[3 * stream.cell + 1] += heat;
+      else
+        sums[3 * stream.cell + 2] -= heat;
+    }
+    replicate(mesh_, place.location, 1, received);
+    for (int i = 0; i < received.size(); ++i)
+      sums[3 * i] += options_.fluid_heat_capacity *
+                     (received[i] * temperature[i] - place.received->accepted()[i] * place.temperature->accepted()[i]);
+    replicate(mesh_, place.location, 3, sums);
+    place.received->set(std::move(received));
+    place.cumulative->set(std::move(sums));
+  }
+
+  const Mesh& mesh_;
+  HeatAdvectionOptions options_;
+  MatrixFluxes* matrix_ = nullptr;
+  FractureFluxes* fracture_ = nullptr;
+  MatrixWalls* walls_ = nullptr;
+  FractureTemperature* fracture_heat_ = nullptr;
+  Medium rock_, fractures_;
+  std::vector<std::pair<std::string, double>> injected_;  ///< K, in this step
+};
+
+const RegisterCoupler<HeatAdvection, HeatAdvectionOptions> registration("heat_advection");
+
+}  // namespace
+}  // namespace sprekk::couplers

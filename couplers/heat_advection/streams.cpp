@@ -1,0 +1,108 @@
+#include "couplers/heat_advection/streams.hpp"
+
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+/// A stream from outside, with the temperature that is known for it.
+Stream from_outside(int cell, double rate, const double* temperature) {
+  Stream stream{cell, rate, temperature ? Stream::From::given : Stream::From::own};
+  if (temperature) stream.temperature = *temperature;
+  stream.is_outside = true;
+  return stream;
+}
+
+Stream with_flux(Stream stream, Stream::Flux flux, int index, double by_flux) {
+  stream.flux = flux;
+  stream.flux_index = index;
+  stream.by_flux = by_flux;
+  return stream;
+}
+
+/// The streams through walls into the rock (sign 1), or into the fractures (−1).
+void append_walls(const StreamSources& sources, double sign, std::vector<Stream>& streams) {
+  if (!sources.wall_flux) return;
+  const Mesh& mesh = sources.mesh;
+  const bool has_both = sources.matrix_heat && sources.fracture_heat;
+  for (int w = 0; w < mesh.wall_count(); ++w) {
+    const int rock_cell = mesh.face_cells[mesh.wall_face(w)][0], fracture_cell = w / 2;
+    const bool into_rock = sign > 0;
+    if (into_rock && mesh.cell_rank[rock_cell] != parallel::rank()) continue;
+    const double length = sign * mesh.fracture_cells[fracture_cell].measure;
+    Stream stream{into_rock ? rock_cell : fracture_cell, length * sources.wall_flux->now()[w], Stream::From::own};
+    if (has_both) {
+      stream.from = into_rock ? Stream::From::fracture_cell : Stream::From::rock_cell;
+      stream.index = into_rock ? fracture_cell : rock_cell;
+    }
+    stream.is_outside = !has_both;
+    streams.push_back(with_flux(stream, Stream::Flux::wall, w, length));
+  }
+}
+
+void append_sources(const StreamSources& sources, const std::vector<FluidSource>& given, bool only_own_cells,
+                    std::vector<Stream>& streams) {
+  for (const FluidSource& source : given)
+    for (const auto& [cell, rate] : source.rates)
+      if (!only_own_cells || sources.mesh.cell_rank[cell] == parallel::rank())
+        streams.push_back(from_outside(cell, rate, sources.injected_temperature(source.name)));
+}
+
+}  // namespace
+
+std::vector<Stream> streams_of_rock(const StreamSources& sources) {
+  std::vector<Stream> streams;
+  if (!sources.matrix || !sources.matrix_heat) return streams;
+  const Mesh& mesh = sources.mesh;
+  const Vector& fluxes = sources.matrix->face_fluxes();
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    if (mesh.cell_rank[c] != parallel::rank()) continue;
+    for (const int f : mesh.cell_faces[c]) {
+      if (mesh.face_fracture_cell[f] != none || fluxes[f] == 0) continue;
+      const double sign = mesh.face_cells[f][0] == c ? -1 : 1;
+      Stream stream{c, sign * fluxes[f], Stream::From::rock_cell};
+      if (mesh.face_cells[f][1] == none) {
+        const std::optional<double> side = sources.matrix_heat->side_temperature(f);
+        stream = from_outside(c, stream.rate, side ? &*side : nullptr);
+      } else {
+        stream.index = mesh.face_cells[f][sign < 0 ? 1 : 0];
+      }
+      streams.push_back(with_flux(stream, Stream::Flux::face, f, sign));
+    }
+  }
+  append_walls(sources, 1, streams);
+  append_sources(sources, sources.matrix->fluid_sources(), true, streams);
+  return streams;
+}
+
+std::vector<Stream> streams_of_fractures(const StreamSources& sources) {
+  std::vector<Stream> streams;
+  if (!sources.fracture || !sources.fracture_heat) return streams;
+  const Mesh& mesh = sources.mesh;
+  const Vector& fluxes = sources.fracture->flux().now();
+  for (int p = 0; p < static_cast<int>(mesh.fracture_points.size()); ++p) {
+    if (fluxes[p] == 0) continue;
+    const FracturePoint& point = mesh.fracture_points[p];
+    for (std::size_t k = 0; k < point.cells.size(); ++k) {
+      const double sign = k == 0 ? -1 : 1;
+      Stream stream{point.cells[k], sign * fluxes[p], Stream::From::fracture_cell};
+      if (point.cells.size() == 1) {
+        const std::optional<double> end = sources.fracture_heat->end_temperature(p);
+        stream = from_outside(stream.cell, stream.rate, end ? &*end : nullptr);
+      } else {
+        stream.index = point.cells[1 - k];
+      }
+      streams.push_back(with_flux(stream, Stream::Flux::fracture_point, p, sign));
+    }
+  }
+  append_walls(sources, -1, streams);
+  append_sources(sources, sources.fracture->fluid_sources(), false, streams);
+  Vector net = Vector::Zero(mesh.fracture_cell_count());
+  for (const Stream& stream : streams) net[stream.cell] += stream.rate;
+  for (const FluidReservoir& reservoir : sources.fracture->fluid_reservoirs())
+    for (const int cell : reservoir.cells)
+      streams.push_back(from_outside(cell, -net[cell], sources.injected_temperature(reservoir.name)));
+  return streams;
+}
+
+}  // namespace sprekk::couplers

@@ -1,0 +1,53 @@
+// The streams of fluid into and out of cells, each with where it comes from.
+#pragma once
+
+#include <vector>
+
+#include "components/capabilities/fluid_fluxes.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
+#include "components/capabilities/temperature.hpp"
+
+namespace sprekk::couplers {
+
+/// Fluid that enters a cell, or with a negative rate leaves it.
+struct Stream {
+  /// own: the temperature of the cell itself, where no other one is known.
+  enum class From { own, rock_cell, fracture_cell, given };
+  /// What the rate is a multiple of: the flux through a face, a wall, a fracture point, or nothing that is solved for.
+  enum class Flux { face, wall, fracture_point, none };
+  int cell;
+  double rate;  ///< m^2/s
+  From from;
+  int index = none;         ///< of the cell that it comes from
+  double temperature = 0;   ///< K, where it is given
+  bool is_outside = false;  ///< whether it comes from or goes to outside of rock and fractures
+  Flux flux = Flux::none;
+  int flux_index = none;
+  double by_flux = 0;  ///< d rate / d flux
+};
+
+/// What the streams are found from. Everything but the mesh may be missing.
+struct StreamSources {
+  const Mesh& mesh;
+  const MatrixFluxes* matrix = nullptr;
+  const MatrixWalls* walls = nullptr;
+  const Field* wall_flux = nullptr;
+  const FractureFluxes* fracture = nullptr;
+  const MatrixTemperature* matrix_heat = nullptr;
+  const FractureTemperature* fracture_heat = nullptr;
+  /// The temperature of fluid from a named place (K), by name.
+  std::vector<std::pair<std::string, double>> injected = {};
+
+  const double* injected_temperature(const std::string& name) const {
+    for (const auto& [known, temperature] : injected)
+      if (known == name) return &temperature;
+    return nullptr;
+  }
+};
+
+/// The streams of cells of the rock that the process owns, at the present fluxes.
+std::vector<Stream> streams_of_rock(const StreamSources& sources);
+/// The streams of all fracture cells. A reservoir supplies what its cells lose to others, and takes what they gain.
+std::vector<Stream> streams_of_fractures(const StreamSources& sources);
+
+}  // namespace sprekk::couplers
