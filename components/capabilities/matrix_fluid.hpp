@@ -22,6 +22,8 @@ class MatrixFluid {
   /// The porosity of each cell, if a coupler is to add the compressibility of the grains, (alpha − phi)/K (below Eq. 7
   /// of the paper), to the storage; nullptr if the scene gives the storage as a whole.
   virtual const Property* porosity_for_storage() const = 0;
+  /// Replaces the viscosity of the scene, Pa s, one a cell. To be called by Part::evaluate_data, in every step.
+  virtual void change_viscosity(const Vector& viscosity) = 0;
 };
 
 /// Capability: accepts a flux through the walls of fractures, and gives the pressure there.

@@ -87,6 +87,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   const Vector& initial_pressure() const override { return initial_pressure_; }
   double largest_given_pressure() const override;
   const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
+  void change_viscosity(const Vector& viscosity) override;
   Field& wall_flux() override { return *wall_flux_; }
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
@@ -138,6 +139,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   std::array<Property, 3> permeability_;  ///< xx, yy, xy
   Property viscosity_, porosity_, compressibility_, storage_;
   bool properties_change_ = false;
+  bool viscosity_is_given_ = false;            ///< by a coupler
   std::vector<Tensor> mobility_;               ///< m^2/(Pa s), one a cell
   std::vector<Tensor> mobility_of_operators_;  ///< of operators_; only if properties change, in one process
   std::uint64_t mobility_version_ = 0;

@@ -21,7 +21,8 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
   const bool is_evaluated = data_evaluated_ && (same_step || !depends_on_time());
   if (properties_change_ && !is_evaluated) {
     for (Property& entry : permeability_) entry.evaluate(step);
-    for (Property* property : {&viscosity_, &porosity_, &compressibility_, &storage_}) property->evaluate(step);
+    for (Property* property : {&porosity_, &compressibility_, &storage_}) property->evaluate(step);
+    if (!viscosity_is_given_) viscosity_.evaluate(step);
     use_properties();
   }
   if (is_sealed_ && wall_flux_ && !wall_flux_->determined_by().empty())
@@ -57,6 +58,14 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
     }
     if (side.flux) boundary_values_[f] = value_in_step(*side.flux, place, step) * mesh_.face_measure[f];
   }
+}
+
+void MatrixFlow::change_viscosity(const Vector& viscosity) {
+  SPREKK_EXPECT(viscosity.size() == mesh_.cell_count(), viscosity.size(), mesh_.cell_count());
+  viscosity_is_given_ = properties_change_ = true;
+  if (viscosity_.values() == viscosity) return;
+  viscosity_.set(viscosity);
+  use_properties();
 }
 
 void MatrixFlow::evaluate_sources(const StepTime& step) {

@@ -105,6 +105,7 @@ couplers:
      injected: {inlet: {temperature: 320 K}, w: {temperature: 330 K}}}
   - {type: heat_exchange, between: [heat, water]}
   - {type: thermal_stress, between: [heat, rock], expansion: 1.0e-5 1/K}
+  - {type: thermal_viscosity, between: [pore, conduit, heat, water]}
 schedule: [{solve: [pore, rock, conduit, heat, water]}]
 time: {end: 10 day, step: 2 day}
 output: {every: 2 day}

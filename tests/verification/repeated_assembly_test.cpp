@@ -112,7 +112,8 @@ std::vector<Override> with_heat(const std::string& type) {
        "wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, {type: "
        "two_level, between: [rock, conduit, tips, contact]}, {type: heat_advection, between: [pore, conduit, heat, "
        "water], fluid_heat_capacity: 4.2e6 J/(m^3*K)}, {type: heat_exchange, between: [heat, water]}, {type: "
-       "thermal_stress, between: [heat, rock], expansion: 1e-5 1/K}]"},
+       "thermal_stress, between: [heat, rock], expansion: 1e-5 1/K}, {type: thermal_viscosity, between: [pore, "
+       "conduit, heat, water]}]"},
       {"schedule", "[{solve: [pore, rock, conduit, contact, heat, water]}, {grow: tips, settle: [rock, contact]}]"}};
 }
 
@@ -142,7 +143,8 @@ TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
                                  "fracture_heat/tpfa",
                                  "heat_advection",
                                  "heat_exchange",
-                                 "thermal_stress"},
+                                 "thermal_stress",
+                                 "thermal_viscosity"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {

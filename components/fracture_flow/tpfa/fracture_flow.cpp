@@ -134,12 +134,19 @@ void FractureFlow::make_links(const StepTime& step) {
 }
 
 void FractureFlow::evaluate_data(const StepTime& step) {
-  for (Property* property : {&viscosity_, &compressibility_, &inertia_}) property->evaluate(step);
+  for (Property* property : {&compressibility_, &inertia_}) property->evaluate(step);
+  if (!viscosity_is_given_) viscosity_.evaluate(step);
   for (MeansAlong* means : {&given_transmissivity_, &transmissivity_of_half_[0], &transmissivity_of_half_[1],
                             &given_normal_permeability_, &given_wall_permeability_[0], &given_wall_permeability_[1]})
     means->evaluate(step);
   make_links(step);
   prescribe(step);
+}
+
+void FractureFlow::change_viscosity(const Vector& viscosity) {
+  SPREKK_EXPECT(viscosity.size() == mesh_.fracture_cell_count(), viscosity.size(), mesh_.fracture_cell_count());
+  viscosity_is_given_ = true;
+  if (viscosity_.values() != viscosity) viscosity_.set(viscosity);
 }
 
 HydraulicAperture FractureFlow::hydraulic_aperture(double present, double held) const {

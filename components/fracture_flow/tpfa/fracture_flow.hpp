@@ -52,6 +52,7 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   Field& aperture() override { return aperture_; }
   const Vector& initial_aperture() const override { return initial_aperture_; }
   NormalPermeability normal_permeability() const override;
+  void change_viscosity(const Vector& viscosity) override;
   double viscosity_between_walls(int cell) const override { return options_.is_constant() ? 0 : viscosity_[cell]; }
   bool follows_aperture() const override;
   const Field& flux() const override { return flux_; }
@@ -125,7 +126,8 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   Vector held_flux_;           ///< the same, for inertia
   double released_share_ = 0;  ///< share of the change from the held to the present apertures that the cubic law takes
   Property viscosity_, compressibility_;
-  Property inertia_;  ///< 1/m, one a cell; without values where there is none
+  bool viscosity_is_given_ = false;  ///< by a coupler
+  Property inertia_;                 ///< 1/m, one a cell; without values where there is none
   MeansAlong given_transmissivity_, given_normal_permeability_;  ///< m^3, m/(Pa s), one a cell
   std::array<MeansAlong, 2> transmissivity_of_half_;             ///< by FractureCell::points
   std::array<MeansAlong, 2> given_wall_permeability_;            ///< by Wall, m/(Pa s), one a cell
