@@ -25,7 +25,8 @@ class FractureFluid {
   };
   virtual NormalPermeability normal_permeability() const = 0;
 
-  /// Replaces the viscosity of the scene, Pa s, one a fracture cell. To be called by Part::evaluate_data, in every step.
+  /// Replaces the viscosity of the scene, Pa s, one a fracture cell. To be called by Part::evaluate_data, in every
+  /// step.
   virtual void change_viscosity(const Vector& viscosity) = 0;
 
   /// The viscosity in a fracture cell whose transmissivity follows from its opening (w^3/(12 mu) where it is wide),

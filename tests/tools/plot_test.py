@@ -7,6 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -128,6 +129,24 @@ class Results(unittest.TestCase):
         self.assertEqual(drawn(), without)
         add_path(7200)
         self.assertNotEqual(drawn(), without)
+
+    def test_fractures_are_coloured_on_the_map(self):
+        def plot(field):
+            return subprocess.run([ROOT / "tools/plot", self.folder, "--on-map", field], capture_output=True, text=True)
+
+        def colours():
+            picture = plt.imread(self.folder / "plots/on_map_a_pressure.png")[:, :, :3].reshape(-1, 3)
+            return lambda colour: (np.abs(picture - np.array(colour[:3])).max(axis=1) < 0.01).sum()
+
+        self.assertEqual(plot("a.pressure").returncode, 0)
+        # One cell has the least value and the other the largest: beside the bar, which has an end no more often than
+        # its middle, these alone are seen.
+        count = colours()
+        first, middle, last = (count(plt.get_cmap("viridis")(share)) for share in (0.0, 0.5, 1.0))
+        self.assertGreater(min(first, last), 1.5 * middle, (first, middle, last))
+        wrong = plot("a.presure")
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("fractures have no field a.presure (they have: a.pressure", wrong.stderr)
 
     def test_a_folder_without_results_is_refused(self):
         done = subprocess.run([ROOT / "tools/plot", ROOT / "tools"], capture_output=True, text=True)

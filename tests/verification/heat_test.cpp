@@ -302,6 +302,23 @@ TEST(Heat, OfFracturesAloneIsBalanced) {
   EXPECT_LT(balance_error(run), 1e-12);
 }
 
+/// The scene of the gallery, its first two years: the maximum principle, the balance, and that water which comes out is
+/// never colder than what is injected nor warmer than before.
+TEST(Heat, DoubletCoolsTheRock) {
+  SceneRun run("tutorial/heat_doublet.yaml", {{"time.end", "720 day"}});
+  double before = 430;
+  run.run_until(720 * 86400.0, [&] {
+    const double outlet = run.quantity("heat_advection.outlet.temperature");
+    EXPECT_LE(outlet, before);
+    before = outlet;
+    EXPECT_GE(run.field("water.temperature").minCoeff(), 330 - 1e-9);
+    EXPECT_LE(run.field("water.temperature").maxCoeff(), 430 + 1e-9);
+  });
+  EXPECT_LT(before, 429);
+  EXPECT_GT(before, 400);
+  EXPECT_LT(balance_error(run), 1e-9);
+}
+
 /// What a scene may not ask for, and the words of the answer.
 TEST(Heat, MistakesAreRefused) {
   const auto message = [](const std::string& scene) -> std::string {
