@@ -1,12 +1,17 @@
+// The unknowns of the contact, and how Newton's method finds its way among the states of the cells.
 #include "components/contact/frictional_contact.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <memory>
 #include <utility>
 
+#include "components/contact/fields.hpp"
+#include "components/contact/jump_on_changed_mesh.hpp"
+#include "components/contact/note_jumps.hpp"
+#include "components/contact/options.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 
@@ -16,26 +21,11 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
                                      double stiffness_factor)
     : Component(context.name),
       mesh_(context.mesh),
-      traction_(context.fields.add(
-          mesh_, {.owner = context.name,
-                  .name = "traction",
-                  .location = Location::fracture_cell,
-                  .components = dimension,
-                  .role = Role::unknown(BlockKind::interface),
-                  .unit = "Pa",
-                  .doc = "Contact traction on the plus wall, normal and tangential (f of the paper's Eqs. 2-4)",
-                  .is_path_dependent = true})),
-      jump_(context.fields.add(mesh_,
-                               {.owner = context.name,
-                                .name = "jump",
-                                .location = Location::fracture_cell,
-                                .components = dimension,
-                                .role = Role::input(BlockKind::interface),
-                                .unit = "m",
-                                .doc = "Displacement jump, normal (opening) and tangential (slip) (the paper's Eq. 1)",
-                                .needs_coupler = "wall_traction",
-                                .is_path_dependent = true})),
-      options_(options),
+      traction_(add_traction(context)),
+      jump_(add_jump(context)),
+      options_(std::make_unique<Options>(options)),
+      dilation_limit_(options.dilation_limit),
+      weakening_(options.weakening),
       multiplier_(multiplier),
       stiffness_factor_(stiffness_factor),
       closure_(options.closure.build()) {
@@ -44,35 +34,40 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
   const std::vector<Place> places = fracture_cell_places(mesh_);
-  if (options_.weakening.is_on())
-    path_ = &context.fields.add(mesh_, {.owner = context.name,
-                                        .name = "path",
-                                        .location = Location::fracture_cell,
-                                        .role = Role::derived(),
-                                        .unit = "m",
-                                        .doc = "Path of slip and opening since the start, forth and back",
-                                        .accepted_with = traction_.name(),
-                                        .is_path_dependent = true});
-  friction_ = Property(options_.friction, places, context.start_time);
-  dilation_angle_ = Property(options_.dilation_angle, places, context.start_time);
-  if (options_.dynamic_friction) dynamic_friction_ = Property(*options_.dynamic_friction, places, context.start_time);
+  if (weakening_.is_on()) path_ = &add_path(context);
+  friction_ = Property(options_->friction, places, context.start_time);
+  dilation_angle_ = Property(options_->dilation_angle, places, context.start_time);
+  if (options_->dynamic_friction) dynamic_friction_ = Property(*options_->dynamic_friction, places, context.start_time);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
   fracture_measure_.assign(mesh_.fractures.size(), 0);
   for (const FractureCell& cell : mesh_.fracture_cells) fracture_measure_[cell.fracture] += cell.measure;
 }
 
+FrictionalContact::~FrictionalContact() = default;
+
 void FrictionalContact::evaluate_data(const StepTime& step) {
   friction_.evaluate(step);
-  if (options_.dynamic_friction) dynamic_friction_.evaluate(step);
+  if (options_->dynamic_friction) dynamic_friction_.evaluate(step);
   if (!dilation_angle_.depends_on_time()) return;
   dilation_angle_.evaluate(step);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
 }
 
+void FrictionalContact::begin_step(const StepTime&) {
+  back_slip_.clear();
+  kept_.clear();
+  last_.resize(0);
+}
+
+void FrictionalContact::set_search_mode(SearchMode mode) {
+  is_without_shortcuts_ = mode != SearchMode::with_shortcuts;
+  follows_pieces_ = is_without_shortcuts_ && mode != SearchMode::without_shortcuts;
+}
+
 std::vector<double> FrictionalContact::switch_times() const {
-  std::vector<const Data*> data{&options_.friction, &options_.dilation_angle};
-  if (options_.dynamic_friction) data.push_back(&*options_.dynamic_friction);
+  std::vector<const Data*> data{&options_->friction, &options_->dilation_angle};
+  if (options_->dynamic_friction) data.push_back(&*options_->dynamic_friction);
   return merged_switch_times(data);
 }
 
@@ -96,17 +91,6 @@ void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
   }
 }
 
-namespace {
-
-/// Of the jump along a cell at the tip of a fracture, which falls with the square root of the distance to the tip: the
-/// part between the places `from` and `to`, shares of the length from the other end on.
-double part_at_tip(double from, double to) {
-  const auto beyond = [](double place) { return (1 - place) * std::sqrt(1 - place); };
-  return beyond(from) - beyond(to);
-}
-
-}  // namespace
-
 void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
   SPREKK_EXPECT(static_cast<int>(change.fracture_cell.size()) == mesh_.fracture_cell_count(),
                 change.fracture_cell.size());
@@ -115,31 +99,10 @@ void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
   // Where the end of slip comes to lie within a new closed cell, old cells have to follow.
   const bool holds_all = covered.size() > 0 && covered.minCoeff() > 0;
   bonded_.resize(change.fracture_cell.size());
-  Vector jump = jump_.accepted();
-  for (std::size_t i = 0; i < bonded_.size(); ++i) {
-    const bool is_new = change.fracture_cell[i] == none;
-    bonded_[i] = holds_all || is_new;
-    if (is_new) jump.segment<dimension>(dimension * i).setZero();
-  }
-  // The volume of a replaced cell stays. The parts of each follow one another towards the tip.
-  std::map<int, double> place;  // in an old cell, where its next part begins
-  for (const ReplacedPart& replaced : change.replaced_parts) {
-    const FractureCell& old = before.mesh_.fracture_cells[replaced.old_cell];
-    double& from = place[replaced.old_cell];
-    const double to = std::min(1.0, from + replaced.share);
-    const double share = before.is_at_tip(replaced.old_cell) ? part_at_tip(from, to) : to - from;
-    jump.segment<dimension>(dimension * replaced.cell) +=
-        share * old.measure / mesh_.fracture_cells[replaced.cell].measure *
-        before.jump_.accepted().segment<dimension>(dimension * replaced.old_cell);
-    from = to;
-  }
+  for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = holds_all || change.fracture_cell[i] == none;
+  Vector jump = jump_on_changed_mesh(change, {mesh_, jump_.accepted()}, {before.mesh_, before.jump_.accepted()});
   bonded_jump_ = jump;
   jump_.set_both(std::move(jump));
-}
-
-bool FrictionalContact::is_at_tip(int cell) const {
-  return std::ranges::any_of(mesh_.fracture_cells[cell].points,
-                             [&](int point) { return mesh_.fracture_points[point].kind == FracturePoint::Kind::tip; });
 }
 
 void FrictionalContact::settled(const MeshChange&) {
@@ -263,81 +226,28 @@ void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
   const bool guesses = assembly.wants_derivatives() && !follows_pieces_;
   Vector residual(dimension * count);
   SPREKK_ASSERT(residual.size() == traction_.size(), residual.size(), traction_.size());
-  // The blocks have the same pattern in every state, so that the sparsity of the system never changes.
-  std::vector<Triplet> by_traction, by_jump;
+  CellBlocks by_traction, by_jump;
   for (int i = 0; i < count; ++i) {
-    const Trial t = guesses ? trial_of_update(i) : trial(i);
     const int row = dimension * i;
-    const double f_n = traction_.now()[row], c_n = stiffness()[row], c_t = stiffness()[row + 1];
-    const TangentialVector f_t = tangential(traction_.now(), i);
-    auto own = residual.segment<dimension>(row);
-    Tensor by_f = Tensor::Zero(), by_u = Tensor::Zero();  // derivatives of the residual, the normal row first
+    CellEquations cell;
     if (is_bonded(i)) {
-      own = bonded_jump_.segment<dimension>(row) - jump_.now().segment<dimension>(row);
-      by_u.diagonal().setConstant(-1);
-    } else if (t.is_open() && !path_) {
-      own << f_n / c_n, f_t / c_t;
-      by_f.diagonal().setConstant(1 / c_t);
-      by_f(0, 0) = 1 / c_n;
+      cell.residual = bonded_jump_.segment<dimension>(row) - jump_.now().segment<dimension>(row);
+      cell.by_jump.diagonal().setConstant(-1);
     } else {
-      constexpr int tangents = dimension - 1;
-      using Row = Eigen::Matrix<double, 1, dimension>;
-      const ReturnedTraction<tangents> returned = return_to_cone<tangents>(t);
-      Row gap_by_u;
-      gap_by_u << 1, -t.slip_direction.transpose() * t.dilation;
-      const auto gap_by_t = gap_by_u.template tail<tangents>();
-      auto by_f_t = by_f.bottomRightCorner<tangents, tangents>();
-      own[0] = t.is_open() ? (f_n - t.tension) / c_n : has_present ? -t.gap : (f_n - t.normal) / c_n;
-      own.template tail<tangents>() = (f_t - returned.tangential) / c_t;
-      if (t.is_open()) {
-        by_f(0, 0) = 1 / c_n;
-      } else {
-        by_f(0, 0) = (has_present ? 0 : 1 / c_n) - t.gap_by_traction;
-        by_u.row(0) = -gap_by_u;
-      }
-      by_u.bottomRightCorner<tangents, tangents>() = -returned.by_trial;
-      by_f_t.setIdentity();
-      if (has_present) by_f_t -= returned.by_trial;
-      by_f_t /= c_t;
-      if (!t.sticks() && t.normal <= 0) {
-        const TangentialVector by_normal = returned.by_bound * t.strength.friction / c_t;
-        by_f.bottomLeftCorner<tangents, 1>() = by_normal * (has_present + c_n * t.gap_by_traction);
-        by_u.bottomLeftCorner<tangents, 1>() = by_normal * c_n;
-        by_u.bottomRightCorner<tangents, tangents>() += by_normal * c_n * gap_by_t;
-      }
-      if (path_) {
-        // What weakens along the path: the tensile strength in the normal row, the bound in the tangential ones.
-        Row path_by_u = t.path_by_gap * gap_by_u;
-        path_by_u.template tail<tangents>() += t.path_by_slip.transpose();
-        const double path_by_f = t.path_by_gap * t.gap_by_traction;
-        if (t.is_open()) {
-          by_f(0, 0) -= t.strength.tension_by_path * path_by_f / c_n;
-          by_u.row(0) -= t.strength.tension_by_path * path_by_u / c_n;
-        }
-        if (!t.sticks()) {
-          const double by_path = t.strength.cohesion_by_path - t.strength.friction_by_path * std::min(0.0, t.normal);
-          by_f.bottomLeftCorner<tangents, 1>() -= returned.by_bound * by_path * path_by_f / c_t;
-          by_u.bottomRows<tangents>() -= returned.by_bound * by_path * path_by_u / c_t;
-        }
-      }
+      cell = equations_of(guesses ? trial_of_update(i) : trial(i), traction_.now().segment<dimension>(row),
+                          {stiffness()[row], stiffness()[row + 1], has_present, path_ != nullptr});
     }
-    for (int k = 0; k < dimension; ++k)
-      for (int l = 0; l < dimension; ++l) {
-        if (k > 0 || l == 0) by_traction.emplace_back(row + k, row + l, by_f(k, l));
-        by_jump.emplace_back(row + k, row + l, by_u(k, l));
-      }
+    residual.segment<dimension>(row) = cell.residual;
+    by_traction.push_back(cell.by_traction);
+    by_jump.push_back(cell.by_jump);
   }
   assembly.add(traction_, residual);
   // The residual is compared with the jumps, or, where all cells stick, with the jumps that the tractions would make.
   assembly.compare_with(traction_, traction_.now().cwiseQuotient(stiffness()).lpNorm<Eigen::Infinity>());
   assembly.compare_with(traction_, jump_.now().lpNorm<Eigen::Infinity>());
   if (!assembly.wants_derivatives()) return;
-  const int rows = dimension * count;
-  SparseMatrix tractions(rows, rows), jumps(rows, rows);
-  tractions.setFromTriplets(by_traction.begin(), by_traction.end());
-  jumps.setFromTriplets(by_jump.begin(), by_jump.end());
-  assembly.derivative(traction_, traction_, std::move(tractions));
-  assembly.derivative(traction_, jump_, std::move(jumps));
+  assembly.derivative(traction_, traction_, block_diagonal(by_traction, Pattern::normal_by_normal));
+  assembly.derivative(traction_, jump_, block_diagonal(by_jump, Pattern::full));
 }
 
 void FrictionalContact::report(std::vector<Quantity>& quantities) const {
@@ -352,6 +262,17 @@ void FrictionalContact::output(std::vector<OutputField>& fields) const {
   Vector states(mesh_.fracture_cell_count());
   for (int i = 0; i < states.size(); ++i) states[i] = static_cast<double>(state(i));
   fields.push_back({name() + ".state_0_stick_1_slip_2_open", "1", Location::fracture_cell, 1, std::move(states)});
+}
+
+void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
+  std::vector<char> is_open(mesh_.fracture_cell_count());
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_open[i] = state(i) == State::open;
+  note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, options_->large_jump});
+}
+
+std::unique_ptr<Component> frictional_contact(const ComponentContext& context, const Options& options,
+                                              Multiplier multiplier, double stiffness_factor) {
+  return std::make_unique<FrictionalContact>(context, options, multiplier, stiffness_factor);
 }
 
 }  // namespace sprekk::contact

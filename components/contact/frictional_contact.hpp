@@ -2,40 +2,22 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
+#include "components/contact/cell_equations.hpp"
 #include "components/contact/laws/closure.hpp"
-#include "components/contact/laws/strength.hpp"
-#include "components/contact/return_map.hpp"
+#include "components/contact/multiplier.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/property.hpp"
-#include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::contact {
 
-/// Parameters of the contact law.
-struct Options {
-  Data friction;                         ///< mu_s
-  Data dilation_angle;                   ///< psi, rad
-  std::optional<double> dilation_limit;  ///< m
-  Weakening weakening;
-  bool weakens = false;                  ///< whether the scene has the section
-  std::optional<Data> dynamic_friction;  ///< mu_d
-  ClosureOptions closure;
-  /// Jump over the length of its fracture from where on a note says that it is large.
-  double large_jump = 0.01;
-  Spec spec(const std::string& type, const std::string& doc);
-};
-
-/// The traction to which c times the gap and the slip of the step are added (the trial). `present`: that of the
-/// iterate, an unknown like the jump. `last`: that of the iterate before, held while the next one is found. `none`: no
-/// normal traction, and the tangential one from before the step: c is a stiffness of the walls then, and they overlap.
-enum class Multiplier { present, last, none };
+struct Options;
 
 /// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. In space
 /// the tangential part has two components, |·| is its norm and the interval [−b, b] a disk (return_map.hpp). With the
@@ -68,14 +50,11 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   /// `stiffness_factor`: c over the stiffness of the rock against a jump of the cell.
   FrictionalContact(const ComponentContext& context, const Options& options,
                     Multiplier multiplier = Multiplier::present, double stiffness_factor = 1);
+  ~FrictionalContact() override;
 
   void evaluate_data(const StepTime& step) override;
   bool allows_stages() const override { return true; }
-  void begin_step(const StepTime&) override {
-    back_slip_.clear();
-    kept_.clear();
-    last_.resize(0);
-  }
+  void begin_step(const StepTime&) override;
   /// Cells that have grown are bonded, [u] = 0, until the equilibrium on the new mesh with bonded cells has been found.
   /// Cells that cover given-up ones are held meanwhile at the jump of these, with the same volume. Where tips only go
   /// on in this way, all other cells are held, too: such a change of the mesh lets no walls slide or part, which with
@@ -86,10 +65,7 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   std::uint64_t discrete_state() const override;
-  void set_search_mode(SearchMode mode) override {
-    is_without_shortcuts_ = mode != SearchMode::with_shortcuts;
-    follows_pieces_ = is_without_shortcuts_ && mode != SearchMode::without_shortcuts;
-  }
+  void set_search_mode(SearchMode mode) override;
   void deactivate_conditions() override;
   /// Keeps cells that have slid back over their asperities in the state stick. Sliding back closes the fracture, which
   /// reduces its contact pressure and so its friction. Walls may then come to rest far away although they could also
@@ -121,44 +97,22 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
-  bool is_at_tip(int cell) const;
   const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
-  struct Trial : TrialTraction<dimension - 1> {
-    double gap;
-    double gap_by_traction;           ///< d gap / d f_n, m/Pa
-    TangentialVector slip_direction;  ///< unit
-    double dilation;                  ///< d gap / d [u]_t = −dilation · slip_direction^T
-    Strength strength;
-    TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
-    double path_by_gap;
-    double least_bound;  ///< friction below it does not hold anything: which way it points is round-off
-    /// Whether the cell slides towards zero slip, against friction.
-    bool slides_back() const {
-      return bound > least_bound && !is_open() && !sticks() && tangential.dot(slip_direction) < 0;
-    }
-  };
   Trial trial(int cell) const;
   /// Whether the trial's traction is that of the iterate.
-  bool trial_has_present() const {
-    return multiplier_ == Multiplier::present ||
-           (multiplier_ == Multiplier::last && (is_without_shortcuts_ || last_.size() == 0));
-  }
+  bool trial_has_present() const;
   double multiplier(int cell) const;                       ///< Pa, normal
   TangentialVector tangential_multiplier(int cell) const;  ///< Pa
   /// The opening by dilation, m, after slip of this size, and its derivative.
   double dilated(int cell, double slip) const;
   double dilation_at(int cell, double slip) const;
-  double closure(double normal_traction) const { return closure_ ? closure_->at(-normal_traction).closure : 0.0; }
+  double closure(double normal_traction) const;
   double gap(int cell, const Vector& traction, const Vector& jump) const;
   /// mu_d; that of the start where friction does not weaken.
-  double dynamic_friction(int cell) const {
-    return dynamic_friction_.version() > 0 ? dynamic_friction_[cell] : friction_[cell];
-  }
+  double dynamic_friction(int cell) const;
   /// The path q of slip and opening at the end of the step, m, with the gap of the cell then.
   double path(int cell, double gap) const;
-  static TangentialVector tangential(const Vector& values, int cell) {
-    return values.segment<dimension - 1>(dimension * cell + 1);
-  }
+  static TangentialVector tangential(const Vector& values, int cell);
   /// A number for the state of a cell, and which way it slips, if friction knows; when pieces are followed, it also
   /// tells the piece of |[u]_t|.
   int piece(int cell) const;
@@ -176,7 +130,9 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   Field& traction_;
   Field& jump_;
   Field* path_ = nullptr;  ///< q, m; null without weakening
-  Options options_;
+  std::unique_ptr<const Options> options_;
+  std::optional<double> dilation_limit_;  ///< m
+  Weakening weakening_;
   Multiplier multiplier_;
   double stiffness_factor_;
   Vector last_;                              ///< Pa, the traction of the iterate before; empty at the start of a step

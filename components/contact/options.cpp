@@ -1,5 +1,4 @@
-// The parameters that all types of contact share.
-#include "components/contact/frictional_contact.hpp"
+#include "components/contact/options.hpp"
 
 namespace sprekk::contact {
 

@@ -8,12 +8,29 @@
 
 namespace sprekk::contact {
 
+TangentialVector FrictionalContact::tangential(const Vector& values, int i) {
+  return values.segment<dimension - 1>(dimension * i + 1);
+}
+
+bool FrictionalContact::trial_has_present() const {
+  return multiplier_ == Multiplier::present ||
+         (multiplier_ == Multiplier::last && (is_without_shortcuts_ || last_.size() == 0));
+}
+
+double FrictionalContact::closure(double normal_traction) const {
+  return closure_ ? closure_->at(-normal_traction).closure : 0.0;
+}
+
+double FrictionalContact::dynamic_friction(int i) const {
+  return dynamic_friction_.version() > 0 ? dynamic_friction_[i] : friction_[i];
+}
+
 double FrictionalContact::dilated(int i, double slip) const {
-  return std::min(slip, options_.dilation_limit.value_or(slip)) * dilation_[i];
+  return std::min(slip, dilation_limit_.value_or(slip)) * dilation_[i];
 }
 
 double FrictionalContact::dilation_at(int i, double slip) const {
-  return options_.dilation_limit && slip > *options_.dilation_limit ? 0.0 : dilation_[i];
+  return dilation_limit_ && slip > *dilation_limit_ ? 0.0 : dilation_[i];
 }
 
 double FrictionalContact::gap(int i, const Vector& traction, const Vector& jump) const {
@@ -38,7 +55,7 @@ TangentialVector FrictionalContact::tangential_multiplier(int i) const {
   return tangential(multiplier_ == Multiplier::last ? last_ : traction_.accepted(), i);
 }
 
-FrictionalContact::Trial FrictionalContact::trial(int i) const {
+Trial FrictionalContact::trial(int i) const {
   SPREKK_EXPECT(is_index(i, mesh_.fracture_cell_count()), i, mesh_.fracture_cell_count());
   const int row = dimension * i;
   const double c_n = stiffness()[row], c_t = stiffness()[row + 1];
@@ -54,7 +71,7 @@ FrictionalContact::Trial FrictionalContact::trial(int i) const {
   t.path_by_slip.setZero();
   t.path_by_gap = 0;
   if (path_) {
-    t.strength = options_.weakening.at(friction_[i], dynamic_friction(i), path(i, t.gap));
+    t.strength = weakening_.at(friction_[i], dynamic_friction(i), path(i, t.gap));
     const double before = std::max(0.0, gap(i, traction_.accepted(), jump_.accepted()));
     t.path_by_gap = t.gap > before;
   }
@@ -91,7 +108,7 @@ std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
                       dilated(i, std::abs(slip)) - dilation * slip - closure(normal)};
 }
 
-FrictionalContact::Trial FrictionalContact::trial_of_update(int i) const {
+Trial FrictionalContact::trial_of_update(int i) const {
   Trial t = trial(i);
   if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;
   t.slip_direction = -t.slip_direction;

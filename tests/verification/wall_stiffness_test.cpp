@@ -8,6 +8,7 @@
 
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/contact/frictional_contact.hpp"
+#include "components/contact/options.hpp"
 #include "framework/scene/registry.hpp"
 #include "tests/verification/scene_run.hpp"
 

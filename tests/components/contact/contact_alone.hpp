@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "components/contact/frictional_contact.hpp"
+#include "components/contact/options.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::contact {

@@ -1,0 +1,51 @@
+// The trial state of a cell, and the equations of the cell that follow from it.
+#pragma once
+
+#include <vector>
+
+#include "components/contact/laws/strength.hpp"
+#include "components/contact/return_map.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk::contact {
+
+/// The gap of a cell, m, what its walls hold, and the traction that the return map takes back to the cone, Pa.
+struct Trial : TrialTraction<dimension - 1> {
+  double gap;
+  double gap_by_traction;           ///< d gap / d f_n, m/Pa
+  TangentialVector slip_direction;  ///< unit
+  double dilation;                  ///< d gap / d [u]_t = −dilation · slip_direction^T
+  Strength strength;
+  TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
+  double path_by_gap;
+  double least_bound;  ///< friction below it does not hold anything: which way it points is round-off
+  /// Whether the cell slides towards zero slip, against friction.
+  bool slides_back() const;
+};
+
+/// The residual of the equations of a cell, m, and its derivatives by the traction (m/Pa) and by the jump; the normal
+/// component first.
+struct CellEquations {
+  Point residual = Point::Zero();
+  Tensor by_traction = Tensor::Zero(), by_jump = Tensor::Zero();
+};
+
+/// What else the equations of a cell depend on.
+struct CellSettings {
+  double normal_stiffness, tangential_stiffness;  ///< c, Pa/m, positive
+  bool has_present;                               ///< whether the trial's traction is that of the iterate
+  bool weakens;                                   ///< whether strength depends on the path
+};
+
+/// The equations of a cell with this traction, Pa, whose trial is given (FrictionalContact has the formulas).
+CellEquations equations_of(const Trial& trial, const Point& traction, const CellSettings& settings);
+
+/// A square block for each cell.
+using CellBlocks = std::vector<Tensor>;
+/// Which entries of each block the matrix stores, zeros among them, so that the sparsity of the system never changes:
+/// all, or all but those of the normal row by tangential components.
+enum class Pattern { full, normal_by_normal };
+/// The matrix with these blocks on its diagonal.
+SparseMatrix block_diagonal(const CellBlocks& blocks, Pattern pattern);
+
+}  // namespace sprekk::contact

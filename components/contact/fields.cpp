@@ -1,0 +1,41 @@
+#include "components/contact/fields.hpp"
+
+namespace sprekk::contact {
+
+Field& add_traction(const ComponentContext& context) {
+  return context.fields.add(
+      context.mesh, {.owner = context.name,
+                     .name = "traction",
+                     .location = Location::fracture_cell,
+                     .components = dimension,
+                     .role = Role::unknown(BlockKind::interface),
+                     .unit = "Pa",
+                     .doc = "Contact traction on the plus wall, normal and tangential (f of the paper's Eqs. 2-4)",
+                     .is_path_dependent = true});
+}
+
+Field& add_jump(const ComponentContext& context) {
+  return context.fields.add(context.mesh,
+                            {.owner = context.name,
+                             .name = "jump",
+                             .location = Location::fracture_cell,
+                             .components = dimension,
+                             .role = Role::input(BlockKind::interface),
+                             .unit = "m",
+                             .doc = "Displacement jump, normal (opening) and tangential (slip) (the paper's Eq. 1)",
+                             .needs_coupler = "wall_traction",
+                             .is_path_dependent = true});
+}
+
+Field& add_path(const ComponentContext& context) {
+  return context.fields.add(context.mesh, {.owner = context.name,
+                                           .name = "path",
+                                           .location = Location::fracture_cell,
+                                           .role = Role::derived(),
+                                           .unit = "m",
+                                           .doc = "Path of slip and opening since the start, forth and back",
+                                           .accepted_with = context.name + ".traction",
+                                           .is_path_dependent = true});
+}
+
+}  // namespace sprekk::contact

@@ -1,0 +1,19 @@
+// Jumps of fracture cells after a change of the mesh.
+#pragma once
+
+#include "framework/mesh/mesh_change.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk::contact {
+
+/// The jumps of all fracture cells of a mesh, m.
+struct JumpsOnMesh {
+  const Mesh& mesh;
+  const Vector& jump;  ///< (normal, tangential) of each fracture cell
+};
+
+/// The jumps on the new mesh: those of kept cells stay, new cells have none, and cells that cover given-up ones get
+/// their volumes. `carried`: what the transfer of fields has made of the jumps.
+Vector jump_on_changed_mesh(const MeshChange& change, const JumpsOnMesh& carried, const JumpsOnMesh& before);
+
+}  // namespace sprekk::contact

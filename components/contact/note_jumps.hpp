@@ -1,0 +1,24 @@
+// Notes on jumps that are large, and on fractures that have opened as a whole.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/assembly/part.hpp"
+#include "framework/field/field.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::contact {
+
+/// What the contact has at the end of a step.
+struct JumpsOfStep {
+  const Field& traction;             ///< Pa, (normal, tangential) of each fracture cell
+  const Field& jump;                 ///< m, the same
+  const std::vector<char>& is_open;  ///< of each fracture cell
+  double large_jump;                 ///< over the length of its fracture
+};
+
+/// Adds the notes of the component `name` on the step that is about to be accepted.
+void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const JumpsOfStep& step);
+
+}  // namespace sprekk::contact

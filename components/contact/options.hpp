@@ -1,0 +1,35 @@
+// The parameters that all types of contact share.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "components/contact/laws/closure.hpp"
+#include "components/contact/laws/strength.hpp"
+#include "components/contact/multiplier.hpp"
+#include "framework/config/spec.hpp"
+#include "framework/scene/component.hpp"
+
+namespace sprekk::contact {
+
+/// Parameters of the contact law.
+struct Options {
+  Data friction;                         ///< mu_s
+  Data dilation_angle;                   ///< psi, rad
+  std::optional<double> dilation_limit;  ///< m
+  Weakening weakening;
+  bool weakens = false;                  ///< whether the scene has the section
+  std::optional<Data> dynamic_friction;  ///< mu_d
+  ClosureOptions closure;
+  /// Jump over the length of its fracture from where on a note says that it is large.
+  double large_jump = 0.01;
+  Spec spec(const std::string& type, const std::string& doc);
+};
+
+/// Builds FrictionalContact, whose class the sources of the types need not read. `stiffness_factor`: c over the
+/// stiffness of the rock against a jump of the cell. Throws InputError where the scene has no fractures.
+std::unique_ptr<Component> frictional_contact(const ComponentContext& context, const Options& options,
+                                              Multiplier multiplier, double stiffness_factor);
+
+}  // namespace sprekk::contact
