@@ -1,4 +1,4 @@
-// The mesh that has been, with the cells of tips prepared to go on in it.
+// Lets tips that go on keep the mesh around them.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace sprekk {
 
-/// The given mesh as what extend_fractures could have made of itself, for paths that replace the last cell of their
-/// fracture by one segment, or by two: then the last cell is divided, with the two triangles beside it, where the first
-/// point is along it. Nothing else changes, and nothing moves: move_tips puts the ends where the paths want them. So a
-/// tip that goes on keeps the mesh around it, and a state that is carried over meets no other discretization. All cells
-/// of the cavity may move; they count as new.
+/// Takes the place of extend_fractures for paths that replace the last cell of their fracture by one segment or by
+/// two, and returns the given mesh with the cells of the cavity marked as new, since move_tips may move them. For two
+/// segments the last cell is divided at the place of the first point along it, and so are the two triangles beside it.
+/// Nothing else changes, and nothing moves: move_tips puts the tips where the paths end. So a state that is carried
+/// over meets the same discretization around the tip.
 ///
-/// Nothing for other paths, and where a cell that would have to move is no triangle.
+/// Returns nothing for other paths, and where a cell that would have to move is no triangle.
 std::optional<GrownMesh> continued_mesh(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                         const CavityOptions& options);
 

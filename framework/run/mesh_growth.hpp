@@ -35,7 +35,8 @@ class MeshGrowth {
   /// The shortest step (GrowStep::may_shrink) does not fail for want of an advance: tips then grow with the state held,
   /// and in short steps, until the state has settled.
   StepStatus attempt(const StepTime& step);
-  /// s, the longest step in which the growth of the last one would be followed; infinity where nothing grew.
+  /// s, the longest next step in which tips that go on as fast as in the last step are followed; infinity where
+  /// nothing grew.
   double longest_step() const;
   /// To be called after a step that has been accepted. The mesh takes growth over, and steps are held small until the
   /// state has settled.
