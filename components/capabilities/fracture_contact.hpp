@@ -31,7 +31,7 @@ class FractureContact {
   /// The stiffness of the rock against a jump of one cell, Pa/m, (normal, tangential) of each fracture cell. It scales
   /// the method of solution; the solution does not depend on it.
   virtual void set_wall_stiffness(const Vector& stiffness) = 0;
-  /// The law of a cell whose walls slide or are open; nothing while they stick.
+  /// The law of a cell whose walls slide or are open, or have slid and rest; nothing while they stick.
   virtual std::optional<SlidingWalls> sliding(int cell) const = 0;
 };
 

@@ -103,9 +103,11 @@ void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
   Vector jump = jump_on_changed_mesh(change, {mesh_, jump_.accepted()}, {before.mesh_, before.jump_.accepted()});
   bonded_jump_ = jump;
   jump_.set_both(std::move(jump));
+  if (change.is_at_rest) carried_traction_ = traction_.accepted();
 }
 
-void FrictionalContact::settled(const MeshChange&) {
+void FrictionalContact::settled(const MeshChange& change) {
+  if (change.is_at_rest) traction_.set_both(std::exchange(carried_traction_, {}));
   bonded_.clear();
   bonded_jump_.resize(0);
 }

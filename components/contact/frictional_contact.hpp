@@ -142,6 +142,7 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   Vector dilation_;                          ///< tan psi
   std::vector<char> bonded_;                 ///< empty for none
   Vector bonded_jump_;                       ///< m, of all cells; empty where none is bonded
+  Vector carried_traction_;                  ///< Pa, of the state that is being settled on other cells; otherwise empty
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
   bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction

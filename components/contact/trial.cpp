@@ -95,13 +95,17 @@ Trial FrictionalContact::trial(int i) const {
 std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   if constexpr (dimension != 2) return std::nullopt;
   if (is_bonded(i)) return std::nullopt;
-  constexpr double at_bound = 1e-6;  // below it by so much of it: walls stick
+  constexpr double at_bound = 1e-6;    // below it by so much of it: walls stick
+  constexpr double least_slip = 1e-3;  // of the slip that would take all shear from the walls
   const Trial t = trial(i);
   const double normal = traction_.now()[dimension * i], shear = traction_.now()[dimension * i + 1],
                slip = jump_.now()[dimension * i + 1];
   const bool is_closed = normal < 0 && !t.is_open();
   const double held = t.strength.cohesion - t.strength.friction * normal;
-  if (is_closed && std::abs(shear) < (1 - at_bound) * held) return std::nullopt;
+  // Walls that rest after they have slid keep what has slid and parted within the cell: the friction is then that which
+  // is mobilised. Otherwise a pressure that falls by next to nothing would change the walls next to a kink at once.
+  const bool has_slid = std::abs(slip) > least_slip * std::abs(shear) / stiffness()[dimension * i + 1];
+  if (is_closed && !has_slid && std::abs(shear) < (1 - at_bound) * held) return std::nullopt;
   const double dilation = std::copysign(t.dilation, slip);
   return SlidingWalls{is_closed ? std::abs(shear / normal) : t.strength.friction,
                       std::copysign(1.0, is_closed ? shear : slip), dilation,

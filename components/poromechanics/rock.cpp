@@ -1,12 +1,14 @@
 #include "components/poromechanics/rock.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "components/poromechanics/check_conditions.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
+#include "framework/mesh/mesh_change.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::poromechanics {
@@ -40,15 +42,25 @@ Rock::Rock(const ComponentContext& context, const Options& options, const Stress
                                                .doc = "Displacement of the rock"})),
       stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
   check_conditions(options_, mesh_, context.origin);
-  if (mesh_.wall_count() > 0)
-    wall_traction_ =
-        &context.fields.add(mesh_, {.owner = context.name,
-                                    .name = "wall_traction",
-                                    .location = Location::fracture_cell,
-                                    .components = 2,
-                                    .role = Role::input(BlockKind::interface),
-                                    .unit = "Pa",
-                                    .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
+  if (mesh_.wall_count() == 0) return;
+  wall_traction_ =
+      &context.fields.add(mesh_, {.owner = context.name,
+                                  .name = "wall_traction",
+                                  .location = Location::fracture_cell,
+                                  .components = 2,
+                                  .role = Role::input(BlockKind::interface),
+                                  .unit = "Pa",
+                                  .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
+  wall_remainder_ = &context.fields.add(
+      mesh_,
+      {.owner = context.name,
+       .name = "wall_remainder",
+       .location = Location::fracture_cell,
+       .components = 2,
+       .role = Role::derived(),
+       .unit = "Pa",
+       .doc = "Beside the traction on the plus wall: what the same jumps need more on the cells of the rock that "
+              "have come in the place of others"});
 }
 
 void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
@@ -126,10 +138,21 @@ void Rock::discretize() {
 void Rock::carry_over(const Part& part, const MeshChange& change) {
   const Rock& before = dynamic_cast<const Rock&>(part);
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
+  if (wall_remainder_ && change.is_at_rest) carried_traction_ = wall_traction_->accepted();
+  if (wall_remainder_ && !change.is_at_rest)
+    wall_remainder_->set_both(covered_parts(change, mesh_).minCoeff() * wall_remainder_->accepted());
   // With several processes, cells may have moved to other processes.
   if (parallel::size() > 1 || !before.is_discretized()) return;
   find_conditions();
   discretize_from({before.mesh_, before.stiffness_.of_cells(), before.conditions_}, before.operators_, change);
+}
+
+void Rock::settled(const MeshChange& change) {
+  if (!wall_remainder_ || !change.is_at_rest) return;
+  wall_remainder_->set_both(wall_load() - carried_traction_);
+  wall_traction_->set_both(std::exchange(carried_traction_, {}));
+  boundary_applied_ = false;
+  apply_boundary();
 }
 
 void Rock::discretize_from(const StressInputs& before, const StressOperators& operators, const MeshChange& change) {
@@ -254,11 +277,14 @@ void Rock::apply_boundary() {
   SPREKK_ASSERT(boundary_values_.size() == dimension * mesh_.face_count(), boundary_values_.size());
   force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), 2);
   force_constant_ -= body_forces_;
+  if (wall_remainder_) force_constant_ += force_of_wall_traction_.entries() * wall_remainder_->now();
   if (parallel::size() > 1)
     for (int c = 0; c < mesh_.cell_count(); ++c)
       if (!is_owned(mesh_, Location::cell, c)) force_constant_.segment<2>(2 * c).setZero();
-  volume_change_.constant = operators_.volume_boundary * boundary_values_;
-  if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * boundary_values_);
+  Vector values = boundary_values_;
+  if (wall_remainder_) values += wall_forces_ * wall_remainder_->now();
+  volume_change_.constant = operators_.volume_boundary * values;
+  if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * values);
   for (const Load& load : loads_) {
     const Vector reference = load.alpha.cwiseProduct(load.reference);
     force_constant_ -= load.force_on_cell.entries() * load.reference;
@@ -286,7 +312,7 @@ void Rock::assemble(Assembly& assembly, const StepTime&) const {
 
 Vector Rock::face_forces() const {
   Vector values = boundary_values_;
-  if (wall_traction_) values += wall_forces_ * wall_traction_->now();
+  if (wall_traction_) values += wall_forces_ * wall_load();
   Vector forces = operators_.force_displacement * displacement_.now() + operators_.force_boundary * values;
   for (const Load& load : loads_) forces += operators_.force_stress * load.stress();
   for (int f = 0; f < mesh_.face_count(); ++f)
@@ -296,7 +322,7 @@ Vector Rock::face_forces() const {
 
 Vector Rock::outer_displacement() const {
   Vector values = boundary_values_;
-  if (wall_traction_) values += wall_forces_ * wall_traction_->now();
+  if (wall_traction_) values += wall_forces_ * wall_load();
   Vector displacement = operators_.trace_displacement * displacement_.now() + operators_.trace_boundary * values;
   for (const Load& load : loads_) displacement += operators_.trace_stress * load.stress();
   replicate(mesh_, Location::face, 2, displacement);

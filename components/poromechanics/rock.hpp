@@ -29,6 +29,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void begin_step(const StepTime& step) override;
   /// Discretizes on the new mesh; the unchanged part of the discretization of `before` is kept.
   void carry_over(const Part& before, const MeshChange& change) override;
+  void settled(const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
@@ -78,6 +79,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   void use_loads();
   void map_walls();
   void apply_boundary();
+  /// Tractions, and what is left on the walls beside them, Pa, (normal, tangential) of each fracture cell.
+  Vector wall_load() const { return wall_traction_->now() + wall_remainder_->now(); }
   /// The traction of the initial stress of the cell on the given side (0 or 1) of a face, on the normal of the face,
   /// Pa.
   Point initial_traction(int face, int side) const;
@@ -89,7 +92,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   StressDiscretization stress_discretization_;
   Origin origin_;
   Field& displacement_;
-  Field* wall_traction_ = nullptr;  ///< exists with fractures only
+  Field* wall_traction_ = nullptr;   ///< exists with fractures only
+  Field* wall_remainder_ = nullptr;  ///< the same
   RockStiffness stiffness_;
   std::vector<Load> loads_;
 
@@ -104,9 +108,10 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   SparseMatrix wall_jump_;          ///< 2 fracture cells × 2 faces: the jump of face displacements, in (n, t)
   Operator force_of_displacement_;  ///< momentum rows
   Operator force_of_wall_traction_;
-  Vector boundary_values_;  ///< see StressOperators
-  Vector initial_forces_;   ///< of the initial stress on every face, N/m
-  Vector body_forces_;      ///< on every cell, N/m
+  Vector carried_traction_;  ///< Pa, of the state that is being settled on other cells; otherwise empty
+  Vector boundary_values_;   ///< see StressOperators
+  Vector initial_forces_;    ///< of the initial stress on every face, N/m
+  Vector body_forces_;       ///< on every cell, N/m
   Vector force_constant_;
   LinearExpression volume_change_, jump_;
 };

@@ -33,6 +33,8 @@ struct MeshChange {
   std::vector<int> removed_cells;  ///< the old cells that no longer exist, ascending
   /// Where fracture cells have been replaced by others, along the way from the last point that was kept.
   std::vector<ReplacedPart> replaced_parts;
+  /// Whether fractures are where they were, so that a state differs by its cells alone.
+  bool is_at_rest = false;
 };
 
 /// Per new fracture cell: the part of its length that replaced cells covered: 1 for kept cells, 0 where rock parts.

@@ -56,7 +56,27 @@ struct Polygon {
     for (int i = 1; i + 1 < count; ++i) twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
     return 0.5 * twice;
   }
+
+  Point centre() const {
+    double twice = 0;
+    Point moment = Point::Zero();
+    for (int i = 1; i + 1 < count; ++i) {
+      const Point one = corners[i] - corners[0], other = corners[i + 1] - corners[0];
+      twice += cross(one, other);
+      moment += cross(one, other) * (one + other) / 3;
+    }
+    return twice > 0 ? Point(corners[0] + moment / twice) : corners[0];
+  }
 };
+
+/// Relative to the first corner of a, so that coordinates far from the origin cost no digits.
+Polygon common_part(const Corners& a, const Corners& b) {
+  const Point origin = a[0];
+  Polygon part;
+  for (const Point& x : b) part.corners[part.count++] = x - origin;
+  for (int k = 0; k < a.size() && part.count > 0; ++k) part = part.left_of(a[k] - origin, a.after(k) - origin);
+  return part;
+}
 
 /// A grid of buckets, each with the cells whose bounding boxes meet the bucket.
 class Buckets {
@@ -110,12 +130,17 @@ class Buckets {
 }  // namespace
 
 double common_area(const Corners& a, const Corners& b) {
-  // Relative to a corner, so that coordinates far from the origin cost no digits.
-  const Point origin = a[0];
-  Polygon part;
-  for (const Point& x : b) part.corners[part.count++] = x - origin;
-  for (int k = 0; k < a.size() && part.count > 0; ++k) part = part.left_of(a[k] - origin, a.after(k) - origin);
+  const Polygon part = common_part(a, b);
   return part.count < 3 ? 0 : part.area();
+}
+
+Point common_centre(const Corners& a, const Corners& b) {
+  Polygon part = common_part(a, b);
+  if (part.count < 3 || !(part.area() > 0)) {
+    part.count = a.size();
+    for (int k = 0; k < a.size(); ++k) part.corners[k] = a[k] - a[0];
+  }
+  return a[0] + part.centre();
 }
 
 void for_each_overlap(const std::vector<Corners>& one, const std::vector<Corners>& other,

@@ -39,6 +39,9 @@ inline Corners corners_of(const std::vector<Point>& nodes, const Ring& cell) {
 /// they lie.
 double common_area(const Corners& a, const Corners& b);
 
+/// The centre of area of the intersection of two cells, m; the centre of a where they have no area in common.
+Point common_centre(const Corners& a, const Corners& b);
+
 /// Calls visit(i, j, area) for each pair of a cell of `one` and one of `other` with common area, i ascending, then
 /// j ascending. Buckets are used to find pairs: the work is about proportional to the number of pairs.
 void for_each_overlap(const std::vector<Corners>& one, const std::vector<Corners>& other,

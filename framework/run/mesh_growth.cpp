@@ -6,8 +6,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/direct/kept_orderings.hpp"
-#include "framework/remeshing/continued_mesh.hpp"
-#include "framework/remeshing/move_tips.hpp"
+#include "framework/run/trial_meshes.hpp"
 #include "framework/scene/change_mesh.hpp"
 
 namespace sprekk {
@@ -103,47 +102,17 @@ StepStatus MeshGrowth::find_front(const StepTime& step, const StepStatus& withou
   return without_growth;
 }
 
-namespace {
-
-bool has_same_ends(const std::vector<PathExtension>& one, const std::vector<PathExtension>& other) {
-  return std::ranges::equal(one, other, [](const PathExtension& a, const PathExtension& b) {
-    return a.fracture == b.fracture && a.at_end == b.at_end && a.replaced == b.replaced &&
-           a.points.size() == b.points.size();
-  });
-}
-
-}  // namespace
-
-/// The mesh of the next trial: the last one with moved tips, as long as its cells allow, and at first the mesh that has
-/// been. So the state depends smoothly on the positions of the tips, and tips that go on meet no other discretization.
-GrownMesh MeshGrowth::trial_mesh(std::optional<TrialMesh>& made, std::size_t grow_step,
-                                 const std::vector<PathExtension>& paths) {
-  const Mesh& before = model_->mesh();
-  const CavityOptions cavity = cavity_of(*model_, grow_step);
-  if (!made)
-    if (std::optional<GrownMesh> same = continued_mesh(before, paths, cavity))
-      made = TrialMesh{paths, std::move(*same)};
-  if (made && has_same_ends(made->paths, paths)) {
-    std::optional<GrownMesh> moved = move_tips(before, made->mesh, paths, cavity);
-    if (moved) return std::move(*moved);
-  }
-  made = TrialMesh{paths, grow_mesh(*model_, grow_step, paths)};
-  return made->mesh;
-}
-
 StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, const StepTime& step) {
-  const double time = step.start, standard = model_->scene().time.step;
   model_->rewind();
   const KeptOrderings kept_orderings;  // the trial meshes have one topology
-  std::optional<TrialMesh> made;
+  TrialMeshes meshes(*model_, grow_step, step.start, log_, retire_);
   for (;;) {
     ++trials_;
     std::unique_ptr<Model> grown;
     Model* trial = model_.get();
     if (!search.paths().empty()) {
       try {
-        MeshChangeResult changed = change_mesh(*model_, grow_step, trial_mesh(made, grow_step, search.paths()),
-                                               {time - standard, standard, time}, log_);
+        MeshChangeResult changed = meshes.model_with(search.paths());
         if (!changed.settling.converged) {
           if (search.retreat()) continue;
           return {false, "the state could not be settled on the mesh that has grown: " + changed.settling.reason, 0};

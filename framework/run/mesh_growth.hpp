@@ -50,11 +50,6 @@ class MeshGrowth {
 
  private:
   Outcome take_over(std::size_t grow_step);
-  struct TrialMesh {
-    std::vector<PathExtension> paths;
-    GrownMesh mesh;
-  };
-  GrownMesh trial_mesh(std::optional<TrialMesh>& made, std::size_t grow_step, const std::vector<PathExtension>& paths);
   bool is_holding() const;
   double shortest_step(const GrowStep& grow) const;
   StepStatus attempt_within(const StepTime& step);

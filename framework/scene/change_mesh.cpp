@@ -6,35 +6,11 @@
 #include "framework/mesh/partition.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/scene/transfer_in_cells.hpp"
+#include "framework/scene/transferred_cells.hpp"
 
 namespace sprekk {
 
 namespace {
-
-Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh& old_mesh) {
-  const int components = old.spec().components;
-  SPREKK_EXPECT(old.accepted().size() == static_cast<Eigen::Index>(old_mesh.cell_count()) * components, old.name());
-  Vector values = Vector::Zero(static_cast<int>(change.cell.size()) * components);
-  // One row for each new cell: its overlap with old cells, divided by the areas of the old cells (for shares of
-  // amounts) or by its own area (for a mean).
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> overlap = change.overlap;
-  for (int cell = 0; cell < static_cast<int>(change.cell.size()); ++cell) {
-    if (change.cell[cell] != none) {
-      values.segment(cell * components, components) =
-          old.accepted().segment(change.cell[cell] * components, components);
-      continue;
-    }
-    double area = 0;
-    for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) area += entry.value();
-    SPREKK_ASSERT(area > 0, cell, area);
-    for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) {
-      const int from = static_cast<int>(entry.col());
-      const double weight = entry.value() / (old.spec().is_amount ? old_mesh.cell_measure[from] : area);
-      values.segment(cell * components, components) += weight * old.accepted().segment(from * components, components);
-    }
-  }
-  return values;
-}
 
 /// Copies the values of kept cells; each cell has `parts` entities of the field (two walls for a fracture cell).
 void copy_kept(const Field& old, const std::vector<int>& origin, int parts, Vector& values) {
@@ -69,7 +45,7 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
     Vector values = field->accepted();
     switch (field->spec().location) {
       case Location::cell:
-        values = transferred_cells(old, change, old_mesh);
+        values = transferred_cells(old, change, old_mesh, new_mesh);
         break;
       case Location::fracture_cell:
         copy_kept(old, change.fracture_cell, 1, values);

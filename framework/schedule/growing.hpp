@@ -86,6 +86,9 @@ class Growing {
   /// state; it must not outlive this component. Where the step may not become shorter, growth that is too far or not
   /// found to the last digit is taken, with a note.
   virtual std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink, bool goes_on) = 0;
+  /// `other`: the same component in the same state on other cells, which the trials of a search begin with. What a
+  /// search of this component has learnt for its next trial is given to it.
+  virtual void prepare(Growing& /*other*/) const {}
   /// The paths that the mesh has not taken over yet, in the current state.
   virtual std::vector<PendingPath> pending_paths() const { return {}; }
   /// How the mesh changes around a path that it takes over.

@@ -10,6 +10,7 @@
 #include "components/fine_fracture/growth/viscous_state.hpp"
 #include "components/fine_fracture/growth/viscous_tip.hpp"
 #include "components/fine_fracture/growth/way_of_tip.hpp"
+#include "components/fine_fracture/quarter_point/ends.hpp"
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/invariants.hpp"
 
@@ -17,9 +18,11 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double full_segment = 1;           ///< of an increment: a longer segment is divided
-constexpr double rest_of_segment = 0.5;      ///< of an increment: what of a divided segment is laid anew
-constexpr double least_first_part = 0.2;     ///< of an increment: what stays of a first segment behind a kink
+constexpr double full_segment = 1;        ///< of an increment: a longer segment is divided
+constexpr double rest_of_segment = 0.5;   ///< of an increment: what of a divided segment is laid anew
+constexpr double longest_segment = 1.5;   ///< of an increment: a longer one is divided in a short step, too
+constexpr double least_advance = 0.05;    ///< of an increment: a step in which a tip advances by less divides nothing
+constexpr double least_first_part = 0.2;  ///< of an increment: what stays of a first segment behind a kink
 constexpr double largest_first_part = 0.65;  ///< of a first segment: the same
 constexpr double longest_advance = 1.5;      ///< of an increment, in one step
 constexpr double on_the_way = 0.2;           ///< of an increment: of nearer places only one counts, for their direction
@@ -116,6 +119,9 @@ double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const 
   const std::vector<PlaceOnWay>& way = tip.now.way;
   const double increment = tips_.options_.growth.increment;
   if (way.empty()) return 0;
+  // Other cells are no matter of a step that ends as it began.
+  const bool is_short = start.speed > 0 && start.speed * dt_ < least_advance * increment;
+  if (is_short && start.covered < longest_segment * increment) return 0;
   if (!tip.now.segment_start)
     for (const PlaceOnWay& place : way) {
       const double length = (place.position - start.anchor).norm();
@@ -372,6 +378,12 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
   there.notes_.insert(there.notes_.end(), notes_.begin(), notes_.end());
   if (!jump_ && front_->trials() > 0) there.slopes_ = front_->slopes();
   return Verdict::found;
+}
+
+void Tips::prepare(Growing& other) const {
+  for (Tip& tip : dynamic_cast<Tips&>(other).tips_)
+    for (const Tip& same : tips_)
+      if (is_same(same.end, tip.end)) tip.pattern = same.pattern, tip.next_start = same.next_start;
 }
 
 double Tips::apparent_toughness(const Tip& tip, double speed) const {

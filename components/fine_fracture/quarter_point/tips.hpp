@@ -62,6 +62,7 @@ class Tips : public Component, public FractureTips, public Growing {
   bool grows_on() const override;
   double longest_step() const override;
   std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink, bool goes_on) override;
+  void prepare(Growing& other) const override;
   std::vector<PendingPath> pending_paths() const override;
   CavityOptions cavity() const override;
   std::uint64_t topology() const override;

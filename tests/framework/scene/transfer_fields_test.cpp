@@ -107,7 +107,7 @@ TEST(TransferFields, TotalsStay) {
 
 TEST(TransferFields, NewCellsTakeTheirShare) {
   // An amount in proportion to the area is one of a constant density, whatever the overlaps are; a mean is bounded by
-  // what is averaged.
+  // the old cells below and around.
   const Case c = grown_at_first_point();
   Vector areas(c.mesh.cell_count());
   for (int i = 0; i < areas.size(); ++i) areas[i] = c.mesh.cell_measure[i];
@@ -118,13 +118,36 @@ TEST(TransferFields, NewCellsTakeTheirShare) {
   const Vector means = transfer(c, spec(Location::cell), values).accepted;
   for (const int i : c.grown.change.new_cells) {
     double low = 1e30, high = -1e30;
-    for (SparseMatrix::InnerIterator entry(c.grown.change.overlap, i); entry; ++entry) {
-      low = std::min(low, values[entry.col()]);
-      high = std::max(high, values[entry.col()]);
-    }
+    for (SparseMatrix::InnerIterator entry(c.grown.change.overlap, i); entry; ++entry)
+      for (int other = 0; other < c.mesh.cell_count(); ++other) {
+        const auto has = [&](int node) { return std::ranges::count(c.mesh.cell_nodes[other], node) > 0; };
+        if (!std::ranges::any_of(c.mesh.cell_nodes[entry.col()], has)) continue;
+        low = std::min(low, values[other]);
+        high = std::max(high, values[other]);
+      }
     EXPECT_GE(means[i], low - 1e-14);
     EXPECT_LE(means[i], high + 1e-14);
   }
+}
+
+TEST(TransferFields, WhatIsSmoothIsTransferredToSecondOrder) {
+  // Means of a plane over new cells; with a mean for each old cell they would be off by the slope times half of a cell.
+  const Case c = grown_at_first_point();
+  const auto plane = [](const Point& x) { return 2e6 + 3e6 * x[0] - 1e6 * x[1]; };
+  Vector values(c.mesh.cell_count());
+  for (int i = 0; i < values.size(); ++i) values[i] = plane(c.mesh.cell_center[i]);
+  const Vector means = transfer(c, spec(Location::cell), values).accepted;
+  double off = 0, off_by_means = 0;
+  for (const int i : c.grown.change.new_cells) {
+    const double exact = plane(c.grown.mesh.cell_center[i]);
+    double mean = 0;
+    for (SparseMatrix::InnerIterator entry(c.grown.change.overlap, i); entry; ++entry)
+      mean += entry.value() / c.grown.mesh.cell_measure[i] * values[entry.col()];
+    off = std::max(off, std::abs(means[i] - exact));
+    off_by_means = std::max(off_by_means, std::abs(mean - exact));
+  }
+  EXPECT_GT(off_by_means, 0);
+  EXPECT_LT(off, 0.1 * off_by_means);
 }
 
 /// The old fracture cell with the same middle, found by place.

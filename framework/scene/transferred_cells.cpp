@@ -1,0 +1,111 @@
+#include "framework/scene/transferred_cells.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "framework/invariants.hpp"
+#include "framework/remeshing/overlap.hpp"
+
+namespace sprekk {
+namespace {
+
+/// Values that are linear within the cells of a mesh, with their means.
+class LinearInCells {
+ public:
+  LinearInCells(const Mesh& mesh, const Vector& means, int components)
+      : mesh_(mesh), means_(means), components_(components), cells_at_(mesh.nodes.size()) {
+    for (int cell = 0; cell < mesh.cell_count(); ++cell)
+      for (const int node : mesh.cell_nodes[cell]) cells_at_[node].push_back(cell);
+  }
+
+  /// The value at x of the linear function of a cell, one for each component.
+  Vector at(int cell, const Point& x) {
+    auto found = gradients_.find(cell);
+    if (found == gradients_.end()) found = gradients_.emplace(cell, gradient(cell)).first;
+    return means_.segment(cell * components_, components_) + found->second * (x - mesh_.cell_center[cell]);
+  }
+
+ private:
+  using Gradient = Eigen::Matrix<double, Eigen::Dynamic, dimension>;
+
+  Gradient gradient(int cell) const {
+    std::vector<int> around;
+    for (const int node : mesh_.cell_nodes[cell])
+      around.insert(around.end(), cells_at_[node].begin(), cells_at_[node].end());
+    std::ranges::sort(around);
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    Eigen::Matrix<double, dimension, dimension> normal = Eigen::Matrix<double, dimension, dimension>::Zero();
+    Gradient right = Gradient::Zero(components_, dimension);
+    const Vector own = means_.segment(cell * components_, components_);
+    Vector low = own, high = own;
+    for (const int other : around) {
+      if (other == cell || mesh_.cell_region[other] != mesh_.cell_region[cell]) continue;
+      const Vector value = means_.segment(other * components_, components_);
+      low = low.cwiseMin(value);
+      high = high.cwiseMax(value);
+      const Point way = mesh_.cell_center[other] - mesh_.cell_center[cell];
+      const double weight = 1 / way.squaredNorm();
+      normal += weight * way * way.transpose();
+      right += weight * (value - own) * way.transpose();
+    }
+    constexpr double least_determinant = 1e-6;  // of that of cells all around: neighbours in one line tell no gradient
+    const double half_trace = normal.trace() / dimension;
+    if (!(normal.determinant() > least_determinant * half_trace * half_trace))
+      return Gradient::Zero(components_, dimension);
+    Gradient gradient = right * normal.inverse();
+    for (int k = 0; k < components_; ++k) {
+      double part = 1;
+      for (const int node : mesh_.cell_nodes[cell]) {
+        const double rise = gradient.row(k).dot(mesh_.nodes[node] - mesh_.cell_center[cell]);
+        const double room = rise > 0 ? high[k] - own[k] : low[k] - own[k];
+        if (rise != 0) part = std::min(part, room / rise);
+      }
+      gradient.row(k) *= part;
+    }
+    return gradient;
+  }
+
+  const Mesh& mesh_;
+  const Vector& means_;
+  const int components_;
+  std::vector<std::vector<int>> cells_at_;  ///< by node
+  std::map<int, Gradient> gradients_;       ///< by cell, as far as they were asked for
+};
+
+}  // namespace
+
+Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh& old_mesh, const Mesh& new_mesh) {
+  const int components = old.spec().components;
+  const bool is_amount = old.spec().is_amount;
+  SPREKK_EXPECT(old.accepted().size() == static_cast<Eigen::Index>(old_mesh.cell_count()) * components, old.name());
+  Vector values = Vector::Zero(static_cast<int>(change.cell.size()) * components);
+  LinearInCells linear(old_mesh, old.accepted(), components);
+  // One row for each new cell: its overlap with old cells, divided by the areas of the old cells (for shares of
+  // amounts) or by its own area (for a mean).
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> overlap = change.overlap;
+  for (int cell = 0; cell < static_cast<int>(change.cell.size()); ++cell) {
+    auto value = values.segment(cell * components, components);
+    if (change.cell[cell] != none) {
+      value = old.accepted().segment(change.cell[cell] * components, components);
+      continue;
+    }
+    double area = 0;
+    for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) area += entry.value();
+    SPREKK_ASSERT(area > 0, cell, area);
+    const Corners corners = corners_of(new_mesh.nodes, new_mesh.cell_nodes[cell]);
+    for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) {
+      const int from = static_cast<int>(entry.col());
+      if (is_amount) {
+        value += entry.value() / old_mesh.cell_measure[from] * old.accepted().segment(from * components, components);
+        continue;
+      }
+      const Point centre = common_centre(corners, corners_of(old_mesh.nodes, old_mesh.cell_nodes[from]));
+      value += entry.value() / area * linear.at(from, centre);
+    }
+  }
+  return values;
+}
+
+}  // namespace sprekk
