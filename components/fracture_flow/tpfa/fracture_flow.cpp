@@ -45,9 +45,18 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
   check_names();
+  if (options_.cavitation)
+    empty_ = &context.fields.add(
+        mesh_, {.owner = context.name,
+                .name = "empty",
+                .location = Location::fracture_cell,
+                .role = Role::unknown(BlockKind::interface),
+                .unit = "m",
+                .doc = "The part of the aperture that has no fluid, where the pressure is as low as it can be"});
   const std::vector<Place> places = fracture_cell_places(mesh_);
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
   initial_aperture_ = property(options_.initial_aperture).values();
+  check_bound(property(options_.initial_pressure).values().minCoeff(), context.origin, "the initial pressure");
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     if (mesh_.fracture_cells[i].grown) initial_aperture_[i] = options_.grown_aperture;
   aperture_.set_both(initial_aperture_);
@@ -98,6 +107,8 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
           }
     }
   }
+  // What is empty of a given-up cell is so in the cells in its place.
+  if (empty_) empty_->set_both(covered.cwiseProduct(empty_->accepted()));
   const double filled = options_.grown_fluid == "drawn" ? 0 : options_.grown_aperture;
   for (int i = 0; i < aperture.size(); ++i)
     if (covered[i] < 1) aperture[i] = covered[i] * aperture[i] + (1 - covered[i]) * filled;
@@ -125,6 +136,7 @@ void FractureFlow::make_links(const StepTime& step) {
       const auto found = options_.boundary.find(mesh_.side_names[point.side]);
       if (found == options_.boundary.end()) continue;
       link.boundary_pressure = value_in_step(found->second, {point.position, region, 0}, step);
+      check_bound(link.boundary_pressure, options_.boundary_origins.at(mesh_.side_names[point.side]), "the pressure");
     }
     if (!options_.gravity.is_zero())
       link.gravity = options_.fluid_density *
@@ -226,7 +238,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
     const double length = mesh_.fracture_cells[i].measure;
     const double change = pressure_.now()[i] - pressure_.accepted()[i];
     capacity[i] = length * aperture_.now()[i] * compressibility_[i];
-    stored[i] = length * (aperture_.now()[i] - aperture_.accepted()[i]) + capacity[i] * change;
+    stored[i] = length * (filled_now(i) - filled_accepted(i)) + capacity[i] * change;
     stored_by_aperture[i] = length * (1 + compressibility_[i] * change);
   }
   // The stored volumes are small differences of large numbers: apertures and pressures.
@@ -237,6 +249,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   fluid.store(stored, subtracted);
   assembly.diagonal(pressure_, pressure_, capacity);
   assembly.diagonal(pressure_, aperture_, stored_by_aperture);
+  if (empty_) bound_pressure(assembly);
   fluid.supply(step.dt * source_);
 
   std::vector<Triplet> outflow;
@@ -267,7 +280,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
   Vector sums = cumulative_.accepted();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const double length = mesh_.fracture_cells[i].measure;
-    sums[3 * i] += length * (aperture_.now()[i] - aperture_.accepted()[i]) +
+    sums[3 * i] += length * (filled_now(i) - filled_accepted(i)) +
                    length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);
     if (!is_prescribed_[i]) sums[3 * i + 1] += step.dt * source_[i];  // else not solved
   }
@@ -313,6 +326,10 @@ void FractureFlow::report(std::vector<Quantity>& quantities) const {
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     if (law_->at(aperture_.now()[i]).by_aperture == 0) ++floored;
   quantities.push_back({name() + ".cells_at_aperture_floor", "1", static_cast<double>(floored)});
+  if (!empty_) return;
+  double volume = 0;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) volume += mesh_.fracture_cells[i].measure * empty_->now()[i];
+  quantities.push_back({name() + ".empty_volume", "m^2", volume});
 }
 
 }  // namespace sprekk::fracture_flow

@@ -22,6 +22,7 @@ namespace sprekk::fracture_flow {
 /// Unknowns: the pressure p of every fracture cell, and the flux Q through every point between them, from its first to
 /// its second cell (m^2/s). Each row of p balances the volume of fluid of one cell over the step (m^2):
 ///   L (a − a_old) + L a c_p (p − p_old) + dt (sum of Q out of it) − dt q = 0,
+/// (with `cavitation`, cavitation.cpp, a part of a is empty),
 /// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series
 /// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
 /// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
@@ -33,8 +34,9 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   /// Cells that have grown start with the pressure of their neighbours; a parameter says whether they start with fluid.
   void carry_over(const Part& before, const MeshChange& change) override;
   void evaluate_data(const StepTime& step) override;
-  bool allows_stages() const override { return true; }
-  void begin_step(const StepTime&) override {}
+  /// A bound of the pressure turns active within steps, which leaves no second order.
+  bool allows_stages() const override { return !options_.cavitation; }
+  void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void set_search_mode(SearchMode mode) override;
   void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
@@ -45,6 +47,7 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   std::vector<double> switch_times() const override;
   void hold_constants(ConstantModes& modes) const override;
   void report(std::vector<Quantity>& quantities) const override;
+  std::uint64_t discrete_state() const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
 
@@ -107,6 +110,14 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   void add_pattern(const Link& link, FluxRows& rows) const;
   double scale_of_row(const Link& link, double conductance, double dt) const;
   void check_names() const;
+  /// Cavitation: without it nothing is empty, and these do nothing.
+  void check_bound(double pressure, const Origin& where, const std::string& what) const;
+  void bound_pressure(Assembly& assembly) const;
+  bool is_partly_empty(int cell) const;
+  double filled_now(int cell) const { return aperture_.now()[cell] - (empty_ ? empty_->now()[cell] : 0); }  ///< m
+  double filled_accepted(int cell) const {
+    return aperture_.accepted()[cell] - (empty_ ? empty_->accepted()[cell] : 0);
+  }
   std::vector<int> cells_of(const FracturePlace& where) const;
   int region_of(int cell) const;
   std::vector<const Data*> properties() const;
@@ -119,7 +130,9 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   Field& pressure_;
   Field& flux_;
   Field& aperture_;
-  Field& cumulative_;  ///< (stored, injected, outflow) of each cell since the start, m^2
+  Field* empty_ = nullptr;  ///< m, the part of the aperture without fluid; only with cavitation
+  double bound_scale_ = 1;  ///< m/Pa, between e and p − p_c
+  Field& cumulative_;       ///< (stored, injected, outflow) of each cell since the start, m^2
   Vector initial_aperture_;
   std::unique_ptr<HydraulicLaw> law_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one

@@ -67,6 +67,17 @@ void FractureFlow::note_step(Notes& notes, const StepTime&) const {
               fmt::format("{} reaches {:.3g} Pa at {} (no rock bears 10 GPa) look at transmissivity and rates there",
                           pressure_.name(), pressure_.now()[largest], to_text(mesh_.fracture_cells[largest].center)),
               most);
+  if (!empty_) return;
+  constexpr double rounding = 1e-6;
+  Eigen::Index worst = 0;
+  const double lacking = (empty_->now() - aperture_.now()).maxCoeff(&worst);
+  if (lacking > rounding * aperture_.now().maxCoeff())
+    notes.add(empty_->name() + " below nothing",
+              fmt::format("{:.3g} m more fluid than there is leave the fracture of '{}' at {} (its pressure is held at "
+                          "the bound, and what is around it takes fluid all the same) raise 'cavitation' to the lowest "
+                          "pressure around, or let less fluid out there",
+                          lacking, name(), to_text(mesh_.fracture_cells[worst].center)),
+              lacking);
 }
 
 }  // namespace sprekk::fracture_flow

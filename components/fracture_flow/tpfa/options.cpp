@@ -113,6 +113,13 @@ Spec Options::spec() {
   wall("left", wall_permeability[0], "left");
   wall("right", wall_permeability[1], "right");
   spec.section("wall_permeability", walls, {.doc = "The normal permeability kappa of single walls."});
+  spec.quantity(
+      "cavitation", cavitation,
+      {.unit = "Pa",
+       .doc = "The pressure does not fall below this: where fluid cannot follow, a part of the fracture stays empty. "
+              "Pressures count from the same zero as everywhere in the scene. Without it suction is told, and not "
+              "bounded.",
+       .source = "Elrod and Adams (1974); Peirce and Detournay (2008) for the lag of a fracture"});
   spec.vector("gravity", gravity,
               {.unit = "m/s^2",
                .doc = "Acceleration of gravity.",
@@ -149,6 +156,10 @@ Spec Options::spec() {
       if (has_law && node.find(key) && !node.find(key)->is_null())
         throw InputError(node.find(key)->origin, std::string("'") + key + "' contradicts 'law'",
                          "both say how the fracture conducts", "remove one of them");
+    if (cavitation && !gravity.is_zero())
+      throw InputError(node.find("cavitation")->origin, "'cavitation' does not go with gravity",
+                       "fluid would run down in a fracture that is partly empty, which is not modelled",
+                       "remove one of the two");
     if (!has_law && transmissivity == "constant" && !transmissivity_value)
       throw InputError(node.origin, "'transmissivity_value' is missing", "the transmissivity is constant",
                        "give it in m^3");

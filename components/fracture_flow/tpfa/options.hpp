@@ -47,8 +47,9 @@ struct Options {
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
   /// m/(Pa s), by Wall: of a wall that has a normal permeability of its own.
   std::array<std::optional<Data>, 2> wall_permeability;
-  VectorData gravity;           ///< m/s^2
-  double fluid_density = 1000;  ///< kg/m^3
+  std::optional<double> cavitation;  ///< Pa, the pressure does not fall below
+  VectorData gravity;                ///< m/s^2
+  double fluid_density = 1000;       ///< kg/m^3
   std::map<std::string, Injection> injections;
   std::map<std::string, PrescribedPressure> prescribed;
   std::map<std::string, Data> boundary;  ///< pressure by side, Pa

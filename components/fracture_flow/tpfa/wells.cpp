@@ -107,6 +107,8 @@ void FractureFlow::prescribe(const StepTime& step) {
     for (const int cell : cells_at(mesh_, given.where)) {
       const FractureCell& at = mesh_.fracture_cells[cell];
       is_prescribed_[cell] = 1;
+      check_bound(value_in_step(given.pressure, {at.center, region_of(cell), 0}, step), given.where.origin,
+                  "the pressure");
       const double storage = at.measure * initial_aperture_[cell] * compressibility_[cell];
       prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(cell), 0}, step),
                              storage > 0 ? storage : at.measure});
