@@ -5,6 +5,8 @@
 
 namespace sprekk {
 
+class MatrixFluid;
+
 /// Capability: determines the pressure in the fractures from a balance of fluid volume, and accepts their aperture.
 class FractureFluid {
  public:
@@ -34,6 +36,10 @@ class FractureFluid {
   virtual double viscosity_between_walls(int cell) const = 0;
   /// Whether the pressure follows the aperture: not with a given transmissivity, nor where all of it is prescribed.
   virtual bool follows_aperture() const = 0;
+  /// The fluid of the rock, which leaves and enters through the walls; nullptr where they are sealed. To be accepted
+  /// while the scene is built; it must outlive this object.
+  virtual void accept_rock_fluid(const MatrixFluid& rock_fluid) = 0;
+  virtual const MatrixFluid* rock_fluid() const = 0;
 };
 
 }  // namespace sprekk

@@ -68,4 +68,18 @@ class FractureTips {
   virtual void accept_surroundings(TipSurroundings& surroundings) = 0;
 };
 
+/// Capability: has tips that may move.
+class MovingTips {
+ public:
+  static constexpr const char* promise = "has tips that may move";
+  virtual ~MovingTips() = default;
+  struct Tip {
+    int fracture;
+    bool at_end;   ///< at the last cell of the fracture, not at its first one
+    double speed;  ///< m/s, mean of the step
+  };
+  /// The tips that have grown in the present step.
+  virtual std::vector<Tip> moving_tips() const = 0;
+};
+
 }  // namespace sprekk

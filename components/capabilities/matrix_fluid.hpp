@@ -24,6 +24,9 @@ class MatrixFluid {
   virtual const Property* porosity_for_storage() const = 0;
   /// Replaces the viscosity of the scene, Pa s, one a cell. To be called by Part::evaluate_data, in every step.
   virtual void change_viscosity(const Vector& viscosity) = 0;
+  /// The diffusivity of the fluid in a cell whose volume does not change, along the direction that conducts best,
+  /// m^2/s; infinite without storage.
+  virtual double diffusivity(int cell) const = 0;
 };
 
 /// Capability: accepts a flux through the walls of fractures, and gives the pressure there.

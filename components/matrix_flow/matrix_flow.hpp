@@ -89,6 +89,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
   void change_viscosity(const Vector& viscosity) override;
   Field& wall_flux() override { return *wall_flux_; }
+  double diffusivity(int cell) const override;
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
 

@@ -1,4 +1,5 @@
 // The properties of rock and fluid, what follows from them, and checks of them.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "components/matrix_flow/matrix_flow.hpp"
@@ -76,6 +77,11 @@ void MatrixFlow::use_storage() {
   SPREKK_ASSERT(storage_.values().size() == 0 || storage_.values().minCoeff() >= 0, storage_.values().minCoeff());
   capacity_ = storage_.values().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()));
   capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
+}
+
+double MatrixFlow::diffusivity(int cell) const {
+  const double best = Eigen::SelfAdjointEigenSolver<Tensor>(mobility_[cell]).eigenvalues().maxCoeff();
+  return best / storage_[cell];
 }
 
 }  // namespace sprekk::matrix_flow

@@ -7,6 +7,7 @@
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/fracture_tips.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "couplers/two_level/along_fracture.hpp"
 #include "couplers/two_level/nodal_values.hpp"
@@ -57,6 +58,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
         fluid_(context.find<FractureFluid>()),
         fluid_left_out_(fluid_ ? "" : context.left_out<FractureFluid>()),
         contact_(context.find<FractureContact>()),
+        moving_(context.find<MovingTips>()),
         location_(mesh_),
         displacement_(mesh_, is_cell_centred() ? NodalValues::From::mean_of_cells : NodalValues::From::cells_and_faces),
         pore_stress_(mesh_, NodalValues::From::cells) {
@@ -77,6 +79,31 @@ class TwoLevel : public Coupler, public TipSurroundings {
         fmt::format("walls that grow on the fine level carry no fluid pressure ({} is not in the `between` of the "
                     "coupler {}) add it there, unless that is meant",
                     fluid_left_out_, name()));
+  }
+
+  /// Notes tips that outrun leak-off. In the frame of a tip that moves with the speed V the fluid of the rock reaches
+  /// c/V from the walls; where cells are longer, the leak-off next to the tip is that of a whole cell, and too small.
+  void note_step(Notes& notes, const StepTime&) const override {
+    const MatrixFluid* rock_fluid = fluid_ ? fluid_->rock_fluid() : nullptr;
+    if (!moving_ || !rock_fluid) return;
+    for (const MovingTips::Tip& tip : moving_->moving_tips()) {
+      const Fracture& fracture = mesh_.fractures[tip.fracture];
+      const FractureCell& last =
+          mesh_.fracture_cells[tip.at_end ? fracture.first_cell + fracture.cell_count - 1 : fracture.first_cell];
+      const int cell = mesh_.face_cells[last.faces[0]][0];
+      const double diffusivity = rock_fluid->diffusivity(cell), reach = diffusivity / tip.speed;
+      // How far fluid has to go to the middle of the cell, and what the cell takes on the way.
+      const double size = mesh_.cell_measure[cell] / last.measure;
+      if (!(reach < size)) continue;
+      notes.add(name() + ": fracture " + fracture.name + " outruns its leak-off",
+                fmt::format("a tip of '{}' moves at {:.3g} m/s, and the fluid of the rock with the diffusivity {:.3g} "
+                            "m^2/s: leak-off "
+                            "behind the tip reaches {:.3g} m into cells of {:.3g} m (it is not resolved there, and the "
+                            "fracture may become too "
+                            "long) make cells beside the path shorter, or compare with a run in which they are",
+                            fracture.name, tip.speed, diffusivity, reach, size),
+                size / reach);
+    }
   }
 
   void update() override {
@@ -193,6 +220,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   FractureFluid* fluid_;
   std::string fluid_left_out_;  ///< a component of the scene that the coupler does not stand between
   FractureContact* contact_;
+  const MovingTips* moving_;  ///< nullptr where the tips do not move
   PointLocation location_;
   mutable int last_cell_ = none;  ///< the cell of the last place that was looked for: the next is often in it, too
   NodalValues displacement_, pore_stress_;

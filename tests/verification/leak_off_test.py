@@ -3,6 +3,7 @@
 semi-analytic answer (tests/verification/references/kgd_leak_off.csv). Without leak-off it would be 60 % longer. On longer fractures, with
 more cells: tools/benchmark/kgd_leak_off.py."""
 
+import re
 import sys
 import tempfile
 import unittest
@@ -30,6 +31,13 @@ class LeakOff(unittest.TestCase):
         self.assertLess(np.max(abs(grown / right - 1)), 0.03)
         self.assertLess(np.max(abs(pressure - 1)), 0.05)
         self.assertLess(np.max(abs(opening - 1)), 0.04)
+        # The tip moves on faster than fluid goes through a cell: a note tells it once, with figures.
+        told = re.findall(r"moves at (\S+) m/s, .* diffusivity (\S+) m\^2/s: leak-off behind the tip reaches (\S+) m into cells of (\S+) m", log)
+        self.assertEqual(len(told), 1, log)
+        speed, diffusivity, reach, cell = map(float, told[0])
+        self.assertAlmostEqual(reach, diffusivity / speed, delta=0.02 * reach)
+        self.assertAlmostEqual(diffusivity, DEPTH**2 / table["time"][-1], delta=0.02 * diffusivity)
+        self.assertLess(reach, cell)
         # What is injected is in the fracture and in the pores.
         self.assertLess(abs(table["fluid_balance_error"][-1]), 1e-9 * table["fluid_injected"][-1])
 

@@ -45,6 +45,16 @@ void Tips::report_end(const std::string& end, const State& state, const EndGrowt
                         grown > 0 && state.apparent_toughness > 0 ? state.apparent_toughness : *options_.toughness});
 }
 
+std::vector<MovingTips::Tip> Tips::moving_tips() const {
+  std::vector<MovingTips::Tip> moving;
+  if (examined_ != step_.start) return moving;
+  for (const Tip& tip : tips_) {
+    const double grown = tip.now.grown + length_of(position(tip, {}), tip.now.path) - tip.length_at_start;
+    if (grown > 0) moving.push_back({tip.end.fracture, tip.end.at_end, grown / step_.dt});
+  }
+  return moving;
+}
+
 std::vector<PendingPath> Tips::pending_paths() const {
   std::vector<PendingPath> paths;
   for (const Tip& tip : tips_) {

@@ -35,7 +35,7 @@ struct TipsOptions {
 /// The component of tips. It has no unknowns in the coarse level: it reads the state of the coarse level around each
 /// tip (TipSurroundings), computes the stress-intensity factors on the fine level, and lets tips grow. A path that is
 /// too short for the coarse level stays in the fine level, until it is long enough to be passed on.
-class Tips : public Component, public FractureTips, public Growing {
+class Tips : public Component, public FractureTips, public MovingTips, public Growing {
  public:
   Tips(const ComponentContext& context, const TipsOptions& options);
 
@@ -62,6 +62,7 @@ class Tips : public Component, public FractureTips, public Growing {
   bool grows_on() const override;
   double longest_step() const override;
   std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink, bool goes_on) override;
+  std::vector<MovingTips::Tip> moving_tips() const override;
   void prepare(Growing& other) const override;
   std::vector<PendingPath> pending_paths() const override;
   CavityOptions cavity() const override;

@@ -61,6 +61,8 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   const Field& flux() const override { return flux_; }
   std::vector<FluidSource> fluid_sources() const override { return sources_; }
   std::vector<FluidReservoir> fluid_reservoirs() const override;
+  void accept_rock_fluid(const MatrixFluid& rock_fluid) override { rock_fluid_ = &rock_fluid; }
+  const MatrixFluid* rock_fluid() const override { return rock_fluid_; }
 
  private:
   /// K/mu (m^2/(Pa s) times m, Eq. 8 of the paper) of a cell and its derivative by the aperture.
@@ -125,6 +127,7 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   void prescribe(const StepTime& step);
 
   const Mesh& mesh_;
+  const MatrixFluid* rock_fluid_ = nullptr;
   Options options_;
   Origin origin_;
   Field& pressure_;
