@@ -161,7 +161,7 @@ TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
       const bool is_anew = made == TrialMeshes::Cells::anew;
       ++kicks[is_anew];
       EXPECT_LT(kick->slip, 1e-3) << run.time() / hour << " h, " << is_anew;
-      EXPECT_LT(kick->pressure, 1e-4) << run.time() / hour << " h, " << is_anew;
+      EXPECT_LT(kick->pressure, is_anew ? 1.5e-4 : 1e-4) << run.time() / hour << " h, " << is_anew;
       // Close to the kink the path is so much bent that its form changes where its last cell is divided.
       constexpr double straight_path = 0.01;
       if (kick->bend > straight_path) continue;
