@@ -140,7 +140,7 @@ void Rock::carry_over(const Part& part, const MeshChange& change) {
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
   if (wall_remainder_ && change.is_at_rest) carried_traction_ = wall_traction_->accepted();
   if (wall_remainder_ && !change.is_at_rest)
-    wall_remainder_->set_both(covered_parts(change, mesh_).minCoeff() * wall_remainder_->accepted());
+    wall_remainder_->set_both(covered_parts(change, mesh_).prod() * wall_remainder_->accepted());
   // With several processes, cells may have moved to other processes.
   if (parallel::size() > 1 || !before.is_discretized()) return;
   find_conditions();

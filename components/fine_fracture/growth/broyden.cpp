@@ -4,20 +4,30 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double least_fresh = 0.1;  ///< of a move: what is left of it across earlier ones, to learn from
+constexpr double least_effect = 1e-6;  ///< of the largest one: no unknown is without any
+constexpr double least_fresh = 0.1;    ///< of a move: what is left of it across earlier ones, to learn from
 
 }  // namespace
 
+/// Of each unknown, the effect of one unit on the residual, so that each has its part in what a move has missed.
+Eigen::VectorXd Broyden::effects() const {
+  const Eigen::VectorXd norms = jacobian.colwise().norm().transpose();
+  return norms.cwiseMax(least_effect * norms.maxCoeff());
+}
+
 void Broyden::update(const Eigen::VectorXd& moved, const Eigen::VectorXd& change) {
   if (moved.squaredNorm() == 0) return;
-  Eigen::VectorXd fresh = moved;
+  if (learnt_.empty()) scale_ = effects();
+  Eigen::VectorXd scaled = scale_.cwiseProduct(moved), fresh = scaled;
   for (const Eigen::VectorXd& direction : learnt_) fresh -= fresh.dot(direction) * direction;
-  if (fresh.norm() < least_fresh * moved.norm()) {
+  if (fresh.norm() < least_fresh * scaled.norm()) {
     learnt_.clear();
-    fresh = moved;
+    scale_ = effects();
+    scaled = fresh = scale_.cwiseProduct(moved);
   }
+  if (fresh.squaredNorm() == 0) return;
   const Eigen::VectorXd missed = change - jacobian * moved;
-  jacobian += missed * fresh.transpose() / fresh.dot(moved);
+  jacobian += missed * fresh.cwiseProduct(scale_).transpose() / fresh.dot(scaled);
   learnt_.push_back(fresh.normalized());
 }
 

@@ -7,7 +7,8 @@
 namespace sprekk::fine_fracture {
 
 /// Broyden's matrix (Math. Comput. 19 (1965) 577), with projected updates (Gay and Schnabel, Nonlin. Progr. 3 (1978)
-/// 245): what was learnt from other moves stays.
+/// 245): what was learnt from other moves stays. What a move has missed is shared by the unknowns in proportion to the
+/// squares of their expected effects, moves times the norms of their columns: lengths and angles have no common unit.
 class Broyden {
  public:
   Eigen::MatrixXd jacobian;
@@ -18,7 +19,10 @@ class Broyden {
   void forget_moves() { learnt_.clear(); }
 
  private:
-  std::vector<Eigen::VectorXd> learnt_;  ///< orthonormal: the directions in which the Jacobian is that of the moves
+  Eigen::VectorXd effects() const;
+
+  std::vector<Eigen::VectorXd> learnt_;  ///< orthonormal: the scaled directions in which the Jacobian is that of moves
+  Eigen::VectorXd scale_;                ///< effects of the unknowns when the first of them was learnt
 };
 
 }  // namespace sprekk::fine_fracture

@@ -25,6 +25,7 @@ constexpr double shorter = 0.5;               ///< steps after a trial that was 
 constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
 constexpr double of_difference = 30;          ///< that of what tells advances apart: slopes of -0.3 over H's of 0.01
 constexpr double largest_turn = 0.3;          ///< rad, between two trials
+constexpr double quarter_turn = 1.5;          ///< rad: a move that turns further has learnt no slope of K_II
 constexpr double largest_factor = 3;          ///< between lengths of a new segment in two trials
 constexpr double largest_advance = 0.6;       ///< of an increment, between two trials
 constexpr double at_limit = 1e-9;             ///< of a length that is at its limit, but for rounding
@@ -404,6 +405,30 @@ Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::Ve
   return matrix.fullPivLu().solve(-count_loads(residual, front)(free));
 }
 
+/// Whether a tip would turn so far that its direction has been found not to matter for K_II.
+bool Front::turns_far(const Eigen::VectorXd& move) {
+  for (Eigen::Index a = 1; a < move.size(); a += 2)
+    if (std::abs(move[a]) > quarter_turn) return true;
+  return false;
+}
+
+/// The step of lengths with the directions of these tips as they are.
+Eigen::VectorXd Front::step_with_held_turns(const std::vector<int>& free, const Eigen::VectorXd& residual,
+                                            const Eigen::VectorXd& full) {
+  const Eigen::MatrixXd learnt = slopes_.jacobian;
+  Eigen::VectorXd held = residual;
+  for (std::size_t a = 1; a < free.size(); a += 2) {
+    if (std::abs(full[static_cast<Eigen::Index>(a)]) <= quarter_turn) continue;
+    slopes_.jacobian.row(free[a]).setZero();
+    slopes_.jacobian.col(free[a]).setZero();
+    slopes_.jacobian(free[a], free[a]) = 1;
+    held[free[a]] = 0;
+  }
+  Eigen::VectorXd move = newton_step(free, held);
+  slopes_.jacobian = learnt;
+  return move;
+}
+
 /// The move by which all directions and the lengths of new segments follow the lengths of the other tips, and these
 /// lengths are those of the front.
 std::optional<Eigen::VectorXd> Front::step_to_linear_front(const std::vector<int>& free,
@@ -438,7 +463,8 @@ void Front::step(const Eigen::VectorXd& residual) {
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) free.insert(free.end(), {2 * i, 2 * i + 1});
   const int size = static_cast<int>(free.size());
-  Eigen::VectorXd move = newton_step(free, residual);
+  const Eigen::VectorXd full = newton_step(free, residual);
+  Eigen::VectorXd move = turns_far(full) ? step_with_held_turns(free, residual, full) : full;
   const Eigen::VectorXd counted = count_loads(residual, equations(residual));
   double part = part_;
   for (int a = 0; a < size; a += 2) {

@@ -128,6 +128,9 @@ class Front {
   void begin_beside_front(int tip);
   /// Newton's step in the unknowns `free`.
   Eigen::VectorXd newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual);
+  static bool turns_far(const Eigen::VectorXd& move);
+  Eigen::VectorXd step_with_held_turns(const std::vector<int>& free, const Eigen::VectorXd& residual,
+                                       const Eigen::VectorXd& full);
   std::optional<Eigen::VectorXd> step_to_linear_front(const std::vector<int>& free,
                                                       const Eigen::VectorXd& residual) const;
   /// The residual to go on from: that of the last trial, or of the best one if the last was much worse.
