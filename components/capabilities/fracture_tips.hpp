@@ -73,6 +73,7 @@ class MovingTips {
  public:
   static constexpr const char* promise = "has tips that may move";
   virtual ~MovingTips() = default;
+  /// An end of a fracture that moves.
   struct Tip {
     int fracture;
     bool at_end;   ///< at the last cell of the fracture, not at its first one

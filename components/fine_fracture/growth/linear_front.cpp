@@ -11,6 +11,7 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double round_off = 1e-13;      ///< of F: found
+constexpr double nearly = 100;           ///< round-offs: found where no step makes F smaller
 constexpr int most_steps = 60;           ///< of Newton's method
 constexpr double shortest_part = 1e-4;   ///< of a step of Newton's method
 constexpr int most_relaxations = 20000;  ///< with slopes of H of 1e-3 beside loads' of 1: twenty times what it takes
@@ -47,7 +48,7 @@ class Search {
       double part = 1;
       const auto moved = [&] { return Eigen::VectorXd((advances + part * move).cwiseMax(0)); };
       while (part > shortest_part && !(unmet_at(moved()).norm() < left.norm())) part /= 2;
-      if (part <= shortest_part) return left.lpNorm<Eigen::Infinity>() < 100 * round_off;
+      if (part <= shortest_part) return left.lpNorm<Eigen::Infinity>() < nearly * round_off;
       advances = moved();
       if (advances.maxCoeff() > longest) return false;
     }

@@ -1,7 +1,7 @@
 // The front for linear loads: its conditions, from all over the parameters, and that the order of tips does not matter.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
