@@ -1,6 +1,7 @@
 // Discretizations of a flux that is driven by a potential, and the linear operators that they give.
 #pragma once
 
+#include <array>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -40,6 +41,20 @@ struct FacePressureOperators {
   }
 };
 
+/// One of two approximations of the same flux through every inner face (m^2/s): cell p + boundary b + change s.
+/// Matrices without rows where there are none.
+struct OneSidedFluxOperators {
+  SparseMatrix cell;      ///< faces × cells
+  SparseMatrix boundary;  ///< faces × faces
+  SparseMatrix change;    ///< faces × faces
+
+  void swap(OneSidedFluxOperators& other) {
+    cell.swap(other.cell);
+    boundary.swap(other.boundary);
+    change.swap(other.change);
+  }
+};
+
 /// Fluxes and traces as linear functions of pressures p (one for each cell, Pa), boundary values b (one for each face:
 /// the pressure at the face centre on `pressure` faces, the outward flux integrated over the face, m^2/s, on `flux`
 /// faces, ignored inside) and changes s of the prescribed pressure along `pressure` faces, from the first to the second
@@ -59,6 +74,9 @@ struct FluxOperators {
   /// faces; the sum is the number of these nodes
   SparseMatrix blended_nodes;
   FacePressureOperators faces = {};
+  /// What is added to the flux through every inner face, as approximated from its first and from its second cell: a
+  /// nonlinear mean of the two, which the component takes.
+  std::array<OneSidedFluxOperators, 2> limited = {};
 
   /// Eigen copies sparse matrices when they are moved; swap does not.
   void swap(FluxOperators& other) {
@@ -70,6 +88,7 @@ struct FluxOperators {
     trace_change.swap(other.trace_change);
     blended_nodes.swap(other.blended_nodes);
     faces.swap(other.faces);
+    for (const int side : {0, 1}) limited[side].swap(other.limited[side]);
   }
 };
 

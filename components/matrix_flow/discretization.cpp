@@ -87,9 +87,9 @@ void MatrixFlow::discretize() {
 void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
-  // With several processes, cells may have moved to other processes. Discretizations with unknowns on faces are local
-  // in cells, and done anew in no time.
-  if (face_pressure_ || parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
+  // With several processes, cells may have moved to other processes. Discretizations with unknowns on faces and limited
+  // ones are local in cells, and done anew in no time.
+  if (!keeps_operators() || parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
   find_conditions();
   discretize_from({before.mesh_, before.mobility_, before.conditions_}, before.operators_, change);
 }
@@ -107,7 +107,7 @@ void MatrixFlow::use_operators() {
   discretized_mesh_ = mesh_.version;
   discretized_mobility_ = mobility_version_;
   mobility_of_operators_.clear();
-  if (properties_change_ && !is_sealed_ && !face_pressure_ && parallel::size() == 1) mobility_of_operators_ = mobility_;
+  if (properties_change_ && !is_sealed_ && keeps_operators() && parallel::size() == 1) mobility_of_operators_ = mobility_;
   boundary_applied_ = false;
   forget_flow();
   const int rank = parallel::rank();
@@ -127,6 +127,7 @@ void MatrixFlow::use_operators() {
   for (int row = 0; row < outflow.rows(); ++row)
     largest_conductance_ = std::max(largest_conductance_, outflow.row(row).cwiseAbs().sum());
   if (face_pressure_) outflow_of_face_pressure_ = outflow_of(operators_.faces.flux);
+  if (is_limited_ && !is_sealed_) use_limited();
   if (!wall_flux_) {
     if (face_pressure_) use_face_operators();
     return;
@@ -140,6 +141,9 @@ void MatrixFlow::use_operators() {
   boundary_of_wall_flux_.setFromTriplets(entries.begin(), entries.end());
   flux_of_wall_flux_ = operators_.flux_boundary * boundary_of_wall_flux_;
   outflow_of_wall_flux_ = outflow_of(flux_of_wall_flux_);
+  if (is_limited_ && !is_sealed_)
+    for (const int side : {0, 1})
+      limited_of_wall_flux_[side] = operators_.limited[side].boundary * boundary_of_wall_flux_;
 
   entries.clear();
   for (int w = 0; w < mesh_.wall_count(); ++w)

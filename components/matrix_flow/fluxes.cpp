@@ -20,8 +20,11 @@ const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
     return state == State::now ? field.now() : field.accepted();
   };
   const std::uint64_t version = version_of(pressure_), face_version = face_pressure_ ? version_of(*face_pressure_) : 0;
+  const bool is_limited = is_limited_ && !is_sealed_;
+  const std::uint64_t wall_version = is_limited && wall_flux_ ? version_of(*wall_flux_) : 0;
   for (Flow& kept : flows_)
-    if (kept.used > 0 && kept.pressure == version && kept.face_pressure == face_version) {
+    if (kept.used > 0 && kept.pressure == version && kept.face_pressure == face_version &&
+        kept.wall_flux == wall_version) {
       kept.used = ++flow_uses_;
       return kept;
     }
@@ -29,11 +32,14 @@ const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
   SPREKK_EXPECT(pressure_.size() == mesh_.cell_count(), pressure_.size(), mesh_.cell_count());
   flow.pressure = version;
   flow.face_pressure = face_version;
+  flow.wall_flux = wall_version;
   flow.used = ++flow_uses_;
-  flow.fluxes = multiply(operators_.flux_cell, values_of(pressure_) - gravity_potential_cell_, false).value;
+  const Vector potential = values_of(pressure_) - gravity_potential_cell_;
+  flow.fluxes = multiply(operators_.flux_cell, potential, false).value;
   if (face_pressure_)
     flow.fluxes += multiply(operators_.faces.flux, values_of(*face_pressure_) - gravity_potential_face_, false).value;
   flow.fluxes += boundary_fluxes_;
+  if (is_limited) add_limited(flow, potential, wall_flux_ ? values_of(*wall_flux_) : Vector());
   flow.outflow = cell_sums(mesh_, flow.fluxes, 1);
   flow.leaving = Vector::Zero(mesh_.cell_count());
   for (const auto& [face, cell] : outer_faces_) flow.leaving[cell] += flow.fluxes[face];
@@ -55,6 +61,14 @@ std::vector<MatrixFluxes::Derivative> MatrixFlow::face_flux_derivatives() const 
   std::vector<Derivative> derivatives = {{&pressure_, &operators_.flux_cell}};
   if (face_pressure_) derivatives.push_back({face_pressure_, &operators_.faces.flux});
   if (wall_flux_) derivatives.push_back({wall_flux_, &flux_of_wall_flux_});
+  if (!is_limited_ || is_sealed_) return derivatives;
+  const Flow& flow = this->flow(State::now);
+  limited_by_pressure_ = limited_derivative(flow, operators_.limited[0].cell, operators_.limited[1].cell);
+  derivatives.push_back({&pressure_, &limited_by_pressure_});
+  if (wall_flux_) {
+    limited_by_wall_flux_ = limited_derivative(flow, limited_of_wall_flux_[0], limited_of_wall_flux_[1]);
+    derivatives.push_back({wall_flux_, &limited_by_wall_flux_});
+  }
   return derivatives;
 }
 

@@ -9,7 +9,7 @@
 namespace sprekk::matrix_flow {
 
 MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize,
-                       Unknowns unknowns)
+                       Unknowns unknowns, Fluxes fluxes)
     : Component(context.name),
       mesh_(context.mesh),
       options_(options),
@@ -29,7 +29,8 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                              .unit = "m^2",
                                              .doc = "Fluid stored, injected, and flowed out through the outer boundary",
                                              .accepted_with = pressure_.name(),
-                                             .is_amount = true})) {
+                                             .is_amount = true})),
+      is_limited_(fluxes == Fluxes::limited) {
   if (mesh_.wall_count() > 0)
     wall_flux_ =
         &context.fields.add(mesh_, {.owner = context.name,
@@ -99,6 +100,7 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
                  step.dt * largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, pressure_, outflow_of_pressure_, step.dt);
   if (face_pressure_) assembly.derivative(pressure_, *face_pressure_, outflow_of_face_pressure_, step.dt);
+  if (is_limited_ && !is_sealed_) assemble_limited(assembly, flows, step.dt);
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * largest_before);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);

@@ -54,15 +54,17 @@ struct Options {
 /// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):
 ///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
 /// The flux is a linear function of the pressures of cells, or of these and of those of the faces, which are unknowns
-/// then (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for a constant density.
+/// then, or has a nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for a constant density.
 /// Properties may change with time, and are taken at the end of the step; a change of the storage S alone moves no
 /// fluid.
 class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, public MatrixFluxes {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
+  /// Whether fluxes are linear in the pressures, or contain FluxOperators::limited.
+  enum class Fluxes { linear, limited };
   MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize,
-             Unknowns unknowns = Unknowns::on_cells);
+             Unknowns unknowns = Unknowns::on_cells, Fluxes fluxes = Fluxes::linear);
 
   void evaluate_data(const StepTime& step) override;
   bool allows_stages() const override { return true; }
@@ -102,6 +104,17 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   const std::vector<Tensor>& mobility() const { return mobility_; }  ///< m^2/(Pa s), one a cell
 
  private:
+  /// The flow at one state of the pressure, without the fluxes through walls.
+  struct Flow {
+    std::uint64_t pressure = 0, face_pressure = 0, wall_flux = 0;  ///< the versions of the fields that it depends on
+    std::uint64_t used = 0;                                        ///< when; 0 for never
+    Vector fluxes;                                  ///< m^2/s, one a face
+    Vector outflow;                                 ///< m^2/s, one a cell: the sums of the fluxes out of it
+    Vector leaving;                                 ///< m^2/s, one a cell: the part of the outflow that leaves the rock
+    double largest_outflow = 0;
+    Vector by_first, by_second;  ///< derivatives of limited fluxes by those of each side
+  };
+
   /// Notes pressures that violate a maximum principle (find_overshoots), and nodes where fluxes are not exact.
   void note_fluxes(Notes& notes, const StepTime& step) const;
   double gravity_potential(const Point& x) const;  ///< rho g·x, Pa
@@ -123,6 +136,13 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   void start_face_pressure();
   void use_face_operators();
   void assemble_face_pressure(Assembly& assembly, const StepTime& step) const;
+  /// Of limited fluxes.
+  void use_limited();
+  void add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux) const;
+  static SparseMatrix limited_derivative(const Flow& flow, const SparseMatrix& first, const SparseMatrix& second);
+  void assemble_limited(Assembly& assembly, const Flow& flow, double dt) const;
+  /// Whether operators can be taken over from another mesh or mobility (rediscretize).
+  bool keeps_operators() const { return !face_pressure_ && !is_limited_; }
   bool is_discretized() const;  ///< on this mesh, with this mobility
   bool depends_on_time() const;
   void evaluate_sources(const StepTime& step);
@@ -144,6 +164,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   std::vector<Tensor> mobility_;               ///< m^2/(Pa s), one a cell
   std::vector<Tensor> mobility_of_operators_;  ///< of operators_; only if properties change, in one process
   std::uint64_t mobility_version_ = 0;
+  const bool is_limited_;
   bool is_sealed_ = false;  ///< the mobility is zero: no flux exists, and none is discretized
 
   std::uint64_t discretized_mesh_ = 0, discretized_mobility_ = 0, capacity_version_ = 0;
@@ -169,19 +190,12 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   Vector boundary_values_;               ///< one a face, see FluxOperators
   Vector boundary_changes_;              ///< of the prescribed pressures, one a face, see FluxOperators
   Vector boundary_fluxes_;               ///< the flux through each face by boundary values alone, m^2/s
+  std::array<SparseMatrix, 2> limited_of_wall_flux_;  ///< faces × walls, one for each side
+  std::array<Vector, 2> limited_constant_;            ///< m^2/s, one a face: from boundary values
   LinearExpression wall_pressure_;
   Vector source_;                     ///< m^2/s, one a cell
   std::vector<FluidSource> sources_;  ///< the same by name
 
-  /// The flow at one state of the pressure, without the fluxes through walls.
-  struct Flow {
-    std::uint64_t pressure = 0, face_pressure = 0;  ///< the versions of the fields
-    std::uint64_t used = 0;                         ///< when; 0 for never
-    Vector fluxes;                                  ///< m^2/s, one a face
-    Vector outflow;                                 ///< m^2/s, one a cell: the sums of the fluxes out of it
-    Vector leaving;                                 ///< m^2/s, one a cell: the part of the outflow that leaves the rock
-    double largest_outflow = 0;
-  };
   enum class State { accepted, now };
   const Flow& flow(State state) const;
   void forget_flow();
@@ -193,6 +207,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
     Vector fluxes;                                                 ///< empty for none
   };
   mutable WithWalls with_walls_;
+  /// Of limited fluxes at the last state for which face_flux_derivatives was called.
+  mutable SparseMatrix limited_by_pressure_, limited_by_wall_flux_;
 };
 
 }  // namespace sprekk::matrix_flow

@@ -99,6 +99,10 @@ void MatrixFlow::apply_boundary() {
   SPREKK_ASSERT(boundary_values_.size() == mesh_.face_count(), boundary_values_.size(), mesh_.face_count());
   SPREKK_ASSERT(is_finite(boundary_values_) && is_finite(boundary_changes_));
   boundary_fluxes_ = operators_.flux_boundary * boundary_values_ + operators_.flux_change * boundary_changes_;
+  if (is_limited_ && !is_sealed_)
+    for (const int side : {0, 1})
+      limited_constant_[side] =
+          operators_.limited[side].boundary * boundary_values_ + operators_.limited[side].change * boundary_changes_;
   if (face_pressure_) continuity_constant_ = operators_.faces.continuity_boundary * boundary_values_;
   if (!wall_flux_) return;
   Vector trace = operators_.trace_boundary * boundary_values_ + operators_.trace_change * boundary_changes_ -

@@ -108,6 +108,18 @@ void Assembly::derivative(const Field& row, const Field& column, SparseMatrix&& 
   keep_block(row, column, owned_.back(), 1, nullptr, nullptr);
 }
 
+void Assembly::exchange_derivative(const Field& row, const Field& column, SparseMatrix&& block) {
+  if (!wants_derivatives()) return;
+  const std::size_t before = blocks_.size();
+  derivative(row, column, std::move(block));
+  if (blocks_.size() == before) return;
+  Block& kept = blocks_.back();
+  owned_.emplace_back(kept.matrix->rows(), kept.matrix->cols());
+  kept.in_sum = &owned_.back();
+  for (int k = 0; k < kept.matrix->nonZeros(); ++k)
+    kept.largest_exchange = std::max(kept.largest_exchange, std::abs(kept.matrix->valuePtr()[k]));
+}
+
 void Assembly::diagonal(const Field& row, const Field& column, const Vector& entries) {
   if (!wants_derivatives() || !has_row(row) || !has_row(column)) return;
   if (column.size() != entries.size())

@@ -46,6 +46,8 @@ class Assembly {
   void derivative(const Field& row, const Field& column, const Operator& block, double factor = 1,
                   const Vector* weights = nullptr);
   void derivative(const Field&, const Field&, Operator&&, double = 1, const Vector* = nullptr) = delete;
+  /// A block of this assembly alone that is an exchange, of which nothing leaves all rows together.
+  void exchange_derivative(const Field& row, const Field& column, SparseMatrix&& block);
   /// The same with a diagonal block.
   void diagonal(const Field& row, const Field& column, const Vector& entries);
 

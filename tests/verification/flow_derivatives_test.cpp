@@ -69,6 +69,15 @@ TEST(FlowDerivatives, OfTheCubicLaw) {
                      with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
 }
 
+TEST(FlowDerivatives, OfLimitedFluxes) {
+  std::string text = scene("    aperture_floor: 1 mm");
+  const std::string mpfa = "matrix_flow/mpfa";
+  text.replace(text.find(mpfa), mpfa.size(), "matrix_flow/ntpfa");
+  SceneRun run = SceneRun::from_text(text);
+  expect_derivatives(run, spreads, rows,
+                     with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
+}
+
 TEST(FlowDerivatives, OfTheCubicLawAboveAndBelowItsFloor) {
   SceneRun run = SceneRun::from_text(scene("    aperture_floor: 0.9 m"));
   expect_derivatives(run, spreads, rows,

@@ -16,7 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 # The types of a role, with what else is to be said. (The one type of flow in fractures has laws, which have tests of their own.)
 ROLES = {
-    "matrix_flow": [("mpfa", {}), ("tpfa", {}), ("rt0", {})],
+    "matrix_flow": [("mpfa", {}), ("tpfa", {}), ("rt0", {}), ("ntpfa", {})],
     "poromechanics": [("mpsa", {}), ("fem", {"order": "first"}), ("fem", {"order": "second"})],
     "contact": [("coulomb", {}), ("augmented_lagrangian", {}), ("penalty", {})],
     "fine_fracture": [("quarter_point", {}), ("jump_fit", {})],

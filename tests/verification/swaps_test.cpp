@@ -14,7 +14,7 @@ namespace {
 
 std::string name_of_pair(const ::testing::TestParamInfo<Choice>& info) { return name_of(info.param); }
 
-const auto flows = ::testing::Values("mpfa", "tpfa", "rt0");
+const auto flows = ::testing::Values("mpfa", "tpfa", "rt0", "ntpfa");
 const auto rocks = ::testing::Values("mpsa", "fem_first", "fem_second");
 const auto contacts = ::testing::Values("coulomb", "augmented_lagrangian");
 const auto none = ::testing::Values("");

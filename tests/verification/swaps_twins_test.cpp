@@ -103,7 +103,7 @@ const std::string rollers = "left: {displacement_normal: 0 m}, bottom: {displace
 
 class SwapsTwinsInMandel : public SwapsTwins {};
 INSTANTIATE_TEST_SUITE_P(Pairs, SwapsTwinsInMandel,
-                         ::testing::Combine(::testing::Values("mpfa", "tpfa", "rt0"),
+                         ::testing::Combine(::testing::Values("mpfa", "tpfa", "rt0", "ntpfa"),
                                             ::testing::Values("mpsa", "fem_first", "fem_second"),
                                             ::testing::Values("")),
                          name_of_choice);
@@ -133,7 +133,8 @@ class SwapsTwinsInSection51 : public SwapsTwins {};
 INSTANTIATE_TEST_SUITE_P(Sample, SwapsTwinsInSection51,
                          ::testing::Values(Choice("rt0", "mpsa", "coulomb"),
                                            Choice("rt0", "fem_second", "augmented_lagrangian"),
-                                           Choice("mpfa", "fem_first", "coulomb")),
+                                           Choice("mpfa", "fem_first", "coulomb"),
+                                           Choice("ntpfa", "mpsa", "coulomb")),
                          name_of_choice);
 
 /// Section 5.1 of the paper, while fluid is injected.
