@@ -107,7 +107,8 @@ void MatrixFlow::use_operators() {
   discretized_mesh_ = mesh_.version;
   discretized_mobility_ = mobility_version_;
   mobility_of_operators_.clear();
-  if (properties_change_ && !is_sealed_ && keeps_operators() && parallel::size() == 1) mobility_of_operators_ = mobility_;
+  if (properties_change_ && !is_sealed_ && keeps_operators() && parallel::size() == 1)
+    mobility_of_operators_ = mobility_;
   boundary_applied_ = false;
   forget_flow();
   const int rank = parallel::rank();

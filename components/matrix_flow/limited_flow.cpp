@@ -15,8 +15,8 @@ void MatrixFlow::use_limited() {
     SPREKK_ASSERT(side.cell.rows() == mesh_.face_count() && side.cell.cols() == mesh_.cell_count(), side.cell.rows());
     SPREKK_ASSERT(side.boundary.rows() == mesh_.face_count() && is_finite(side.cell), side.boundary.rows());
   }
-  const SparseMatrix mean = cell_sums(mesh_, operators_.flux_cell + 0.5 * first.cell + 0.5 * second.cell, 1,
-                                      parallel::rank());
+  const SparseMatrix mean =
+      cell_sums(mesh_, operators_.flux_cell + 0.5 * first.cell + 0.5 * second.cell, 1, parallel::rank());
   for (int row = 0; row < mean.rows(); ++row)
     largest_conductance_ = std::max(largest_conductance_, mean.row(row).cwiseAbs().sum());
 }

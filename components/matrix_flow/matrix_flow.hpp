@@ -54,9 +54,9 @@ struct Options {
 /// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):
 ///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
 /// The flux is a linear function of the pressures of cells, or of these and of those of the faces, which are unknowns
-/// then, or has a nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for a constant density.
-/// Properties may change with time, and are taken at the end of the step; a change of the storage S alone moves no
-/// fluid.
+/// then, or has a nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for
+/// a constant density. Properties may change with time, and are taken at the end of the step; a change of the storage S
+/// alone moves no fluid.
 class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, public MatrixFluxes {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
@@ -108,9 +108,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   struct Flow {
     std::uint64_t pressure = 0, face_pressure = 0, wall_flux = 0;  ///< the versions of the fields that it depends on
     std::uint64_t used = 0;                                        ///< when; 0 for never
-    Vector fluxes;                                  ///< m^2/s, one a face
-    Vector outflow;                                 ///< m^2/s, one a cell: the sums of the fluxes out of it
-    Vector leaving;                                 ///< m^2/s, one a cell: the part of the outflow that leaves the rock
+    Vector fluxes;                                                 ///< m^2/s, one a face
+    Vector outflow;  ///< m^2/s, one a cell: the sums of the fluxes out of it
+    Vector leaving;  ///< m^2/s, one a cell: the part of the outflow that leaves the rock
     double largest_outflow = 0;
     Vector by_first, by_second;  ///< derivatives of limited fluxes by those of each side
   };

@@ -54,13 +54,28 @@ void MatrixFlow::note_fluxes(Notes& notes, const StepTime& step) const {
   double own = 0;
   for (int f = 0; f < mesh_.face_count(); ++f)
     if (mesh_.cell_rank[mesh_.face_cells[f][0]] == parallel::rank()) own += operators_.blended_nodes.coeff(f, f);
-  if (const double blended = std::round(parallel::sum(own)); blended > 0)
+  const double blended = std::round(parallel::sum(own));
+  if (blended > 0 && is_limited_)
+    notes.add(name() + ": fluxes that are not exact for linear pressures",
+              fmt::format("{}: through {} faces fluxes, or at walls pressures, are not exact for linear pressures (a "
+                          "corner of the rock, or rock that is too anisotropic for the cells there, leaves no "
+                          "neighbours in the direction of the flux); use smaller cells there",
+                          name(), blended),
+              blended);
+  if (blended > 0 && !is_limited_)
     notes.add(
         name() + ": fluxes that are not exact for linear pressures",
         fmt::format("{}: around {} nodes fluxes are not exact for linear pressures (the rock is too anisotropic for "
                     "the quadrilaterals there; exact fluxes would gain energy); use triangles",
                     name(), blended),
         blended);
+  const std::string remedy = is_limited_ ? "smaller cells"
+                                         : "smaller cells, or matrix_flow/ntpfa, which keeps bounds at the cost of "
+                                           "several factorizations a step";
+  const std::string cause = is_limited_
+                                ? "walls of fractures and faces without neighbours in the direction of the flux "
+                                  "are exempt from its bounds"
+                                : "where rock is anisotropic or cells are flat, such fluxes keep no bounds";
   const Overshoots found = find_overshoots({mesh_, conditions_, pressure_.now() - gravity_potential_cell_,
                                             pressure_.accepted() - gravity_potential_cell_, boundary_values_,
                                             boundary_changes_, face_fluxes(), capacity_, step.dt});
@@ -68,10 +83,8 @@ void MatrixFlow::note_fluxes(Notes& notes, const StepTime& step) const {
   notes.add(
       name() + ".pressure beyond its surroundings",
       fmt::format("{}.pressure is higher or lower than all around it in {} cells without a source, by up to {:.3g} "
-                  "Pa, {:.2g} % of the range of pressures (where rock is anisotropic or cells are flat, multi-point "
-                  "fluxes keep no bounds); use smaller cells, or matrix_flow/tpfa where bounds count more than "
-                  "accuracy",
-                  name(), found.cells, found.largest, 100 * found.largest / found.range),
+                  "Pa, {:.2g} % of the range of pressures ({}); use {}",
+                  name(), found.cells, found.largest, 100 * found.largest / found.range, cause, remedy),
       found.largest);
 }
 

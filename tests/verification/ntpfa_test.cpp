@@ -82,25 +82,31 @@ time: {{end: 1 s, step: 1 s}}
           relative_error(weights, fluxes_of(run).cwiseQuotient(lengths), flux)};
 }
 
-/// From one mesh to that of half the size.
-void expect_orders(const Rock& rock, const std::string& coarse_mesh, const std::string& fine_mesh) {
+/// From one mesh to that of a quarter of the size, for each of the two halvings.
+void expect_orders(const Rock& rock, double order, const std::string& coarse_mesh, const std::string& fine_mesh) {
   const Errors coarse = manufactured_errors(rock, coarse_mesh), fine = manufactured_errors(rock, fine_mesh);
-  const double of_pressure = std::log2(coarse.pressure / fine.pressure), of_flux = std::log2(coarse.flux / fine.flux);
-  ::testing::Test::RecordProperty(fmt::format("orders_{}_{}_{}", rock.ratio, rock.degrees, fine_mesh),
-                                  fmt::format("p {:.3g} ({:.2f}), flux {:.3g} ({:.2f})", fine.pressure, of_pressure,
-                                              fine.flux, of_flux));
-  EXPECT_GT(of_pressure, 1.9) << coarse.pressure << " " << fine.pressure;
+  const double of_pressure = std::log2(coarse.pressure / fine.pressure) / 2,
+               of_flux = std::log2(coarse.flux / fine.flux) / 2;
+  ::testing::Test::RecordProperty(
+      fmt::format("orders_{}_{}_{}", rock.ratio, rock.degrees, fine_mesh),
+      fmt::format("p {:.3g} ({:.2f}), flux {:.3g} ({:.2f})", fine.pressure, of_pressure, fine.flux, of_flux));
+  EXPECT_GT(of_pressure, order) << coarse.pressure << " " << fine.pressure;
   EXPECT_GT(of_flux, 0.9) << coarse.flux << " " << fine.flux;
-  EXPECT_LT(fine.pressure, 1e-3);
+  EXPECT_LT(fine.pressure, 7e-4);
 }
 
+/// At 1000:1, the strips where limited fluxes change their sign are not yet narrow against the cells, and random meshes
+/// scatter, as with the linear mean of both sides.
 TEST(Ntpfa, PressureIsOfSecondOrderAndFluxOfFirst) {
   for (const Rock& rock : {Rock{1, 0}, Rock{0.1, 30}, Rock{1e-3, 30}, Rock{1e-3, 67.5}}) {
-    expect_orders(rock, "{size: 0.05 m}", "{size: 0.025 m}");
-    expect_orders(rock, "{kind: structured, cells: [20, 20]}", "{kind: structured, cells: [40, 40]}");
-    expect_orders(rock, "{kind: structured, shape: quadrilaterals, cells: [20, 20]}",
-                  "{kind: structured, shape: quadrilaterals, cells: [40, 40]}");
-    expect_orders(rock, "{size: 0.05 m, shape: quadrilaterals}", "{size: 0.025 m, shape: quadrilaterals}");
+    const bool is_strong = rock.ratio < 0.01;
+    expect_orders(rock, is_strong ? 1.8 : 1.9, "{size: 0.05 m}", "{size: 0.0125 m}");
+    expect_orders(rock, is_strong ? 1.8 : 1.9, "{kind: structured, cells: [20, 20]}",
+                  "{kind: structured, cells: [80, 80]}");
+    expect_orders(rock, is_strong ? 1.8 : 1.9, "{kind: structured, shape: quadrilaterals, cells: [20, 20]}",
+                  "{kind: structured, shape: quadrilaterals, cells: [80, 80]}");
+    expect_orders(rock, is_strong ? 1.45 : 1.85, "{size: 0.05 m, shape: quadrilaterals}",
+                  "{size: 0.0125 m, shape: quadrilaterals}");
   }
 }
 
@@ -158,6 +164,7 @@ components:
     storage: {2} 1/Pa
     boundary: {{outside: {{pressure: 0 Pa}}, hole: {{pressure: 2 Pa}}}}
 schedule: [{{solve: pore}}]
+newton: {{at_most: 100}}
 time: {{end: 1 s, step: 1 s}}
 )",
                                                  flow, file, storage));
@@ -201,12 +208,12 @@ TEST(Ntpfa, TerzaghiIsOfSecondOrder) {
   EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
 }
 
-double mandel_error(const std::string& mesh, const std::vector<Override>& more) {
+double mandel_error(const std::string& mesh, const std::vector<Override>& more, double imbalance = 1e-12) {
   std::vector<Override> settings = {{"mesh", mesh}, ntpfa};
   settings.insert(settings.end(), more.begin(), more.end());
   SceneRun run("verification/mandel.yaml", settings);
   run.run();
-  EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-10 * run.quantity("fluid_outflow"));
+  EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, imbalance * run.quantity("fluid_outflow"));
   const Mandel exact;
   Vector p(run.mesh().cell_count());
   for (int c = 0; c < p.size(); ++c) p[c] = exact.pressure(run.mesh().cell_center[c][0], run.time(), run.steps());
@@ -219,7 +226,9 @@ TEST(Ntpfa, MandelIsOfSecondOrderAtOnceAndInTurn) {
   EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
   const double in_turn = mandel_error(
       "{size: 0.05 m}",
-      {{"schedule", "[{iterate: [{solve: pore, stabilize: fixed_stress}, {solve: rock}], at_most: 60}]"}});
+      {{"schedule",
+        "[{iterate: {until: {at_most: 60}, steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}]"}},
+      1e-5);
   EXPECT_NEAR(in_turn, fine, 1e-5);
 }
 

@@ -133,8 +133,7 @@ class SwapsTwinsInSection51 : public SwapsTwins {};
 INSTANTIATE_TEST_SUITE_P(Sample, SwapsTwinsInSection51,
                          ::testing::Values(Choice("rt0", "mpsa", "coulomb"),
                                            Choice("rt0", "fem_second", "augmented_lagrangian"),
-                                           Choice("mpfa", "fem_first", "coulomb"),
-                                           Choice("ntpfa", "mpsa", "coulomb")),
+                                           Choice("mpfa", "fem_first", "coulomb"), Choice("ntpfa", "mpsa", "coulomb")),
                          name_of_choice);
 
 /// Section 5.1 of the paper, while fluid is injected.

@@ -73,9 +73,15 @@ CellRays::CellRays(const Mesh& mesh, const std::vector<Tensor>& mobility, const 
                    int cell)
     : mesh_(mesh), mobility_(mobility), conditions_(conditions), cell_(cell) {
   for (const int face : mesh.cell_faces[cell]) switch (conditions[face]) {
-      case FlowCondition::none: near_.push_back(harmonic_ray(mesh, mobility, cell, face)); break;
-      case FlowCondition::pressure: near_.push_back(pressure_ray(mesh, cell, face, 0)); break;
-      case FlowCondition::flux: near_.push_back(conormal_ray(mesh, mobility[cell], cell, face)); break;
+      case FlowCondition::none:
+        near_.push_back(harmonic_ray(mesh, mobility, cell, face));
+        break;
+      case FlowCondition::pressure:
+        near_.push_back(pressure_ray(mesh, cell, face, 0));
+        break;
+      case FlowCondition::flux:
+        near_.push_back(conormal_ray(mesh, mobility[cell], cell, face));
+        break;
     }
   add_ends();
   add_cells();
@@ -101,7 +107,16 @@ void CellRays::add_cells() {
     ray.cell = other;
     ray.of_cell = 1;
     const bool is_alike = (mobility_[other] - mobility_[cell_]).norm() <= alike * mobility_[cell_].norm();
-    (is_alike ? alike_ : others_).push_back(ray);
+    std::vector<Ray>& rays = is_alike ? alike_ : others_;
+    rays.push_back(ray);
+    for (const int face : mesh_.cell_faces[other]) {
+      if (conditions_[face] != FlowCondition::pressure) continue;
+      Ray to_face{mesh_.face_center[face] - mesh_.cell_center[cell_]};
+      to_face.own = -1;
+      to_face.face = face;
+      to_face.of_boundary = 1;
+      rays.push_back(to_face);
+    }
   }
 }
 
@@ -125,8 +140,7 @@ std::optional<RaySum> CellRays::find(const Point& vector, int face_without_retur
         const double weights[] = {cross(vector, two) / area, cross(one, vector) / area};
         if (weights[0] * lengths[0] < -negative * length || weights[1] * lengths[1] < -negative * length) continue;
         double cost = 0;
-        for (const int k : {0, 1})
-          cost += std::abs(weights[k]) * lengths[k] * (1 + for_distance * lengths[k] / size);
+        for (const int k : {0, 1}) cost += std::abs(weights[k]) * lengths[k] * (1 + for_distance * lengths[k] / size);
         if (best && cost >= least) continue;
         least = cost;
         best = RaySum{{std::max(0.0, weights[0]), rays[i]}, {std::max(0.0, weights[1]), rays[j]}};

@@ -58,19 +58,20 @@ class Discretization {
         case FlowCondition::none:
           add_inner(face, rays[cell].sum(mobility[cell] * normal), rays[other].sum(-mobility[other] * normal));
           break;
-        case FlowCondition::pressure: add_pressure(face, rays[cell].sum(mobility[cell] * normal)); break;
-        case FlowCondition::flux: add_flux(face, rays[cell]); break;
+        case FlowCondition::pressure:
+          add_pressure(face, rays[cell].sum(mobility[cell] * normal));
+          break;
+        case FlowCondition::flux:
+          add_flux(face, rays[cell]);
+          break;
       }
     }
   }
 
   FluxOperators operators() const {
-    FluxOperators made = {matrix(flux_.cell, mesh_.cell_count()),
-                          matrix(flux_.boundary, mesh_.face_count()),
-                          matrix(flux_.change, mesh_.face_count()),
-                          matrix(trace_.cell, mesh_.cell_count()),
-                          matrix(trace_.boundary, mesh_.face_count()),
-                          matrix(trace_.change, mesh_.face_count()),
+    FluxOperators made = {matrix(flux_.cell, mesh_.cell_count()),      matrix(flux_.boundary, mesh_.face_count()),
+                          matrix(flux_.change, mesh_.face_count()),    matrix(trace_.cell, mesh_.cell_count()),
+                          matrix(trace_.boundary, mesh_.face_count()), matrix(trace_.change, mesh_.face_count()),
                           matrix(not_exact_, mesh_.face_count())};
     for (const int side : {0, 1}) {
       made.limited[side].cell = matrix(sides_[side].cell, mesh_.cell_count());
