@@ -26,8 +26,10 @@ in_time = [argument for value in ("young_modulus=(40e9*(1 - t/(100*h))) Pa", "pe
                                   "friction=0.5 - 0.01*t/h") for argument in ("--set", "materials." + value)]
 meeting = ["--set", "geometry.fractures.crossing={points: [[0.96, 1.01], [1.03, 1.01]]}",
            "--set", "geometry.fractures.touching={points: [[0.99, 0.99], [1.02, 0.97]]}"]
+limited = ["--set", "components.pore.type=matrix_flow/ntpfa"]
 elements = ["--set", "components.rock.type=poromechanics/fem", "--set", "components.rock.order=first"]
 scenes = (("verification/mandel.yaml", []), ("verification/mandel.yaml", ["--set", "mesh.shape=quadrilaterals"]),
+          ("verification/mandel.yaml", limited), ("paper/onset_coarse.yaml", small + limited),
           ("swaps/mandel_fem.yaml", []), ("paper/onset_coarse.yaml", small + elements),
           ("paper/onset_coarse.yaml", small), ("paper/onset_coarse.yaml", small + in_time),
           ("paper/onset_coarse.yaml", small + meeting), ("verification/closed_box.yaml", []),
