@@ -189,7 +189,7 @@ TEST(Ntpfa, KeepsBoundsAroundAHoleWhereMpfaDoesNot) {
 /// A closed box whose left half is at 1 Pa: pressures stay between those at the start, and nothing is lost.
 TEST(Ntpfa, KeepsBoundsInAClosedBox) {
   for (const char* mesh : {"{size: 0.08 m}", "{size: 0.08 m, shape: quadrilaterals}"})
-    for (const double step : {1e-6, 1e-3, 1.0}) {
+    for (const double step : {1e-6, 1e-3, 2e-2}) {
       SceneRun run = SceneRun::from_text(fmt::format(R"(
 geometry: {{box: {{x: [0 m, 1 m], y: [0 m, 1 m]}}}}
 mesh: {0}
