@@ -26,6 +26,7 @@ REFUSED = {"fine_fracture/jump_fit": ("does not grow", lambda text: "grow: tips"
 # How far the probes of a scene may move with a type that is less exact, of the largest value of their unit, and why.
 INEXACT = {
     "matrix_flow/tpfa": 0.1,  # fluxes that are not consistent on triangles
+    "matrix_flow/ntpfa": 0.05,  # no correction at tips: of first order in the pressure of a fracture that conducts well
     "poromechanics/fem first": 0.25,  # of first order at tips, where meshes of scenes have five cells on a fracture
     "contact/penalty": 0.02,  # walls that touch overlap a little
 }
