@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/capabilities/flux_discretization.hpp"
 #include "framework/field/field.hpp"
 
 namespace sprekk {
@@ -35,6 +36,11 @@ class MatrixFluxes {
     const SparseMatrix* matrix;
   };
   virtual std::vector<Derivative> face_flux_derivatives() const = 0;
+  /// m^2/(Pa s), one a cell.
+  virtual const std::vector<Tensor>& mobility() const = 0;
+  /// The fluxes in rock of one mobility without fluxes through sides and walls, as this flow discretizes them: right on
+  /// faces with both ends among the nodes (one flag a node).
+  virtual FluxOperators fluxes_around(const std::vector<char>& nodes, const Tensor& mobility) const = 0;
   /// What enters cells in this step.
   virtual std::vector<FluidSource> fluid_sources() const = 0;
 };

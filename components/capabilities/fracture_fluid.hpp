@@ -34,6 +34,9 @@ class FractureFluid {
   /// The viscosity in a fracture cell whose transmissivity follows from its opening (w^3/(12 mu) where it is wide),
   /// Pa s; 0 where the transmissivity does not depend on the opening.
   virtual double viscosity_between_walls(int cell) const = 0;
+  /// How well a fracture cell conducts along itself from end to end, m^2/(Pa s), at the current aperture. To be used
+  /// after Part::evaluate_data of all parts.
+  virtual double conductance(int cell) const = 0;
   /// Whether the pressure follows the aperture: not with a given transmissivity, nor where all of it is prescribed.
   virtual bool follows_aperture() const = 0;
   /// The fluid of the rock, which leaves and enters through the walls; nullptr where they are sealed. To be accepted

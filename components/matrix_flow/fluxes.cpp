@@ -72,6 +72,13 @@ std::vector<MatrixFluxes::Derivative> MatrixFlow::face_flux_derivatives() const 
   return derivatives;
 }
 
+FluxOperators MatrixFlow::fluxes_around(const std::vector<char>& nodes, const Tensor& mobility) const {
+  std::vector<FlowCondition> sealed(mesh_.face_count(), FlowCondition::none);
+  for (int f = 0; f < mesh_.face_count(); ++f)
+    if (mesh_.face_cells[f][1] == none) sealed[f] = FlowCondition::flux;
+  return discretize_(mesh_, std::vector<Tensor>(mesh_.cell_count(), mobility), sealed, nodes);
+}
+
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one.

@@ -98,10 +98,11 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   const Vector& face_fluxes() const override;
   std::vector<Derivative> face_flux_derivatives() const override;
   std::vector<FluidSource> fluid_sources() const override { return sources_; }
+  const std::vector<Tensor>& mobility() const override { return mobility_; }
+  FluxOperators fluxes_around(const std::vector<char>& nodes, const Tensor& mobility) const override;
 
  protected:
   const Mesh& mesh() const { return mesh_; }
-  const std::vector<Tensor>& mobility() const { return mobility_; }  ///< m^2/(Pa s), one a cell
 
  private:
   /// The flow at one state of the pressure, without the fluxes through walls.

@@ -20,6 +20,8 @@ int entity_count(const Mesh& mesh, Location location) {
       return static_cast<int>(mesh.fracture_points.size());
     case Location::wall:
       return mesh.wall_count();
+    case Location::listed:
+      throw std::logic_error("the mesh does not know how long a list is");
   }
   throw std::logic_error("unknown location");
 }
@@ -32,7 +34,7 @@ Field::Field(FieldSpec spec, int entities)
     throw std::logic_error("field " + name() + ": amounts are on cells, fracture cells or walls");
   if (spec_.role.is_derived() || !is_bulk(spec_.role.kind())) return;
   if (spec_.location != Location::cell && spec_.location != Location::face && spec_.location != Location::node)
-    throw std::logic_error("field " + name() + ": a block of the bulk is not on fractures");
+    throw std::logic_error("field " + name() + ": a block of the bulk is on its cells, faces or nodes");
   const int components = spec_.role.kind() == BlockKind::bulk_elastic ? dimension : 1;
   if (spec_.components != components)
     throw std::logic_error("field " + name() + ": a block of this kind has " + std::to_string(components) +

@@ -11,9 +11,11 @@
 namespace sprekk {
 
 /// The entities that carry a field's values. Walls are numbered 2 i + side for fracture cell i; fracture points are the
-/// ends of fracture cells.
-enum class Location { cell, face, node, fracture_cell, fracture_point, wall };
-int entity_count(const Mesh& mesh, Location location);  ///< in the whole mesh, not of this process
+/// ends of fracture cells. `listed`: entities of a list that the owner keeps, without a place on the mesh; few, all on
+/// the first process, and the same after a change of the mesh.
+enum class Location { cell, face, node, fracture_cell, fracture_point, wall, listed };
+/// In the whole mesh, not of this process. Throws std::logic_error for listed entities, which the mesh does not know.
+int entity_count(const Mesh& mesh, Location location);
 
 /// What a field is: its owner, name, place on the mesh, components for each entity, role and unit.
 struct FieldSpec {
@@ -21,7 +23,8 @@ struct FieldSpec {
   std::string name;
   Location location;
   int components = 1;
-  Role role;  ///< with the kind of its block, where it is solved for
+  int listed = 0;  ///< the number of entities, for Location::listed only
+  Role role;       ///< with the kind of its block, where it is solved for
   std::string unit;
   std::string doc;
   /// For an input that makes no sense unless a coupler determines it: the type of that coupler; else "".

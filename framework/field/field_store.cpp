@@ -9,7 +9,7 @@ namespace sprekk {
 Field& FieldStore::add(const Mesh& mesh, FieldSpec spec) {
   const std::string name = spec.full_name();
   if (has(name)) throw std::logic_error("field " + name + " exists already");
-  const int entities = entity_count(mesh, spec.location);
+  const int entities = spec.location == Location::listed ? spec.listed : entity_count(mesh, spec.location);
   fields_.push_back(std::make_unique<Field>(std::move(spec), entities));
   by_name_[name] = fields_.back().get();
   SPREKK_ASSERT(by_name_.size() == fields_.size(), by_name_.size(), fields_.size());

@@ -62,6 +62,9 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
       case Location::face:
         values = transferred_in_cells(old, change, old_mesh, new_mesh);
         break;
+      case Location::listed:
+        values = old.accepted();
+        break;
     }
     field->set_both(std::move(values));
   }

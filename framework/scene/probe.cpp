@@ -51,7 +51,7 @@ Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& m
   const Location location = field_->spec().location;
   if (!is_in_cells(location) && location != Location::fracture_cell)
     throw InputError(options.origin, "the field " + options.of + " cannot be probed",
-                     "it lives on walls or on points of fractures", "choose another field");
+                     "it has no values in cells or along fractures", "choose another field");
   check_names(mesh, options);
   if (options.at)
     set_point_weights(mesh, options);

@@ -111,6 +111,28 @@ time: {end: 10 day, step: 2 day}
 output: {every: 2 day}
 """
 
+WELLS = """
+geometry:
+  box: {x: [-8, 8], y: [-8, 8]}
+  fractures: {main: {points: [[-3.9, -1.2], [3.9, 1.2]]}, other: {points: [[-1.5, 3], [1.2, -3.5]]}}
+mesh: {size: 1.5, fracture_size: 0.4}
+materials: {viscosity: 1.0e-3 Pa*s, fluid_compressibility: 4.0e-10 1/Pa}
+components:
+  pore: {type: matrix_flow/mpfa, permeability: 1.0e-14 m^2, porosity: 0.1, boundary: {top: {pressure: 0 Pa}}}
+  conduit: {type: fracture_flow/tpfa, initial_aperture: 0.1 mm}
+  wells:
+    type: wells/limited
+    wells:
+      feed: {rate: 1.0e-5 m^2/s, highest_pressure: 0.5 MPa, places: {one: {fracture: main, at: [-3.5, -1.1]}, two: {at: [-5, -5], index: 1.0e-11 m^2/(Pa*s)}}}
+      drain: {at: [5, 5], rate: -1.0e-5 m^2/s, lowest_pressure: -0.5 MPa, radius: 0.05 m}
+couplers:
+  - {type: wall_exchange, between: [pore, conduit]}
+  - {type: well_exchange, between: [wells, pore, conduit]}
+schedule: [{solve: [pore, conduit, wells]}]
+time: {end: 10 h, step: 1 h}
+output: {every: 5 h}
+"""
+
 
 def other_components(order, contact):
     return (SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0").replace("contact/coulomb", f"contact/{contact}")
@@ -166,7 +188,7 @@ with tempfile.TemporaryDirectory() as temporary:
     for name, text in (("closed cross", CLOSED_CROSS), ("short steps", SHORT_STEPS),
                        ("mixed elements", SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0")),
                        ("other components", other_components("second", "augmented_lagrangian")),
-                       ("other components of first order", other_components("first", "penalty")), ("heat", HEAT)):
+                       ("other components of first order", other_components("first", "penalty")), ("heat", HEAT), ("wells", WELLS)):
         scene = Path(temporary) / f"{name.replace(' ', '_')}.yaml"
         scene.write_text(text)
         alone = run([program], scene, scene.with_suffix(".one"))

@@ -117,6 +117,20 @@ std::vector<Override> with_heat(const std::string& type) {
       {"schedule", "[{solve: [pore, rock, conduit, contact, heat, water]}, {grow: tips, settle: [rock, contact]}]"}};
 }
 
+/// The scene with wells in rock and in the fracture, with limits.
+std::vector<Override> with_wells() {
+  return {
+      {"components.wells",
+       "{type: wells/limited, wells: {both: {rate: 1e-6 m^2/s, highest_pressure: 1 GPa, places: {rock: {at: [0.3 m, "
+       "0.3 m], index: 1e-12 m^2/(Pa*s)}, fracture: {fracture: main, at: [1 m, 1 m]}}}}}"},
+      {"couplers",
+       "[{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}, {type: "
+       "wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, {type: "
+       "two_level, between: [rock, conduit, tips, contact]}, {type: well_exchange, between: [wells, pore, "
+       "conduit]}]"},
+      {"schedule", "[{solve: [pore, rock, conduit, contact, wells]}, {grow: tips, settle: [rock, contact]}]"}};
+}
+
 const std::vector<std::vector<Override>> scenes = {
     {},
     {{"components.pore.type", "matrix_flow/tpfa"}},
@@ -128,16 +142,28 @@ const std::vector<std::vector<Override>> scenes = {
     {{"components.other_tips", "{type: fine_fracture/jump_fit}"}},
     {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}},
     with_heat("mpfa"),
-    with_heat("tpfa")};
+    with_heat("tpfa"),
+    with_wells()};
 INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa",       "poromechanics/fem", "matrix_flow/rt0",
-                                 "matrix_flow/ntpfa",      "contact/penalty",   "contact/augmented_lagrangian",
-                                 "fine_fracture/jump_fit", "matrix_heat/mpfa",  "matrix_heat/tpfa",
-                                 "fracture_heat/tpfa",     "heat_advection",    "heat_exchange",
-                                 "thermal_stress",         "thermal_viscosity"},
+  std::set<std::string> types = {"matrix_flow/tpfa",
+                                 "poromechanics/fem",
+                                 "matrix_flow/rt0",
+                                 "matrix_flow/ntpfa",
+                                 "contact/penalty",
+                                 "contact/augmented_lagrangian",
+                                 "fine_fracture/jump_fit",
+                                 "matrix_heat/mpfa",
+                                 "matrix_heat/tpfa",
+                                 "fracture_heat/tpfa",
+                                 "heat_advection",
+                                 "heat_exchange",
+                                 "thermal_stress",
+                                 "thermal_viscosity",
+                                 "wells/limited",
+                                 "well_exchange"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {

@@ -57,6 +57,9 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   NormalPermeability normal_permeability() const override;
   void change_viscosity(const Vector& viscosity) override;
   double viscosity_between_walls(int cell) const override { return options_.is_constant() ? 0 : viscosity_[cell]; }
+  double conductance(int cell) const override {
+    return transmissivity(cell).value / mesh_.fracture_cells[cell].measure;
+  }
   bool follows_aperture() const override;
   const Field& flux() const override { return flux_; }
   std::vector<FluidSource> fluid_sources() const override { return sources_; }

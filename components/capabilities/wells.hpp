@@ -1,0 +1,44 @@
+// Capability of wells, whose pressure and rates are unknowns.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/input_error.hpp"
+#include "framework/field/field.hpp"
+
+namespace sprekk {
+
+/// A place where a well is open to what is around it.
+struct WellPlace {
+  int well = 0;      ///< of which well
+  std::string name;  ///< of the well in the scene, with that of the place where it has several
+  Origin origin;
+  Point at = Point::Zero();
+  std::optional<std::string> fracture;  ///< open to this fracture, and else to the rock
+  double radius = 0;                    ///< m
+  double skin = 0;
+  std::optional<double> index;  ///< m^2/(Pa s), rate over difference of pressure; absent where it follows from the mesh
+};
+
+/// Capability: determines the pressure in wells from their rates.
+class WellPressures {
+ public:
+  static constexpr const char* promise = "determines the pressure in wells";
+  virtual ~WellPressures() = default;
+  /// The pressure in each well, Pa.
+  virtual Field& pressure() = 0;
+  /// Input: the rate out of the well at each place, m^2/s.
+  virtual Field& rate() = 0;
+  virtual const std::vector<WellPlace>& places() const = 0;
+  /// Whether the pressure of some well is given, whatever its rate.
+  virtual bool holds_pressure() const = 0;
+  /// Refuses limits that contradict the pressure around the well at the start, Pa, one a place. Throws InputError.
+  virtual void check_limits(const Vector& around) const = 0;
+  /// The difference of pressure over the rate, Pa s/m^2, one a place, positive: the scale of the equations. To be given
+  /// in Part::begin_step of couplers.
+  virtual void scale(const Vector& resistance) = 0;
+};
+
+}  // namespace sprekk

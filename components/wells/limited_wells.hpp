@@ -1,0 +1,74 @@
+// Wells that do what binds first: their rate or a limit of their pressure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "components/capabilities/wells.hpp"
+#include "components/wells/options.hpp"
+#include "framework/scene/component.hpp"
+
+namespace sprekk::wells {
+
+/// What holds in a well.
+enum class Binding { rate, pressure, shut };
+
+/// What a well is to do in a step.
+struct Control {
+  bool has_pressure = false;  ///< the pressure is given, and no rate
+  double rate = 0;            ///< m^2/s
+  bool has_limit = false;     ///< of the pressure, on the side to which the rate drives it
+  double pressure = 0;        ///< Pa, the given one or the limit
+};
+
+/// Which condition holds at a pressure p (Pa) and a rate q (m^2/s, out of the well), with any resistance R (Pa s/m^2).
+/// The conditions of a well with the rate Q > 0 and the limit P,
+///   q = Q and p <= P,  or  0 <= q <= Q and p = P,  or  q = 0 and p >= P,
+/// are one equation, q = min(max(q + (P − p)/R, 0), Q): the second argument says which branch of it holds. With Q < 0
+/// the same in the other direction.
+Binding binding(const Control& control, double pressure, double rate, double resistance);
+
+/// Unknown: the pressure p of every well, one for all of its places. Its equation is the branch of `binding` in which
+/// the values are (m^2/s); Newton's method with it is an active-set method, which changes branches within a solve. The
+/// rates are given by a coupler (WellPressures::rate), which knows what is around.
+class LimitedWells : public Component, public WellPressures {
+ public:
+  LimitedWells(const ComponentContext& context, const Options& options);
+
+  void evaluate_data(const StepTime& step) override;
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly& assembly, const StepTime& step) const override;
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
+  void balance(std::map<std::string, Balance>& balances) const override;
+  std::uint64_t discrete_state() const override;
+  std::vector<double> switch_times() const override;
+  void report(std::vector<Quantity>& quantities) const override;
+  void note_step(Notes& notes, const StepTime& step) const override;
+
+  Field& pressure() override { return pressure_; }
+  Field& rate() override { return rate_; }
+  const std::vector<WellPlace>& places() const override { return places_; }
+  bool holds_pressure() const override;
+  void check_limits(const Vector& around) const override;
+  void scale(const Vector& resistance) override;
+
+ private:
+  int count() const { return static_cast<int>(names_.size()); }
+  Control control(int well, const StepTime& step) const;
+  Vector rates() const { return of_places_ * rate_.now(); }  ///< m^2/s, one a well
+  Binding binding_now(int well, double rate) const;
+
+  Options options_;
+  std::vector<std::string> names_;
+  std::vector<WellPlace> places_;
+  Field& pressure_;
+  Field& rate_;
+  Field& injected_;           ///< m^2, at each place since the start
+  SparseMatrix of_places_;    ///< wells × places: ones
+  std::vector<Control> now_;  ///< in this step, one a well
+  Vector resistance_;         ///< Pa s/m^2, one a well
+};
+
+}  // namespace sprekk::wells

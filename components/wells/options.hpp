@@ -1,0 +1,38 @@
+// What a scene says of wells.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "framework/config/spec.hpp"
+
+namespace sprekk::wells {
+
+/// A place where a well is open.
+struct Perforation {
+  Origin origin;
+  std::optional<Point> at;  ///< m
+  std::optional<std::string> fracture;
+  std::optional<double> index;  ///< m^2/(Pa s)
+};
+
+/// One well: what it is to do, its limits, and its places.
+struct WellOptions {
+  Origin origin;
+  std::optional<Data> rate;      ///< m^2/s, out of the well
+  std::optional<Data> pressure;  ///< Pa
+  std::optional<Data> lowest_pressure, highest_pressure;
+  double radius = 0.1;  ///< m
+  double skin = 0;
+  Perforation only;                           ///< where it has one place
+  std::map<std::string, Perforation> places;  ///< where it has several
+};
+
+/// Parameters of all wells.
+struct Options {
+  std::map<std::string, WellOptions> wells;
+  Spec spec();
+};
+
+}  // namespace sprekk::wells

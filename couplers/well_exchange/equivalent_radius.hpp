@@ -1,0 +1,25 @@
+// The radius at which the pressure of a discretization is that of a well in the continuum.
+#pragma once
+
+#include <optional>
+
+#include "components/capabilities/fluid_fluxes.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::couplers {
+
+/// The radius r_e (m) at which a line source in rock of one mobility M without end,
+///   p = −q/(2 pi sqrt(det M)) ln rho,  rho^2 = sqrt(det M) x·M^-1 x,
+/// has the pressure that a mesh gives the cell with the source q. Peaceman's radius (1978, 1983), found as he found it:
+/// the discrete equations are solved around the cell, with the pressure of the source prescribed in the cells around a
+/// patch of up to `most_layers`. So it is right for any shape of cells, any anisotropy and any discretization with
+/// unknowns on cells. On squares with the two-point flux it is 0.198 h. None where the cell touches the boundary or a
+/// fracture. Throws std::invalid_argument for a discretization with unknowns on faces.
+std::optional<double> equivalent_radius(const Mesh& mesh, const MatrixFluxes& fluxes, int middle,
+                                        const Tensor& mobility);
+
+/// The radius of the circle that replaces a bore hole (m) in the metric of rho, in which it is an ellipse: Peaceman
+/// 1983, r_w ((k_1/k_2)^(1/4) + (k_2/k_1)^(1/4))/2.
+double radius_of_bore_hole(double radius, const Tensor& mobility);
+
+}  // namespace sprekk::couplers

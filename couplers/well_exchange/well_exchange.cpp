@@ -1,0 +1,254 @@
+// well_exchange: fluid flows between wells and the rock or the fractures in which they are open.
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/capabilities/fluid_fluxes.hpp"
+#include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
+#include "components/capabilities/temperature.hpp"
+#include "components/capabilities/wells.hpp"
+#include "couplers/well_exchange/equivalent_radius.hpp"
+#include "framework/assembly/balance_rows.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/medium.hpp"
+#include "framework/mesh/planar.hpp"
+#include "framework/mesh/point_location.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+struct WellExchangeOptions {
+  Spec spec() {
+    Spec spec("well_exchange",
+              "Flow between wells and the rock or the fractures in which they are open, driven by the difference of "
+              "their pressures.");
+    spec.ignore("type").ignore("between");
+    return spec;
+  }
+};
+
+/// Determines the rate q of each place of the wells, out of the well: R q = p_well − p, with the pressure p of the cell
+/// that the place lies in. In rock R = (ln(r_e/r_w) + skin)/(2 pi sqrt(det M)), Peaceman's index (equivalent_radius).
+/// In a fracture R is zero unless an index is given: fluid flows from the middle of the cell to both sides, and the
+/// pressure there is that of the cell. R = 1/index where the scene gives one. The terms of the rock are constant,
+/// whichever limit of the well binds: what switches is on the side of the wells.
+class WellExchange : public Coupler {
+ public:
+  WellExchange(const CouplerContext& context, const WellExchangeOptions&)
+      : Coupler(context.name),
+        mesh_(context.mesh),
+        wells_(context.the<WellPressures>()),
+        rock_(context.find<MatrixFluid>()),
+        fluxes_(context.find<MatrixFluxes>()),
+        fracture_(context.find<FractureFluid>()),
+        places_(wells_.places()),
+        cells_(places_.size(), none),
+        log_of_radii_(Vector::Zero(count())),
+        resistance_(Vector::Zero(count())),
+        scale_(Vector::Zero(count())) {
+    context.determine(wells_.rate());
+    refuse_heat(context);
+    std::vector<Triplet> of_rock, of_fracture, of_wells;
+    Vector around = Vector::Zero(count());
+    for (int k = 0; k < count(); ++k) {
+      of_wells.emplace_back(k, places_[k].well, -1.0);
+      if (places_[k].fracture) {
+        cells_[k] = fracture_cell(places_[k], context);
+        of_fracture.emplace_back(k, cells_[k], 1.0);
+        around[k] = fracture_->pressure().now()[cells_[k]];
+        continue;
+      }
+      cells_[k] = rock_cell(k);
+      of_rock.emplace_back(k, cells_[k], 1.0);
+      around[k] = rock_->initial_pressure()[cells_[k]];
+    }
+    wells_.check_limits(around);
+    wells_.pressure().set_both(mean_around(around));
+    of_wells_ = operator_of(of_wells, wells_.pressure().size());
+    if (rock_) use(of_rock, mesh_.cell_count(), of_rock_, into_rock_);
+    if (fracture_) use(of_fracture, mesh_.fracture_cell_count(), of_fracture_, into_fracture_);
+  }
+
+  /// What the well gives is what the cells around it get, in the same solve.
+  std::vector<Dependence> dependences() const override {
+    std::vector<Dependence> pairs;
+    const std::string wells = wells_.rate().spec().owner;
+    const auto need = [&](Field& pressure) {
+      const std::string because = "what leaves a well enters what is around it in the same step";
+      pairs.push_back({wells, pressure.spec().owner, because});
+      pairs.push_back({pressure.spec().owner, wells, because});
+    };
+    if (rock_) need(rock_->pressure());
+    if (fracture_) need(fracture_->pressure());
+    return pairs;
+  }
+
+  void begin_step(const StepTime&) override {
+    Vector of_wells(count());
+    for (int k = 0; k < count(); ++k) {
+      if (places_[k].index)
+        resistance_[k] = 1 / *places_[k].index;
+      else if (!places_[k].fracture)
+        resistance_[k] = log_of_radii_[k] / conductance_of_rock(k);
+      double scale = resistance_[k];
+      if (scale == 0) {
+        const double conductance = fracture_->conductance(cells_[k]);
+        scale = conductance > 0 ? 1 / conductance : 1;
+      }
+      of_wells[k] = scale;
+      scale_[k] = 1 / scale;
+      SPREKK_ASSERT(std::isfinite(scale_[k]) && scale_[k] > 0, k, scale_[k]);
+    }
+    of_rate_ = resistance_.cwiseProduct(scale_);
+    wells_.scale(of_wells);
+  }
+
+  void assemble(Assembly& assembly, const StepTime& step) const override {
+    const Field& rate = wells_.rate();
+    if (rock_) supply(assembly, rock_->pressure(), into_rock_, step.dt);
+    if (fracture_) supply(assembly, fracture_->pressure(), into_fracture_, step.dt);
+    if (!assembly.has_row(rate)) return;
+    assembly.linear(rate, of_wells_, wells_.pressure(), 1, &scale_);
+    if (rock_) assembly.linear(rate, of_rock_, rock_->pressure(), 1, &scale_);
+    if (fracture_) assembly.linear(rate, of_fracture_, fracture_->pressure(), 1, &scale_);
+    assembly.add(rate, of_rate_.cwiseProduct(rate.now()));
+    assembly.diagonal(rate, rate, of_rate_);
+  }
+
+  void hold_constants(ConstantModes& modes) const override {
+    if (!wells_.holds_pressure()) return;
+    if (rock_ && into_rock_.entries().nonZeros() > 0) modes.hold(rock_->pressure());
+    if (fracture_ && into_fracture_.entries().nonZeros() > 0) modes.hold(fracture_->pressure());
+  }
+
+ private:
+  int count() const { return static_cast<int>(places_.size()); }
+
+  static Operator operator_of(const std::vector<Triplet>& entries, int rows, int columns) {
+    SparseMatrix matrix(rows, columns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return Operator(std::move(matrix));
+  }
+  Operator operator_of(const std::vector<Triplet>& entries, int columns) const {
+    return operator_of(entries, count(), columns);
+  }
+  /// The pressure at the places, and the same transposed: what rates bring.
+  void use(const std::vector<Triplet>& weights, int cells, Operator& of_cells, Operator& into_cells) const {
+    std::vector<Triplet> transposed;
+    for (const Triplet& entry : weights) transposed.emplace_back(entry.col(), entry.row(), entry.value());
+    of_cells = operator_of(weights, cells);
+    into_cells = operator_of(transposed, cells, count());
+  }
+
+  void supply(Assembly& assembly, const Field& pressure, const Operator& into, double dt) const {
+    if (!assembly.has_row(pressure)) return;
+    assembly.linear(pressure, into, wells_.rate(), -dt);
+    BalanceRows(assembly, pressure).add_turnover(dt * (into.entries() * wells_.rate().now()));
+  }
+
+  void refuse_heat(const CouplerContext& context) const {
+    std::string heat = context.left_out<MatrixTemperature>();
+    if (heat.empty()) heat = context.left_out<FractureTemperature>();
+    if (!heat.empty())
+      throw InputError(context.origin, "the fluid of these wells carries no heat, and the scene has '" + heat + "'",
+                       "what they inject would have no temperature",
+                       "use the 'wells' of the flow in the rock, or 'injection' and 'prescribed' in fractures");
+  }
+
+  Vector mean_around(const Vector& around) const {
+    Vector sums = Vector::Zero(wells_.pressure().size()), counts = sums;
+    for (int k = 0; k < count(); ++k) {
+      sums[places_[k].well] += around[k];
+      counts[places_[k].well] += 1;
+    }
+    return sums.cwiseQuotient(counts);
+  }
+
+  int fracture_cell(const WellPlace& place, const CouplerContext& context) const {
+    if (!fracture_)
+      throw InputError(place.origin, "well '" + place.name + "' is open to a fracture without fluid",
+                       "coupler " + context.name + " stands between no flow in fractures",
+                       "name the flow in fractures in its `between`, or remove 'fracture'");
+    const int fracture = find_fracture(mesh_, *place.fracture);
+    std::vector<std::string> names;
+    for (const Fracture& each : mesh_.fractures) names.push_back(each.name);
+    if (fracture == none) throw unknown_name(place.origin, "fracture", *place.fracture, names);
+    const int nearest = nearest_fracture_cell(mesh_, fracture, place.at);
+    const FractureCell& cell = mesh_.fracture_cells[nearest];
+    const double away = (cell.center - place.at).norm();
+    if (away > cell.measure)
+      throw InputError(place.origin, "well '" + place.name + "' is not on fracture '" + *place.fracture + "'",
+                       fmt::format("the nearest cell is {:.3g} m away and only {:.3g} m long", away, cell.measure),
+                       "move it onto the fracture");
+    return nearest;
+  }
+
+  double conductance_of_rock(int k) const {
+    return 2 * std::numbers::pi * std::sqrt(fluxes_->mobility()[cells_[k]].determinant());
+  }
+
+  /// The cell of a place in rock; finds its index.
+  int rock_cell(int k) {
+    const WellPlace& place = places_[k];
+    if (!rock_ || !fluxes_)
+      throw InputError(place.origin, "well '" + place.name + "' is open to rock without fluid",
+                       "its coupler stands between no flow in the matrix",
+                       "name the flow in the matrix in `between`, or the fracture in which it is open");
+    const int home = PointLocation(mesh_).cell_at(place.at);
+    if (home == none)
+      throw InputError(place.origin, "well '" + place.name + "' lies outside the " + medium_name(),
+                       "there is no cell at its position", "move it inside");
+    const Tensor& mobility = fluxes_->mobility()[home];
+    if (!(mobility.determinant() > 0))
+      throw InputError(place.origin, "well '" + place.name + "' is open to rock that lets no fluid through",
+                       "its permeability is zero", "give it a permeability, or move the well");
+    if (place.index) return home;
+    const std::optional<double> radius = radius_of(place, home);
+    if (!radius)
+      throw InputError(place.origin, "the index of well '" + place.name + "' cannot be found",
+                       "its cell at " + to_text(mesh_.cell_center[home]) + " touches a side or a fracture",
+                       "use smaller cells there, give its 'index', or name the 'fracture' in which it is open");
+    const double bore = radius_of_bore_hole(place.radius, mobility);
+    log_of_radii_[k] = std::log(*radius / bore) + place.skin;
+    if (!(log_of_radii_[k] > 0))
+      throw InputError(place.origin, "the index of well '" + place.name + "' is not positive",
+                       fmt::format("ln(r_e/r_w) + skin is {:.3g}: the cells have the pressure of the well at r_e = "
+                                   "{:.3g} m, and its radius is {:.3g} m",
+                                   log_of_radii_[k], *radius, bore),
+                       "use larger cells, a smaller radius, or a larger skin");
+    return home;
+  }
+
+  std::optional<double> radius_of(const WellPlace& place, int home) const {
+    try {
+      return equivalent_radius(mesh_, *fluxes_, home, fluxes_->mobility()[home]);
+    } catch (const std::invalid_argument&) {
+      throw InputError(place.origin, "the index of well '" + place.name + "' is not known for this flow",
+                       "its discretization has unknowns on faces",
+                       "use matrix_flow/mpfa or matrix_flow/tpfa, or give its 'index'");
+    }
+  }
+
+  const Mesh& mesh_;
+  WellPressures& wells_;
+  MatrixFluid* rock_;
+  MatrixFluxes* fluxes_;
+  FractureFluid* fracture_;
+  const std::vector<WellPlace>& places_;
+  std::vector<int> cells_;  ///< of the rock or of the fracture, one a place
+  Vector log_of_radii_;     ///< ln(r_e/r_w) + skin of places in rock without a given index
+  Vector resistance_;       ///< R, Pa s/m^2, one a place
+  Vector scale_, of_rate_;  ///< of the rows, m^2/(Pa s), and the factor of the rate
+  Operator of_wells_;       ///< places × wells: −1
+  Operator of_rock_, into_rock_, of_fracture_, into_fracture_;
+};
+
+const RegisterCoupler<WellExchange, WellExchangeOptions> registration("well_exchange");
+
+}  // namespace
+}  // namespace sprekk::couplers
