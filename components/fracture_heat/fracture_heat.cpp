@@ -149,8 +149,9 @@ void FractureHeat::evaluate_data(const StepTime& step) {
     const Data* given = end_condition(p);
     if (!given) continue;
     const FracturePoint& point = mesh_.fracture_points[p];
-    const int region = mesh_.cell_region[mesh_.face_cells[mesh_.fracture_cells[point.cells[0]].faces[0]][0]];
-    end_temperature_[p] = value_in_step(*given, {point.position, region, 0}, step);
+    Place place = fracture_cell_place(mesh_, point.cells[0]);
+    place.x = point.position;
+    end_temperature_[p] = value_in_step(*given, place, step);
   }
 }
 

@@ -16,7 +16,10 @@ Vector at_all(const std::vector<Place>& places, const Evaluate& evaluate) {
 }  // namespace
 
 Property::Property(const Data& data, const std::vector<Place>& places, double start) : data_(data) {
-  set(at_all(places, [&](const Place& place) { return data.at({place.x, place.region, start}); }));
+  set(at_all(places, [&](Place place) {
+    place.t = start;
+    return data.at(place);
+  }));
   if (data.depends_on_time()) places_ = places;
 }
 
@@ -39,10 +42,15 @@ std::vector<Place> cell_places(const Mesh& mesh) {
   return places;
 }
 
+Place fracture_cell_place(const Mesh& mesh, int i) {
+  SPREKK_EXPECT(is_index(i, mesh.fracture_cell_count()), i, mesh.fracture_cell_count());
+  const FractureCell& cell = mesh.fracture_cells[i];
+  return {cell.center, mesh.cell_region[mesh.face_cells[cell.faces[0]][0]], 0, cell.fracture};
+}
+
 std::vector<Place> fracture_cell_places(const Mesh& mesh) {
   std::vector<Place> places;
-  for (const FractureCell& cell : mesh.fracture_cells)
-    places.push_back({cell.center, mesh.cell_region[mesh.face_cells[cell.faces[0]][0]], 0});
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) places.push_back(fracture_cell_place(mesh, i));
   return places;
 }
 

@@ -41,5 +41,6 @@ class Property {
 /// is that of the rock on the plus side.
 std::vector<Place> cell_places(const Mesh& mesh);
 std::vector<Place> fracture_cell_places(const Mesh& mesh);
+Place fracture_cell_place(const Mesh& mesh, int cell);
 
 }  // namespace sprekk

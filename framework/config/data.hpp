@@ -14,11 +14,13 @@
 
 namespace sprekk {
 
-/// Where and when a datum is evaluated. `region` indexes Mesh::region_names.
+/// Where (m) and when (s) a datum is evaluated. `region` indexes Mesh::region_names; `fracture` indexes
+/// Mesh::fractures, and is -1 in the rock.
 struct Place {
   Point x = Point::Zero();
   int region = 0;
   double t = 0;
+  int fracture = -1;
 };
 
 /// A mistake of the scene that is found when a datum is evaluated: it has no finite value, or leaves its range.
@@ -27,8 +29,8 @@ class DataError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A scalar in SI units: a number, an expression of x, y, t, a value per region, a table (CSV), or windows in time.
-/// `at` throws DataError when the function has no finite value there or leaves the parameter's range.
+/// A scalar in SI units: a number, an expression of x, y, t, a value per region or fracture, a table (CSV), or windows
+/// in time. `at` throws DataError when the function has no finite value there or leaves the parameter's range.
 class Data {
  public:
   Data(double constant = 0);  // NOLINT: a number is a datum

@@ -122,18 +122,21 @@ Data read_tabulated(const Node& node, const DataRequest& request) {
 Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_scalar()) return parse_data(node.scalar, request.about.unit, node.origin, request.name);
   const std::string forms = "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) +
-                            ", an expression of x, y and t, " + "{regions: …}, {table: …} or {value: , from: , to: }";
+                            ", an expression of x, y and t, " +
+                            "{regions: …}, {fractures: …}, {column: …}, {table: …} or {value: , from: , to: }";
   if (node.is_null()) throw wrong_kind(node, request.name, forms);
   if (request.about.constant_only) throw wrong_kind(node, request.name, "one number");
   if (has(node, "regions")) {
     return by_region(read_by_region<Data>(node, request, [&](const Node& value) { return read_data(value, request); }));
   }
+  if (has(node, "fractures")) return read_by_fracture(node, request);
   if (node.is_list() || has(node, "value")) return read_windows(node, request);
   if (has(node, "table")) return read_tabulated(node, request);
+  if (has(node, "column")) return read_fracture_column(node, request);
   const std::string key = node.entries.empty() ? "" : node.entries.front().key;
   if (key.empty()) throw wrong_kind(node, request.name, forms);
   throw unknown_name(node.entries.front().origin, "key of " + quoted(request.name) + ":", key,
-                     {"regions", "table", "value"});
+                     {"regions", "fractures", "column", "table", "value"});
 }
 
 }  // namespace
@@ -163,7 +166,7 @@ Data within_range(Data data, const Origin& where, const DataRequest& request) {
   return Data(std::move(checked), in_time, in_space, switch_times);
 }
 
-Data by_region(std::vector<Data> values) {
+Data choice_of(std::vector<Data> values, std::function<int(const Place&)> index) {
   bool in_time = false;
   std::vector<const Data*> pointers;
   for (const Data& value : values) {
@@ -171,10 +174,14 @@ Data by_region(std::vector<Data> values) {
     pointers.push_back(&value);
   }
   std::vector<double> switch_times = merged_switch_times(pointers);
-  auto pick = [values = std::move(values)](const Place& place) {
-    return values.at(static_cast<std::size_t>(place.region)).at(place);
+  auto pick = [values = std::move(values), index = std::move(index)](const Place& place) {
+    return values.at(static_cast<std::size_t>(index(place))).at(place);
   };
   return Data(std::move(pick), in_time, true, std::move(switch_times));
+}
+
+Data by_region(std::vector<Data> values) {
+  return choice_of(std::move(values), [](const Place& place) { return place.region; });
 }
 
 Data read_data(const Node& node, const DataRequest& request) {

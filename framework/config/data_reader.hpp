@@ -1,7 +1,7 @@
 // Reads data, vectors and tensors of data from the tree, in all the forms that a scene may use.
 #pragma once
 
-#include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,8 +32,15 @@ std::vector<Value> read_by_region(const Node& node, const DataRequest& request, 
 /// made at each evaluation.
 Data within_range(Data data, const Origin& where, const DataRequest& request);
 
+/// One datum that at each place has the value with this index.
+Data choice_of(std::vector<Data> values, std::function<int(const Place&)> index);
 /// The data of all regions, by index, as one datum.
 Data by_region(std::vector<Data> values);
+
+/// {fractures: {name: value, …, default: value}}, and {column: name, default: value} of the scene's tables of
+/// fractures. Evaluated anywhere but on a fracture, such a datum throws DataError.
+Data read_by_fracture(const Node& node, const DataRequest& request);
+Data read_fracture_column(const Node& node, const DataRequest& request);
 
 // Functions that the readers of nodes share. They throw InputError where a node is not what they are to read.
 void require_known_keys(const Node& map, const std::vector<std::string>& allowed, const DataRequest& request);
@@ -43,31 +50,24 @@ const std::string& read_scalar(const Node& node, const std::string& name);
 /// What to throw for a node that is no `needed`.
 InputError wrong_kind(const Node& node, const std::string& name, const std::string& needed);
 
+/// What values are given by: the word for one, and the key of the map from names to values.
+struct NamedPlaces {
+  std::string one, key;
+};
+
+/// For each of `names` its entry in the map under the key, or the one called default. Throws InputError where there is
+/// none, and for names that are unknown.
+std::vector<const Node*> values_by_name(const Node& node, const DataRequest& request, const NamedPlaces& places,
+                                        const std::vector<std::string>& names);
+
 /// Whether the map has the key `key`, so that its form is known.
 inline bool has(const Node& node, const std::string& key) { return node.is_map() && node.find(key) != nullptr; }
 
 template <class Value, class Read>
 std::vector<Value> read_by_region(const Node& node, const DataRequest& request, const Read& read) {
-  require_known_keys(node, {"regions"}, request);
-  const Node& regions = *node.find("regions");
-  if (!regions.is_map()) throw wrong_kind(regions, request.name + ".regions", "a map of a value for each region");
-  const std::vector<std::string>& names = request.context.region_names;
-  for (const Node::Entry& entry : regions.entries) {
-    const bool is_known = entry.key == "default" || std::find(names.begin(), names.end(), entry.key) != names.end();
-    if (!is_known) throw unknown_name(entry.origin, "region", entry.key, names);
-  }
   std::vector<Value> values;
-  for (const std::string& name : names) {
-    const Node* value = regions.find(name);
-    if (value == nullptr) value = regions.find("default");
-    if (value == nullptr) {
-      throw InputError(regions.origin, quoted(request.name) + " has no value in the region " + quoted(name), "",
-                       "add '" + name + ":' or 'default:'");
-    }
+  for (const Node* value : values_by_name(node, request, {"region", "regions"}, request.context.region_names))
     values.push_back(read(*value));
-  }
-  if (values.empty())
-    throw InputError(regions.origin, "the mesh has no regions", "", "give one value without 'regions'");
   return values;
 }
 

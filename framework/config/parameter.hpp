@@ -25,16 +25,27 @@ struct About {
   std::string fixed = "";      ///< why the data must not depend on t, for the message
 };
 
+/// A number that a table of fractures gives for one of them, in the column's unit ("" for none).
+struct ColumnValue {
+  std::string column, unit;
+  double value = 0;
+  Origin where = {};
+};
+
 /// The meaning of names in a scene, gathered before the components are read.
 struct ReadContext {
-  const Node* materials = nullptr;        ///< the `materials:` map or nullptr
-  std::vector<std::string> region_names;  ///< for values per region, by index
-  std::string folder = ".";               ///< of the scene file: tables are found relative to it
+  const Node* materials = nullptr;                        ///< the `materials:` map or nullptr
+  std::vector<std::string> region_names;                  ///< for values per region, by index
+  std::vector<std::string> fracture_names;                ///< for values per fracture, by index
+  std::vector<std::vector<ColumnValue>> fracture_values;  ///< from tables of fractures, by index
+  std::string folder = ".";                               ///< of the scene file: tables are found relative to it
   /// Records path, value (YAML on one line) and origin ("scene.yaml:3:4" or "default") of every parameter read or
   /// defaulted, for `show`; may be null.
   std::function<void(const std::string& path, const std::string& value, const std::string& origin)> record;
   /// Receives every key of `materials:` that some spec knows, also where the component's own value wins; may be null.
   std::function<void(const std::string& key)> material_used;
+  /// Receives the column of tables of fractures that a datum takes; may be null.
+  std::function<void(const std::string& column)> column_used;
 };
 
 /// One declared parameter, as `explain` and the schema see it.

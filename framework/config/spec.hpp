@@ -33,6 +33,8 @@ class Spec {
   //   20 MPa                                              a number
   //   (1 + 0.1*sin(pi*x)) MPa                             an expression of x, y (m) and t (s)
   //   {regions: {granite: 1e-18 m^2, default: 1e-20 m^2}} a datum for each region of the mesh
+  //   {fractures: {fault: 0.3, default: 0.6}}     a datum for each fracture
+  //   {column: friction, default: 0.6}            a column of the tables that fractures come from
   //   {table: p.csv, column: p, of: t, unit: MPa}         linear between the rows, constant outside
   //   {value: 5e-9 m^2/s, from: 6 h, to: 21 h}            zero outside [from, to); a list of these adds up
   // for vectors [x, y]; for tensors one datum (isotropic), {xx:, yy:, xy:} or {along:, across:, angle:}, also by

@@ -14,6 +14,16 @@
 namespace sprekk {
 namespace {
 
+const std::vector<std::string>& columns_of_geometry() {
+  static const std::vector<std::string> known = {"name", "size", "x1", "y1", "x2", "y2", "x", "y"};
+  return known;
+}
+
+bool is_geometry(const std::string& column) {
+  const std::vector<std::string>& known = columns_of_geometry();
+  return std::find(known.begin(), known.end(), column) != known.end();
+}
+
 class Reader {
  public:
   explicit Reader(const FractureTable& table) : table_(table) {}
@@ -42,10 +52,6 @@ class Reader {
   }
 
   void check_columns() const {
-    const std::vector<std::string> known = {"name", "size", "x1", "y1", "x2", "y2", "x", "y"};
-    for (const CsvHeading& heading : csv_.headings)
-      if (std::find(known.begin(), known.end(), heading.name) == known.end())
-        throw unknown_name({table_.file, 1}, "column of the table of fractures:", heading.name, known);
     const bool has_ends = find("x1") && find("y1") && find("x2") && find("y2");
     const bool has_points = find("name") && find("x") && find("y");
     if (has_ends != has_points) return;
@@ -67,16 +73,20 @@ class Reader {
                      fmt::format("it has {} of {} cells", row.cells.size(), csv_.headings.size()));
   }
 
-  double length(const CsvRow& row, const std::string& name) const {
-    const CsvHeading& heading = csv_.headings[*find(name)];
+  double number(const CsvRow& row, const std::string& name) const {
     const std::string& text = cell(row, name);
     const auto value = leading_number(text);
     if (!value || value->length != text.size() || !value->is_finite)
       throw InputError({table_.file, row.line}, fmt::format("'{}' for {} is not a finite number", text, name),
                        "units stand in the heading, like x1[mm]");
+    return value->value;
+  }
+
+  double length(const CsvRow& row, const std::string& name) const {
+    const CsvHeading& heading = csv_.headings[*find(name)];
     const double scale =
         heading.unit.empty() ? 1 : scale_to_si(heading.unit, "m", heading.unit, {table_.file, 1}, name);
-    return value->value * scale;
+    return number(row, name) * scale;
   }
 
   FractureGeometry fracture(const CsvRow& row, const std::string& name) const {
@@ -85,6 +95,10 @@ class Reader {
     if (fracture.size && !(*fracture.size > 0))
       throw InputError({table_.file, row.line}, fmt::format("the size {} is not positive", *fracture.size),
                        "it is the length of cells");
+    for (const CsvHeading& heading : csv_.headings)
+      if (!is_geometry(heading.name))
+        fracture.values.push_back(
+            {heading.name, heading.unit, number(row, heading.name), Origin{table_.file, row.line}});
     return fracture;
   }
 
@@ -116,6 +130,15 @@ class Reader {
 }  // namespace
 
 std::vector<FractureGeometry> read_fracture_table(const FractureTable& table) { return Reader(table).read(); }
+
+void require_used_columns(const std::vector<FractureGeometry>& fractures, const std::set<std::string>& used) {
+  for (const FractureGeometry& fracture : fractures)
+    for (const ColumnValue& value : fracture.values)
+      if (used.count(value.column) == 0)
+        throw unknown_name({value.where.source, 1},
+                           "column of the table of fractures, which no datum takes either:", value.column,
+                           columns_of_geometry());
+}
 
 void expand_fracture_table(Node& geometry) {
   for (Node::Entry& section : geometry.entries) {

@@ -1,6 +1,7 @@
 // Fractures from a table, as mappings of outcrops and generators of networks write them.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,12 @@ struct FractureTable {
 /// The fractures of a CSV file with headings (split_csv). Either each row is a straight fracture with the columns x1,
 /// y1, x2, y2; or each row is a point of a polyline with the columns name, x, y, and successive rows of one name are
 /// one fracture. Further columns: `name`, and `size`, the length of its cells. Lengths are in m, or in the unit that a
-/// heading says, like x1[mm]. Throws InputError with the file's line for what is missing, unknown or no finite number.
+/// heading says, like x1[mm]. Other columns hold numbers that data may take ({column: friction}); of a polyline those
+/// of its first row count. Throws InputError with the file's line for what is missing, unknown or no finite number.
 std::vector<FractureGeometry> read_fracture_table(const FractureTable& table);
+
+/// Throws InputError for a column that says nothing of the geometry and that no datum takes, such as a misspelt one.
+void require_used_columns(const std::vector<FractureGeometry>& fractures, const std::set<std::string>& used);
 
 /// Lets `fractures: {table: network.csv}` mean the same as `fractures: {table: {table: network.csv}}`.
 void expand_fracture_table(Node& geometry);

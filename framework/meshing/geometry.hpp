@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/config/input_error.hpp"
+#include "framework/config/parameter.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {
@@ -24,6 +25,7 @@ struct FractureGeometry {
   std::vector<Point> points;                  ///< m
   std::optional<double> size = std::nullopt;  ///< length of its cells, m; default MeshOptions::fracture_size
   Origin origin;
+  std::vector<ColumnValue> values = {};  ///< further columns of its table
 };
 
 /// A part of the box with a name, for properties of its own.

@@ -64,7 +64,7 @@ Spec fracture_spec(const std::string& name, const Origin& origin, const std::str
   spec.text("table", input->table,
             {.doc = "A CSV file beside the scene with many fractures: a row for each with the columns x1, y1, x2, y2, "
                     "or for each point of a polyline with name, x, y; also name and size. They are called NAME_1, "
-                    "NAME_2, … where they have no names."});
+                    "NAME_2, … where they have no names. Data may take further columns by {column: …}."});
   spec.check([input, name, origin, folder, keep = std::move(keep)](const Node& whole) {
     if (!input->table.empty()) {
       if (whole.keys().size() > 1)

@@ -286,7 +286,14 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   read_section("solver", solver_spec(scene.linear));
   read_section("newton", newton_spec(scene.newton));
 
-  read.region_names = mesh_names(scene.geometry).regions;
+  const MeshNames names = mesh_names(scene.geometry);
+  read.region_names = names.regions;
+  read.fracture_names = names.fractures;
+  read.fracture_values.resize(names.fractures.size());
+  for (std::size_t i = 0; i < scene.geometry.fractures.size(); ++i)
+    read.fracture_values[i] = scene.geometry.fractures[i].values;
+  std::set<std::string> columns_used;
+  read.column_used = [&columns_used](const std::string& column) { columns_used.insert(column); };
   read_components(scene, read);
   read_couplers(scene, read);
   const Node& schedule = *whole.find("schedule");
@@ -294,6 +301,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   scene.schedule =
       read_schedule(schedule, {component_names(scene), scene.linear, scene.newton, read, scene.time.scheme});
   note_unused_materials(scene, materials_used);
+  require_used_columns(scene.geometry.fractures, columns_used);
   note_times(scene);
   return scene;
 }

@@ -126,7 +126,6 @@ void FractureFlow::make_links(const StepTime& step) {
   for (int i = 0; i < static_cast<int>(mesh_.fracture_points.size()); ++i) {
     const FracturePoint& point = mesh_.fracture_points[i];
     Link link{i, point.cells[0], none, place_of[i].first, place_of[i].second};
-    const int region = region_of(link.first);
     Point other = point.position;
     if (point.cells.size() == 2) {
       link.second = point.cells[1];
@@ -135,7 +134,9 @@ void FractureFlow::make_links(const StepTime& step) {
       if (point.kind != FracturePoint::Kind::on_boundary) continue;
       const auto found = options_.boundary.find(mesh_.side_names[point.side]);
       if (found == options_.boundary.end()) continue;
-      link.boundary_pressure = value_in_step(found->second, {point.position, region, 0}, step);
+      Place place = fracture_cell_place(mesh_, link.first);
+      place.x = point.position;
+      link.boundary_pressure = value_in_step(found->second, place, step);
       check_bound(link.boundary_pressure, options_.boundary_origins.at(mesh_.side_names[point.side]), "the pressure");
     }
     if (!options_.gravity.is_zero())

@@ -124,7 +124,6 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
     return aperture_.accepted()[cell] - (empty_ ? empty_->accepted()[cell] : 0);
   }
   std::vector<int> cells_of(const FracturePlace& where) const;
-  int region_of(int cell) const;
   std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);
   void prescribe(const StepTime& step);

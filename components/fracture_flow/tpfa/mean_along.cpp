@@ -26,9 +26,11 @@ const EndRule& end_rule() {
 
 std::vector<Piece> whole_cells(const Mesh& mesh) {
   std::vector<Piece> pieces;
-  for (const FractureCell& cell : mesh.fracture_cells) {
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+    const FractureCell& cell = mesh.fracture_cells[i];
     const Point half = 0.5 * cell.measure * cell.tangents.col(0);  // a line cell
-    pieces.push_back({cell.center - half, cell.center + half, mesh.cell_region[mesh.face_cells[cell.faces[0]][0]]});
+    const Place place = fracture_cell_place(mesh, i);
+    pieces.push_back({cell.center - half, cell.center + half, place.region, place.fracture});
   }
   return pieces;
 }
@@ -44,12 +46,14 @@ std::vector<Piece> half_cells(const Mesh& mesh, int end) {
 
 MeansAlong::MeansAlong(const Data& data, std::vector<Piece> pieces, Mean mean, double start)
     : data_(data), pieces_(std::move(pieces)), mean_(mean) {
-  set([&](const Point& x, int region) { return data_.at({x, region, start}); });
+  set([&](const Point& x, const Piece& piece) { return data_.at({x, piece.region, start, piece.fracture}); });
 }
 
 void MeansAlong::evaluate(const StepTime& step) {
   if (data_.depends_on_time())
-    set([&](const Point& x, int region) { return value_in_step(data_, {x, region, 0}, step); });
+    set([&](const Point& x, const Piece& piece) {
+      return value_in_step(data_, {x, piece.region, 0, piece.fracture}, step);
+    });
 }
 
 template <typename At>
@@ -58,11 +62,11 @@ void MeansAlong::set(const At& at) {
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
     if (!data_.depends_on_space()) {
-      values[i] = at(0.5 * (piece.from + piece.to), piece.region);
+      values[i] = at(0.5 * (piece.from + piece.to), piece);
     } else if (mean_ == Mean::of_values) {
-      values[i] = mean_along(piece, [&](const Point& x) { return at(x, piece.region); });
+      values[i] = mean_along(piece, [&](const Point& x) { return at(x, piece); });
     } else {
-      values[i] = 1 / mean_along(piece, [&](const Point& x) { return 1 / at(x, piece.region); });
+      values[i] = 1 / mean_along(piece, [&](const Point& x) { return 1 / at(x, piece); });
     }
   }
   values_ = std::move(values);

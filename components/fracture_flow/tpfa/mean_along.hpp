@@ -9,10 +9,10 @@
 
 namespace sprekk::fracture_flow {
 
-/// A straight piece of a fracture, in rock of one region.
+/// A straight piece of a fracture, in rock of one region. Indices as in Place.
 struct Piece {
   Point from, to;  ///< m
-  int region;
+  int region = 0, fracture = 0;
 };
 
 /// The cells of the fractures, and the halves of them at FractureCell::points[end].

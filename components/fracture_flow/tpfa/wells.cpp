@@ -80,11 +80,6 @@ void FractureFlow::check_names() const {
 
 std::vector<int> FractureFlow::cells_of(const FracturePlace& where) const { return cells_at(mesh_, where); }
 
-/// The region of the rock on the plus side.
-int FractureFlow::region_of(int cell) const {
-  return mesh_.cell_region[mesh_.face_cells[mesh_.fracture_cells[cell].faces[0]][0]];
-}
-
 void FractureFlow::prescribe(const StepTime& step) {
   source_ = Vector::Zero(mesh_.fracture_cell_count());
   sources_.clear();
@@ -95,7 +90,7 @@ void FractureFlow::prescribe(const StepTime& step) {
     for (const int cell : cells) length += mesh_.fracture_cells[cell].measure;
     for (const int cell : cells) {
       const FractureCell& at = mesh_.fracture_cells[cell];
-      const double rate = value_in_step(injection.rate, {at.center, region_of(cell), 0}, step) * at.measure / length;
+      const double rate = value_in_step(injection.rate, fracture_cell_place(mesh_, cell), step) * at.measure / length;
       source_[cell] += rate;
       source.rates.emplace_back(cell, rate);
     }
@@ -107,10 +102,10 @@ void FractureFlow::prescribe(const StepTime& step) {
     for (const int cell : cells_at(mesh_, given.where)) {
       const FractureCell& at = mesh_.fracture_cells[cell];
       is_prescribed_[cell] = 1;
-      check_bound(value_in_step(given.pressure, {at.center, region_of(cell), 0}, step), given.where.origin,
+      check_bound(value_in_step(given.pressure, fracture_cell_place(mesh_, cell), step), given.where.origin,
                   "the pressure");
       const double storage = at.measure * initial_aperture_[cell] * compressibility_[cell];
-      prescribed_.push_back({cell, value_in_step(given.pressure, {at.center, region_of(cell), 0}, step),
+      prescribed_.push_back({cell, value_in_step(given.pressure, fracture_cell_place(mesh_, cell), step),
                              storage > 0 ? storage : at.measure});
     }
   // The balance of a cell with a prescribed pressure is not solved: what is injected there has no effect.

@@ -21,6 +21,10 @@ using testing::IsEmpty;
 ReadContext regions() {
   ReadContext context;
   context.region_names = {"granite", "lens"};
+  context.fracture_names = {"fault", "joint", "vein"};
+  context.fracture_values = {{{"friction", "", 0.3, {"f.csv", 2}}, {"width", "mm", 2, {"f.csv", 2}}},
+                             {{"friction", "", 0.6, {"f.csv", 3}}, {"width", "mm", -1, {"f.csv", 3}}},
+                             {}};
   return context;
 }
 
@@ -43,6 +47,7 @@ TensorData tensor(const std::string& text, About about = {}) {
 }
 
 Place in_region(int region) { return {Point::Zero(), region, 0}; }
+Place on_fracture(int fracture, double t = 0) { return {Point::Zero(), 0, t, fracture}; }
 Place at_time(double t) { return {Point::Zero(), 0, t}; }
 
 TEST(ReadData, by_region) {
@@ -52,6 +57,33 @@ TEST(ReadData, by_region) {
   EXPECT_FALSE(k.is_constant());
   EXPECT_TRUE(k.depends_on_space());
   EXPECT_FALSE(k.depends_on_time());
+}
+
+TEST(ReadData, by_fracture) {
+  const Data k = data("{fractures: {fault: 2 mm, joint: (t) m, default: 1 cm}}", {.unit = "m"});
+  EXPECT_DOUBLE_EQ(k.at(on_fracture(0)), 2e-3);
+  EXPECT_EQ(k.at(on_fracture(1, 7)), 7);
+  EXPECT_DOUBLE_EQ(k.at(on_fracture(2)), 1e-2);
+  EXPECT_TRUE(k.depends_on_space());
+  EXPECT_TRUE(k.depends_on_time());
+}
+
+TEST(ReadData, by_a_column_of_the_tables_of_fractures) {
+  const Data k = data("{column: friction, default: 0.5}");
+  EXPECT_EQ(k.at(on_fracture(0)), 0.3);
+  EXPECT_EQ(k.at(on_fracture(1)), 0.6);
+  EXPECT_EQ(k.at(on_fracture(2)), 0.5);
+  EXPECT_DOUBLE_EQ(data("{column: width, default: 1 m}", {.unit = "m"}).at(on_fracture(0)), 2e-3);
+}
+
+TEST(ReadData, by_fracture_has_no_value_in_the_rock) {
+  const Data k = data("{fractures: {default: 1}}");
+  try {
+    k.at(in_region(0));
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("s.yaml:1:4"), HasSubstr("'k' is given by fracture"), HasSubstr("rock")));
+  }
 }
 
 TEST(ReadData, by_region_with_a_default_and_a_function) {
@@ -137,6 +169,14 @@ INSTANTIATE_TEST_SUITE_P(
               "s.yaml:1:15: unknown region 'granit' (it is not one of: granite, lens) did you mean 'granite'?"},
         Wrong{"{regions: {granite: -1, default: 2}}", "s.yaml:1:24: 'k' is '-1 m', out of range"},
         Wrong{"{regions: {granite: 1 s, default: 2}}", "s.yaml:1:24: '1 s' for 'k' has the dimension of time"},
+        Wrong{"{fractures: {fault: 1 m}}", "'k' has no value for the fracture 'joint' add 'joint:' or 'default:'"},
+        Wrong{"{fractures: {foult: 1 m, default: 1 m}}", "unknown fracture 'foult'"},
+        Wrong{"{fractures: {fault: -1 m, default: 1 m}}", "'k' is '-1 m', out of range"},
+        Wrong{"{fractures: 2 m}", "needed is a map of a value for each fracture"},
+        Wrong{"{column: friktion, default: 1 m}", "did you mean 'friction'?"},
+        Wrong{"{column: width}", "f.csv:3: 'k' is '-1 m', out of range"},
+        Wrong{"{column: friction}", "'k' has no value for the fracture 'vein'"},
+        Wrong{"{column: width, unit: mm}", "unknown key of 'k': 'unit'"},
         Wrong{"{regions: 3}", "'k.regions' is '3' (needed is a map of a value for each region)"},
         Wrong{"{regions: {default: 1}, table: a}", "unknown key of 'k': 'table'"},
         Wrong{"{region: {default: 1}}", "did you mean 'regions'?"}, Wrong{"{value: 1, from: 6 h}", "'k' is 0 at t ="},

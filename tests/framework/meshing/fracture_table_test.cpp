@@ -24,7 +24,7 @@ class FractureTables : public ::testing::Test {
   }
   std::string mistake(const std::string& content) {
     try {
-      read(content);
+      require_used_columns(read(content), {"friction"});
     } catch (const InputError& error) {
       return error.what();
     }
@@ -54,6 +54,20 @@ TEST_F(FractureTables, OrOneForEachPointOfAPolyline) {
   EXPECT_FALSE(fractures[1].size);
 }
 
+TEST_F(FractureTables, HaveFurtherColumnsForData) {
+  const auto fractures = read("x1,y1,x2,y2,friction,aperture[mm]\n0,0,1,1,0.3,2\n0,1,1,2,0.6,5\n");
+  ASSERT_EQ(fractures.size(), 2u);
+  ASSERT_EQ(fractures[1].values.size(), 2u);
+  EXPECT_EQ(fractures[1].values[0].column, "friction");
+  EXPECT_EQ(fractures[1].values[0].value, 0.6);
+  EXPECT_EQ(fractures[1].values[1].unit, "mm");
+  EXPECT_EQ(fractures[1].values[1].value, 5);
+  EXPECT_EQ(fractures[1].values[1].where.line, 3);
+  const auto line = read("name,x,y,friction\na,0,0,0.4\na,1,0,0.4\n");
+  ASSERT_EQ(line.size(), 1u);
+  EXPECT_EQ(line[0].values[0].value, 0.4);
+}
+
 TEST_F(FractureTables, TellWhatIsWrongAndWhere) {
   using ::testing::AllOf;
   using ::testing::HasSubstr;
@@ -62,6 +76,8 @@ TEST_F(FractureTables, TellWhatIsWrongAndWhere) {
   EXPECT_THAT(mistake("x1,y1,x2\n1,2,3\n"), HasSubstr("lacks columns"));
   EXPECT_THAT(mistake("x1,y1,x2,y2,sise\n1,2,3,4,5\n"),
               AllOf(HasSubstr("f.csv:1"), HasSubstr("'sise'"), HasSubstr("size")));
+  EXPECT_THAT(mistake("x1,y1,x2,y2,friction\n1,2,3,4,low\n"),
+              AllOf(HasSubstr("f.csv:2"), HasSubstr("'low' for friction is not a finite number")));
   EXPECT_THAT(mistake("x1,y1,x2,y2\n1,2,3,4\n1,2,3\n"), AllOf(HasSubstr("f.csv:3"), HasSubstr("no y2")));
   EXPECT_THAT(mistake("x1,y1,x2,y2\n1,2,3 m,4\n"), AllOf(HasSubstr("f.csv:2"), HasSubstr("'3 m' for x2")));
   EXPECT_THAT(mistake("x1[s],y1,x2,y2\n1,2,3,4\n"), HasSubstr("f.csv:1"));
