@@ -15,7 +15,7 @@
 namespace sprekk {
 
 /// Where (m) and when (s) a datum is evaluated. `region` indexes Mesh::region_names; `fracture` indexes
-/// Mesh::fractures, and is -1 in the rock.
+/// Mesh::fractures, and is -1 elsewhere.
 struct Place {
   Point x = Point::Zero();
   int region = 0;

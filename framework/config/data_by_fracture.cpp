@@ -14,7 +14,7 @@ Data by_fracture(std::vector<Data> values, const Node& node, const DataRequest& 
   return choice_of(std::move(values), [where = node.origin, name = request.name](const Place& place) {
     if (place.fracture >= 0) return place.fracture;
     throw DataError(
-        fmt::format("{}: {} is given by fracture, and is needed in the rock, at {} (give it one value, or "
+        fmt::format("{}: {} is given by fracture, and is needed elsewhere, at {} (give it one value, or "
                     "values by region)",
                     where.text(), quoted(name), place_text(place)));
   });
