@@ -2,13 +2,10 @@
 
 #include <algorithm>
 
+#include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::contact {
-
-bool Trial::slides_back() const {
-  return bound > least_bound && !is_open() && !sticks() && tangential.dot(slip_direction) < 0;
-}
 
 CellEquations equations_of(const Trial& t, const Point& traction, const CellSettings& settings) {
   SPREKK_EXPECT(settings.normal_stiffness > 0 && settings.tangential_stiffness > 0, settings.normal_stiffness,

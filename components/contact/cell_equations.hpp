@@ -1,27 +1,13 @@
-// The trial state of a cell, and the equations of the cell that follow from it.
+// The equations of a cell, which follow from its trial state.
 #pragma once
 
 #include <vector>
 
-#include "components/contact/laws/strength.hpp"
-#include "components/contact/return_map.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk::contact {
 
-/// The gap of a cell, m, what its walls hold, and the traction that the return map takes back to the cone, Pa.
-struct Trial : TrialTraction<dimension - 1> {
-  double gap;
-  double gap_by_traction;           ///< d gap / d f_n, m/Pa
-  TangentialVector slip_direction;  ///< unit
-  double dilation;                  ///< d gap / d [u]_t = −dilation · slip_direction^T
-  Strength strength;
-  TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
-  double path_by_gap;
-  double least_bound;  ///< friction below it does not hold anything: which way it points is round-off
-  /// Whether the cell slides towards zero slip, against friction.
-  bool slides_back() const;
-};
+struct Trial;
 
 /// The residual of the equations of a cell, m, and its derivatives by the traction (m/Pa) and by the jump; the normal
 /// component first.

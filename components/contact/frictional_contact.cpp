@@ -8,10 +8,13 @@
 #include <memory>
 #include <utility>
 
+#include "components/contact/cell_equations.hpp"
 #include "components/contact/fields.hpp"
 #include "components/contact/jump_on_changed_mesh.hpp"
+#include "components/contact/laws/closure.hpp"
 #include "components/contact/note_jumps.hpp"
 #include "components/contact/options.hpp"
+#include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 
@@ -45,6 +48,14 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
 }
 
 FrictionalContact::~FrictionalContact() = default;
+
+double FrictionalContact::closure(double normal_traction) const {
+  return closure_ ? closure_->at(-normal_traction).closure : 0.0;
+}
+
+double FrictionalContact::closure_by_traction(double normal_traction) const {
+  return closure_ ? -closure_->at(-normal_traction).by_pressure : 0.0;
+}
 
 void FrictionalContact::evaluate_data(const StepTime& step) {
   friction_.evaluate(step);

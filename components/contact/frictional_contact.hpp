@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
-#include "components/contact/cell_equations.hpp"
-#include "components/contact/laws/closure.hpp"
+#include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/property.hpp"
@@ -17,7 +16,10 @@
 
 namespace sprekk::contact {
 
+class Closure;
 struct Options;
+enum class State;
+struct Trial;
 
 /// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. In space
 /// the tangential part has two components, |·| is its norm and the interval [−b, b] a disk (return_map.hpp). With the
@@ -106,7 +108,8 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   /// The opening by dilation, m, after slip of this size, and its derivative.
   double dilated(int cell, double slip) const;
   double dilation_at(int cell, double slip) const;
-  double closure(double normal_traction) const;
+  double closure(double normal_traction) const;              ///< m
+  double closure_by_traction(double normal_traction) const;  ///< its derivative, m/Pa
   double gap(int cell, const Vector& traction, const Vector& jump) const;
   /// mu_d; that of the start where friction does not weaken.
   double dynamic_friction(int cell) const;

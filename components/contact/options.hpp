@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "components/contact/laws/closure.hpp"
+#include "components/contact/laws/closure_options.hpp"
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
 #include "framework/config/spec.hpp"

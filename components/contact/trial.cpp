@@ -1,4 +1,6 @@
-// The trial state of a cell: its gap, what its walls hold, and the traction that the return map takes back.
+// The gap of a cell, what its walls hold, and the traction that the return map takes back.
+#include "components/contact/trial_state.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,10 +17,6 @@ TangentialVector FrictionalContact::tangential(const Vector& values, int i) {
 bool FrictionalContact::trial_has_present() const {
   return multiplier_ == Multiplier::present ||
          (multiplier_ == Multiplier::last && (is_without_shortcuts_ || last_.size() == 0));
-}
-
-double FrictionalContact::closure(double normal_traction) const {
-  return closure_ ? closure_->at(-normal_traction).closure : 0.0;
 }
 
 double FrictionalContact::dynamic_friction(int i) const {
@@ -65,7 +63,7 @@ Trial FrictionalContact::trial(int i) const {
   Trial t;
   const double slip = magnitude<dimension - 1>(u_t);
   t.gap = gap(i, traction_.now(), jump_.now());
-  t.gap_by_traction = closure_ ? -closure_->at(-traction_.now()[row]).by_pressure : 0.0;
+  t.gap_by_traction = closure_by_traction(traction_.now()[row]);
   t.dilation = dilation_at(i, slip);
   t.strength.friction = friction_[i];
   t.path_by_slip.setZero();

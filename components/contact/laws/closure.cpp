@@ -1,5 +1,9 @@
 #include "components/contact/laws/closure.hpp"
 
+#include <memory>
+
+#include "components/contact/laws/closure_options.hpp"
+
 namespace sprekk::contact {
 
 namespace {

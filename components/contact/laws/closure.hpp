@@ -1,10 +1,6 @@
 // How far walls in contact approach each other under pressure.
 #pragma once
 
-#include <memory>
-#include <string>
-
-#include "framework/config/spec.hpp"
 #include "framework/scene/law_registry.hpp"
 
 namespace sprekk::contact {
@@ -25,16 +21,5 @@ class Closure {
 struct NoInput {};
 using ClosureLaws = LawRegistry<Closure, NoInput>;
 ClosureLaws& closure_laws();
-
-/// Parameters of the closure.
-struct ClosureOptions {
-  std::string law = "hard";
-  double stiffness = 0;  ///< Pa/m, at zero pressure
-  double largest = 0;    ///< m
-  LawChoice<Closure, NoInput> registered;
-  Spec spec();
-  /// Null for hard walls.
-  std::unique_ptr<Closure> build() const;
-};
 
 }  // namespace sprekk::contact

@@ -5,6 +5,7 @@
 
 #include "components/contact/frictional_contact.hpp"
 #include "components/contact/options.hpp"
+#include "components/contact/return_map.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::contact {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "components/contact/laws/closure.hpp"
 #include "tests/components/contact/contact_alone.hpp"
 
 namespace sprekk::contact {

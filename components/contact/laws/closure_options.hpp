@@ -1,0 +1,26 @@
+// What a scene says of the closure.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "framework/config/spec.hpp"
+#include "framework/scene/law_registry.hpp"
+
+namespace sprekk::contact {
+
+class Closure;
+struct NoInput;
+
+/// Parameters of the closure.
+struct ClosureOptions {
+  std::string law = "hard";
+  double stiffness = 0;  ///< Pa/m, at zero pressure
+  double largest = 0;    ///< m
+  LawChoice<Closure, NoInput> registered;
+  Spec spec();
+  /// Null for hard walls.
+  std::unique_ptr<Closure> build() const;
+};
+
+}  // namespace sprekk::contact

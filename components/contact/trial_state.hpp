@@ -1,0 +1,26 @@
+// The trial state of a cell.
+#pragma once
+
+#include "components/contact/laws/strength.hpp"
+#include "components/contact/return_map.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk::contact {
+
+/// The gap of a cell, m, what its walls hold, and the traction that the return map takes back to the cone, Pa.
+struct Trial : TrialTraction<dimension - 1> {
+  double gap;
+  double gap_by_traction;           ///< d gap / d f_n, m/Pa
+  TangentialVector slip_direction;  ///< unit
+  double dilation;                  ///< d gap / d [u]_t = −dilation · slip_direction^T
+  Strength strength;
+  TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
+  double path_by_gap;
+  double least_bound;  ///< friction below it does not hold anything: which way it points is round-off
+  /// Whether the cell slides towards zero slip, against friction.
+  bool slides_back() const {
+    return bound > least_bound && !is_open() && !sticks() && tangential.dot(slip_direction) < 0;
+  }
+};
+
+}  // namespace sprekk::contact
