@@ -84,14 +84,15 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // one.
   if (discretized_mobility_ == 0) return;
   const Vector& fluxes = face_fluxes();
-  Vector velocity = Vector::Zero(2 * mesh_.cell_count());
+  Vector velocity = Vector::Zero(dimension * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {
       const double out = mesh_.face_cells[face][0] == c ? fluxes[face] : -fluxes[face];
-      velocity.segment<2>(2 * c) += out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
+      velocity.segment<dimension>(dimension * c) +=
+          out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
     }
-  replicate(mesh_, Location::cell, 2, velocity);
-  fields.push_back({name() + ".velocity", "m/s", Location::cell, 2, std::move(velocity)});
+  replicate(mesh_, Location::cell, dimension, velocity);
+  fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
 }
 
 }  // namespace sprekk::matrix_flow

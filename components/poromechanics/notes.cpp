@@ -103,7 +103,8 @@ void Rock::note_step(Notes& notes, const StepTime&) const {
     const auto& [first, second] = mesh_.face_cells[f];
     if (second == none) continue;
     const double distance = (mesh_.cell_center[second] - mesh_.cell_center[first]).norm();
-    const double strain = (u.segment<2>(2 * second) - u.segment<2>(2 * first)).norm() / distance;
+    const double strain =
+        (u.segment<dimension>(dimension * second) - u.segment<dimension>(dimension * first)).norm() / distance;
     if (strain > largest.strain) largest = {strain, mesh_.face_center[f]};
   }
   note_large_strain(notes, name(), largest, options_, stiffness_.of_cells());
@@ -113,12 +114,12 @@ double Rock::largest_load() const {
   double largest = 0;
   const double unknown = std::numeric_limits<double>::infinity();
   for (int f = 0; f < mesh_.face_count(); ++f) {
-    const Point initial =
-        axes_of(conditions_[f].axes, mesh_.face_normal[f]).transpose() * Point(initial_forces_.segment<2>(2 * f));
-    Point total = boundary_values_.segment<2>(2 * f) + initial;
-    for (int k = 0; k < 2; ++k) {
+    const Point initial = axes_of(conditions_[f].axes, mesh_.face_normal[f]).transpose() *
+                          Point(initial_forces_.segment<dimension>(dimension * f));
+    Point total = boundary_values_.segment<dimension>(dimension * f) + initial;
+    for (int k = 0; k < dimension; ++k) {
       if (conditions_[f][k] != MechanicalCondition::displacement) continue;
-      if (boundary_values_[2 * f + k] != 0) return unknown;
+      if (boundary_values_[dimension * f + k] != 0) return unknown;
       total[k] = 0;
     }
     largest = std::max(largest, initial.norm() / mesh_.face_measure[f]);

@@ -88,17 +88,17 @@ void Rock::map_walls() {
     const Point axes[2] = {cell.normal, cell.tangents};
     const bool owned = is_owned(mesh_, Location::fracture_cell, i);
     for (int side = 0; side < 2; ++side)
-      for (int axis = 0; axis < 2; ++axis)
-        for (int k = 0; k < 2; ++k) {
+      for (int axis = 0; axis < dimension; ++axis)
+        for (int k = 0; k < dimension; ++k) {
           const double sign = side == 0 ? 1.0 : -1.0;
-          const int row = 2 * cell.faces[side] + k, column = 2 * i + axis;
+          const int row = dimension * cell.faces[side] + k, column = dimension * i + axis;
           forces.emplace_back(row, column, sign * cell.measure * axes[axis][k]);
           if (owned) jumps.emplace_back(column, row, -sign * axes[axis][k]);
         }
   }
-  wall_forces_.resize(2 * mesh_.face_count(), 2 * mesh_.fracture_cell_count());
+  wall_forces_.resize(dimension * mesh_.face_count(), dimension * mesh_.fracture_cell_count());
   wall_forces_.setFromTriplets(forces.begin(), forces.end());
-  wall_jump_.resize(2 * mesh_.fracture_cell_count(), 2 * mesh_.face_count());
+  wall_jump_.resize(dimension * mesh_.fracture_cell_count(), dimension * mesh_.face_count());
   wall_jump_.setFromTriplets(jumps.begin(), jumps.end());
 }
 
@@ -113,7 +113,7 @@ void Rock::find_conditions() {
     const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
     conditions_[f].axes = condition->axes();
-    for (int k = 0; k < 2; ++k)
+    for (int k = 0; k < dimension; ++k)
       if (condition->displacement_of(k)) conditions_[f][k] = MechanicalCondition::displacement;
   }
 }
@@ -178,7 +178,7 @@ void Rock::use_operators() {
     for (SparseMatrix* rows : {&operators_.volume_displacement, &operators_.volume_stress, &operators_.volume_boundary})
       *rows = keep_rows(*rows, own);
   }
-  const SparseMatrix outflow = cell_sums(mesh_, operators_.force_displacement, 2, rank);
+  const SparseMatrix outflow = cell_sums(mesh_, operators_.force_displacement, dimension, rank);
   SPREKK_ASSERT(operators_.force_displacement.rows() == dimension * mesh_.face_count(),
                 operators_.force_displacement.rows());
   SPREKK_ASSERT(operators_.force_displacement.cols() == displacement_.size(), operators_.force_displacement.cols());
@@ -189,7 +189,7 @@ void Rock::use_operators() {
   if (wall_traction_) {
     map_walls();
     force_of_wall_traction_ =
-        Operator(-cell_sums(mesh_, SparseMatrix(operators_.force_boundary * wall_forces_), 2, rank));
+        Operator(-cell_sums(mesh_, SparseMatrix(operators_.force_boundary * wall_forces_), dimension, rank));
     volume_change_.terms.push_back({wall_traction_, Operator(operators_.volume_boundary * wall_forces_)});
     jump_.terms = {{&displacement_, Operator(wall_jump_ * operators_.trace_displacement)},
                    {wall_traction_, Operator(wall_jump_ * operators_.trace_boundary * wall_forces_)}};
@@ -203,7 +203,7 @@ void Rock::use_loads() {
     if (load.used_version == load.alpha_version) continue;
     load.used_version = load.alpha_version;
     boundary_applied_ = false;
-    const SparseMatrix force = cell_sums(mesh_, operators_.force_stress, 2, parallel::rank());
+    const SparseMatrix force = cell_sums(mesh_, operators_.force_stress, dimension, parallel::rank());
     load.force_on_cell = Operator(-force * load.alpha.asDiagonal());
     put_term(volume_change_, load.pressure, Operator(operators_.volume_stress * load.alpha.asDiagonal()));
     if (wall_traction_)
@@ -232,31 +232,33 @@ void Rock::evaluate_data(const StepTime& step) {
   boundary_applied_ = false;
   stiffness_.evaluate(step);
 
-  boundary_values_ = Vector::Zero(2 * mesh_.face_count());
-  initial_forces_ = Vector::Zero(2 * mesh_.face_count());
+  boundary_values_ = Vector::Zero(dimension * mesh_.face_count());
+  initial_forces_ = Vector::Zero(dimension * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const double length = mesh_.face_measure[f];
     const Point initial = initial_traction(f, 0);
-    initial_forces_.segment<2>(2 * f) = length * initial;
+    initial_forces_.segment<dimension>(dimension * f) = length * initial;
     if (mesh_.face_cells[f][1] != none) {
-      boundary_values_.segment<2>(2 * f) = initial_load(f);
+      boundary_values_.segment<dimension>(dimension * f) = initial_load(f);
       continue;
     }
     // Prescribed tractions are those of the total stress; the stress of the deformation is the total less the initial
     // one.
-    boundary_values_.segment<2>(2 * f) = -length * initial;
+    boundary_values_.segment<dimension>(dimension * f) = -length * initial;
     const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
     const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
-    boundary_values_.segment<2>(2 * f) += length * condition->traction_in(step, place, mesh_.face_normal[f]);
+    boundary_values_.segment<dimension>(dimension * f) +=
+        length * condition->traction_in(step, place, mesh_.face_normal[f]);
     if (condition->axes() == ConditionAxes::of_face)
-      boundary_values_.segment<2>(2 * f) =
-          axes_of(condition->axes(), mesh_.face_normal[f]).transpose() * Point(boundary_values_.segment<2>(2 * f));
-    for (int k = 0; k < 2; ++k)
+      boundary_values_.segment<dimension>(dimension * f) =
+          axes_of(condition->axes(), mesh_.face_normal[f]).transpose() *
+          Point(boundary_values_.segment<dimension>(dimension * f));
+    for (int k = 0; k < dimension; ++k)
       if (const Data* displacement = condition->displacement_of(k))
-        boundary_values_[2 * f + k] = value_in_step(*displacement, place, step);
+        boundary_values_[dimension * f + k] = value_in_step(*displacement, place, step);
   }
-  body_forces_ = Vector::Zero(2 * mesh_.cell_count());
+  body_forces_ = Vector::Zero(dimension * mesh_.cell_count());
   const bool vary = options_.body_force.depends_on_space() || options_.rock_density.depends_on_space() ||
                     options_.gravity.depends_on_space();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
@@ -265,7 +267,7 @@ void Rock::evaluate_data(const StepTime& step) {
       return value_in_step(options_.body_force, place, step) +
              value_in_step(options_.rock_density, place, step) * value_in_step(options_.gravity, place, step);
     };
-    body_forces_.segment<2>(2 * c) =
+    body_forces_.segment<dimension>(dimension * c) =
         mesh_.cell_measure[c] * (vary ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
   }
 }
@@ -280,7 +282,7 @@ void Rock::apply_boundary() {
   if (wall_remainder_) force_constant_ += force_of_wall_traction_.entries() * wall_remainder_->now();
   if (parallel::size() > 1)
     for (int c = 0; c < mesh_.cell_count(); ++c)
-      if (!is_owned(mesh_, Location::cell, c)) force_constant_.segment<2>(2 * c).setZero();
+      if (!is_owned(mesh_, Location::cell, c)) force_constant_.segment<dimension>(dimension * c).setZero();
   Vector values = boundary_values_;
   if (wall_remainder_) values += wall_forces_ * wall_remainder_->now();
   volume_change_.constant = operators_.volume_boundary * values;
@@ -316,7 +318,7 @@ Vector Rock::face_forces() const {
   Vector forces = operators_.force_displacement * displacement_.now() + operators_.force_boundary * values;
   for (const Load& load : loads_) forces += operators_.force_stress * load.stress();
   for (int f = 0; f < mesh_.face_count(); ++f)
-    forces.segment<2>(2 * f) += mesh_.face_measure[f] * initial_traction(f, 0);
+    forces.segment<dimension>(dimension * f) += mesh_.face_measure[f] * initial_traction(f, 0);
   return forces;
 }
 
@@ -325,7 +327,7 @@ Vector Rock::outer_displacement() const {
   if (wall_traction_) values += wall_forces_ * wall_load();
   Vector displacement = operators_.trace_displacement * displacement_.now() + operators_.trace_boundary * values;
   for (const Load& load : loads_) displacement += operators_.trace_stress * load.stress();
-  replicate(mesh_, Location::face, 2, displacement);
+  replicate(mesh_, Location::face, dimension, displacement);
   return displacement;
 }
 
@@ -361,7 +363,7 @@ void Rock::output(std::vector<OutputField>& fields) const {
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {
       const double sign = mesh_.face_cells[face][0] == c ? 1 : -1;
-      const Point force = sign * forces.segment<2>(2 * face);
+      const Point force = sign * forces.segment<dimension>(dimension * face);
       const Point arm = (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
       stress.segment<3>(3 * c) +=
           Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0])) +

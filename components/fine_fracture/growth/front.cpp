@@ -68,7 +68,7 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
       begin(i, without_growth[i]);
   if (!any_grows()) verdict_ = Verdict::found;
   if (slopes.rows() == 2 * count()) {
-    is_experienced_ = true;
+    is_warm_ = true;
     slopes_.jacobian = slopes;
     scale_turns(slopes_.jacobian, without_growth, false);
     return;
@@ -254,11 +254,11 @@ void Front::forget() {
   make_jacobian();
   for (int i = 0; i < count(); ++i)
     if (grows_[i] && last_[i].is_evaluated) set_turn_slope(i, last_[i].sifs);
-  is_experienced_ = false;
+  is_warm_ = false;
   slopes_.forget_moves();
 }
 
-/// After a trial that is much worse than the best one, the experience of an earlier search is dropped, or else the next
+/// After a trial that is much worse than the best one, a warm start is dropped, or else the next
 /// step is shorter.
 Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
   const FrontEquations front = equations(residual);
@@ -272,7 +272,7 @@ Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
     part_ = 1;
     return residual;
   }
-  if (is_experienced_) {
+  if (is_warm_) {
     forget();
     before_place_ = best_->place;
     before_residual_ = best_->residual;

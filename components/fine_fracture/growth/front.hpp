@@ -152,8 +152,8 @@ class Front {
     double norm;
   };
   std::optional<Best> best_;
-  bool is_experienced_ = false;  ///< whether the Jacobian comes from an earlier search
-  double part_ = 1;              ///< of steps, smaller after trials that were worse
+  bool is_warm_ = false;  ///< whether the Jacobian comes from an earlier search: a warm start
+  double part_ = 1;       ///< of steps, smaller after trials that were worse
   Verdict verdict_ = Verdict::again;
   int trials_ = 0, last_gain_ = 0;
   double worst_ = 0;
