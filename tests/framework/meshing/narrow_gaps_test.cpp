@@ -188,7 +188,20 @@ TEST(NarrowGaps, GapSizeIsTheShortest) {
   const SizeField large(geometry, {.size = 2 * size, .gap_size = 3 * size});
   EXPECT_DOUBLE_EQ(large.at({2, 1.1}), 2 * size);
   const SizeField usual(geometry, {.size = 2 * size, .fracture_size = size});
-  EXPECT_DOUBLE_EQ(usual.at({2, 1.1}), least_gap_part * size);
+  EXPECT_DOUBLE_EQ(usual.at({2, 1.1}), size / 500);  // as the reference of gap_size says
+}
+
+// Half an edge across a gap: edges of a five-hundredth fit a gap of a thousandth. A wider one gets its own edges, and
+// one that is narrower no smaller ones.
+TEST(NarrowGaps, OfAThousandthOfAnEdgeAreTheNarrowestThatAreToldApart) {
+  const auto at_gap = [](double gap) {
+    return SizeField(in_box(with_gap.at("end and side")(gap * size)), {.size = 2 * size, .fracture_size = size})
+               .at({2, 1.1}) /
+           size;
+  };
+  EXPECT_NEAR(at_gap(1.1e-3), 2.2e-3, 1e-5);
+  EXPECT_NEAR(at_gap(0.9e-3), 2e-3, 1e-12);
+  EXPECT_NEAR(at_gap(1e-5), 2e-3, 1e-12);
 }
 
 TEST(NarrowGaps, InterfacesLeaveGapsToo) {
