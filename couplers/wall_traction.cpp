@@ -69,7 +69,7 @@ class WallTraction : public Coupler {
   std::vector<Dependence> dependences() const override {
     if (!contact_) return {};
     return {{contact_->jump().spec().owner, rock_.wall_traction().spec().owner,
-             "while the rock is held so is the jump, and walls that stick may then have any traction"}};
+             "while the rock is held so is the jump, and walls that stick may then have any traction", true}};
   }
 
   bool allows_stages() const override { return true; }

@@ -37,6 +37,8 @@ struct Quantity {
 struct Dependence {
   std::string component, on;  ///< names in the scene
   std::string because;
+  /// Whether they have one when the unknowns of `on` are not held, but answer (WaitingResponse).
+  bool ends_with_response = false;
 };
 
 /// The diagonals that stabilize a split (see SolveStep): residual(row) += diagonal · (value − value at the solve's

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/invariants.hpp"
+#include "framework/schedule/stalled_acceleration.hpp"
 
 namespace sprekk {
 
@@ -207,10 +209,20 @@ bool is_error_below(double bound, double change, double change_before) {
 
 }  // namespace
 
+StepStatus IterateStep::converged(const StepTime& step, const StepStatus& status) {
+  // Substeps have counted what was exchanged, each for itself.
+  if (options_.has_substeps) return status;
+  for (Part* part : parts_) part->after_solve(fields_, step);
+  return status;
+}
+
 StepStatus IterateStep::run(const StepTime& step) {
   scales_.assign(fields_.size(), 1);
   ResidualCheck check;
   Changes changes;
+  StalledAcceleration stalled;
+  bool is_plain = false;
+  Vector unaccelerated;  // the values at the start of the plain passes
   std::uint64_t last_state = 0;
   std::multiset<std::uint64_t> seen_states;
   bool is_cycling = false;
@@ -242,7 +254,7 @@ StepStatus IterateStep::run(const StepTime& step) {
       if (options_.has_substeps) return pass > 2 && is_error_below(bound, check.largest, change_before);
       return bound == options_.until.tightest() ? check.converged : check_residual(assembly, system_, bound).converged;
     };
-    if (criteria_.hold(pass, residual_holds, values_before)) return {true, "", pass, 0, of_newton};
+    if (criteria_.hold(pass, residual_holds, values_before)) return converged(step, {true, "", pass, 0, of_newton});
     if (pass == 1) {
       choose_scales();
       if (!accelerator_) continue;
@@ -253,7 +265,7 @@ StepStatus IterateStep::run(const StepTime& step) {
     }
     changes.add(change);
     // What passes that change nothing any more leave of a balance is lost in the round-off of the fields.
-    if (check.rows_hold && changes.are_round_off()) return {true, "", pass, 0, of_newton};
+    if (check.rows_hold && changes.are_round_off()) return converged(step, {true, "", pass, 0, of_newton});
     if (changes.only_grow())
       return {false,
               fmt::format("the iteration diverges: each pass changes {} {:.3g} times as much as the one before (the "
@@ -277,8 +289,22 @@ StepStatus IterateStep::run(const StepTime& step) {
     last_state = state;
     if (!accelerator_ || is_cycling) continue;
     // Earlier passes tell of this one as long as the passes are one smooth map.
-    if (is_other_state) accelerator_->forget();
-    accelerate(accelerated);
+    if (is_other_state) {
+      accelerator_->forget();
+      stalled.forget();
+      is_plain = false;
+    }
+    const StalledAcceleration::Next next = stalled.after(change.norm());
+    const bool was_plain = std::exchange(is_plain, next == StalledAcceleration::Next::plain);
+    if (next == StalledAcceleration::Next::accelerated) {
+      accelerate(accelerated);
+      continue;
+    }
+    accelerator_->forget();
+    if (next == StalledAcceleration::Next::back)
+      set_scaled_values(unaccelerated);
+    else if (!was_plain)
+      unaccelerated = scaled_values();
   }
   return {false,
           fmt::format("no convergence in {} passes ({} of {} is {:.2g} of its {})", options_.until.at_most,

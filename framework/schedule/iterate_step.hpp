@@ -50,6 +50,9 @@ class IterateStep : public ScheduleStep, public StepHistory {
 
  private:
   class Changes;
+  /// Counts what was exchanged with the fields of all solves together, whose equations hold: a solve has counted what
+  /// it knew of the others when it was its turn.
+  StepStatus converged(const StepTime& step, const StepStatus& status);
   void choose_scales();
   void begin_acceleration();
   /// Sets the accelerated fields to the next iterate; `before`: their values before the pass.

@@ -52,13 +52,15 @@ std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
       assembly->add(*field, diagonal.cwiseProduct(field->now() - start_.at(field)));
       assembly->diagonal(*field, *field, diagonal);
     }
-  if (responses_)
-    for (const ResponseTerm& response : *responses_) {
+  if (responses_) {
+    for (const auto& [row, values] : responses_->pending) assembly->add(*row, values);
+    for (const ResponseTerm& response : responses_->terms) {
       if (!assembly->has_row(*response.row)) continue;
       SPREKK_EXPECT(response.matrix.cols() == response.column->size(), response.column->name());
       assembly->add(*response.row, response.matrix * (response.column->now() - start_.at(response.column)));
       assembly->derivative(*response.row, *response.column, response.matrix);
     }
+  }
   for (const Part* part : parts_) part->constrain(*assembly);
   return assembly;
 }
@@ -201,8 +203,7 @@ ResidualCheck Newton::evaluate(const StepTime& step) {
   return check_residual(*assembly_, system_, options_.residual);
 }
 
-StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilization,
-                         const std::vector<ResponseTerm>& responses) {
+StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilization, const Responses& responses) {
   SPREKK_EXPECT(step.dt > 0 && std::isfinite(step.end), step.start, step.dt, step.end);
   SPREKK_EXPECT(std::ranges::all_of(unknowns_, [](const Field* field) { return is_finite(field->now()); }));
   stabilization_ = &stabilization;
@@ -211,7 +212,7 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   system_.use_coupled_sums(false);
   start_.clear();
   for (const auto& [field, diagonal] : stabilization) start_[field] = field->now();
-  for (const ResponseTerm& response : responses) start_[response.column] = response.column->now();
+  for (const ResponseTerm& response : responses.terms) start_[response.column] = response.column->now();
   const std::vector<Vector> start = values();
   StepStatus status = search(step, start);
   // The larger number of iterations is the measure for adaptive steps; with the sum, steps would become shorter.

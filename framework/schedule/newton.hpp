@@ -53,9 +53,8 @@ class Newton {
   ~Newton();
 
   /// `stabilization`: diagonals; each, times the change of its field since the start of this call, is added to the
-  /// residual of that field. `responses`: the same for one field in the equation of another.
-  StepStatus solve(const StepTime& step, const Stabilization& stabilization = {},
-                   const std::vector<ResponseTerm>& responses = {});
+  /// residual of that field. `responses`: what unknowns outside of the call will answer.
+  StepStatus solve(const StepTime& step, const Stabilization& stabilization = {}, const Responses& responses = {});
 
   /// What assembly and linear solver have done since the start.
   LinearCounts counts() const;
@@ -119,7 +118,7 @@ class Newton {
   bool was_left_ = false;              ///< whether the last attempt ended at Until::search
   StepTime last_failed_path_;          ///< the last step whose path failed; a hardly shorter step does not try again
   const Stabilization* stabilization_ = nullptr;
-  const std::vector<ResponseTerm>* responses_ = nullptr;
+  const Responses* responses_ = nullptr;
   std::map<const Field*, Vector> start_;
 };
 

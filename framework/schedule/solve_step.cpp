@@ -9,8 +9,10 @@ namespace sprekk {
 
 namespace {
 
+const char* const response = "response";  ///< the stabilization that needs no coupler to offer it
+
 void require_offered(const SolveOptions& options, const std::vector<Part*>& parts) {
-  std::vector<std::string> offered = {"none"};
+  std::vector<std::string> offered = {"none", response};
   for (const Part* part : parts) {
     const std::vector<std::string> more = part->stabilizations();
     for (const std::string& name : more)
@@ -26,9 +28,14 @@ void require_together(const SolveOptions& options, const std::vector<Part*>& par
   };
   for (const Part* part : parts)
     for (const Dependence& dependence : part->dependences())
-      if (is_solved(dependence.component) && !is_solved(dependence.on))
+      if (is_solved(dependence.component) && !is_solved(dependence.on) &&
+          !(dependence.ends_with_response && options.stabilization == response))
         throw InputError(options.origin, "'" + dependence.component + "' is solved without '" + dependence.on + "'",
-                         dependence.because, "name both in one 'solve'");
+                         dependence.because,
+                         std::string("name both in one 'solve'") +
+                             (dependence.ends_with_response
+                                  ? ", or give this one 'stabilize: response' in an 'iterate' that solves for both"
+                                  : ""));
 }
 
 /// The pairs of fields of a stabilization that are both solved for.
@@ -36,6 +43,14 @@ std::vector<Following> followers(const std::string& stabilization, const std::ve
                                  const std::vector<Field*>& solved) {
   std::vector<Following> pairs;
   if (stabilization == "none") return pairs;
+  if (stabilization == response) {
+    std::vector<const Field*> on_interfaces;
+    for (const Field* field : solved)
+      if (!is_bulk(field->spec().role.kind()) && field->size() > 0) on_interfaces.push_back(field);
+    for (const Field* row : on_interfaces)
+      for (const Field* column : on_interfaces) pairs.push_back({row, column});
+    return pairs;
+  }
   for (const Part* part : parts) {
     const auto* follows = dynamic_cast<const FollowsWaiting*>(part);
     if (!follows) continue;
@@ -91,8 +106,10 @@ Spec SolveOptions::spec() {
             "Solves for the unknowns of the named components simultaneously. All their terms count; "
             "fields that are not unknowns here keep their latest values.");
   spec.texts("solve", components, {.doc = "Names of components.", .required = true});
-  spec.text("stabilize", stabilization,
-            {.doc = "A stabilization that a coupler offers for split schemes (its page names it); or none."});
+  spec.text(
+      "stabilize", stabilization,
+      {.doc = "A stabilization of split schemes: response, what the unknowns of the iteration that wait will answer; "
+              "one that a coupler offers (its page names it); or none."});
   spec.section("newton", newton_spec(newton), {.doc = "Overrides the scene's `newton:`."}, &overrides_newton);
   spec.section("solver", solver_spec(linear), {.doc = "Overrides the scene's `solver:`."}, &overrides_linear);
   return spec;
@@ -114,22 +131,54 @@ std::string SolveStep::describe() const {
   return text;
 }
 
-const std::vector<ResponseTerm>& SolveStep::responses(const StepTime& step) {
-  static const std::vector<ResponseTerm> none;
+std::vector<const Field*> SolveStep::waiting() const {
+  std::vector<const Field*> waiting;
+  for (const Field* field : iterated_)
+    if (std::ranges::count(fields_, field) == 0) waiting.push_back(field);
+  return waiting;
+}
+
+ResponseOptions SolveStep::wanted_responses() const {
+  return {followers(options_.stabilization, parts_, fields_), options_.stabilization == response,
+          options_.newton.residual};
+}
+
+const Responses& SolveStep::responses(const StepTime& step) {
+  static const Responses none;
   if (!is_response_made_) {
     is_response_made_ = true;
-    const std::vector<Following> pairs = followers(options_.stabilization, parts_, fields_);
-    std::vector<const Field*> waiting;
-    for (const Field* field : iterated_)
-      if (std::ranges::count(fields_, field) == 0) waiting.push_back(field);
-    if (!pairs.empty() && !waiting.empty())
-      response_ = std::make_unique<WaitingResponse>(mesh_, waiting, parts_, pairs, options_.linear);
+    ResponseOptions wanted = wanted_responses();
+    const std::vector<const Field*> waits = waiting();
+    if (!wanted.pairs.empty() && !waits.empty())
+      response_ = std::make_unique<WaitingResponse>(mesh_, waits, parts_, std::move(wanted), options_.linear);
   }
   return response_ ? response_->update(step) : none;
 }
 
+void SolveStep::check_response() const {
+  const auto no_effect = [&](const std::string& because, const std::string& remedy) {
+    return InputError(options_.stabilization_origin, "'stabilize: response' has no effect here", because, remedy);
+  };
+  if (wanted_responses().pairs.empty())
+    throw no_effect("it is for unknowns on interfaces, of which this step solves for none",
+                    "give it to a 'solve' that has some");
+  if (waiting().empty())
+    throw no_effect("this step solves for all unknowns of the iteration, so none waits", "remove it");
+  for (const Part* part : parts_)
+    for (const Dependence& dependence : part->dependences()) {
+      const auto is_of = [](const std::string& name) {
+        return [name](const Field* field) { return field->spec().owner == name; };
+      };
+      if (std::ranges::any_of(fields_, is_of(dependence.component)) &&
+          std::ranges::none_of(iterated_, is_of(dependence.on)))
+        throw InputError(options_.origin, "'" + dependence.component + "' is solved without '" + dependence.on + "'",
+                         dependence.because, "let the same 'iterate' solve for both");
+    }
+}
+
 void SolveStep::check() const {
   if (options_.stabilization == "none") return;
+  if (options_.stabilization == response) return check_response();
   Stabilization stabilization;
   for (const Part* part : parts_) part->stabilize(options_.stabilization, stabilization);
   const auto is_solved = [&](const auto& entry) { return std::ranges::count(fields_, entry.first) > 0; };
@@ -149,7 +198,9 @@ StepStatus SolveStep::run(const StepTime& step) {
     if (options_.stabilization != "none") part->stabilize(options_.stabilization, stabilization);
   }
   newton_.set_preconditioner_stabilization(preconditioning);
-  const StepStatus status = newton_.solve(step, stabilization, responses(step));
+  StepStatus status = newton_.solve(step, stabilization, responses(step));
+  if (!status.converged && response_ && !response_->is_determined())
+    status.reason += " (what waits is not determined while the unknowns of this step are held, so it has no response)";
   if (status.converged)
     for (Part* part : parts_) part->after_solve(fields_, step);
   return status;

@@ -33,12 +33,17 @@ class SolveStep : public ScheduleStep {
     iterated_ = unknowns;
     newton_.iterate_at_least_once();
   }
+  /// Throws InputError for a stabilization that has no effect.
   void check() const override;
   std::string describe() const override;
   void add_counts(LinearCounts& counts) const override;
 
  private:
-  const std::vector<ResponseTerm>& responses(const StepTime& step);
+  void check_response() const;
+  /// What the stabilization asks to know of unknowns that wait.
+  ResponseOptions wanted_responses() const;
+  std::vector<const Field*> waiting() const;
+  const Responses& responses(const StepTime& step);
 
   SolveOptions options_;
   std::vector<Part*> parts_;

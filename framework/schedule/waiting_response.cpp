@@ -8,34 +8,60 @@
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/schedule/residual_check.hpp"
 
 namespace sprekk {
 
 WaitingResponse::WaitingResponse(const Mesh& mesh, std::vector<const Field*> waiting, std::vector<Part*> parts,
-                                 std::vector<Following> pairs, const LinearOptions& linear)
+                                 ResponseOptions options, const LinearOptions& linear)
     : mesh_(mesh),
       waiting_(std::move(waiting)),
       parts_(std::move(parts)),
-      pairs_(std::move(pairs)),
+      options_(std::move(options)),
+      all_(waiting_),
       system_(mesh, waiting_),
-      linear_(make_condensing_solver(linear)) {}
+      linear_(make_condensing_solver(linear)) {
+  for (const Following& pair : options_.pairs)
+    for (const Field* field : {pair.row, pair.column}) {
+      SPREKK_EXPECT(std::ranges::count(waiting_, field) == 0, field->name());
+      if (std::ranges::count(all_, field) == 0) all_.push_back(field);
+    }
+}
 
-const std::vector<ResponseTerm>& WaitingResponse::update(const StepTime& step) {
+const Responses& WaitingResponse::update(const StepTime& step) {
   SPREKK_EXPECT(step.dt > 0, step.dt);
   products_.forget_unused();
+  responses_.pending.clear();
   Assembly assembly(waiting_, Assembly::Request::residual_and_derivatives, &products_);
   assemble_all(assembly, parts_, step);
   const LinearSystem& system = system_.matrix(assembly);
-  if (!has_changed(system) && step.dt == known_dt_) return terms_;
-  known_ = Eigen::Map<const Vector>(system.local.valuePtr(), system.local.nonZeros());
-  known_dt_ = step.dt;
-  terms_.clear();
-  if (!linear_->factor(system).solved) return terms_;
-  for (const Following& pair : pairs_) {
-    ResponseTerm term = respond(pair, step);
-    if (parallel::sum(static_cast<double>(term.matrix.nonZeros())) > 0) terms_.push_back(std::move(term));
+  const bool is_new = has_changed(system) || step.dt != known_dt_;
+  if (!is_new && (!is_determined_ || !options_.has_pending)) return responses_;
+  if (is_new) {
+    known_ = Eigen::Map<const Vector>(system.local.valuePtr(), system.local.nonZeros());
+    known_dt_ = step.dt;
+    responses_.terms.clear();
+    is_determined_ = linear_->factor(system).solved;
+    if (!is_determined_) return responses_;
   }
-  return terms_;
+  const std::unique_ptr<Assembly> all = assemble_with_solved(step);
+  const std::map<const Field*, SparseMatrix> answers = answering(*all);
+  if (is_new) respond(*all, answers);
+  if (!is_determined_ || !options_.has_pending) return responses_;
+  const ResidualCheck check = check_residual(assembly, system_, options_.settled);
+  if (!check.finite || check.rows_hold) return responses_;
+  Vector load = -system_.residual(assembly), change;
+  for (std::size_t u = 0; u < waiting_.size(); ++u) {  // round-off is not pending
+    if (!check.is_round_off[u]) continue;
+    const int first = system_.first(static_cast<int>(u));
+    const auto begin = std::ranges::lower_bound(system_.rows(), first);
+    const auto end = std::ranges::lower_bound(system_.rows(), first + waiting_[u]->size());
+    load.segment(begin - system_.rows().begin(), end - begin).setZero();
+  }
+  if (!linear_->solve(load, change).solved) return responses_;
+  if (parallel::max(is_finite(change) ? 0.0 : 1.0) > 0) return responses_;
+  for (const auto& [row, answer] : answers) responses_.pending[row] = answer * change;
+  return responses_;
 }
 
 bool WaitingResponse::has_changed(const LinearSystem& system) {
@@ -57,58 +83,106 @@ bool WaitingResponse::has_changed(const LinearSystem& system) {
   return parallel::max(largest_change) > much;
 }
 
-ResponseTerm WaitingResponse::respond(const Following& pair, const StepTime& step) {
-  const int waiting = static_cast<int>(waiting_.size()), column_field = waiting, row_field = waiting + 1;
-  std::vector<const Field*> all = waiting_;
-  all.push_back(pair.column);
-  all.push_back(pair.row);
-  Assembly assembly(all, Assembly::Request::residual_and_derivatives, &products_);
-  assemble_all(assembly, parts_, step);
+std::unique_ptr<Assembly> WaitingResponse::assemble_with_solved(const StepTime& step) {
+  auto assembly = std::make_unique<Assembly>(all_, Assembly::Request::residual_and_derivatives, &products_);
+  assemble_all(*assembly, parts_, step);
+  return assembly;
+}
 
+int WaitingResponse::place_in_all(const Field& field) const {
+  return static_cast<int>(std::ranges::find(all_, &field) - all_.begin());
+}
+
+namespace {
+
+/// Calls `add` with row, column and value of each entry of a block.
+template <class Add>
+void each_entry(const Assembly::Block& block, const Add& add) {
+  for (int r = 0; r < block.matrix->outerSize(); ++r) {
+    const double scale = block.weights ? block.factor * (*block.weights)[r] : block.factor;
+    for (SparseMatrix::InnerIterator entry(*block.matrix, r); entry; ++entry)
+      add(r, static_cast<int>(entry.col()), scale * entry.value());
+  }
+}
+
+}  // namespace
+
+std::map<const Field*, SparseMatrix> WaitingResponse::answering(const Assembly& assembly) const {
+  std::map<const Field*, SparseMatrix> answers;
+  for (const Following& pair : options_.pairs) {
+    if (answers.count(pair.row) > 0) continue;
+    const int row = place_in_all(*pair.row);
+    std::vector<Triplet> entries;
+    for (const Assembly::Block& block : assembly.blocks()) {
+      if (block.row != row || block.column >= static_cast<int>(waiting_.size())) continue;
+      const int first = system_.first(block.column);
+      each_entry(block, [&](int r, int column, double value) { entries.emplace_back(r, first + column, value); });
+    }
+    SparseMatrix matrix(pair.row->size(), system_.size());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    answers.emplace(pair.row, std::move(matrix));
+  }
+  return answers;
+}
+
+SparseMatrix WaitingResponse::driving(const Assembly& assembly, const Field& column) const {
+  const int waiting = static_cast<int>(waiting_.size()), place = place_in_all(column);
   std::set<int> fixed;
   for (const Assembly::Fixed& row : assembly.fixed())
     if (row.unknown < waiting) fixed.insert(system_.first(row.unknown) + row.row);
-  std::vector<Triplet> by_column, by_waiting;
+  std::vector<Triplet> entries;
   for (const Assembly::Block& block : assembly.blocks()) {
-    const bool drives = block.row < waiting && block.column == column_field;
-    const bool answers = block.row == row_field && block.column < waiting;
-    if (!drives && !answers) continue;
-    for (int r = 0; r < block.matrix->outerSize(); ++r) {
-      const double scale = block.weights ? block.factor * (*block.weights)[r] : block.factor;
-      for (SparseMatrix::InnerIterator entry(*block.matrix, r); entry; ++entry) {
-        const int column = static_cast<int>(entry.col());
-        if (drives && fixed.count(system_.first(block.row) + r) == 0)
-          by_column.emplace_back(column, system_.first(block.row) + r, scale * entry.value());
-        if (answers) by_waiting.emplace_back(r, system_.first(block.column) + column, scale * entry.value());
+    if (block.row >= waiting || block.column != place) continue;
+    const int first = system_.first(block.row);
+    each_entry(block, [&](int r, int by, double value) {
+      if (fixed.count(first + r) == 0) entries.emplace_back(by, first + r, value);
+    });
+  }
+  SparseMatrix matrix(column.size(), system_.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+void WaitingResponse::respond(const Assembly& assembly, const std::map<const Field*, SparseMatrix>& answers) {
+  constexpr double negligible = 1e-6;  // of the largest entry of the column
+  std::vector<const Field*> columns;
+  for (const Following& pair : options_.pairs)
+    if (std::ranges::count(columns, pair.column) == 0) columns.push_back(pair.column);
+  const std::vector<int>& rows = system_.rows();
+  for (const Field* column : columns) {
+    std::vector<const Field*> followers;
+    for (const Following& pair : options_.pairs)
+      if (pair.column == column && parallel::sum(static_cast<double>(answers.at(pair.row).nonZeros())) > 0)
+        followers.push_back(pair.row);
+    if (followers.empty()) continue;
+    const SparseMatrix drives = driving(assembly, *column);
+    std::vector<std::vector<Triplet>> response(followers.size());
+    for (int c = 0; c < column->size(); ++c) {
+      Vector load = Vector::Zero(static_cast<Eigen::Index>(rows.size())), follows;
+      for (SparseMatrix::InnerIterator entry(drives, c); entry; ++entry) {
+        const auto place = std::lower_bound(rows.begin(), rows.end(), static_cast<int>(entry.col()));
+        if (place != rows.end() && *place == entry.col()) load[place - rows.begin()] = -entry.value();
+      }
+      if (parallel::sum(load.squaredNorm()) == 0) continue;
+      is_determined_ = linear_->solve(load, follows).solved && parallel::max(is_finite(follows) ? 0.0 : 1.0) == 0;
+      if (!is_determined_) {
+        responses_.terms.clear();
+        return;
+      }
+      for (std::size_t f = 0; f < followers.size(); ++f) {
+        const Vector answer = answers.at(followers[f]) * follows;
+        const double least = negligible * (answer.size() > 0 ? answer.lpNorm<Eigen::Infinity>() : 0);
+        for (int r = 0; r < answer.size(); ++r)
+          if (std::abs(answer[r]) > least) response[f].emplace_back(r, c, answer[r]);
       }
     }
-  }
-  SparseMatrix driving(pair.column->size(), system_.size()), answering(pair.row->size(), system_.size());
-  driving.setFromTriplets(by_column.begin(), by_column.end());  // transposed: a row for each value of the column field
-  answering.setFromTriplets(by_waiting.begin(), by_waiting.end());
-
-  constexpr double negligible = 1e-6;  // of the largest entry of the column
-  std::vector<Triplet> response;
-  const std::vector<int>& rows = system_.rows();
-  for (int c = 0; c < pair.column->size(); ++c) {
-    Vector load = Vector::Zero(static_cast<Eigen::Index>(rows.size())), follows;
-    for (SparseMatrix::InnerIterator entry(driving, c); entry; ++entry) {
-      const auto place = std::lower_bound(rows.begin(), rows.end(), static_cast<int>(entry.col()));
-      if (place != rows.end() && *place == entry.col()) load[place - rows.begin()] = -entry.value();
+    for (std::size_t f = 0; f < followers.size(); ++f) {
+      if (parallel::sum(static_cast<double>(response[f].size())) == 0) continue;
+      SparseMatrix matrix(followers[f]->size(), column->size());
+      matrix.setFromTriplets(response[f].begin(), response[f].end());
+      responses_.terms.push_back({followers[f], column, std::move(matrix)});
     }
-    if (parallel::sum(load.squaredNorm()) == 0) continue;
-    if (!linear_->solve(load, follows).solved)
-      return {pair.row, pair.column, SparseMatrix(pair.row->size(), pair.column->size())};
-    const Vector answer = answering * follows;
-    if (parallel::max(is_finite(answer) ? 0.0 : 1.0) > 0)
-      return {pair.row, pair.column, SparseMatrix(pair.row->size(), pair.column->size())};
-    const double least = negligible * (answer.size() > 0 ? answer.lpNorm<Eigen::Infinity>() : 0);
-    for (int r = 0; r < answer.size(); ++r)
-      if (std::abs(answer[r]) > least) response.emplace_back(r, c, answer[r]);
   }
-  SparseMatrix matrix(pair.row->size(), pair.column->size());
-  matrix.setFromTriplets(response.begin(), response.end());
-  return {pair.row, pair.column, std::move(matrix)};
 }
 
 LinearCounts WaitingResponse::counts() const {

@@ -1,0 +1,51 @@
+// When an accelerated iteration goes on without acceleration.
+#pragma once
+
+#include <limits>
+
+namespace sprekk {
+
+/// An accelerator learns from differences of passes. Once these are no larger than the errors that the solves inside
+/// leave, it learns from noise, and holds the passes where they are, while passes of their own would converge. So after
+/// some passes that come no nearer the next ones are plain. Where these move away instead (an iteration that only
+/// converges accelerated), they are taken back, and not tried again in the step.
+class StalledAcceleration {
+ public:
+  /// What follows a pass. `back`: the values that the first plain pass began with, and acceleration from there.
+  enum class Next { accelerated, plain, back };
+
+  /// `change`: of the fields by the pass, scaled.
+  Next after(double change) {
+    if (is_plain_) {
+      constexpr double clearly_more = 2;
+      if (change > clearly_more * first_) return stop(Next::back);
+      return comes_nearer(change) ? Next::plain : stop(Next::accelerated);
+    }
+    if (was_tried_ || comes_nearer(change)) return Next::accelerated;
+    is_plain_ = was_tried_ = true;
+    passes_ = 0;
+    first_ = best_ = change;
+    return Next::plain;
+  }
+  /// Passes are another map from here on.
+  void forget() { *this = {}; }
+
+ private:
+  bool comes_nearer(double change) {
+    constexpr int patience = 6;  // passes
+    constexpr double less = 0.9;
+    passes_ = change < less * best_ ? 0 : passes_ + 1;
+    if (passes_ == 0) best_ = change;
+    return passes_ < patience;
+  }
+  Next stop(Next next) {
+    is_plain_ = false;
+    return next;
+  }
+
+  bool is_plain_ = false, was_tried_ = false;
+  int passes_ = 0;  ///< since one that has come nearer
+  double best_ = std::numeric_limits<double>::infinity(), first_ = 0;
+};
+
+}  // namespace sprekk
