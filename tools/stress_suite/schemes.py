@@ -3,11 +3,13 @@
 UNTIL = 1e-10  # as the residuals of Newton's method: what the checks of answers rest on
 MONOLITHIC = "monolithic"
 ITERATED = {"fixed_stress": "", "accelerated": "accelerate: {anderson: 5}, "}
-SCHEMES = (MONOLITHIC, *ITERATED)
+RESPONSE = "response"  # fractures apart from rock, with the response of what waits
+SCHEMES = (MONOLITHIC, *ITERATED, RESPONSE)
 
 
 def schedule(scheme):
     if scheme == MONOLITHIC:
         return "schedule: [{solve: [pore, rock, conduit, contact]}]"
-    return (f"schedule: [{{iterate: {{until: {{relative: {UNTIL:g}, at_most: 100}}, {ITERATED[scheme]}steps: "
-            "[{solve: [pore, conduit], stabilize: fixed_stress}, {solve: [rock, contact]}]}}]")
+    steps = ("{solve: pore, stabilize: fixed_stress}, {solve: rock}, {solve: [conduit, contact], stabilize: response}" if scheme == RESPONSE else
+             "{solve: [pore, conduit], stabilize: fixed_stress}, {solve: [rock, contact]}")
+    return f"schedule: [{{iterate: {{until: {{relative: {UNTIL:g}, at_most: 100}}, {ITERATED.get(scheme, '')}steps: [{steps}]}}}}]"
