@@ -148,21 +148,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa",
-                                 "poromechanics/fem",
-                                 "matrix_flow/rt0",
-                                 "matrix_flow/ntpfa",
-                                 "contact/penalty",
-                                 "contact/augmented_lagrangian",
-                                 "fine_fracture/jump_fit",
-                                 "matrix_heat/mpfa",
-                                 "matrix_heat/tpfa",
-                                 "fracture_heat/tpfa",
-                                 "heat_advection",
-                                 "heat_exchange",
-                                 "thermal_stress",
-                                 "thermal_viscosity",
-                                 "wells/limited",
+  std::set<std::string> types = {"matrix_flow/tpfa",       "poromechanics/fem", "matrix_flow/rt0",
+                                 "matrix_flow/ntpfa",      "contact/penalty",   "contact/augmented_lagrangian",
+                                 "fine_fracture/jump_fit", "matrix_heat/mpfa",  "matrix_heat/tpfa",
+                                 "fracture_heat/tpfa",     "heat_advection",    "heat_exchange",
+                                 "thermal_stress",         "thermal_viscosity", "wells/limited",
                                  "well_exchange"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
