@@ -37,6 +37,8 @@ class FractureFluid {
   /// How well a fracture cell conducts along itself from end to end, m^2/(Pa s), at the current aperture. To be used
   /// after Part::evaluate_data of all parts.
   virtual double conductance(int cell) const = 0;
+  /// The part of the aperture of a fracture cell that has fluid in it: 1, unless the pressure has a lower bound.
+  virtual double filled_part(int cell) const = 0;
   /// Whether the pressure follows the aperture: not with a given transmissivity, nor where all of it is prescribed.
   virtual bool follows_aperture() const = 0;
   /// The fluid of the rock, which leaves and enters through the walls; nullptr where they are sealed. To be accepted

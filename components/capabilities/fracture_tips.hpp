@@ -52,6 +52,8 @@ class TipSurroundings {
   virtual double accepted_fluid_pressure(int fracture, bool at_end) const = 0;
   /// The viscosity of the fluid there, Pa s; 0 where there is none, or where it does not flow between open walls.
   virtual double fluid_viscosity(int fracture, bool at_end) const = 0;
+  /// The part of the opening of the last fracture cell at this end that has fluid in it, between 0 and 1.
+  virtual double filled_part(int fracture, bool at_end) const = 0;
   /// The norm of the displacement jump (normal and tangential) in the fracture cell at an end, m.
   virtual double jump_at_tip(int fracture, bool at_end) const = 0;
   /// epsilon_p of sec. 4.4.2 of the paper: a path of at least this part of the coarse mesh size is passed to the coarse

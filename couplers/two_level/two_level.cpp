@@ -178,6 +178,9 @@ class TwoLevel : public Coupler, public TipSurroundings {
   double fluid_viscosity(int fracture, bool at_end) const override {
     return fluid_ ? fluid_->viscosity_between_walls(end_cell(fracture, at_end)) : 0;
   }
+  double filled_part(int fracture, bool at_end) const override {
+    return fluid_ ? fluid_->filled_part(end_cell(fracture, at_end)) : 1;
+  }
   double jump_at_tip(int fracture, bool at_end) const override {
     return jump_.segment<dimension>(dimension * end_cell(fracture, at_end)).norm();
   }

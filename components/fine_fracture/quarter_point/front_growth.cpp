@@ -390,7 +390,9 @@ double Tips::apparent_toughness(const Tip& tip, double speed) const {
   const double viscosity = surroundings_->fluid_viscosity(tip.end.fracture, tip.end.at_end);
   const LameParameters lame = surroundings_->stiffness(position(tip, {}));
   const ViscousTip moving{*options_.toughness, Elasticity{lame.lambda, lame.shear}.plane_modulus(), viscosity};
-  return *options_.toughness * moving.apparent_toughness(last_cell(tip.end).measure, speed);
+  const double full = moving.apparent_toughness(last_cell(tip.end).measure, speed);
+  // Where the fluid lags behind the tip nothing viscous is near it, and its toughness alone counts.
+  return *options_.toughness * (1 + surroundings_->filled_part(tip.end.fracture, tip.end.at_end) * (full - 1));
 }
 
 bool Tips::is_viscous(const Tip& tip) const {

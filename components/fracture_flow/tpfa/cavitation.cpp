@@ -7,8 +7,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
+#include "framework/mesh/mesh_change.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -43,6 +46,40 @@ void FractureFlow::bound_pressure(Assembly& assembly) const {
   assembly.compare_with(*empty_, aperture_.now().lpNorm<Eigen::Infinity>());
   assembly.diagonal(*empty_, *empty_, by_empty);
   assembly.diagonal(*empty_, pressure_, by_pressure);
+}
+
+/// Cells in the place of a replaced one share its opening unevenly, so an even share of what is empty could be more
+/// than they hold. Each gets the same part of its opening; the volume stays.
+void FractureFlow::settled(const MeshChange& change) {
+  if (!empty_ || change.replaced_parts.empty()) return;
+  // Cells that have replaced the same ones.
+  std::map<int, int> group_of_old, group_of_new;
+  for (const ReplacedPart& part : change.replaced_parts) {
+    const int group = group_of_old.emplace(part.old_cell, part.old_cell).first->second;
+    const auto [found, is_first] = group_of_new.emplace(part.cell, group);
+    if (is_first || found->second == group) continue;
+    const int joined = found->second;
+    for (auto* groups : {&group_of_old, &group_of_new})
+      for (auto& [cell, other] : *groups)
+        if (other == joined) other = group;
+  }
+  std::map<int, std::pair<double, double>> volumes;  // m^2: empty, and all
+  for (const auto& [cell, group] : group_of_new) {
+    const double length = mesh_.fracture_cells[cell].measure;
+    volumes[group].first += length * empty_->accepted()[cell];
+    volumes[group].second += length * aperture_.accepted()[cell];
+  }
+  Vector empty = empty_->accepted();
+  for (const auto& [cell, group] : group_of_new)
+    if (const auto& [without_fluid, all] = volumes[group]; all > 0)
+      empty[cell] = aperture_.accepted()[cell] * (without_fluid / all);
+  empty_->set_both(std::move(empty));
+}
+
+double FractureFlow::filled_part(int cell) const {
+  const double aperture = aperture_.now()[cell];
+  if (!empty_ || !(aperture > 0)) return 1;
+  return std::clamp(1 - empty_->now()[cell] / aperture, 0.0, 1.0);
 }
 
 std::uint64_t FractureFlow::discrete_state() const {

@@ -33,6 +33,7 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
 
   /// Cells that have grown start with the pressure of their neighbours; a parameter says whether they start with fluid.
   void carry_over(const Part& before, const MeshChange& change) override;
+  void settled(const MeshChange& change) override;
   void evaluate_data(const StepTime& step) override;
   /// A bound of the pressure turns active within steps, which leaves no second order.
   bool allows_stages() const override { return !options_.cavitation; }
@@ -56,6 +57,7 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   const Vector& initial_aperture() const override { return initial_aperture_; }
   NormalPermeability normal_permeability() const override;
   void change_viscosity(const Vector& viscosity) override;
+  double filled_part(int cell) const override;
   double viscosity_between_walls(int cell) const override { return options_.is_constant() ? 0 : viscosity_[cell]; }
   double conductance(int cell) const override {
     return transmissivity(cell).value / mesh_.fracture_cells[cell].measure;

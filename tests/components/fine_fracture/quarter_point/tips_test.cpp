@@ -41,6 +41,7 @@ class Fluid : public TipSurroundings {
   double fluid_pressure(int, bool at_end) const override { return pressure[at_end]; }
   double accepted_fluid_pressure(int, bool at_end) const override { return pressure[at_end]; }
   double fluid_viscosity(int, bool) const override { return 0; }
+  double filled_part(int, bool) const override { return 1; }
   double jump_at_tip(int, bool at_end) const override { return jump[at_end]; }
   std::optional<double> propagation_threshold() const override { return std::nullopt; }
 };
