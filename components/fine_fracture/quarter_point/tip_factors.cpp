@@ -18,6 +18,11 @@ bool is_same(const FineGeometry& a, const FineGeometry& b) {
                     [](const CrackPath& x, const CrackPath& y) { return x.points == y.points && x.walls == y.walls; });
 }
 
+/// Whether the place is in the square, and the rosette of a tip there as well.
+bool has_room(const std::vector<Point>& square, const Point& place, double radius) {
+  return (place - square[0]).minCoeff() > radius && (square[2] - place).minCoeff() > radius;
+}
+
 std::uint64_t topology_of(const FineMesh& mesh) {
   TopologyHash hash;
   for (const FineMesh::Element& element : mesh.elements)
@@ -37,6 +42,8 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   mesh.far_size = std::max(mesh.tip_size, options_.size / edges_across);
   mesh.sectors = options_.sectors;
   const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
+  // Growth with the state held may lead out of the square of an earlier trial.
+  if (tip.pattern && !has_room(tip.pattern->outline, position(tip, paths[index]), mesh.tip_size)) tip.pattern.reset();
   FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls,
                                   tip.pattern ? &tip.pattern->outline : nullptr);
   const LameParameters lame = surroundings_->stiffness(center);
