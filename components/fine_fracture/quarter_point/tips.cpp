@@ -20,6 +20,7 @@ TipEnd end_of(const PathExtension& extension) { return {extension.fracture, exte
 
 Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     : Component(context.name), mesh_(context.mesh), origin_(context.origin), options_(options) {
+  check_increment();
   for (const TipEnd& end : all_ends(mesh_)) {
     if (kind_of(mesh_, end) == FracturePoint::Kind::junction) joints_.push_back({end, name_of(mesh_, end)});
     if (kind_of(mesh_, end) != FracturePoint::Kind::tip) continue;
@@ -44,6 +45,20 @@ void Tips::check_size(const Tip& tip) const {
                                "at least {:.4g} m; ten of them give factors within 1 %",
                                least),
                    "choose a larger 'size', or a smaller mesh.fracture_size");
+}
+
+/// A path grows in the square before the coarse level takes it over. It ends before the sides of the rock.
+void Tips::check_increment() const {
+  const double increment = options_.growth.increment, half = 0.5 * options_.size;
+  const auto is_near_the_first = [&](const Point& x) {
+    return (x - mesh_.nodes[0]).cwiseAbs().maxCoeff() <= options_.size;
+  };
+  if (!options_.toughness || increment <= half || std::ranges::all_of(mesh_.nodes, is_near_the_first)) return;
+  throw InputError(
+      origin_,
+      fmt::format("'growth.increment' of {} is {:.4g} m, and 'size' is {:.4g} m", name(), increment, options_.size),
+      fmt::format("an increment has to end in the square around its tip, which reaches {:.4g} m", half),
+      "choose a shorter increment, or a larger 'size'");
 }
 
 const FractureCell& Tips::last_cell(const TipEnd& end) const { return end_cell(mesh_, end); }

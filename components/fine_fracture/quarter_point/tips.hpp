@@ -141,6 +141,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   /// Where a step is examined for the first time, also by the models of its trials and repetitions.
   void note_start(const StepTime& step);
   void check_size(const Tip& tip) const;  ///< throws InputError where the square is too small for the coarse mesh
+  void check_increment() const;           ///< throws InputError where an increment would leave the square
   const FractureCell& last_cell(const TipEnd& end) const;
   Point position(const Tip& tip, const TipPath& path) const;
   Point direction(const Tip& tip) const;  ///< of the last cell
