@@ -58,9 +58,10 @@ std::vector<const Node*> values_by_name(const Node& node, const DataRequest& req
     const Node* value = map.find(name);
     if (value == nullptr) value = map.find("default");
     if (value == nullptr)
-      throw InputError(map.origin,
-                       fmt::format("{} has no value for the {} {}", quoted(request.name), places.one, quoted(name)), "",
-                       "add '" + name + ":' or 'default:'");
+      throw InputError(
+          map.origin,
+          fmt::format("{} has no value {} the {} {}", quoted(request.name), places.in, places.one, quoted(name)), "",
+          "add '" + name + ":' or 'default:'");
     values.push_back(value);
   }
   return values;
@@ -68,7 +69,8 @@ std::vector<const Node*> values_by_name(const Node& node, const DataRequest& req
 
 Data read_by_fracture(const Node& node, const DataRequest& request) {
   std::vector<Data> values;
-  for (const Node* value : values_by_name(node, request, {"fracture", "fractures"}, request.context.fracture_names))
+  for (const Node* value :
+       values_by_name(node, request, {"fracture", "on", "fractures"}, request.context.fracture_names))
     values.push_back(read_data(*value, request));
   return by_fracture(std::move(values), node, request);
 }
@@ -91,7 +93,7 @@ Data read_fracture_column(const Node& node, const DataRequest& request) {
     const ColumnValue* const given = value_in(request.context.fracture_values[i], column);
     if (!given && !otherwise)
       throw InputError(node.origin,
-                       fmt::format("{} has no value for the fracture {}", quoted(request.name),
+                       fmt::format("{} has no value on the fracture {}", quoted(request.name),
                                    quoted(request.context.fracture_names[i])),
                        fmt::format("its table has no column {}, or it comes from none", quoted(column)),
                        "add 'default:'");

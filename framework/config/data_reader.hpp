@@ -50,9 +50,9 @@ const std::string& read_scalar(const Node& node, const std::string& name);
 /// What to throw for a node that is no `needed`.
 InputError wrong_kind(const Node& node, const std::string& name, const std::string& needed);
 
-/// What values are given by: the word for one, and the key of the map from names to values.
+/// What values are given by: the word for one, "in" or "on" it, and the key of the map from names to values.
 struct NamedPlaces {
-  std::string one, key;
+  std::string one, in, key;
 };
 
 /// For each of `names` its entry in the map under the key, or the one called default. Throws InputError where there is
@@ -66,7 +66,7 @@ inline bool has(const Node& node, const std::string& key) { return node.is_map()
 template <class Value, class Read>
 std::vector<Value> read_by_region(const Node& node, const DataRequest& request, const Read& read) {
   std::vector<Value> values;
-  for (const Node* value : values_by_name(node, request, {"region", "regions"}, request.context.region_names))
+  for (const Node* value : values_by_name(node, request, {"region", "in", "regions"}, request.context.region_names))
     values.push_back(read(*value));
   return values;
 }
