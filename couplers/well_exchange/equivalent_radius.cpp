@@ -64,7 +64,8 @@ std::optional<double> equivalent_radius(const Mesh& mesh, const MatrixFluxes& fl
     for (const int node : mesh.cell_nodes[cell]) nodes[node] = 1;
   }
   const FluxOperators operators = fluxes.fluxes_around(nodes, mobility);
-  if (operators.faces.flux.rows() > 0) throw std::invalid_argument("equivalent radius: there are unknowns on faces");
+  if (operators.faces.flux.rows() > 0) throw std::invalid_argument("its discretization has unknowns on faces");
+  if (operators.limited[0].cell.rows() > 0) throw std::invalid_argument("its fluxes are not linear in the pressures");
 
   const double unit = 2 * std::numbers::pi * size;
   const Tensor inverse = size * mobility.inverse();

@@ -14,7 +14,8 @@ namespace sprekk::couplers {
 /// the discrete equations are solved around the cell, with the pressure of the source prescribed in the cells around a
 /// patch of up to `most_layers`. So it is right for any shape of cells, any anisotropy and any discretization with
 /// unknowns on cells. On squares with the two-point flux it is 0.198 h. None where the cell touches the boundary or a
-/// fracture. Throws std::invalid_argument for a discretization with unknowns on faces.
+/// fracture. Throws std::invalid_argument, with the reason, for a discretization with unknowns on faces, and for one
+/// with nonlinear fluxes.
 std::optional<double> equivalent_radius(const Mesh& mesh, const MatrixFluxes& fluxes, int middle,
                                         const Tensor& mobility);
 

@@ -227,9 +227,8 @@ class WellExchange : public Coupler {
   std::optional<double> radius_of(const WellPlace& place, int home) const {
     try {
       return equivalent_radius(mesh_, *fluxes_, home, fluxes_->mobility()[home]);
-    } catch (const std::invalid_argument&) {
-      throw InputError(place.origin, "the index of well '" + place.name + "' is not known for this flow",
-                       "its discretization has unknowns on faces",
+    } catch (const std::invalid_argument& error) {
+      throw InputError(place.origin, "the index of well '" + place.name + "' is not known for this flow", error.what(),
                        "use matrix_flow/mpfa or matrix_flow/tpfa, or give its 'index'");
     }
   }

@@ -22,7 +22,11 @@ ROLES = {
     "fine_fracture": [("quarter_point", {}), ("jump_fit", {})],
 }
 # Swaps without a meaning: the type, a piece of the reason, and in which scenes.
-REFUSED = {"fine_fracture/jump_fit": ("does not grow", lambda text: "grow: tips" in text)}
+REFUSED = {
+    "fine_fracture/jump_fit": ("does not grow", lambda text: "grow: tips" in text),
+    "matrix_flow/rt0": ("unknowns on faces", lambda text: "type: well_exchange" in text),
+    "matrix_flow/ntpfa": ("not linear in the pressures", lambda text: "type: well_exchange" in text),
+}
 # How far the probes of a scene may move with a type that is less exact, of the largest value of their unit, and why.
 INEXACT = {
     "matrix_flow/tpfa": 0.1,  # fluxes that are not consistent on triangles
