@@ -143,7 +143,7 @@ TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
   finer.push_back({"components.tips.size", "0.6 m"});
   const Scene fine = SceneRun("paper/wing_cracks.yaml", finer).model().scene();
   int tips = 0, kept = 0;
-  std::array<int, 2> kicks{}, straight{};
+  std::array<int, 2> kicks{}, divided{};
   auto cells = run.mesh().cell_nodes;
   run.run_until(9 * hour, [&] {
     const bool has_same_cells = run.mesh().cell_nodes == cells;
@@ -162,18 +162,15 @@ TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
       ++kicks[is_anew];
       EXPECT_LT(kick->slip, 1e-3) << run.time() / hour << " h, " << is_anew;
       EXPECT_LT(kick->pressure, is_anew ? 1.5e-4 : 1e-4) << run.time() / hour << " h, " << is_anew;
-      // Close to the kink the path is so much bent that its form changes where its last cell is divided.
-      constexpr double straight_path = 0.01;
-      if (kick->bend > straight_path) continue;
-      ++straight[is_anew];
+      divided[is_anew] += kick->bend > 0;
       // Other cells around the tips have other means of the pore pressure, which loads the fine level.
-      EXPECT_LT(kick->load, is_anew ? 8e-3 : 3e-3) << run.time() / hour << " h, " << is_anew;
+      EXPECT_LT(kick->load, is_anew ? 6e-3 : 3e-3) << run.time() / hour << " h, " << is_anew;
     }
   });
   EXPECT_GT(tips, 12);
   EXPECT_GE(kept, 3);  // steps of growth in which no cell was made anew
   for (const int count : kicks) EXPECT_GE(count, 7);
-  for (const int count : straight) EXPECT_GE(count, 4);
+  for (const int count : divided) EXPECT_GE(count, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, CarriedState, ::testing::Values("45 deg", "-45 deg", "30 deg", "-30 deg"));

@@ -13,21 +13,24 @@
 #include "components/fine_fracture/quarter_point/ends.hpp"
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/planar.hpp"
 
 namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double full_segment = 1;        ///< of an increment: a longer segment is divided
-constexpr double rest_of_segment = 0.5;   ///< of an increment: what of a divided segment is laid anew
-constexpr double longest_segment = 1.5;   ///< of an increment: a longer one is divided in a short step, too
-constexpr double least_advance = 0.05;    ///< of an increment: a step in which a tip advances by less divides nothing
-constexpr double least_first_part = 0.2;  ///< of an increment: what stays of a first segment behind a kink
-constexpr double largest_first_part = 0.65;  ///< of a first segment: the same
-constexpr double longest_advance = 1.5;      ///< of an increment, in one step
-constexpr double on_the_way = 0.2;           ///< of an increment: of nearer places only one counts, for their direction
-constexpr double wanted_advance = 0.85;      ///< of an increment, of the fastest tip in one step
-constexpr double shorter_step = 0.5;         ///< the next attempt at a step that is too long
+constexpr double full_segment = 1;          ///< of an increment: a longer segment is divided
+constexpr double rest_of_segment = 0.5;     ///< of an increment: what of a divided segment is laid anew
+constexpr double longest_segment = 1.5;     ///< of an increment: a longer one is divided in a short step, too
+constexpr double turn_of_segment = 0.06;    ///< rad: one that turns further is divided when it is shorter
+constexpr double least_full = 0.4;          ///< of the length of a straight segment that is divided
+constexpr double least_advance = 0.05;      ///< of an increment: a step in which a tip advances by less divides nothing
+constexpr double least_first_part = 0.2;    ///< of an increment: what stays of a first segment behind a kink
+constexpr double largest_first_part = 0.8;  ///< of a first segment: the same
+constexpr double longest_advance = 1.5;     ///< of an increment, in one step
+constexpr double on_the_way = 0.2;          ///< of an increment: of nearer places only one counts, for their direction
+constexpr double wanted_advance = 0.85;     ///< of an increment, of the fastest tip in one step
+constexpr double shorter_step = 0.5;        ///< the next attempt at a step that is too long
 
 /// Of the last step and of the one before. Segments are divided every other step, and advances alternate with that.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
@@ -58,6 +61,7 @@ class TipsFront : public FrontSearch {
     int replaced = 0;           ///< fracture cells that are given up
   };
   static FrontState state_of(const Tips& tips, const Tips::Tip& tip);
+  double part_by_turn(const Tips::Tip& tip) const;
   double what_stays(const Tips::Tip& tip, const FrontTip& start) const;
   double speed(std::size_t tip) const;
   void add(Tips::Tip& tip);
@@ -113,6 +117,16 @@ TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goe
   propose();
 }
 
+/// The length at which the last segment is divided, over that of a straight one: an arc stands for a path that is
+/// hardly bent. Beside a kink the path turns by up to 0.15 rad over an increment, and where an arc of this form was
+/// divided K changed by 1.5 %.
+double TipsFront::part_by_turn(const Tips::Tip& tip) const {
+  if (!tip.now.segment_start) return 1;
+  const Point end = tips_.end_direction(tip);
+  const double turn = std::abs(std::atan2(cross(*tip.now.segment_start, end), tip.now.segment_start->dot(end)));
+  return turn > turn_of_segment ? std::max(least_full, turn_of_segment / turn) : 1;
+}
+
 /// m, the part of the last segment that is not laid anew any more. The first segment behind a kink, where the path is
 /// most curved and nothing tells how it begins, ends where the tip was when the mesh began to follow it.
 double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const {
@@ -127,7 +141,8 @@ double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const 
       const double length = (place.position - start.anchor).norm();
       if (length > least_first_part * increment && length < largest_first_part * start.covered) return length;
     }
-  return start.covered > full_segment * increment ? start.covered - rest_of_segment * increment : 0;
+  const double full = full_segment * increment * part_by_turn(tip);
+  return start.covered > full ? start.covered - rest_of_segment * full : 0;
 }
 
 void TipsFront::add(Tips::Tip& tip) {
@@ -342,7 +357,8 @@ FrontSearch::Verdict TipsFront::end_jump(Tips& there) {
   return finish(there);
 }
 
-/// The places of the tip in the last segment of the new mesh. `before`: in that of the mesh before the step.
+/// The places of the tip in the last segment of the new mesh. `before`: in that of the mesh before the step. The first
+/// place behind a kink counts however near the next ones are: the segment is divided there, in its direction.
 std::vector<PlaceOnWay> TipsFront::way_to(const Tips& there, const Tips::Tip& tip,
                                           const std::vector<PlaceOnWay>& before) const {
   if (!tip.now.is_extendable) return {};
@@ -350,8 +366,11 @@ std::vector<PlaceOnWay> TipsFront::way_to(const Tips& there, const Tips::Tip& ti
   const Point end = there.position(tip, {}), ahead = there.direction(tip);
   const Point anchor = end - there.last_cell(tip.end).measure * ahead;
   std::vector<PlaceOnWay> way;
-  for (const PlaceOnWay& place : before)
-    if ((place.position - anchor).dot(ahead) > least && (place.position - end).norm() > least) way.push_back(place);
+  for (const PlaceOnWay& place : before) {
+    const bool is_first = !tip.now.segment_start && &place == &before.front();
+    if ((place.position - anchor).dot(ahead) > least && (is_first || (place.position - end).norm() > least))
+      way.push_back(place);
+  }
   way.push_back({end, there.end_direction(tip)});
   return way;
 }
