@@ -96,6 +96,29 @@ void BlockCholesky::invert(int column, const Block& pivot, const Block& diagonal
   inverse_[column] /= a * rest;
 }
 
+BlockCholesky::Columns BlockCholesky::solve_all(Columns b) const {
+  SPREKK_EXPECT(b.rows() == 2 * static_cast<Eigen::Index>(inverse_.size()), b.rows(), inverse_.size());
+  SPREKK_EXPECT(is_finite(b.reshaped()), b.rows());
+  const int n = static_cast<int>(inverse_.size());
+  const Eigen::Index width = b.cols();
+  // y -= block x, for two rows of all columns.
+  const auto subtract = [width](const Block& block, const double* x, double* y) {
+    const double a = block(0, 0), c = block(0, 1), d = block(1, 0), e = block(1, 1);
+    for (Eigen::Index k = 0; k < width; ++k) {
+      y[k] -= a * x[k] + c * x[width + k];
+      y[width + k] -= d * x[k] + e * x[width + k];
+    }
+  };
+  const auto rows = [&b](int block) { return b.data() + 2 * block * b.cols(); };
+  for (int i = 0; i < n; ++i)
+    for (int p = starts_[i]; p < starts_[i + 1]; ++p) subtract(lower_[p], rows(i), rows(rows_[p]));
+  for (int i = n - 1; i >= 0; --i) {
+    b.middleRows<2>(2 * i) = (inverse_[i] * b.middleRows<2>(2 * i)).eval();
+    for (int p = starts_[i]; p < starts_[i + 1]; ++p) subtract(lower_[p].transpose(), rows(rows_[p]), rows(i));
+  }
+  return b;
+}
+
 Vector BlockCholesky::solve(Vector b) const {
   SPREKK_EXPECT(b.size() == 2 * static_cast<Eigen::Index>(inverse_.size()), b.size(), inverse_.size());
   SPREKK_EXPECT(is_finite(b), b.size());

@@ -29,6 +29,9 @@ class BlockCholesky {
   explicit BlockCholesky(const BlockMatrix& matrix);
   /// Solves A x = b; two values for each block.
   Vector solve(Vector b) const;
+  /// The same for all columns at once: L is read once for all of them, and a row is contiguous.
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Columns solve_all(Columns b) const;
 
  private:
   using Block = BlockMatrix::Block;

@@ -103,14 +103,16 @@ Vector FineModel::back_solve(const Vector& b) const {
   return x;
 }
 
-Vector FineModel::response(const Vector& forces) const {
-  Vector b = Vector::Zero(unknowns_.count());
-  for (int i = 0; i < forces.size(); ++i)
-    if (unknowns_.of(i) != none) b[unknowns_.of(i)] += forces[i];
-  const Vector x = back_solve(b);
-  Vector u = Vector::Zero(forces.size());
-  for (int i = 0; i < u.size(); ++i)
-    if (unknowns_.of(i) != none) u[i] = x[unknowns_.of(i)];
+Eigen::MatrixXd FineModel::responses(const Eigen::MatrixXd& forces) const {
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(unknowns_.count(), forces.cols());
+  for (int i = 0; i < forces.rows(); ++i)
+    if (unknowns_.of(i) != none) b.row(unknowns_.of(i)) += forces.row(i);
+  const ScopedTimer timer(*profile_, "back-solves");
+  const Eigen::MatrixXd x = factors_.solve_all(b);
+  if (!x.allFinite()) throw std::runtime_error("fine level: the displacements are not finite");
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
+  for (int i = 0; i < u.rows(); ++i)
+    if (unknowns_.of(i) != none) u.row(i) = x.row(unknowns_.of(i));
   return u;
 }
 
@@ -131,8 +133,8 @@ FineSolution FineModel::solve(const FineLoads& loads) const {
   }
   if (loads.sliding) {
     const SlidingContact contact(*mesh_, loads);
-    const auto by = [this](const Vector& forces) { return response(forces); };
-    if (!contact.is_empty()) u += response(contact.forces(u, by));
+    const auto by = [this](const Eigen::MatrixXd& forces) { return responses(forces); };
+    if (!contact.is_empty()) u += contact.displacement(u, by);
   }
   const ScopedTimer timer(*profile_, "factors");
   Eigen::Index first = static_cast<Eigen::Index>(offset_forces_.places().size());

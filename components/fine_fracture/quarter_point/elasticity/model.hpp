@@ -42,8 +42,8 @@ class FineModel {
   /// The right-hand side of the unknowns; `u` has all prescribed displacements, and 0 elsewhere.
   Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const;
   Vector back_solve(const Vector& b) const;
-  /// The displacement by nodal forces alone, where nothing is prescribed.
-  Vector response(const Vector& forces) const;
+  /// The displacements by nodal forces alone, where nothing is prescribed; a column each.
+  Eigen::MatrixXd responses(const Eigen::MatrixXd& forces) const;
 
   std::shared_ptr<Profile> profile_;
   FineGeometry geometry_;

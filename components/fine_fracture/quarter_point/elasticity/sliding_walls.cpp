@@ -70,16 +70,15 @@ Vector SlidingContact::unit_force(int at) const {
   return forces;
 }
 
-Vector SlidingContact::forces(const Vector& displacement,
-                              const std::function<Vector(const Vector& forces)>& response) const {
+Vector SlidingContact::displacement(
+    const Vector& without, const std::function<Eigen::MatrixXd(const Eigen::MatrixXd& forces)>& responses) const {
+  Eigen::MatrixXd units(without.size(), count_);
+  for (int j = 0; j < count_; ++j) units.col(j) = unit_force(j);
+  const Eigen::MatrixXd by_units = responses(units);
   Eigen::MatrixXd compliance(count_, count_);
-  std::vector<Vector> units;
-  for (int j = 0; j < count_; ++j) {
-    units.push_back(unit_force(j));
-    compliance.col(j) = gaps(response(units.back()), false);
-  }
+  for (int j = 0; j < count_; ++j) compliance.col(j) = gaps(by_units.col(j), false);
   // Semismooth Newton: the set of places that touch is found by the signs of tractions and gaps.
-  const Vector without = gaps(displacement, true);
+  const Vector gaps_without = gaps(without, true);
   std::vector<char> touches(count_, 1);
   Vector f;
   for (int round = 0; round < most_rounds; ++round) {
@@ -88,12 +87,12 @@ Vector SlidingContact::forces(const Vector& displacement,
       if (touches[i]) closed.push_back(i);
     f = Vector::Zero(count_);
     const Eigen::MatrixXd matrix = compliance(closed, closed);
-    const Vector right = -without(closed);
+    const Vector right = -gaps_without(closed);
     if (!closed.empty()) {
       const Vector solved = matrix.partialPivLu().solve(right);
       f(closed) = solved;
     }
-    const Vector gap = without + compliance * f;
+    const Vector gap = gaps_without + compliance * f;
     bool is_found = true;
     for (int i = 0; i < count_; ++i) {
       const bool next = touches[i] ? f[i] <= 0 : gap[i] < 0;
@@ -101,9 +100,7 @@ Vector SlidingContact::forces(const Vector& displacement,
       touches[i] = next;
     }
     if (!is_found) continue;
-    Vector forces = Vector::Zero(displacement.size());
-    for (int i = 0; i < count_; ++i) forces += f[i] * units[i];
-    return forces;
+    return by_units * f;
   }
   throw std::runtime_error("fine level: no state of contact was found on the walls beside a kink");
 }

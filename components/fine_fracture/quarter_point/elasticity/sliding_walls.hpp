@@ -20,9 +20,11 @@ class SlidingContact {
  public:
   SlidingContact(const FineMesh& mesh, const FineLoads& loads);
   bool is_empty() const { return count_ == 0; }
-  /// Nodal forces of the tractions that close the gaps. `displacement`: without these, (x, y) per node, m;
-  /// `response`: the displacement by nodal forces alone. Throws std::runtime_error where no state is found.
-  Vector forces(const Vector& displacement, const std::function<Vector(const Vector& forces)>& response) const;
+  /// The displacement by the tractions that close the gaps, (x, y) per node, m. `without`: that without these;
+  /// `responses`: the displacements by nodal forces alone, a column each. Throws std::runtime_error where no state is
+  /// found.
+  Vector displacement(const Vector& without,
+                      const std::function<Eigen::MatrixXd(const Eigen::MatrixXd& forces)>& responses) const;
 
  private:
   struct Edge {

@@ -201,6 +201,14 @@ StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknown
   }
 }
 
+Eigen::MatrixXd StiffnessFactors::solve_all(const Eigen::MatrixXd& b) const {
+  SPREKK_EXPECT(b.rows() == static_cast<Eigen::Index>(place_.size()), b.rows(), place_.size());
+  BlockCholesky::Columns placed = BlockCholesky::Columns::Zero(2 * block_count_, b.cols());
+  placed(place_, Eigen::all) = b;
+  placed = factors_->solve_all(std::move(placed));
+  return placed(place_, Eigen::all);
+}
+
 Vector StiffnessFactors::solve(const Vector& b) const {
   SPREKK_EXPECT(b.size() == static_cast<Eigen::Index>(place_.size()), b.size(), place_.size());
   SPREKK_EXPECT(is_finite(b), b.size());

@@ -23,6 +23,8 @@ class StiffnessFactors {
   StiffnessFactors(const FineMesh& mesh, const Unknowns& unknowns, const std::vector<ElementMatrix>& stiffness,
                    Profile& profile);
   Vector solve(const Vector& b) const;
+  /// Of all columns.
+  Eigen::MatrixXd solve_all(const Eigen::MatrixXd& b) const;
 
  private:
   int block_count_ = 0;

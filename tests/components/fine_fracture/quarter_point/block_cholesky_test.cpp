@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 #include <random>
 #include <stdexcept>
@@ -47,6 +49,19 @@ TEST(BlockCholesky, SolvesWhatADenseFactorizationSolves) {
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(120, -1, 2);
   const Eigen::VectorXd x = BlockCholesky(springs.blocks).solve(b), expected = springs.dense.llt().solve(b);
   EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm());
+}
+
+TEST(BlockCholesky, SolvesAllColumnsAsEachAlone) {
+  const Springs springs(60, 0.3);
+  const BlockCholesky factors(springs.blocks);
+  for (const int columns : {0, 1, 5}) {
+    const Eigen::MatrixXd b =
+        Eigen::MatrixXd::NullaryExpr(120, columns, [](Eigen::Index i, Eigen::Index j) { return std::sin(7. * i + j); });
+    const Eigen::MatrixXd x = factors.solve_all(b);
+    ASSERT_EQ(x.cols(), columns);
+    for (int j = 0; j < columns; ++j)
+      EXPECT_LT((x.col(j) - springs.dense.llt().solve(b.col(j))).norm(), 1e-12 * x.col(j).norm());
+  }
 }
 
 TEST(BlockCholesky, SolvesASingleBlock) {
