@@ -104,7 +104,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
     Vector change = rock_.volume_change().constant - counted_volume_.accepted();
     for (const LinearExpression::Term& term : rock_.volume_change().terms)
       change += assembly.product(term.matrix, *term.field);
-    fluid.add_turnover(alpha_.values().cwiseProduct(change));
+    fluid.add_throughput(alpha_.values().cwiseProduct(change));
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime&) override {

@@ -17,13 +17,13 @@ struct HeatExchangeOptions {
               "Heat conducted between fractures and matrix through the walls, driven by the difference of their "
               "temperatures.");
     spec.ignore("type").ignore("between");
-    spec.data(
-        "conductance", conductance,
-        {.unit = "W/(m^2*K)",
-         .range = non_negative(),
-         .doc = "Of each wall, by the length of the fracture; without it, twice the conductivity over the aperture of "
-                "the fracture.",
-         .fixed = "the walls conduct as at the start"});
+    spec.data("conductance", conductance,
+              {.unit = "W/(m^2*K)",
+               .range = non_negative(),
+               .doc = "Conductance of each wall, per length of the fracture; without it, twice the conductivity over "
+                      "the aperture of "
+                      "the fracture.",
+               .fixed = "the walls conduct as at the start"});
     return spec;
   }
 };

@@ -19,7 +19,7 @@ namespace sprekk {
 enum class FlowCondition { none, pressure, flux };
 
 /// What a discretization has in addition if the pressures h of inner faces (one for each face, Pa; those of other faces
-/// are not used by anything) are unknowns beside those of the cells. Matrices without rows where they are none:
+/// are not used by anything) are unknowns beside those of the cells. If they are not, the matrices have no rows.
 ///   flux through every face (m^2/s): … + flux h
 ///   pressure at the centre of every boundary and wall face (Pa): … + trace h
 ///   the equations of h, one for each face (m^2/s): continuity_cell p + continuity_face h + continuity_boundary b = 0
@@ -42,7 +42,7 @@ struct FacePressureOperators {
 };
 
 /// One of two approximations of the same flux through every inner face (m^2/s): cell p + boundary b + change s.
-/// Matrices without rows where there are none.
+/// A discretization without a second approximation has matrices without rows.
 struct OneSidedFluxOperators {
   SparseMatrix cell;      ///< faces × cells
   SparseMatrix boundary;  ///< faces × faces

@@ -45,8 +45,8 @@ struct Trial;
 /// between sticking and a state where the slip has the wrong direction. The state in balance lies beyond the kink of
 /// |[u]_t| at zero. Therefore a cell for which sliding back has led to slip in the wrong direction takes the
 /// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
-/// Where friction does not hold anything there is nothing to lose, and none of this: the direction in which such a cell
-/// is about to slide at the start of a step, that of f_t = 0, is round-off.
+/// Cells without friction never take that piece: they have no opening to lose, and the direction of f_t = 0, in which
+/// they are about to slide at the start of a step, is round-off.
 class FrictionalContact : public Component, public FractureContact, public IterateDependent {
  public:
   /// `stiffness_factor`: c over the stiffness of the rock against a jump of the cell.

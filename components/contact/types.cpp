@@ -24,7 +24,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   spec.quantity("dilation_limit", dilation_limit,
                 {.unit = "m",
                  .range = non_negative(),
-                 .doc = "Slip from where on it opens the fracture no further: its asperities are worn. Without it, "
+                 .doc = "Slip beyond which the fracture opens no further: its asperities are worn. Without it, "
                         "all slip opens."});
   spec.quantity("cohesion", weakening.cohesion,
                 {.unit = "Pa",
@@ -59,8 +59,8 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   });
   spec.quantity("large_jump", large_jump,
                 {.range = positive(),
-                 .doc = "Jump over the length of its fracture from where on a note says that it is large: the places "
-                        "and the shapes of fractures are taken to stay."});
+                 .doc = "A note tells of a jump above this share of the length of its fracture: the model keeps places "
+                        "and shapes of fractures."});
   return spec;
 }
 

@@ -7,7 +7,7 @@ namespace sprekk::matrix_flow {
 
 /// Two approximations of the same fluxes, combined: their harmonic mean where they have the same sign, and zero
 /// elsewhere. If each approximation is a sum of differences from the pressure of one of the two cells at the face, with
-/// coefficients that are not negative, so is the mean: it is both of them times a factor from 0 to 2. Its derivatives
+/// coefficients that are not negative, so is the mean: it is each of them times a factor from 0 to 2. Its derivatives
 /// jump only where one of the two is zero; where both are, those of the arithmetic mean are taken.
 struct LimitedFluxes {
   Vector value;                ///< m^2/s, one a face

@@ -191,12 +191,12 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   spec.tensor(
       "initial_stress", initial_stress,
       {.unit = "Pa",
-       .doc = "Total stress at the initial pressure; tension positive. Where it is not at rest it loads the rock.",
+       .doc =
+           "Total stress at the initial pressure; tension positive. Where it is not in equilibrium, it loads the rock.",
        .fixed = "displacements are counted from the state in which it holds"});
   spec.quantity("large_strain", large_strain,
                 {.range = positive(),
-                 .doc = "Strain from where on a note says that it is large: the rock is taken to be linear, and its "
-                        "shape to stay."});
+                 .doc = "A note tells of strains above this: the model is linear, and keeps the shape of the rock."});
   static SideCondition example;
   spec.named_sections(
       "boundary", side_spec(example),

@@ -52,15 +52,13 @@ Rock::Rock(const ComponentContext& context, const Options& options, const Stress
                                   .unit = "Pa",
                                   .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
   wall_remainder_ = &context.fields.add(
-      mesh_,
-      {.owner = context.name,
-       .name = "wall_remainder",
-       .location = Location::fracture_cell,
-       .components = 2,
-       .role = Role::derived(),
-       .unit = "Pa",
-       .doc = "Beside the traction on the plus wall: what the same jumps need more on the cells of the rock that "
-              "have come in the place of others"});
+      mesh_, {.owner = context.name,
+              .name = "wall_remainder",
+              .location = Location::fracture_cell,
+              .components = 2,
+              .role = Role::derived(),
+              .unit = "Pa",
+              .doc = "Difference that a change of the mesh makes to the traction on the plus wall, at the same jumps"});
 }
 
 void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {

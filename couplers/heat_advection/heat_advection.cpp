@@ -268,7 +268,7 @@ class HeatAdvection : public Coupler {
     assembly.add(temperature, carried);
     assembly.compare_with(temperature, largest);
     assembly.compare_round_off(temperature, scale * largest_rate * temperature.now().lpNorm<Eigen::Infinity>());
-    BalanceRows(assembly, temperature).add_turnover(through_sides);
+    BalanceRows(assembly, temperature).add_throughput(through_sides);
     if (!assembly.wants_derivatives()) return;
     const auto block = [&](const std::vector<Triplet>& entries, int columns) {
       SparseMatrix matrix(temperature.size(), columns);

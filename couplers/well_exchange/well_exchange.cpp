@@ -148,7 +148,7 @@ class WellExchange : public Coupler {
   void supply(Assembly& assembly, const Field& pressure, const Operator& into, double dt) const {
     if (!assembly.has_row(pressure)) return;
     assembly.linear(pressure, into, wells_.rate(), -dt);
-    BalanceRows(assembly, pressure).add_turnover(dt * (into.entries() * wells_.rate().now()));
+    BalanceRows(assembly, pressure).add_throughput(dt * (into.entries() * wells_.rate().now()));
   }
 
   void refuse_heat(const CouplerContext& context) const {

@@ -17,13 +17,13 @@ void BalanceRows::store(const Vector& amounts, double largest) {
   SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
   assembly_.add(row_, amounts);
   if (largest > 0) assembly_.compare_round_off(row_, largest);
-  add_turnover(amounts);
+  add_throughput(amounts);
 }
 
 void BalanceRows::supply(const Vector& amounts) {
   SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
   assembly_.add(row_, -amounts);
-  add_turnover(amounts);
+  add_throughput(amounts);
 }
 
 void BalanceRows::exchange(const Vector& outflow, const Vector& leaving, double largest) {
@@ -32,12 +32,12 @@ void BalanceRows::exchange(const Vector& outflow, const Vector& leaving, double 
   if (unknown_ < 0) return;
   assembly_.add(unknown_, outflow, leaving);
   assembly_.compare_round_off_of_rows(unknown_, largest);
-  add_turnover(leaving);
+  add_throughput(leaving);
 }
 
-void BalanceRows::add_turnover(const Vector& amounts) {
+void BalanceRows::add_throughput(const Vector& amounts) {
   SPREKK_EXPECT(amounts.size() == row_.size(), row_.name(), amounts.size(), row_.size());
-  if (unknown_ >= 0) assembly_.balances_.add_turnover(unknown_, amounts);
+  if (unknown_ >= 0) assembly_.balances_.add_throughput(unknown_, amounts);
 }
 
 }  // namespace sprekk

@@ -16,7 +16,7 @@ namespace sprekk {
 ///   fluid.supply(dt * source);
 ///
 /// Two things follow from terms that are added in this way. The step is accepted only when the errors of the balances
-/// are small against their turnover, and not only against what rows exchange, which may be any multiple of it. And
+/// are small against their throughput, and not only against what rows exchange, which may be any multiple of it. And
 /// where the rounded rows alone do not hold the constant mode of the potentials, the sum of the rows holds it.
 /// Derivatives are added by Assembly::derivative; those of an exchange as an Operator that knows what leaves all rows
 /// together (docs/numerics/constant_modes.md).
@@ -38,9 +38,9 @@ class BalanceRows {
   /// round-off: the amount that leaves all rows of the quantity together. `largest`: as in `store`, for each row; it
   /// does not count for the sum.
   void exchange(const Vector& outflow, const Vector& leaving, double largest = 0);
-  /// Adds to the turnover the amounts that other terms of these rows (by Assembly::linear, say) store, bring in or let
-  /// out; their sign does not matter.
-  void add_turnover(const Vector& amounts);
+  /// Adds to the throughput the amounts that other terms of these rows (by Assembly::linear, say) store, bring in or
+  /// let out; their sign does not matter.
+  void add_throughput(const Vector& amounts);
 
  private:
   Assembly& assembly_;

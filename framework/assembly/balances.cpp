@@ -9,7 +9,7 @@ namespace sprekk {
 void Balances::declare(int unknown, const std::string& field, const std::string& quantity, const Vector& so_far) {
   SPREKK_EXPECT(is_index(unknown, static_cast<long>(of_.size())), unknown, of_.size());
   if (are_rows_of(unknown)) throw std::logic_error(field + " is a balance: this was said twice");
-  of_[unknown].residual = of_[unknown].turnover = Vector::Zero(so_far.size());
+  of_[unknown].residual = of_[unknown].throughput = Vector::Zero(so_far.size());
   add(unknown, so_far);
   auto found = std::ranges::find(quantities_, quantity, &Quantity::name);
   if (found == quantities_.end()) found = quantities_.insert(quantities_.end(), {quantity, {}});
@@ -26,9 +26,9 @@ void Balances::add(int unknown, const Vector& values) {
   rows.round_off_base = std::max(rows.round_off_base, size);
 }
 
-void Balances::add_turnover(int unknown, const Vector& amounts) {
-  SPREKK_EXPECT(!are_rows_of(unknown) || amounts.size() == of_[unknown].turnover.size(), amounts.size());
-  if (are_rows_of(unknown)) of_[unknown].turnover += amounts.cwiseAbs();
+void Balances::add_throughput(int unknown, const Vector& amounts) {
+  SPREKK_EXPECT(!are_rows_of(unknown) || amounts.size() == of_[unknown].throughput.size(), amounts.size());
+  if (are_rows_of(unknown)) of_[unknown].throughput += amounts.cwiseAbs();
 }
 
 void Balances::compare_round_off(int unknown, double largest) {

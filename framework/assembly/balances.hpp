@@ -31,15 +31,15 @@ class Balances {
 
   // These add to the balances of an unknown; without effect where its rows are no balances.
   void add(int unknown, const Vector& values);
-  void add_turnover(int unknown, const Vector& amounts);
+  void add_throughput(int unknown, const Vector& amounts);
   void compare_round_off(int unknown, double largest);
 
   const std::vector<Quantity>& quantities() const { return quantities_; }
   /// The residual without what rows exchange, to be added up.
   const Vector& residual(int unknown) const { return of_[unknown].residual; }
-  /// The turnover of each row, not negative: what it stores, what sources bring in and what leaves all rows. Right on
+  /// The throughput of each row, not negative: what it stores, what sources bring in and what leaves all rows. Right on
   /// rows that this process owns.
-  const Vector& turnover(int unknown) const { return of_[unknown].turnover; }
+  const Vector& throughput(int unknown) const { return of_[unknown].throughput; }
   /// For the sum of all rows: the largest sum of the absolute values of a term, and of the numbers whose differences
   /// the term is.
   double magnitude(int unknown) const { return of_[unknown].magnitude; }
@@ -47,7 +47,7 @@ class Balances {
 
  private:
   struct Rows {
-    Vector residual, turnover;  ///< empty where the rows are no balances
+    Vector residual, throughput;  ///< empty where the rows are no balances
     double magnitude = 0, round_off_base = 0;
   };
   std::vector<Rows> of_;

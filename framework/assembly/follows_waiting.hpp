@@ -1,4 +1,4 @@
-// What a part is whose field follows another one through unknowns that a split lets wait.
+// The interface of a part that has a field which depends on another one through unknowns that a split holds.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace sprekk {
 
-/// The equation of `row` contains unknowns that wait while `row` and `column` are solved for, and these unknowns follow
-/// `column`.
+/// The equation of `row` contains unknowns that wait (are held) while `row` and `column` are solved for, and the
+/// equations of these unknowns contain `column`.
 struct Following {
   const Field *row, *column;
 };
 
-/// "I know a field that answers another one of its own solve, through unknowns of a later one."
+/// A part that names fields whose coupling goes through unknowns of a later solve.
 class FollowsWaiting {
  public:
   virtual ~FollowsWaiting() = default;
-  /// The pairs of fields whose response a stabilization contains (see WaitingResponse).
+  /// The pairs of fields for which a stabilization adds the Schur complement of the waiting unknowns (WaitingResponse).
   virtual std::vector<Following> following(const std::string& stabilization) const = 0;
 };
 

@@ -1,11 +1,11 @@
-// What a part is that helps preconditioners to solve block by block.
+// The interface of a part that stabilizes block preconditioners.
 #pragma once
 
 #include "framework/assembly/part.hpp"
 
 namespace sprekk {
 
-/// "I know what a block of unknowns feels of those that it is solved apart from."
+/// A part that approximates the Schur complements of its blocks by diagonals.
 class StabilizesPreconditioner {
  public:
   virtual ~StabilizesPreconditioner() = default;

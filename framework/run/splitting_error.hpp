@@ -11,15 +11,15 @@ namespace sprekk {
 
 /// Estimates the splitting error of a run whose schedule solves in turn without iterating. Beside the run goes a second
 /// solution: in each step one more pass of the schedule, from its own state at the start of the step, in which the
-/// fields that wait have the values that the run has found for the end of the step (a deferred correction). Where a
-/// pass answers an error e of the waiting fields by C e, and e is the error of the run, the second solution has the
-/// error C e, and the distance of the two is (1 − C) e. A drained split has C = −alpha^2/(M S) at most, which lies
-/// between 0 and −1 wherever it is stable without iterating: the distance over √2 is within a factor √2 of the error of
-/// a mode.
+/// fields that wait have the values that the run has found for the end of the step (a deferred correction). Let a pass
+/// turn an error e of the waiting fields into C e. Where e is the error of the run, the second solution has the error
+/// C e, and the distance of the two is (1 − C) e. A drained split has C = −alpha^2/(M S) at most, which lies between 0
+/// and −1 wherever it is stable without iterating: the distance over √2 is within a factor √2 of the error of a mode.
 ///
-/// On fractures states that were left by mistake stay left, so there the second solution has to be nearer: waiting
-/// fields have the values between both ends of the step at which a split with C = −1/2 would leave them. The second
-/// solution then has the error C (1 + 2 C)/3 e, for 0 > C > −1 at most a third of e, and the distance is the estimate.
+/// A fracture cell that has left a state of contact by mistake does not return to it, so with fractures the second
+/// solution has to be nearer: waiting fields have the values between both ends of the step at which a split with
+/// C = −1/2 would leave them. The second solution then has the error C (1 + 2 C)/3 e, for 0 > C > −1 at most a third of
+/// e, and the distance is the estimate.
 class SplittingError {
  public:
   /// Does nothing where the scene does not want it, or where its schedule does not solve in turn in any step of the

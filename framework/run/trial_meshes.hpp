@@ -10,13 +10,13 @@
 
 namespace sprekk {
 
-/// Makes the models of the trials of one step. As long as cells allow, the mesh of the next trial is that of the last
-/// one with moved tips, and at first the mesh that has been: the state depends smoothly on the positions of the tips,
-/// and tips that go on meet no other discretization.
+/// Makes the models of the trials of one step. As long as the shapes of cells allow, a trial has the mesh of the trial
+/// before, with moved tips, and the first trial the accepted mesh. So the state depends smoothly on the positions of
+/// the tips, and the discretization around tips that go on stays the same.
 ///
 /// Where the mesh has to have other cells, since a cell on a path is divided or the cells around tips have become too
-/// thin, the state is first carried over with its tips at rest (MeshChange::is_at_rest). What follows, growth, is not
-/// mixed with what another discretization makes of the same state.
+/// thin, the state is first carried over with its tips at rest (MeshChange::is_at_rest). So the effect of another
+/// discretization on the same state is separated from growth, which follows.
 class TrialMeshes {
  public:
   /// `retired`: a model that is not used any more.

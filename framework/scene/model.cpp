@@ -97,7 +97,7 @@ void Model::check_stages() const {
   if (scene_.time.scheme == TimeScheme::backward_euler) return;
   const auto refuse = [&](const std::string& part) {
     throw InputError(scene_.time.scheme_origin, part + " is of first order in time",
-                     "it does not say that a time step may have two stages", "leave 'scheme' out, or the part");
+                     "it takes time steps of one stage only", "leave 'scheme' out, or the part");
   };
   for (const auto& component : components_)
     if (!component->allows_stages()) refuse("component '" + component->name() + "'");
@@ -132,7 +132,8 @@ namespace {
 /// on the owner of an entity, processes would go on with different steps and give a wrong answer, or hang.
 void require_agreement(const std::string& what, const std::vector<double>& values) {
   if (!parallel::is_same_everywhere(values))
-    throw std::logic_error("processes differ in " + what + " (a value that its owner only has was taken for whole)");
+    throw std::logic_error("processes differ in " + what +
+                           " (a value that is right on the process of its owner only was used by all)");
 }
 
 }  // namespace

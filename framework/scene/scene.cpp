@@ -25,9 +25,10 @@ Spec OutputOptions::spec() {
                  .doc = "Fields are written at the multiples of this after the start; by default at the end only."});
   spec.quantities("times", times, {.unit = "s", .doc = "Further times at which fields are written."});
   spec.flag("fields", fields, {.doc = "Whether fields are written for ParaView."});
-  spec.flag("splitting_error", splitting_error,
-            {.doc = "Where a schedule solves in turn without iterating: whether the error of that is estimated, at the "
-                    "cost of one more pass for each step, in the columns 'splitting_error' and 'coupled_residual'."});
+  spec.flag(
+      "splitting_error", splitting_error,
+      {.doc = "Whether the splitting error is estimated where a schedule solves in turn without iterating, at the cost "
+              "of one more pass for each step, in the columns 'splitting_error' and 'coupled_residual'."});
   spec.quantity("checkpoint_every", checkpoint_every,
                 {.unit = "s",
                  .range = positive(),

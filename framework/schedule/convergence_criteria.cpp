@@ -68,11 +68,11 @@ Spec UntilOptions::spec() {
     if (at_most == 1 &&
         (std::ranges::any_of(all, bounds_change) || (!any.empty() && std::ranges::all_of(any, bounds_change))))
       throw InputError(origin_of("at_most"), "'at_most: 1' allows no change to be seen",
-                       "a change by a pass is known from the second one on", "raise it");
+                       "the change by a pass is known from the second pass on", "raise it");
     for (const CriterionOptions& condition : any)
       if (condition.residual && is_relative_given && relative <= *condition.residual)
         throw InputError(condition.origin, "the condition has no effect",
-                         "'relative' asks for a residual that is as small in any case", "remove one of them");
+                         "'relative' already asks for a residual that is at least as small", "remove one of them");
     if (is_relative_given)
       for (const CriterionOptions& condition : all)
         if (condition.residual)
@@ -99,7 +99,7 @@ void UntilOptions::require_changes() const {
     for (const CriterionOptions& condition : *conditions)
       if (condition.residual)
         throw InputError(condition.origin, "there is no residual to be bounded",
-                         "steps inside take substeps, of which the residual of a whole step is none",
+                         "the steps inside take substeps, which do not fulfil the equations of the whole step",
                          "write 'relative', or bound changes by 'change_of'");
 }
 

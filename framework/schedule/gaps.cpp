@@ -35,7 +35,7 @@ void note_gaps(const ScheduleStep& schedule, const FieldStore& fields, const Tim
               "no step solves for '" + field->spec().owner + "' from about " + quantity_text(gap->start, "s") + " to " +
                   quantity_text(gap->end, "s") +
                   " (no 'when' holds there: its values stay, and what happens is not "
-                  "computed) close the gap, or mean it");
+                  "computed) close the gap, unless it is meant");
   }
 }
 

@@ -30,15 +30,15 @@ Spec GrowOptions::spec() {
                {repeat_step, "the step is repeated on the mesh that has grown, until nothing grows any more"}},
               {.doc = "When the mesh takes over what has grown."});
   spec.integer("passes", passes,
-               {.range = between(1, 1000), .doc = "Of repeat_step: how often one step is repeated at most."});
+               {.range = between(1, 1000), .doc = "With repeat_step: the most repetitions of one step."});
   spec.quantity("cut", cut,
                 {.range = {.low = 0, .high = 1, .low_allowed = false},
                  .doc = "Steps after a growth event are this part of the standard one.",
                  .source = "epsilon of the paper's sec. 4.5"});
-  spec.quantity(
-      "settled", settled,
-      {.range = positive(),
-       .doc = "The standard step returns when what growth has disturbed at the tips changes by less than this part."});
+  spec.quantity("settled", settled,
+                {.range = positive(),
+                 .doc = "The standard step returns when the state at the tips, which growth has disturbed, changes by "
+                        "less than this share in a step."});
   spec.quantity("overshoot", overshoot,
                 {.range = positive(),
                  .doc = "A step is repeated with a smaller one when the load of a tip that has not grown yet passes "
@@ -70,7 +70,7 @@ void require_whole(const GrowOptions& options, const ScheduleContext& context) {
       if (is_settled(dependence.on) && !is_settled(dependence.component))
         throw InputError(
             options.origin, "'" + dependence.on + "' is settled without '" + dependence.component + "'",
-            "what '" + dependence.component + "' asks for would not hold in the state from which the next step begins",
+            "what '" + dependence.component + "' asks for would not hold in the state at the start of the next step",
             "name both in 'settle'");
 }
 

@@ -41,9 +41,10 @@ struct NewtonOptions {
 /// are held, and ordinary iterations from the end of the path correct them. If these do not converge, the path is
 /// followed with all derivatives, as far as it goes.
 ///
-/// A solution need not be the only one, and Newton's method may jump over one that the step's start leads to. So where
-/// parts say that states have been left by a jump (Part::keep_states), the step is solved once more with these kept,
-/// and those of them let go that do not fulfil their conditions, until the rest does: that solution is taken then.
+/// A step may have several solutions, and Newton's method may jump over the one to which the step's start leads
+/// continuously. So where parts say that cells have left their states by a jump (Part::keep_states), the step is solved
+/// once more with these states kept; those that do not fulfil their conditions are released, until all do. The result
+/// is taken as the solution.
 ///
 /// Repeating a call from the same fields gives the same bits.
 class Newton {
@@ -53,7 +54,7 @@ class Newton {
   ~Newton();
 
   /// `stabilization`: diagonals; each, times the change of its field since the start of this call, is added to the
-  /// residual of that field. `responses`: what unknowns outside of the call will answer.
+  /// residual of that field. `responses`: Schur complements of unknowns outside of the call.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization = {}, const Responses& responses = {});
 
   /// What assembly and linear solver have done since the start.

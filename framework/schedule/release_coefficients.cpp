@@ -43,7 +43,8 @@ StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<
   if (share == 1) return {true, "", iterations};
   return {
       false,
-      fmt::format("no way from the coefficients of the start to their own beyond a share of {:.2g}: {}", share, reason),
+      fmt::format("the coefficients could be released from their values at the start up to a share of {:.2g} only: {}",
+                  share, reason),
       iterations};
 }
 

@@ -41,7 +41,7 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   }
 }
 
-/// Whether the balances of conserved quantities hold against their turnover.
+/// Whether the balances of conserved quantities hold against their throughput.
 void check_balances(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
   constexpr double looser = 100;
   check.is_unbalanced.assign(assembly.unknowns().size(), 0);
@@ -50,27 +50,27 @@ void check_balances(const Assembly& assembly, const BlockSystem& system, double 
     if (std::ranges::any_of(assembly.fixed(),
                             [&](const Assembly::Fixed& fixed) { return quantity.has(fixed.unknown); }))
       continue;
-    enum { rows, total, turnover, noise_of_total, count };
+    enum { rows, total, throughput, noise_of_total, count };
     Vector sums = Vector::Zero(count);
     for (const int u : quantity.unknowns) {
       const std::vector<char>& owned = system.owned(u);
       const double noise = round_off * parallel::max(assembly.round_off_base(u));
-      const Vector &residual = assembly.residual(u), &in_sum = balances.residual(u), &amounts = balances.turnover(u);
+      const Vector &residual = assembly.residual(u), &in_sum = balances.residual(u), &amounts = balances.throughput(u);
       for (int row = 0; row < residual.size(); ++row) {
         if (!owned[row]) continue;
         sums[rows] += std::max(0.0, std::abs(residual[row]) - noise);
         sums[total] += in_sum[row];
-        sums[turnover] += amounts[row];
+        sums[throughput] += amounts[row];
       }
       sums[noise_of_total] += round_off * balances.round_off_base(u);
     }
     parallel::sum(sums);
-    if (sums[turnover] == 0) continue;
+    if (sums[throughput] == 0) continue;
     const double error = std::max(sums[rows], std::abs(sums[total]) - sums[noise_of_total]);
-    if (error <= looser * tolerance * sums[turnover]) continue;
+    if (error <= looser * tolerance * sums[throughput]) continue;
     check.balances_hold = false;
     for (const int u : quantity.unknowns) check.is_unbalanced[u] = 1;
-    const double relative = error / sums[turnover];
+    const double relative = error / sums[throughput];
     if (relative <= check.imbalance) continue;
     check.imbalance = relative;
     if (!check.rows_hold) continue;  // otherwise the message names the worst row

@@ -15,8 +15,8 @@ struct ResidualCheck {
   bool finite = true;
   bool converged = false;     ///< rows_hold and balances_hold
   bool rows_hold = false;     ///< every residual is small against its terms
-  bool balances_hold = true;  ///< the residuals of each conserved quantity are small against its turnover
-  double imbalance = 0;       ///< the largest error of a quantity over its turnover, where the error exceeds round-off
+  bool balances_hold = true;  ///< the residuals of each conserved quantity are small against its throughput
+  double imbalance = 0;  ///< the largest error of a quantity over its throughput, where the error exceeds round-off
   std::vector<char> is_unbalanced;  ///< for each equation: it belongs to a quantity whose balance does not hold
   double largest = 0;               ///< over the equations: largest residual over the magnitude of the equation's terms
   std::string equation;             ///< the equation that has the largest
@@ -38,10 +38,10 @@ struct ResidualCheck {
 /// sum of the balances of each field is checked like an equation, too.
 ///
 /// What rows exchange may be any multiple of what they store, and a residual that is small against the exchange may be
-/// as large as all of the storage. So the balances of a conserved quantity are also compared with their turnover
+/// as large as all of the storage. So the balances of a conserved quantity are also compared with their throughput
 /// (BalanceRows): neither the sum of all absolute residuals, nor their sum without exchanges, which has more digits,
-/// may exceed 100 × tolerance times the turnover, but for round-off. Balances in whose place values are fixed are left
-/// out: fixed values let an unknown amount in. Collective.
+/// may exceed 100 × tolerance times the throughput, but for round-off. Balances in whose place values are fixed are
+/// left out: fixed values let an unknown amount in. Collective.
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance);
 
 }  // namespace sprekk

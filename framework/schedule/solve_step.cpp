@@ -106,10 +106,10 @@ Spec SolveOptions::spec() {
             "Solves for the unknowns of the named components simultaneously. All their terms count; "
             "fields that are not unknowns here keep their latest values.");
   spec.texts("solve", components, {.doc = "Names of components.", .required = true});
-  spec.text(
-      "stabilize", stabilization,
-      {.doc = "A stabilization of split schemes: response, what the unknowns of the iteration that wait will answer; "
-              "one that a coupler offers (its page names it); or none."});
+  spec.text("stabilize", stabilization,
+            {.doc = "A stabilization of split schemes: response, the Schur complement of the unknowns of the iteration "
+                    "that this step holds; "
+                    "one that a coupler offers (its page names it); or none."});
   spec.section("newton", newton_spec(newton), {.doc = "Overrides the scene's `newton:`."}, &overrides_newton);
   spec.section("solver", solver_spec(linear), {.doc = "Overrides the scene's `solver:`."}, &overrides_linear);
   return spec;
@@ -200,7 +200,8 @@ StepStatus SolveStep::run(const StepTime& step) {
   newton_.set_preconditioner_stabilization(preconditioning);
   StepStatus status = newton_.solve(step, stabilization, responses(step));
   if (!status.converged && response_ && !response_->is_determined())
-    status.reason += " (what waits is not determined while the unknowns of this step are held, so it has no response)";
+    status.reason +=
+        " (the unknowns that wait are not determined while those of this step are held, so they have no response)";
   if (status.converged)
     for (Part* part : parts_) part->after_solve(fields_, step);
   return status;

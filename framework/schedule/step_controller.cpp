@@ -60,7 +60,7 @@ Spec TimeOptions::spec() {
                 {.unit = "s", .range = positive(), .doc = "Time step; the first one when adaptive.", .required = true});
   spec.choice("scheme", scheme_name,
               {{"backward_euler", "first order: one stage"},
-               {"sdirk2", "second order: two stages, each as dear as a step of backward Euler"}},
+               {"sdirk2", "second order: two stages, each at the cost of a step of backward Euler"}},
               {.doc = "The scheme in time.", .source = "Alexander 1977"});
   spec.quantity(
       "smallest", smallest,

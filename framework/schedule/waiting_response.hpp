@@ -1,4 +1,4 @@
-// The response of waiting unknowns, which stabilizes a split.
+// The Schur complement of the unknowns that a split holds; it stabilizes the split (`stabilize: response`).
 #pragma once
 
 #include <map>
@@ -18,27 +18,28 @@ struct ResponseTerm {
   SparseMatrix matrix;  ///< the rows that this process owns
 };
 
-/// What a solve inside an iteration knows of the answers of unknowns that wait, in the units of its equations.
+/// The terms that a solve inside an iteration gets from the unknowns that wait, in the units of its equations.
 struct Responses {
   std::vector<ResponseTerm> terms;
-  /// residual(row) += values, the rows that this process owns: what waits has equations that do not hold at the solve's
-  /// start, and will change to fulfil them whatever the solve finds.
+  /// residual(row) += values, the rows that this process owns: where the equations of waiting unknowns do not hold at
+  /// the solve's start, these unknowns will change to fulfil them whatever the solve finds.
   std::map<const Field*, Vector> pending;
 };
 
-/// Which fields of a solve get the response: pairs of row and column.
+/// For which fields of a solve the Schur complement is added: pairs of row and column.
 struct ResponseOptions {
   std::vector<Following> pairs;
-  bool has_pending = false;  ///< whether residuals of what waits count as well
+  bool has_pending = false;  ///< whether residuals of waiting unknowns count as well
   double settled = 0;        ///< nothing is pending where these residuals are smaller against their own terms
 };
 
-/// With w the unknowns that wait while a solve finds c and r, and W, R their equations: w is held, although it follows
-/// c by dw = −(dW/dw)^-1 dW/dc dc. The term of the equation R is (dR/dw) dw. Its derivatives are those of the present
-/// iterate. Without it a pass answers an error of c by one that may be any multiple of it, where R or c alone hardly
-/// resists; with it a pass is a step of Newton's method for c. At convergence dc = 0, so the term changes no answer.
-/// Where more than two systems are solved in turn, W is not zero at the start of a solve: the unknowns that wait will
-/// also change by −(dW/dw)^-1 W, which is what is pending. It vanishes with convergence as well.
+/// The unknowns w wait (are held) while a solve finds c and r; W and R are their equations. By its own equation, w
+/// would follow c by dw = −(dW/dw)^-1 dW/dc dc. So the equation R gets the term (dR/dw) dw: a Schur complement, with
+/// the derivatives of the present iterate. Without the term a pass may multiply an error of c by any factor, where R or
+/// c alone hardly resists; with the term a pass is a step of Newton's method for c. At convergence dc = 0, so the term
+/// changes no answer.
+/// Where more than two systems are solved in turn, W is not zero at the start of a solve: the waiting unknowns will
+/// change by −(dW/dw)^-1 W as well. This is the pending part, which vanishes with convergence, too.
 class WaitingResponse {
  public:
   /// `waiting`: the unknowns of the iteration that the solve does not solve for.

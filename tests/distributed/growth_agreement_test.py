@@ -99,10 +99,10 @@ def balance_error(name, rows):
     column = "fluid_balance_error[m^2]"
     if column not in rows[0]:
         return []
-    turnover = max(max(abs(float(row[f"fluid_{what}[m^2]"])) for what in ("stored", "injected", "outflow"))
+    throughput = max(max(abs(float(row[f"fluid_{what}[m^2]"])) for what in ("stored", "injected", "outflow"))
                    for row in rows)
     worst = max(abs(float(row[column])) for row in rows)
-    return [f"{name}: the balance is off by {worst / turnover:.2e}"] if worst > 1e-7 * turnover else []
+    return [f"{name}: the balance is off by {worst / throughput:.2e}"] if worst > 1e-7 * throughput else []
 
 
 def main():

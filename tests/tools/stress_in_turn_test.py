@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SPREKK = Path(sys.argv.pop(1)).resolve()
 # Passes that cycle between states of contact; balances that a solve with small residuals had not looked at. In the first scene it
 # depends on the machine's round-off whether passes find an end within a step (docs/stability.md).
-# With the response of what waits none does, nor do scenes that fixed stress does not end, or ends with many cuts.
+# With the Schur complement of waiting unknowns none does, nor do scenes that fixed stress does not end, or ends with many cuts.
 SCENES = (("fixed_stress", 7, 19, "answer: "), ("fixed_stress", 7, 34, "answer: 0 cuts"), ("accelerated", 7, 19, "answer: 0 cuts"),
           ("response", 7, 19, "answer: 0 cuts"), ("response", 9, 18, "answer: 0 cuts"), ("response", 11, 45, "answer: 0 cuts"),
           ("response", 11, 49, "answer: 0 cuts"))

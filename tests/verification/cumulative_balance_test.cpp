@@ -13,14 +13,14 @@ namespace {
 
 /// The largest error of the cumulative balance after any step, over the largest figure in it.
 double error_of_balance(SceneRun& run) {
-  double error = 0, turnover = 0;
+  double error = 0, throughput = 0;
   run.run_until(run.model().scene().time.end, [&] {
     error = std::max(error, std::abs(run.quantity("fluid_balance_error")));
     for (const char* figure : {"fluid_stored", "fluid_injected", "fluid_outflow"})
-      turnover = std::max(turnover, std::abs(run.quantity(figure)));
+      throughput = std::max(throughput, std::abs(run.quantity(figure)));
   });
-  EXPECT_GT(turnover, 0);
-  return error / turnover;
+  EXPECT_GT(throughput, 0);
+  return error / throughput;
 }
 
 /// The tutorial's scene, whose left side is open: rock, fluid, friction and a fracture that opens.

@@ -34,7 +34,7 @@ Terms terms_at(const std::vector<Part*>& parts, const std::vector<const Field*>&
     std::vector<double>& row = terms[unknowns[u]->name()];
     append(row, assembly.residual(u));
     append(row, assembly.balances().residual(u));
-    append(row, assembly.balances().turnover(u));
+    append(row, assembly.balances().throughput(u));
     row.insert(row.end(), {assembly.magnitude(u), assembly.round_off_base(u)});
   }
   for (const Assembly::Block& block : assembly.blocks()) {

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""split_fractures_test.py SPREKK: contact apart from rock, and the flow in fractures apart from that in rock or from their opening. With the response of
-what waits such splits reach the monolithic answer in few passes, whatever the number of cells, and count all fluid."""
+"""split_fractures_test.py SPREKK: contact apart from rock, and the flow in fractures apart from that in rock or from their opening. With the
+Schur complement of waiting unknowns such splits reach the monolithic answer in few passes, whatever the number of cells, and count all fluid."""
 
 import math
 import shutil

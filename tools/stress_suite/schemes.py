@@ -3,7 +3,7 @@
 UNTIL = 1e-10  # as the residuals of Newton's method: what the checks of answers rest on
 MONOLITHIC = "monolithic"
 ITERATED = {"fixed_stress": "", "accelerated": "accelerate: {anderson: 5}, "}
-RESPONSE = "response"  # fractures apart from rock, with the response of what waits
+RESPONSE = "response"  # fractures apart from rock, with the Schur complement of waiting unknowns
 SCHEMES = (MONOLITHIC, *ITERATED, RESPONSE)
 
 

@@ -318,7 +318,7 @@ bool IncrementSearch::has_closed(double excess_here) const {
 void IncrementSearch::shorten(double by) {
   SPREKK_EXPECT(by > 0 && by < 1, by);
   if (length_ <= shortest_length() * (1 + rounding))
-    return fix_direction("no direction makes K_II vanish, of the shortest increment neither");
+    return fix_direction("no direction makes K_II vanish, not even with the shortest increment");
   ceiling_ = length_;
   longer_.reset();
   const double shorter = std::max(by * length_, 0.5 * (shorter_.length + length_) * (shorter_.length > 0));

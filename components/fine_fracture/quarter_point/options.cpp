@@ -35,24 +35,24 @@ Spec TipsOptions::spec() {
               {{"interaction_integral", "over a domain around the tip, with the tractions of the walls"},
                {"displacement_correlation", "from the nodes of the quarter-point elements (the paper)"}},
               {.doc = "How stress-intensity factors follow from the displacement.", .source = "the paper's sec. 4.3"});
-  spec.choice(
-      "meeting", meeting,
-      {{"join", "it joins the other fracture, at the nearest point of its mesh, unless that closes a ring"},
-       {"stop", "it stops for good"}},
-      {.doc = "What a tip does when its way to another fracture is used up, but for one coarse edge length. The "
-              "paper has no fractures that meet."});
+  spec.choice("meeting", meeting,
+              {{"join", "it joins the other fracture, at the nearest point of its mesh, unless that closes a ring"},
+               {"stop", "it stops for good"}},
+              {.doc = "What a tip does that has come within one coarse edge length of another fracture. The "
+                      "paper has no fractures that meet."});
   spec.quantity("cavity", cavity,
                 {.range = positive(),
-                 .doc = "The coarse mesh changes within this many of its edge lengths around a path it takes over.",
+                 .doc = "Radius around a new path within which the coarse mesh is made anew, in coarse edge lengths.",
                  .source = "the paper's sec. 4.1"});
   spec.quantity("cavity_growth", cavity_growth,
                 {.range = {.low = 0, .high = 2, .low_allowed = false},
                  .doc = "By how many m the length of new coarse edges grows per m of distance from the path, where the "
                         "rest of the mesh lets it; see `mesh.growth`."});
-  spec.quantity("skip_below", skip_below,
-                {.range = between(0, 1),
-                 .doc = "The fine level of a tip is not solved while twice the K_eq that the jump behind it stands for "
-                        "is below this part of the toughness; 0: always solved."});
+  spec.quantity(
+      "skip_below", skip_below,
+      {.range = between(0, 1),
+       .doc = "The fine level of a tip is not solved while twice the K_eq estimated from the jump behind the tip "
+              "is below this part of the toughness; 0: always solved."});
   spec.section("growth", growth.spec(), {.doc = "How tips grow."});
   return spec;
 }

@@ -11,11 +11,10 @@ Spec LawOptions::spec() {
   spec.choice(
       "type", type, std::move(types),
       {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below the paper's Eq. 8"});
-  spec.quantity(
-      "residual", residual,
-      {.unit = "m",
-       .range = positive(),
-       .doc = "Hydraulic aperture of a closed fracture, and the least one of any: it conducts, and has no volume."});
+  spec.quantity("residual", residual,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Least hydraulic aperture, which a closed fracture has. It conducts, and has no volume."});
   spec.quantity("roughness", roughness,
                 {.unit = "m",
                  .range = non_negative(),

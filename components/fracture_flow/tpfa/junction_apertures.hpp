@@ -15,16 +15,16 @@ struct ArmAperture {
   Eigen::VectorXd by_aperture;
 };
 
-/// Through a junction a fracture goes on as elsewhere, its opening linear between its two cells (half_cell_apertures),
-/// and so does one that another takes over from. Arms of different fractures open as they like, since the rock between
-/// them may turn and slide: what one has says nothing about another, so a half cell without a counterpart has the
-/// aperture of its cell, which is of second order in all.
+/// The opening of a fracture is linear through a junction, from its cell on one side to that on the other
+/// (half_cell_apertures); the same holds for two fractures of which one continues the other. The openings of other arms
+/// are independent of one another, since the rock between them may turn and slide. So a half cell without a counterpart
+/// has the aperture of its cell, which is of second order.
 ///
-/// That would keep fluid out of an arm that is closed for ever. So no opening at a junction is taken for less than a
-/// tenth of the widest one there. Such an arm conducts a thousandth of the widest, whatever it is taken for: flows
-/// through the others do not notice, and the arm itself is off by a half cell, as long as it is closed beside a wide
-/// one. An arm of one cell between two junctions has no half cell left: closed, it conducts a thousandth of the wide
-/// ones all along. A smaller `mesh.fracture_size` seals it.
+/// A closed arm would then never let fluid in. So each opening at a junction is taken for at least a tenth of the
+/// widest one there. By the cubic law a closed arm then conducts a thousandth of the widest one: this hardly changes
+/// the flow through other arms, and in the closed arm itself it is an error of half a cell. An arm of one cell between
+/// two junctions consists of two such half cells, and conducts a thousandth all along; a smaller `mesh.fracture_size`
+/// seals it.
 ///
 /// `partners`: for each cell the place of the cell on the other side, or -1.
 inline std::vector<ArmAperture> junction_apertures(const std::vector<CellAperture>& cells,

@@ -84,11 +84,9 @@ Spec Options::spec() {
       "transmissivity", transmissivity,
       {{"cubic_law", "a^3/12"}, {"constant", "the value given as transmissivity_value"}},
       {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below the paper's Eq. 8"});
-  spec.data("transmissivity_value", transmissivity_value,
-            {.unit = "m^3",
-             .range = non_negative(),
-             .doc = "Of a transmissivity that does not follow from the aperture.",
-             .in_time = true});
+  spec.data(
+      "transmissivity_value", transmissivity_value,
+      {.unit = "m^3", .range = non_negative(), .doc = "The transmissivity, where it is constant.", .in_time = true});
   spec.section("law", law.spec(), {.doc = "How well the fracture conducts, instead of transmissivity."}, &has_law);
   spec.choice("normal_permeability", normal_permeability,
               {{"cubic_law", "2 K_i/(mu a^2), which with the cubic law is a/(6 mu)"},
@@ -97,7 +95,7 @@ Spec Options::spec() {
   spec.data("normal_permeability_value", normal_permeability_value,
             {.unit = "m/(Pa*s)",
              .range = non_negative(),
-             .doc = "Of a normal permeability that does not follow from the aperture.",
+             .doc = "The normal permeability, where it is constant.",
              .in_time = true});
   Spec walls("wall_permeability",
              "Walls of different normal permeability, as by a filter cake or a skin on one of them.");
@@ -117,8 +115,8 @@ Spec Options::spec() {
       "cavitation", cavitation,
       {.unit = "Pa",
        .doc = "The pressure does not fall below this: where fluid cannot follow, a part of the fracture stays empty. "
-              "Pressures count from the same zero as everywhere in the scene. Without it suction is told, and not "
-              "bounded.",
+              "Pressures count from the same zero as everywhere in the scene. Without it the pressure has no bound, "
+              "and a note tells of suction.",
        .source = "Elrod and Adams (1974); Peirce and Detournay (2008) for the lag of a fracture"});
   spec.vector("gravity", gravity,
               {.unit = "m/s^2",

@@ -11,11 +11,11 @@ namespace sprekk::matrix_flow {
 ///
 /// From each cell, the flux out of it through a face is a sum of differences to pressures around, with coefficients
 /// that are not negative: the conormal as a sum of two rays (CellRays). Through an inner face there are two such
-/// fluxes. What both have in common between the two cells is taken as it is, in part; of the rest they are combined so
-/// that the flux remains such a sum for both cells, whatever the pressures are (LimitedFluxes). So a pressure cannot be
-/// higher or lower than all around it without a source (Le Potier, C. R. Acad. Sci. Paris, Ser. I 341 (2005) 787 for
-/// such fluxes; Lipnikov, Svyatskiy and Vassilevski, Russ. J. Numer. Anal. Math. Modelling 27 (2012) 369 for the
-/// combination that keeps a maximum principle and not only the sign).
+/// fluxes. A part of the difference between the two cells that both contain is taken as it is. Their rests are combined
+/// so that the flux remains such a sum for both cells, whatever the pressures are (LimitedFluxes). So without a source
+/// no pressure is higher or lower than all around it (Le Potier, C. R. Acad. Sci. Paris, Ser. I 341 (2005) 787 for such
+/// fluxes; Lipnikov, Svyatskiy and Vassilevski, Russ. J. Numer. Anal. Math. Modelling 27 (2012) 369 for the combination
+/// that keeps a maximum principle and not only the sign).
 ///
 /// Exact for linear pressures where the conormals are such sums: with one mobility everywhere that the rays of the
 /// first kinds suffice for, and across layers. Throws std::runtime_error if a mobility is not positive definite.

@@ -19,12 +19,12 @@ namespace sprekk::poromechanics {
 ///   E y,  E = c − c x (x' c x)^-1 x' c,
 /// from the first subcell to the second, where y is the jump of q (Kink: M times the jump of dilation that is left,
 /// with the mean M of the two), x the vector between their centres, and c = 1/4 of the smaller A/M, times M of the
-/// softer over the mean. What y has of a slope of q is left out, so that a linear q stays.
+/// softer over the mean. The part of y that belongs to a slope of q is left out, so that a linear q stays.
 /// - Nothing is exchanged where two layers meet that each have a linear displacement, at any contrast.
 /// - No volume is gained in all, and none overshoots: with T the differences of neighbours, T' E T <= A/M. More than a
 ///   quarter could exceed that, where subcells are equal.
 /// - What s exchanges, T' E T s, is symmetric and positive semidefinite.
-/// - Of y what is wrong in stiff rock, however large as a stress, moves no more volume than belongs to that rock.
+/// - An error of y in stiff rock moves no more volume than belongs to that rock, however large it is as a stress.
 class VolumeExchange {
  public:
   std::vector<int> subfaces;  ///< the inner ones; none where there are less than three, which tell no more than a slope

@@ -34,7 +34,7 @@ TEST_F(TwoBalances, CountStoredExchangedAndSupplied) {
   rows.exchange(vector(7, -5, 3), vector(0, 0, 5), 1000);
   EXPECT_EQ(assembly.residual(0), vector(8, -7.5, 7));
   EXPECT_EQ(balances.residual(0), vector(1, -2.5, 9));
-  EXPECT_EQ(balances.turnover(0), vector(1, 2.5, 9));
+  EXPECT_EQ(balances.throughput(0), vector(1, 2.5, 9));
   EXPECT_EQ(assembly.round_off_base(0), 1000);
   // What cancels in each row is absent from the sum; that of what is stored adds up: 3 rows of 100.
   EXPECT_EQ(balances.round_off_base(0), 300);
@@ -53,9 +53,9 @@ TEST_F(TwoBalances, CountWhatOthersAdd) {
   assembly.add(one, vector(1, 1, 1));  // before the owner has said that these are balances
   BalanceRows(assembly, one, "fluid");
   BalanceRows(assembly, one).store(vector(0, 3, 0));
-  BalanceRows(assembly, one).add_turnover(vector(-2, 0, 0));
+  BalanceRows(assembly, one).add_throughput(vector(-2, 0, 0));
   EXPECT_EQ(balances.residual(0), vector(1, 4, 1));
-  EXPECT_EQ(balances.turnover(0), vector(2, 3, 0));
+  EXPECT_EQ(balances.throughput(0), vector(2, 3, 0));
 }
 
 TEST_F(TwoBalances, AreNoneWithoutTheirOwner) {

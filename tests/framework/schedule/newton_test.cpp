@@ -156,7 +156,7 @@ TEST(Newton, BalancesHoldAgainstWhatIsStoredAndBroughtIn) {
 }
 
 // Nothing is asked for where nothing has been told: the test above would notice.
-TEST(Newton, WithoutTurnoverBalancesAreEquationsAsOthers) {
+TEST(Newton, WithoutThroughputBalancesAreEquationsAsOthers) {
   Equation equation;
   equation.x.set_both(Vector::Constant(2, 3));
   Exchange part(equation.x, 1, false);
