@@ -43,6 +43,7 @@ with tempfile.TemporaryDirectory() as place:
     (Path(place) / "deeper" / "b.cc").write_text(SOURCE)
     (Path(place) / "notes.md").write_text("// no source\n" * 50)
     found = subprocess.run([TOOL, place], capture_output=True, text=True, check=True).stdout.splitlines()
+    folders = subprocess.run([TOOL, "--folders", place], capture_output=True, text=True, check=True).stdout.splitlines()
     empty = subprocess.run([TOOL, Path(place) / "deeper" / "none"], capture_output=True, text=True)
 
 characters = [len(HEADER.split("*/\n\n", 1)[1]), len(SOURCE)]
@@ -56,4 +57,7 @@ expected = [
 ]
 if found != expected or empty.returncode == 0 or "no C++ sources" not in empty.stderr:
     sys.exit(f"found {found}\ninstead of {expected}\n{empty}")
+by_folder = [f"   1 {Path(place).resolve()}", f"   1 {Path(place).resolve() / 'deeper'}", "2 files in 2 folders, the largest has 1"]
+if folders != by_folder:
+    sys.exit(f"found {folders}\ninstead of {by_folder}")
 print("a planted folder is counted as it is")
