@@ -93,7 +93,7 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   Origin origin_;
   Field& displacement_;
   Field* wall_traction_ = nullptr;   ///< exists with fractures only
-  Field* wall_remainder_ = nullptr;  ///< the same
+  Field* wall_remainder_ = nullptr;  ///< exists with fractures only
   RockStiffness stiffness_;
   std::vector<Load> loads_;
 

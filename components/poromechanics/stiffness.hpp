@@ -8,7 +8,7 @@ namespace sprekk::poromechanics {
 /// Plane-strain stiffness in Voigt form: (xx, yy, xy) stress = C · (xx, yy, 2 xy) strain, Pa. Symmetric positive
 /// definite.
 using Stiffness = Eigen::Matrix3d;
-/// That of an isotropic medium with Lame's constants in Pa.
+/// The stiffness of an isotropic medium with Lame's constants in Pa.
 inline Stiffness isotropic_stiffness(double lame_lambda, double shear_modulus) {
   Stiffness stiffness = Stiffness::Zero();
   stiffness.topLeftCorner<2, 2>().setConstant(lame_lambda);

@@ -29,7 +29,7 @@ class Balances {
   void declare(int unknown, const std::string& field, const std::string& quantity, const Vector& so_far);
   bool are_rows_of(int unknown) const { return of_[unknown].residual.size() > 0; }
 
-  // These add to the balances of an unknown; without effect where its rows are no balances.
+  // The next three functions add to the balances of an unknown, without effect where its rows are no balances.
   void add(int unknown, const Vector& values);
   void add_throughput(int unknown, const Vector& amounts);
   void compare_round_off(int unknown, double largest);

@@ -11,7 +11,7 @@ namespace sprekk {
 
 /// The error that a value owes to one parameter.
 struct ParameterError {
-  double error = 0;                ///< of the fine level; a regular one is what extrapolation adds to the value
+  double error = 0;                ///< of the fine level; if it is regular, extrapolation adds it to the value
   double order = 0;                ///< observed, within 1/2 and 2; 1 where it is not regular
   bool is_regular = true;          ///< false where the differences do not shrink, or change their sign
   bool is_zero = false;            ///< the value does not depend on the parameter but for round-off
@@ -25,7 +25,7 @@ ParameterError parameter_error(double coarse, double middle, double fine, double
 struct ValueError {
   double value = 0;         ///< with all parameters on the fine level
   double extrapolated = 0;  ///< the value with what regular errors add
-  double mixed = 0;         ///< what parameters have in common at the fine level
+  double mixed = 0;         ///< the mixed term of all parameters at the fine level
   std::vector<ParameterError> parameters;
 
   /// The error that is stated for these factors of all parameters.

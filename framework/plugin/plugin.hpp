@@ -15,7 +15,7 @@ struct Plugin {
   std::vector<std::string> types;  ///< that it has registered
 };
 
-/// Those that are loaded, in this order.
+/// All plug-ins in use, in the order of loading.
 const std::vector<Plugin>& loaded_plugins();
 
 /// Loads a plug-in; one that is loaded already is not loaded again. Throws InputError at `where` for a file that is

@@ -68,9 +68,9 @@ class MeshGrowth {
   std::string reason_;
   static constexpr double above_all_triangles = 1.1;  ///< rad; their smallest angle is 60 degrees at most
   long changes_ = 0, trials_ = 0, held_ = 0;
-  StepTime last_{};        ///< that was attempted
+  StepTime last_{};        ///< the step of the last attempt
   double refused_at_ = 0;  ///< s, start of the step whose growth was refused last
-  int refusals_ = 0;       ///< of that step
+  int refusals_ = 0;       ///< refusals of the growth in the step from refused_at_
   double smallest_angle_ = above_all_triangles;
   int passes_ = 0;
   bool was_left_out_ = false;  ///< by a `when`: growth in the trial that was solved last

@@ -28,7 +28,7 @@ class StepAttempts {
   Outcome run();
 
   const StepTime& step() const { return step_; }         ///< the last one tried
-  const StepStatus& status() const { return status_; }   ///< of it
+  const StepStatus& status() const { return status_; }   ///< how the last attempt ended
   const std::string& reason() const { return reason_; }  ///< why there is no step
 
  private:

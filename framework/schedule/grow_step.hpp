@@ -45,7 +45,7 @@ class GrowStep : public ScheduleStep {
 
   const GrowOptions& options() const { return options_; }
   bool grows_within_step() const { return options_.update == within_step; }
-  /// Of growth within steps: when tips grow as with after_step instead, with the state held.
+  /// In which steps tips grow with the state held, as with after_step, although growth belongs to the steps.
   enum class Holding {
     never,
     if_far_above,  ///< in a step that may not shrink, where tips are far above their toughness
@@ -89,7 +89,7 @@ class GrowStep : public ScheduleStep {
     double start, dt, load;  ///< s, s, load of the tip for which the step was refused
   };
   std::optional<Refusal> refusal_;  ///< the last one
-  std::optional<StepTime> last_;    ///< that it was run for
+  std::optional<StepTime> last_;    ///< the time step of the last run
   std::vector<PathExtension> extensions_;
   Holding holding_ = Holding::never;
   bool is_held_ = false, rests_ = false, has_grown_ = false;

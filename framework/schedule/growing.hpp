@@ -54,10 +54,11 @@ class Growing {
     double accepted = 0;        ///< the same at the start of the step
     double onset = 0;           ///< the largest of those tips that have not grown yet
     double onset_accepted = 0;  ///< the same at the start of the step
-    double unsettled = 0;       ///< largest relative change over the step of what a growth event disturbs at the tips
+    double unsettled =
+        0;  ///< largest relative change over the step of the state at the tips that a growth event disturbs
   };
   virtual Load examine(const StepTime& step) = 0;
-  /// What the tips have grown in a step.
+  /// The growth of all tips in a step.
   struct Growth {
     std::vector<PathExtension> extensions;  ///< the paths that the mesh is to take over
     bool arrested = true;                   ///< whether all tips came to rest before the mesh had to take paths over
@@ -71,7 +72,7 @@ class Growing {
   virtual bool may_grow_within_steps() const = 0;
   /// To be called once, where growth is to be found within steps (search_front) as far as the mesh can follow it.
   virtual void grow_within_steps() = 0;
-  /// Of growth within steps: whether all tips grow by grow() from now on, none by search_front().
+  /// With growth within steps: whether all tips grow by grow() from now on, and none by search_front().
   virtual void hold(bool is_held) = 0;
   /// Whether a tip is so far above its toughness that its growth is no continuous one. After examine().
   virtual bool is_far_above() const = 0;

@@ -38,7 +38,7 @@ struct ScheduleReading {
   ReadContext read;
   TimeScheme scheme = TimeScheme::backward_euler;
   bool is_in_stages = false;       ///< whether a step around it takes the stages of the scheme
-  std::string waiting = "linear";  ///< what fields that a step does not solve for do during its stages
+  std::string waiting = "linear";  ///< course of the waiting fields during the stages of a step
   bool is_iterated = false;        ///< whether the step that is being read is inside an `iterate`
   double tightest_until = 1;       ///< of the `iterate` around it: its `until: relative`
   bool is_substep = false;         ///< whether it is inside a `subcycle` of several substeps

@@ -40,7 +40,7 @@ class SolveStep : public ScheduleStep {
 
  private:
   void check_response() const;
-  /// What the stabilization asks to know of unknowns that wait.
+  /// For which fields the stabilization adds the Schur complement of the waiting unknowns.
   ResponseOptions wanted_responses() const;
   std::vector<const Field*> waiting() const;
   const Responses& responses(const StepTime& step);

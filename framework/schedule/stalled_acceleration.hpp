@@ -5,13 +5,13 @@
 
 namespace sprekk {
 
-/// An accelerator learns from differences of passes. Once these are no larger than the errors that the solves inside
-/// leave, it learns from noise, and holds the passes where they are, while passes of their own would converge. So after
-/// some passes that come no nearer the next ones are plain. Where these move away instead (an iteration that only
-/// converges accelerated), they are taken back, and not tried again in the step.
+/// An accelerator learns from differences of passes. Once these are no larger than the errors of the solves inside, the
+/// accelerator learns from noise and may keep passes from converging, while plain passes would converge. So after some
+/// passes without progress the next passes are plain. Where plain passes move away (an iteration that converges only if
+/// it is accelerated), they are taken back, and not tried again in the step.
 class StalledAcceleration {
  public:
-  /// What follows a pass. `back`: the values that the first plain pass began with, and acceleration from there.
+  /// The kind of the next pass. `back`: accelerated, from the values at the start of the first plain pass.
   enum class Next { accelerated, plain, back };
 
   /// `change`: of the fields by the pass, scaled.

@@ -18,7 +18,7 @@ struct TimeOptions {
   double end = 0;    ///< s
   double step = 0;   ///< s, size of the first step and, unless adaptive, of all
   std::string scheme_name = "backward_euler";
-  TimeScheme scheme = TimeScheme::backward_euler;  ///< the same
+  TimeScheme scheme = TimeScheme::backward_euler;  ///< the scheme of this name
   Origin scheme_origin;
   std::optional<double> smallest;  ///< s; a rejected step is not cut below it
   bool adaptive = false;
@@ -78,7 +78,7 @@ class StepController {
   /// 1 that is left, over the rise in that pause. Such a step has at least a tenth of the standard size.
   void hold(double step, double level);
   void release(double level);
-  /// The same for events that are not expected to recur.
+  /// Holds and releases steps for events that are not expected to recur.
   void hold(double step);
   void release();
   /// Takes the level after a step. A hold that is overdue is expected anew, from the rise since the release, but each

@@ -14,7 +14,7 @@ class StepHistory {
  public:
   virtual ~StepHistory() = default;
   virtual void accepted() = 0;  ///< the time step has been accepted
-  virtual void rewound() = 0;   ///< it has been taken back
+  virtual void rewound() = 0;   ///< the time step has been taken back
   /// For checkpoints, as those of parts.
   virtual void save(std::map<std::string, Vector>& state) const = 0;
   virtual void restore(const std::map<std::string, Vector>& state) = 0;

@@ -21,7 +21,7 @@ struct RunState {
   std::string reason;    ///< why the run failed
   double seconds = 0;    ///< wall time of all its parts
   std::string program;   ///< version and commit of the program
-  bool is_lost = false;  ///< it has ended without a word of its own: where it ran has failed
+  bool is_lost = false;  ///< the run has ended and its record does not say how: its machine has failed
 };
 
 /// What to do with a run: keep its results, start it, or continue it from its checkpoint.

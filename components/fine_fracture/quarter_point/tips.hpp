@@ -74,7 +74,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   friend class TipsFront;  // it sets the state of the tips of trial models
   /// The state of a tip that a step may change and a rewind restores.
   struct State {
-    TipPath path;               ///< what the coarse mesh does not have yet
+    TipPath path;               ///< the part of the path that the coarse mesh does not have yet
     Sifs sifs;                  ///< valid if is_evaluated
     double sif_error = 0;       ///< Pa m^0.5, the estimated error by the mesh of the fine level
     bool is_evaluated = false;  ///< whether the factors have been computed for this state

@@ -143,7 +143,7 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   Vector initial_aperture_;
   std::unique_ptr<HydraulicLaw> law_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one
-  Vector held_flux_;           ///< the same, for inertia
+  Vector held_flux_;           ///< for inertia, or empty for the present one
   double released_share_ = 0;  ///< share of the change from the held to the present apertures that the cubic law takes
   Property viscosity_, compressibility_;
   bool viscosity_is_given_ = false;  ///< by a coupler

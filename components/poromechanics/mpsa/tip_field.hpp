@@ -42,7 +42,7 @@ class TipField {
   Modes displacement(const Point& x, int side) const;
   /// The force across any line from the tip to x, exerted by the left side on the right side, N/m.
   Modes force(const Point& x, int side) const;
-  /// That force integrated over the line from a to b, N.
+  /// The force across lines from the tip, integrated over their ends x from a to b, N.
   Modes integrated_force(const Point& a, const Point& b, int side) const;
   /// div u integrated over a quadrilateral, m^2.
   Amounts volume_change(const std::array<Point, 4>& corners, int side) const;
