@@ -22,6 +22,8 @@ class TipSurroundings {
   /// A number that changes whenever the result of another function may change.
   virtual std::uint64_t version() const = 0;
 
+  /// The region of the rock at x, an index into Mesh::region_names.
+  virtual int region(const Point& x) const = 0;
   /// Throws std::runtime_error where the rock is anisotropic.
   virtual LameParameters stiffness(const Point& x) const = 0;
   /// The displacement at x, m. `inside` is a point near x on the side of the fracture that is meant.

@@ -125,6 +125,8 @@ class TwoLevel : public Coupler, public TipSurroundings {
            (fluid_ ? fluid_->pressure().version() : 0) + (contact_ ? contact_->traction().version() : 0);
   }
 
+  int region(const Point& x) const override { return mesh_.cell_region[cell_at(x)]; }
+
   LameParameters stiffness(const Point& x) const override {
     const auto stiffness = rock_.stiffness(cell_at(x));
     if (!stiffness)

@@ -155,7 +155,7 @@ void TipsFront::add(Tips::Tip& tip) {
   Segment segment;
   start.anchor = end;
   start.angle = start.ahead = angle_of(ahead);
-  start.toughness = *tips_.options_.toughness;
+  start.toughness = tips_.toughness(tip);
   start.speed = mean_of_steps(tip.now.speed, tip.now.speed_before);
   start.turning = mean_of_steps(tip.now.turning, tip.now.turning_before);
   start.goes_on = goes_on_ && tip.now.is_extendable && !tip.now.is_stopped && tip.now.speed > 0;
@@ -408,10 +408,11 @@ void Tips::prepare(Growing& other) const {
 double Tips::apparent_toughness(const Tip& tip, double speed) const {
   const double viscosity = surroundings_->fluid_viscosity(tip.end.fracture, tip.end.at_end);
   const LameParameters lame = surroundings_->stiffness(position(tip, {}));
-  const ViscousTip moving{*options_.toughness, Elasticity{lame.lambda, lame.shear}.plane_modulus(), viscosity};
+  const double at_rest = toughness(tip);
+  const ViscousTip moving{at_rest, Elasticity{lame.lambda, lame.shear}.plane_modulus(), viscosity};
   const double full = moving.apparent_toughness(last_cell(tip.end).measure, speed);
   // Where the fluid lags behind the tip nothing viscous is near it, and its toughness alone counts.
-  return *options_.toughness * (1 + surroundings_->filled_part(tip.end.fracture, tip.end.at_end) * (full - 1));
+  return at_rest * (1 + surroundings_->filled_part(tip.end.fracture, tip.end.at_end) * (full - 1));
 }
 
 bool Tips::is_viscous(const Tip& tip) const {

@@ -11,7 +11,7 @@ namespace sprekk::fine_fracture {
 
 void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) {
   const GrowthOptions& growth = options_.growth;
-  const double k_eq = equivalent_sif(outcome.end) / *options_.toughness, excess = k_eq - 1;
+  const double k_eq = equivalent_sif(outcome.end) / toughness(tip), excess = k_eq - 1;
   const double shear = outcome.end.k2 / outcome.end.k1;
   const bool has_grown = outcome.increments > 0;
   // Twice and three times the tolerances: the length and the direction of the last increment may be off by that, and by
@@ -71,8 +71,8 @@ void Tips::note_shear(const Tip& tip, Notes& notes) const {
   constexpr double near = 0.9;     // to growth
   constexpr double closed = 0.01;  // of the toughness: walls that touch have a K_I of this size from round-off
   const Sifs &sifs = tip.now.sifs, touching{0, sifs.k2, sifs.t_stress};
-  const double load = equivalent_sif(touching) / *options_.toughness;
-  if (!tip.now.has_started || !tip.now.is_evaluated || tip.now.is_stopped || sifs.k1 > closed * *options_.toughness ||
+  const double toughness = this->toughness(tip), load = equivalent_sif(touching) / toughness;
+  if (!tip.now.has_started || !tip.now.is_evaluated || tip.now.is_stopped || sifs.k1 > closed * toughness ||
       load < near)
     return;
   const std::string name = this->name() + "." + tip.name;
@@ -81,8 +81,7 @@ void Tips::note_shear(const Tip& tip, Notes& notes) const {
       fmt::format("{} is closed and sheared, with K_I = {:.3g} and K_II = {:.3g} of the toughness: where walls touch "
                   "K_I is 0, and K_eq/K_IC = {:.3g} instead of {:.3g}; from there it turns out of its plane (Eq. 12 "
                   "of the paper), growth in its plane by shear is not modelled",
-                  name, sifs.k1 / *options_.toughness, sifs.k2 / *options_.toughness, load,
-                  equivalent_sif(sifs) / *options_.toughness),
+                  name, sifs.k1 / toughness, sifs.k2 / toughness, load, equivalent_sif(sifs) / toughness),
       load);
 }
 

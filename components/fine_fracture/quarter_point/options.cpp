@@ -25,12 +25,14 @@ Spec TipsOptions::spec() {
        .doc = "Meshes of the fine level are refined until the estimated error of the stress is below this part "
               "of it (energy norm, Zienkiewicz and Zhu 1992); without it sizes are what is given.",
        .source = "the paper's sec. 4.1"});
-  spec.quantity("toughness", toughness,
-                {.unit = "Pa*m^0.5",
-                 .range = positive(),
-                 .doc = "K_IC; without it tips do not grow.",
-                 .source = "the paper's sec. 2.5",
-                 .material = true});
+  spec.data(
+      "toughness", toughness,
+      {.unit = "Pa*m^0.5",
+       .range = positive(),
+       .doc = "K_IC at the place of a tip, by region of the rock or by the fracture that grows; without it tips do "
+              "not grow.",
+       .source = "the paper's sec. 2.5",
+       .material = true});
   spec.choice("factors", factors,
               {{"interaction_integral", "over a domain around the tip, with the tractions of the walls"},
                {"displacement_correlation", "from the nodes of the quarter-point elements (the paper)"}},

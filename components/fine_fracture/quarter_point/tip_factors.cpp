@@ -102,8 +102,9 @@ Sifs Tips::factors_of(Tip& tip, const FineSolution& solution) const {
   throw std::logic_error("the fine level has lost its tip");
 }
 
-double Tips::load(const Sifs& sifs) const {
-  return options_.toughness ? equivalent_sif(sifs) / *options_.toughness : 0;
+double Tips::toughness(const TipEnd& end, const Point& x) const {
+  const Data& data = *options_.toughness;
+  return data.at({x, data.is_constant() ? 0 : surroundings_->region(x), 0, end.fracture});
 }
 
 double Tips::estimated_load(const Tip& tip) const {
@@ -114,12 +115,12 @@ double Tips::estimated_load(const Tip& tip) const {
                           std::sqrt(2 * std::numbers::pi / distance) *
                           surroundings_->jump_at_tip(tip.end.fracture, tip.end.at_end);
   constexpr double shear_to_equivalent = 1.25;
-  return shear_to_equivalent * estimate / *options_.toughness;
+  return shear_to_equivalent * estimate / toughness(tip);
 }
 
 void Tips::set_factors(Tip& tip, const Sifs& sifs) const {
   tip.now.sifs = sifs;
-  tip.now.load = load(sifs);
+  tip.now.load = options_.toughness ? equivalent_sif(sifs) / toughness(tip) : 0;
   tip.now.is_evaluated = true;
 }
 

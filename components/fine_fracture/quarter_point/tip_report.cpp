@@ -12,13 +12,18 @@ void Tips::report(std::vector<Quantity>& quantities) const {
     for (const Tip& tip : tips_) {
       if (!is_same(tip.end, end)) continue;
       const double length = tip.now.grown + length_of(position(tip, {}), tip.now.path);
-      report_end(tip.name, tip.now, {position(tip, tip.now.path), length, tip.length_at_start}, quantities);
+      report_end(tip.name, tip.now,
+                 {position(tip, tip.now.path), length, tip.length_at_start, options_.toughness ? toughness(tip) : 0},
+                 quantities);
     }
     State at_rest;
     at_rest.is_stopped = true;
     for (const Joint& joint : joints_)
       if (is_same(joint.end, end))
-        report_end(joint.name, at_rest, {end_point(mesh_, end), joint.grown, joint.length_at_start}, quantities);
+        report_end(joint.name, at_rest,
+                   {end_point(mesh_, end), joint.grown, joint.length_at_start,
+                    options_.toughness ? toughness(end, end_point(mesh_, end)) : 0},
+                   quantities);
   }
 }
 
@@ -42,7 +47,7 @@ void Tips::report_end(const std::string& end, const State& state, const EndGrowt
   quantities.push_back({prefix + "grows", "1", grown > 0 ? 1.0 : 0.0});
   if (!options_.toughness) return;
   quantities.push_back({prefix + "apparent_toughness", "Pa*m^0.5",
-                        grown > 0 && state.apparent_toughness > 0 ? state.apparent_toughness : *options_.toughness});
+                        grown > 0 && state.apparent_toughness > 0 ? state.apparent_toughness : growth.toughness});
 }
 
 std::vector<MovingTips::Tip> Tips::moving_tips() const {

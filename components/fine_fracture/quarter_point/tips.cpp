@@ -16,6 +16,10 @@ namespace {
 
 TipEnd end_of(const PathExtension& extension) { return {extension.fracture, extension.at_end}; }
 
+Sifs times(const Sifs& sifs, double factor) {
+  return factor == 1 ? sifs : Sifs{factor * sifs.k1, factor * sifs.k2, factor * sifs.t_stress};
+}
+
 }  // namespace
 
 Tips::Tips(const ComponentContext& context, const TipsOptions& options)
@@ -229,28 +233,37 @@ void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
 
 Growing::Growth Tips::grow(const StepTime&) {
   std::vector<GrowingTip> growing;
+  std::vector<double> at_start;  // Pa m^0.5, K_IC of each tip; all depends on K over K_IC, so the search knows this one
+  const auto over_start = [&](int tip, const TipPath& path) {
+    return toughness(tips_[tip].end, position(tips_[tip], path)) / at_start[tip];
+  };
   for (const Tip& tip : tips_) {
     const LameParameters lame = surroundings_->stiffness(position(tip, {}));
     // A tip that the mesh follows has its own search; here it stays.
-    const double toughness = is_followed(tip) ? std::numeric_limits<double>::max() : *options_.toughness;
-    growing.push_back({position(tip, {}), direction(tip), toughness,
+    at_start.push_back(toughness(tip));
+    growing.push_back({position(tip, {}), direction(tip),
+                       is_followed(tip) ? std::numeric_limits<double>::max() : at_start.back(),
                        Elasticity{lame.lambda, lame.shear}.plane_modulus(), tip.now.path, tip.now.warm_start});
   }
   GrowthOptions growth = options_.growth;
   // Longer growth needs a new solution of the coarse level: the pressure of the fluid falls as tips grow.
   if (!growth.longest)
     for (const Tip& tip : tips_) growth.longest = std::max(growth.longest.value_or(0), longest_path(tip));
-  const std::vector<TipOutcome> outcomes = grow_tips(
+  std::vector<TipOutcome> outcomes = grow_tips(
       growing, growth,
       // What others grow here counts for a tip that the mesh follows from the next step on. Otherwise the topology of
       // its fine level would change from trial to trial, and its factors with it.
-      [this](int tip, const std::vector<TipPath>& paths) {
-        return is_followed(tips_[tip]) ? tips_[tip].now.sifs : evaluate(tip, paths);
+      [&](int tip, const std::vector<TipPath>& paths) {
+        return is_followed(tips_[tip]) ? tips_[tip].now.sifs
+                                       : times(evaluate(tip, paths), 1 / over_start(tip, paths[tip]));
       },
       [this](int tip, const TipPath& path, const Point& to) {
         return tips_[tip].now.is_stopped ? 0 : free_distance(tips_[tip], path, to);
       },
       [this](int tip, int other) { return is_near(tips_[tip], tips_[other]); });
+  for (std::size_t i = 0; i < tips_.size(); ++i)
+    if (!is_followed(tips_[i]))
+      outcomes[i].end = times(outcomes[i].end, over_start(static_cast<int>(i), outcomes[i].path));
   Growth result;
   std::vector<PathExtension>& extensions = result.extensions;
   std::vector<std::pair<int, int>> joined;

@@ -22,7 +22,7 @@ struct TipsOptions {
   double mesh_ratio = 0.5;  ///< epsilon_m of sec. 4.1 of the paper
   int sectors = 16;
   std::optional<double> tolerance;  ///< of the error estimate; without it, meshes have the given sizes
-  std::optional<double> toughness;  ///< Pa m^0.5
+  std::optional<Data> toughness;    ///< K_IC, Pa m^0.5
   std::string factors = "interaction_integral";
   std::string meeting = "join";
   double cavity = 4;           ///< radius in coarse mesh sizes
@@ -135,6 +135,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   struct EndGrowth {
     Point position;                  ///< m
     double length, length_at_start;  ///< m, of what has grown
+    double toughness;                ///< K_IC there, Pa m^0.5; 0 where tips do not grow
   };
   void report_end(const std::string& end, const State& state, const EndGrowth& growth,
                   std::vector<Quantity>& quantities) const;
@@ -159,7 +160,9 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   Sifs keep_factors(Tip& tip, const FineSolution& solution) const;
   /// The load as estimated from the displacement jump of the coarse level beside the tip, without a fine level.
   double estimated_load(const Tip& tip) const;
-  double load(const Sifs& sifs) const;
+  /// K_IC of rock that this end of a fracture grows into, Pa m^0.5. Throws DataError.
+  double toughness(const TipEnd& end, const Point& x) const;
+  double toughness(const Tip& tip) const { return toughness(tip.end, position(tip, tip.now.path)); }
   /// Whether the fluid at the tip holds it back by its viscosity.
   bool is_viscous(const Tip& tip) const;
   /// K_eq (Pa sqrt(m)) of a viscous tip that the mesh follows and that moves with a speed (m/s): with the pressure that

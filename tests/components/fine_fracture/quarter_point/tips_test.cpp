@@ -30,6 +30,7 @@ class Fluid : public TipSurroundings {
 
   void update() override {}
   std::uint64_t version() const override { return state; }
+  int region(const Point&) const override { return 0; }
   LameParameters stiffness(const Point&) const override { return {2 * shear * poisson / (1 - 2 * poisson), shear}; }
   Point displacement(const Point&, const Point&) const override { return Point::Zero(); }
   StressOffsets stress_offsets(const std::vector<Point>& places) const override {
