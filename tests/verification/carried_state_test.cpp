@@ -175,5 +175,22 @@ TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
 
 INSTANTIATE_TEST_SUITE_P(Angles, CarriedState, ::testing::Values("45 deg", "-45 deg", "30 deg", "-30 deg"));
 
+// Edges of the fracture are 20 mm long. A kink of a quarter of that is followed by the mesh, a shorter one by the fine
+// level alone; 0.95 of a quarter is as good.
+TEST(Kinks, AreFollowedByTheMeshFromAQuarterOfAnEdgeOn) {
+  SceneRun run("paper/wing_cracks.yaml", {});
+  const std::size_t cells = run.mesh().fracture_cells.size();
+  int before = 0, after = 0;
+  run.run_until(1.5 * hour, [&] {
+    const double length = run.quantity("tips.main_last.length");
+    if (length == 0) return;
+    const bool is_followed = run.mesh().fracture_cells.size() > cells;
+    ++(is_followed ? after : before);
+    EXPECT_EQ(is_followed, length >= 0.95 * 0.25 * 0.02) << run.time() / hour << " h, " << length;
+  });
+  EXPECT_GT(before, 1);
+  EXPECT_GT(after, 1);
+}
+
 }  // namespace
 }  // namespace sprekk::testing

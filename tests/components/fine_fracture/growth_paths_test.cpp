@@ -202,6 +202,32 @@ TEST(ImplicitDirection, takes_a_direction_that_is_nearly_symmetric_where_none_is
   }
 }
 
+TEST(ImplicitDirection, is_sought_up_to_the_largest_turn_in_so_many_tries) {
+  const GrowingTip tip{
+      .tip = Point(0, 0), .direction = Point(1, 0), .toughness = 0.7e6, .youngs_prime = 4e10, .path = {}};
+  // K_II vanishes where the path has turned by this angle, and K_I is above the toughness everywhere.
+  const auto turned_by = [&](double root, const GrowthOptions& options) {
+    const auto sifs = [&](int, const std::vector<TipPath>& paths) {
+      const Point end = paths[0].added.empty() ? Point(1, 0) : paths[0].added.back();
+      return Sifs{1e6, 0.5e6 * std::sin(std::atan2(end[1], end[0]) - root)};
+    };
+    return grow_tips({tip}, options, sifs, unlimited)[0];
+  };
+  for (const double sign : {1.0, -1.0}) {
+    GrowthOptions options = whole_increments("implicit", 0.01, 1);
+    for (const double root : {0.4, 1.39}) {
+      const TipOutcome found = turned_by(sign * root, options);
+      EXPECT_TRUE(found.notes.empty()) << root;
+      EXPECT_NEAR(degrees(tip.tip, found.path)[0] * degree, sign * root, 0.02) << root;
+    }
+    const TipOutcome beyond = turned_by(sign * 1.6, options);
+    EXPECT_FALSE(beyond.notes.empty());
+    EXPECT_LE(std::abs(degrees(tip.tip, beyond.path)[0]) * degree, options.largest_turn * (1 + 1e-12));
+    options.tries = 2;
+    EXPECT_FALSE(turned_by(sign * 1.39, options).notes.empty());
+  }
+}
+
 TEST(GrowTips, mirrored_problems_have_mirrored_paths) {
   // Two tips that interact: SIFs of a kinked tip with a K_I and a K_II that the distance of the other changes.
   const auto problem = [](double mirror, const std::string& direction) {

@@ -142,6 +142,22 @@ TEST(Tips, AreRuledOutByTheJumpBesideThem) {
   }
 }
 
+TEST(Tips, HandOverPathsOfHalfAnEdge) {
+  // Edges are 0.25 m long, and an increment is 0.1 m. A path of 0.95 of half an edge is as good as one of a half.
+  TipsOptions options = Setting::options();
+  options.growth.length = "fixed";
+  options.growth.at_most = 1;
+  for (const double angle : {0.0, 0.6})
+    for (const auto& [length, is_handed_over] : {std::pair(0.94, false), {0.9501, true}, {1.01, true}}) {
+      Setting setting(angle, false, options);
+      setting.fluid.pressure[0] = setting.fluid.pressure[1] = 5e7;
+      setting.grow(length * 0.125 - 0.1, true, true);
+      setting.tips.examine({});
+      ASSERT_GT(setting.quantity("main_first.K_eq"), 1.1 * toughness);
+      EXPECT_EQ(setting.tips.grow({}).extensions.size(), is_handed_over ? 2u : 0u) << length;
+    }
+}
+
 TEST(Tips, AskForEdgesThatGrowAsTheSceneSays) {
   EXPECT_EQ(Setting(0.3).tips.cavity().growth, 0.3);
   TipsOptions options = Setting::options();
