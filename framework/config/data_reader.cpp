@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "framework/config/expression.hpp"
@@ -87,35 +89,57 @@ Data read_windows(const Node& node, const DataRequest& request) {
   return sum;
 }
 
+/// The variables that a table depends on, from `of`: one of them, or a list; by default the time.
+std::vector<std::string> variables_of_table(const Node& node, const DataRequest& request) {
+  const Node* const of = node.find("of");
+  if (!of) return {"t"};
+  std::vector<std::string> allowed = {"t"};
+  for (int axis = 0; axis < dimension; ++axis) allowed.push_back(std::string(1, static_cast<char>('x' + axis)));
+  std::vector<std::string> variables;
+  const auto add = [&](const Node& item) {
+    const std::string& variable = read_scalar(item, request.name + ".of");
+    if (std::ranges::count(allowed, variable) == 0)
+      throw unknown_name(item.origin, "variable of a table:", variable, allowed);
+    if (std::ranges::count(variables, variable) > 0)
+      throw InputError(item.origin, "the table of " + quoted(request.name) + " names " + variable + " twice", "",
+                       "name each variable once");
+    variables.push_back(variable);
+  };
+  if (!of->is_list()) add(*of);
+  for (const Node& item : of->items) add(item);
+  if (variables.empty()) throw InputError(of->origin, "'of' is an empty list", "a table depends on t, x or y");
+  return variables;
+}
+
 Data read_tabulated(const Node& node, const DataRequest& request) {
   require_known_keys(node, {"table", "column", "of", "unit"}, request);
   TableRequest wanted;
   wanted.file = read_scalar(*node.find("table"), request.name + ".table");
   wanted.folder = request.context.folder;
   if (const Node* column = node.find("column")) wanted.column = read_scalar(*column, request.name + ".column");
-  wanted.of = "t";
-  if (const Node* of = node.find("of")) {
-    wanted.of = read_scalar(*of, request.name + ".of");
-    const std::vector<std::string> allowed = {"t", "x", "y"};
-    if (std::find(allowed.begin(), allowed.end(), wanted.of) == allowed.end()) {
-      throw unknown_name(of->origin, "variable of a table:", wanted.of, allowed);
-    }
-  }
+  wanted.of = variables_of_table(node, request);
   if (const Node* unit = node.find("unit")) wanted.unit = read_scalar(*unit, request.name + ".unit");
   wanted.needed_unit = request.about.unit;
   wanted.name = request.name;
   wanted.where = node.origin;
   const auto table = std::make_shared<const Table>(read_table(wanted));
-  for (const double value : table->ordinate) {
+  for (const double value : table->values) {
     if (request.about.range.contains(value)) continue;
     throw InputError(
         node.origin,
         fmt::format("{} is {} in the table {}, out of range", quoted(request.name), value, quoted(wanted.file)),
         "it must be " + request.about.range.text() + " " + request.about.unit);
   }
-  if (wanted.of == "t") return Data([table](const Place& place) { return table->at(place.t); }, true, false);
-  const int axis = wanted.of == "x" ? 0 : 1;
-  return Data([table, axis](const Place& place) { return table->at(place.x[axis]); }, false, true);
+  std::vector<int> axes;  // of the place, and -1 for the time
+  for (const std::string& variable : wanted.of) axes.push_back(variable == "t" ? -1 : variable[0] - 'x');
+  const bool in_time = std::ranges::count(axes, -1) > 0;
+  return Data(
+      [table, axes](const Place& place) {
+        std::array<double, dimension + 1> at{};
+        for (std::size_t k = 0; k < axes.size(); ++k) at[k] = axes[k] < 0 ? place.t : place.x[axes[k]];
+        return table->at({at.data(), axes.size()});
+      },
+      in_time, !in_time || axes.size() > 1);
 }
 
 /// Reads any form of a datum. Its range is not checked yet, except where messages on its parts say more.
