@@ -145,9 +145,9 @@ Data read_tabulated(const Node& node, const DataRequest& request) {
 /// Reads any form of a datum. Its range is not checked yet, except where messages on its parts say more.
 Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_scalar()) return parse_data(node.scalar, request.about.unit, node.origin, request.name);
-  const std::string forms = "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) +
-                            ", an expression of x, y and t, " +
-                            "{regions: …}, {fractures: …}, {column: …}, {table: …} or {value: , from: , to: }";
+  const std::string forms =
+      "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) + ", an expression of x, y and t, " +
+      "{regions: …}, {fractures: …}, {column: …}, {table: …}, {run: …} or {value: , from: , to: }";
   if (node.is_null()) throw wrong_kind(node, request.name, forms);
   if (request.about.constant_only) throw wrong_kind(node, request.name, "one number");
   if (has(node, "regions")) {
@@ -157,13 +157,26 @@ Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_list() || has(node, "value")) return read_windows(node, request);
   if (has(node, "table")) return read_tabulated(node, request);
   if (has(node, "column")) return read_fracture_column(node, request);
+  if (const DataForms::value_type* form = other_form(node)) return form->second(node, request);
   const std::string key = node.entries.empty() ? "" : node.entries.front().key;
   if (key.empty()) throw wrong_kind(node, request.name, forms);
-  throw unknown_name(node.entries.front().origin, "key of " + quoted(request.name) + ":", key,
-                     {"regions", "fractures", "column", "table", "value"});
+  std::vector<std::string> keys = {"regions", "fractures", "column", "table", "value"};
+  for (const auto& [form, read] : data_forms()) keys.push_back(form);
+  throw unknown_name(node.entries.front().origin, "key of " + quoted(request.name) + ":", key, keys);
 }
 
 }  // namespace
+
+DataForms& data_forms() {
+  static DataForms forms;
+  return forms;
+}
+
+const DataForms::value_type* other_form(const Node& node) {
+  for (const DataForms::value_type& form : data_forms())
+    if (has(node, form.first)) return &form;
+  return nullptr;
+}
 
 Data within_range(Data data, const Origin& where, const DataRequest& request) {
   const Range range = request.about.range;
