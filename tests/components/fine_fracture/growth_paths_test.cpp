@@ -78,7 +78,7 @@ TEST(ExplicitDirection, zigzags_as_published) {
 }
 
 TEST(ExplicitDirection, is_stable_below_the_limit_only) {
-  // Of a crack so long that its growth does not change K_I: whether the swings of 60 increments end smaller.
+  // For a crack so long that its growth does not change K_I: whether the swings become smaller over 60 increments.
   const CurvedCrack long_crack{1000, 0.7e6 / std::sqrt(std::numbers::pi * 1000), -10e6};
   const auto late_over_early = [&](double increment) {
     GrowingTip tip{.tip = Point(1000, 0), .direction = Point(1, 0), .toughness = 1e3, .youngs_prime = 4e10, .path = {}};

@@ -128,7 +128,7 @@ class Exchange : public Part {
     }
     assembly.diagonal(x_, x_, Vector::Constant(2, capacity));
     assembly.linear(x_, exchange_, x_);
-    // What flows in a circle, say: it does not change, and is no part of any sum.
+    // Stands for a circulating flow, which does not change, and cancels in every sum.
     assembly.compare_with(x_, 1e12);
   }
   static constexpr double capacity = 2;
@@ -155,7 +155,7 @@ TEST(Newton, BalancesHoldAgainstWhatIsStoredAndBroughtIn) {
   }
 }
 
-// Nothing is asked for where nothing has been told: the test above would notice.
+// Without a throughput balances are not checked apart: the test above would notice.
 TEST(Newton, WithoutThroughputBalancesAreEquationsAsOthers) {
   Equation equation;
   equation.x.set_both(Vector::Constant(2, 3));

@@ -126,8 +126,8 @@ TEST(Griffith, CorrelationHasThePublishedErrorsOfItsRosette) {
       // The interaction integral hardly depends on the sectors.
       EXPECT_LT(relative_error(tip.K, exact.K(), "K"), row.sectors == 8 ? 1.5e-3 : 6e-4) << where;
     }
-    // With few sectors the elements around the rosette are as coarse as they are, and the published figures hold for
-    // other such elements: refining or coarsening the mesh outside moves ours by as much.
+    // With few sectors the elements around the rosette are coarse, too. The published figures are of other such
+    // elements: refining or coarsening the mesh outside changes K by as much as this tolerance.
     const double scatter = row.sectors == 8 ? 8e-3 : row.sectors == 12 ? 2e-3 : row.sectors == 16 ? 8e-4 : 4e-4;
     EXPECT_NEAR(correlation.x(), row.correlation_1, scatter) << where;
     EXPECT_NEAR(correlation.y(), row.correlation_2, scatter) << where;
