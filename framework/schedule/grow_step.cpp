@@ -87,7 +87,7 @@ SolveOptions settle_options(const GrowOptions& options, const Growing& growing) 
 
 namespace {
 
-/// Chooses `update` where the scene does not give it. A component has one kind of growth in the whole run.
+/// Decides what `update: auto` means. A component has one kind of growth in the whole run.
 GrowOptions decided(GrowOptions options, const Growing& growing, const ScheduleContext& context) {
   if (options.update != automatic) return options;
   const bool is_held = context.growing && std::ranges::any_of(*context.growing, [&](const GrowStep* other) {
