@@ -1,4 +1,4 @@
-// The gap of a cell, what its walls hold, and the traction that the return map takes back.
+// The gap of a cell, the strength of its walls, and the trial traction of the return map.
 #include "components/contact/trial_state.hpp"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ Trial FrictionalContact::trial(int i) const {
 std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   if constexpr (dimension != 2) return std::nullopt;
   if (is_bonded(i)) return std::nullopt;
-  constexpr double at_bound = 1e-6;    // below it by so much of it: walls stick
+  constexpr double at_bound = 1e-6;    // relative: walls with less shear than the bound by more than this stick
   constexpr double least_slip = 1e-3;  // of the slip that would take all shear from the walls
   const Trial t = trial(i);
   const double normal = traction_.now()[dimension * i], shear = traction_.now()[dimension * i + 1],

@@ -74,7 +74,7 @@ class WellExchange : public Coupler {
     if (fracture_) use(of_fracture, mesh_.fracture_cell_count(), of_fracture_, into_fracture_);
   }
 
-  /// What the well gives is what the cells around it get, in the same solve.
+  /// Wells and the cells around them must be solved together, or a rate would count differently on both sides.
   std::vector<Dependence> dependences() const override {
     std::vector<Dependence> pairs;
     const std::string wells = wells_.rate().spec().owner;

@@ -94,15 +94,16 @@ void require_command(const CLI::App& app, int argc, char** argv) {
     throw unknown_name({"sprekk", 0, 0}, "command", argv[1], names);
 }
 
-/// After `--restart`, what ends like a scene is one, and no checkpoint: the option moves behind it.
+/// A file behind `--restart` with the ending of a scene is the scene, not the checkpoint: the option is moved behind
+/// it.
 void let_restart_follow_scenes(int argc, char** argv) {
   const auto is_scene = [](std::string_view name) { return name.ends_with(".yaml") || name.ends_with(".yml"); };
   for (int i = 1; i + 1 < argc; ++i)
     if (std::string_view(argv[i]) == "--restart" && is_scene(argv[i + 1])) std::swap(argv[i], argv[i + 1]);
 }
 
-/// Every process has found the wrong input, so the first one tells it; a folder that cannot be written may be known to
-/// the first process only.
+/// Every process finds a mistake of the input, so the first one reports it. A folder that cannot be written may be
+/// known to the first process only.
 int answer_wrong_input(const InputError& error) {
   if (parallel::is_root()) std::cerr << "error: " << error.what() << "\n";
   return static_cast<int>(ExitCode::wrong_input);

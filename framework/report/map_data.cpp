@@ -32,7 +32,7 @@ std::vector<std::string> named_components(const std::string& quantity, int count
   return names;
 }
 
-/// Without the third component of vectors, which files have for ParaView only.
+/// Whether an array is a vector: files have a third component for ParaView only.
 bool is_vector(const RunResults& results, const Grid::Values& sample) {
   if (sample.components != 3) return false;
   for (const RunResults::Written& written : results.written) {
@@ -108,7 +108,7 @@ void add_lines(const Grid& fractures, Json& lines) {
   }
 }
 
-/// All fractures, and what they have grown beyond the mesh.
+/// All fractures, and the paths of growth that the mesh does not have yet.
 Json lines_json(const RunResults::Written& written) {
   Json lines = Json::array();
   add_lines(written.fractures, lines);

@@ -11,8 +11,8 @@
 namespace sprekk {
 namespace {
 
-constexpr double on_the_edge = 1e-9;  // of a triangle, as a share of its corners
-constexpr double in_line = 1e-6;      // of the singular values of the directions to neighbours
+constexpr double on_the_edge = 1e-9;  // barycentric coordinate of a point on an edge
+constexpr double in_line = 1e-6;      // ratio of singular values where all neighbours lie on one line
 
 using Edge = std::pair<Position, Position>;
 

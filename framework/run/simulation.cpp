@@ -160,7 +160,7 @@ ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
 
 void Simulation::accept(const StepTime& step, const StepStatus& status) {
   Model& model = *state_.model;
-  // All of these before the step is accepted: which cells slip shows in what changed since the last accepted step.
+  // Evaluated before the step is accepted: slip, for example, is told from changes since the last accepted step.
   std::vector<Quantity> quantities = model.quantities();
   state_.notes.at_time(step.end);
   for (const Part* part : model.parts()) part->note_step(state_.notes, step);
@@ -212,7 +212,7 @@ void Simulation::fail(const std::string& reason) {
   try {
     output_.write_record(recorder_.record(), profile_);
   } catch (const std::exception&) {
-    // The reason is told by whoever catches what led here.
+    // The exception that led here is reported by its own handler.
   }
   report_last_checkpoint(output_);
 }

@@ -95,7 +95,7 @@ void Newton::move(const std::vector<Vector>& from, const Vector& update, double 
   SPREKK_EXPECT(std::isfinite(length), length);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const auto part = update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size());
-    if (!part.isZero(0)) unknowns_[u]->set(from[u] + length * part);  // else it has its values at the start
+    if (!part.isZero(0)) unknowns_[u]->set(from[u] + length * part);  // else it keeps its values
   }
 }
 

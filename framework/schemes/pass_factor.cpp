@@ -82,10 +82,11 @@ std::optional<double> PassFactor::of(const Scheme& scheme) {
   std::mt19937 random(1);
   Vector error(matrix_.cols());
   for (double& entry : error) entry = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
-  // Errors of different fields differ in size: those that a pass makes do not, so the first pass comes before counting.
+  // The random start has arbitrary proportions between fields; after one pass they are those of errors, so the first
+  // pass is not counted.
   double logarithm = 0, size = 0;
   for (int k = 0; k < iterations; ++k) {
-    // Of a Jacobi pass all groups see the residual of its beginning, of a Gauss-Seidel pass the latest.
+    // All groups of a Jacobi pass see the residual at its beginning, those of a Gauss-Seidel pass the latest one.
     Vector residual = matrix_ * error;
     for (const Group* group : groups) {
       if (!scheme.is_jacobi && group != groups.front()) residual = matrix_ * error;
@@ -94,7 +95,7 @@ std::optional<double> PassFactor::of(const Scheme& scheme) {
       const Vector change = group->factors.solve(right);
       for (Eigen::Index i = 0; i < right.size(); ++i) error[group->rows[i]] -= change[i];
     }
-    // The size of the fields that are solved last, as all others follow from them.
+    // The size is that of the fields that are solved last, since all others follow from them.
     double norm = 0;
     for (const int row : groups.back()->rows) norm = std::max(norm, std::abs(error[row]));
     if (!std::isfinite(norm)) return std::nullopt;

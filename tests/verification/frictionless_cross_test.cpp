@@ -45,7 +45,7 @@ SceneRun cross(const Twin& twin) {
 
 class FrictionlessCross : public ::testing::TestWithParam<Twin> {};
 
-// Once round-off was taken for the direction of friction, and cells for such as slide back, steps were cut without end.
+// If round-off gave the direction of friction, and cells were taken to slide back, steps would be cut without end.
 TEST_P(FrictionlessCross, TakesItsStepsWithoutCut) {
   SceneRun run = cross(GetParam());
   const double tangent = std::tan(2 * M_PI / 180);

@@ -76,10 +76,10 @@ time: {{end: {} s, step: {} s}}
                      of.mesh, of.type, of.permeability, of.at[0], of.at[1], end, step);
 }
 
-/// Reference: Theis 1935, also in anisotropic rock, where the bore hole is a circle of radius_of_bore_hole. A mesh
-/// knows nothing of a flow that has not left the cell of the well yet: on squares of two-point fluxes the error at the
-/// time t is h^2/(8 c t) in place of the log (the Green's function of the lattice). So the pressure is within 1 % from
-/// t = 4 A/c on, with the area A of the cell, also on triangles.
+/// Reference: Theis 1935, also in anisotropic rock, where the bore hole is a circle of radius_of_bore_hole. A mesh does
+/// not resolve flow that has not left the cell of the well yet: on squares of two-point fluxes the error at the time t
+/// is h^2/(8 c t) in place of the log (the Green's function of the lattice). So the pressure is within 1 % from t = 4
+/// A/c on, with the area A of the cell, also on triangles.
 TEST(Wells, PressureIsThatOfTheis) {
   const std::string squares = "{kind: structured, cells: [51, 51], shape: quadrilaterals}";
   const std::string triangles = "{kind: structured, cells: [51, 51], shape: triangles}";

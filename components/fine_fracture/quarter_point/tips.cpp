@@ -215,7 +215,7 @@ bool Tips::is_long_enough(const Tip& tip, const TipPath& path) const {
   return length_of(position(tip, {}), path) >= nearly * threshold(tip);
 }
 
-/// What has parted stays where it is: a path with the state held begins at the tip.
+/// The last segment stays where it is: a path that grows with the state held begins at the tip.
 void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
   tip.now.speed = (length_of(position(tip, {}), path) - length_of(position(tip, {}), tip.now.path)) / step_.dt;
   tip.now.is_extendable = false;
@@ -233,7 +233,8 @@ void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
 
 Growing::Growth Tips::grow(const StepTime&) {
   std::vector<GrowingTip> growing;
-  std::vector<double> at_start;  // Pa m^0.5, K_IC of each tip; all depends on K over K_IC, so the search knows this one
+  std::vector<double>
+      at_start;  // Pa m^0.5, K_IC of each tip; the search depends on K/K_IC only, so it gets K scaled to this toughness
   const auto over_start = [&](int tip, const TipPath& path) {
     return toughness(tips_[tip].end, position(tips_[tip], path)) / at_start[tip];
   };

@@ -42,7 +42,7 @@ std::vector<GridData::Array> arrays_of(vtkFieldData& data) {
   return arrays;
 }
 
-/// The numbers themselves, for as long as they live.
+/// An array of VTK on the given memory, valid as long as this exists.
 vtkSmartPointer<vtkDoubleArray> view_of(const std::vector<double>& values, int components) {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
   constexpr int keep = 1;  // VTK shall not free them, nor does it change them

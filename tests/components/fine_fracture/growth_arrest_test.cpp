@@ -68,8 +68,8 @@ TEST(Arrest, of_a_crack_opened_by_point_forces) {
 }
 
 TEST(Arrest, is_found_sooner_after_another_one) {
-  // As above, but the force rises by 3 % again and again: the tip is told what it learnt from its last increment, and
-  // what one of another place has learnt may mislead it, but finds the same length.
+  // As above, but the force rises by 3 % again and again. The warm start of the last increment helps, one of another
+  // place misleads the search, and the length found is the same.
   GrowthOptions options = options_with(0.05);
   GrowingTip knowing = tip_at(0.02), forgetful = knowing, misled = knowing;
   long with = 0, without = 0;

@@ -93,7 +93,7 @@ TEST(Front, FindsTipsThatShareTheirFluid) {
   EXPECT_NEAR(front.length(1) - 0.008, (0.33 - form.shared * sum) / form.own, 2e-8);
 }
 
-/// K of both falls with the growth of either, by the same: the error of a mesh in it must not choose a leader.
+/// Growth of either tip lowers K of both by the same: an error of the mesh in K must not decide which tip advances.
 TEST(Front, TipsThatAreNotToldFromOneAnotherShareTheAdvance) {
   for (const double noise : {0.0, 1e-12, 1e-6, 1e-4, 1e-3}) {
     ClosedForm form{{0.3 + noise, 0.3 - 0.5 * noise}, {tip(0.4), tip(-2.0)}};
@@ -118,8 +118,8 @@ TEST(Front, ATipThatIsHardlyLessLoadedGrowsToo) {
   }
 }
 
-/// A difference beyond the error of a mesh counts: in stronger rock a tip rests, however little the advances differ in
-/// what they do.
+/// A difference beyond the error of a mesh counts: in tougher rock a tip rests, however little the effects of the two
+/// advances differ.
 TEST(Front, ATipThatIsClearlyLessLoadedRests) {
   ClosedForm form{{0.3, 0.25}, {tip(0.4), tip(-2.0)}};
   form.own = 0;
@@ -297,7 +297,7 @@ TEST(Front, NeedsFewTrialsAfterStepsAtRest) {
   EXPECT_LE(front.trials(), 6);
 }
 
-/// What was learnt of other loads may be of no use: here more length would mean more load.
+/// Slopes that were learnt under other loads may be of no use: by those given here K would rise with the length.
 TEST(Front, ForgetsExperienceThatMisleads) {
   const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
   const Front front = form.solved(exact(), -form.solved(exact()).slopes());

@@ -76,7 +76,7 @@ TEST(Accelerators, QuasiNewtonMethodsSolveALinearProblemInOnePassMoreThanItsUnkn
 }
 
 TEST(Accelerators, AntisymmetricScalesChangeNoIterateOfALinearProblem) {
-  // What is least depends on scales, but not where nothing is left of the residual.
+  // The combination with the least residual depends on the scales, except where the residual becomes zero.
   const int size = 4;
   const Affine map = random_map(size, 7, 1.2);
   Vector scale(size);

@@ -107,7 +107,7 @@ TEST(GrowStep, HandsOnWhatHasGrown) {
   EXPECT_EQ(run.step().extensions()[0].fracture, 3);
   EXPECT_EQ(run.step().extensions()[0].points[0], Point(0.1, 0.2));
   EXPECT_EQ(run.step().cavity().radius, 0.3);
-  // They are those of the last run alone.
+  // The extensions are those of the last run only.
   run.tips.load.now = run.tips.load.onset = 0.5;
   EXPECT_TRUE(run.schedule->run({standard, standard, 2 * standard}).converged);
   EXPECT_TRUE(run.step().extensions().empty());

@@ -226,7 +226,7 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
     return note.text.find("main_last") != std::string::npos && note.text.find("turns back") != std::string::npos;
   };
   EXPECT_EQ(std::count_if(notes.all().begin(), notes.all().end(), is_said), 1);
-  // The next step has no more of it.
+  // The next step starts without that path.
   setting.tips.accepted();
   setting.fluid.state = 2;
   setting.tips.examine({});
