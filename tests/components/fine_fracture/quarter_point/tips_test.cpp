@@ -1,5 +1,5 @@
-// What tips ask of the coarse level: pressures of their own ends on walls that have grown, and whether they can be
-// ruled out without a fine level.
+// What tips take from the coarse level: the pressures at their own ends on walls that have grown, and jumps by which
+// they are ruled out without a fine level.
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ struct Setting {
     options.growth.increment = 0.1;
     return options;
   }
-  /// Both tips go straight on by so much that the coarse level does not know of, at these ends.
+  /// Lets the path grow straight on by this length, which the coarse level does not have, at these ends.
   void grow(double length, bool first, bool last) {
     const auto state = [&](bool has_grown, double sign) {
       Vector values = Vector::Zero(has_grown ? 21 : 19);
@@ -188,7 +188,7 @@ TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
 }
 
 TEST(Tips, WithAPathOfTheirOwnAreNeverRuledOut) {
-  // The jump beside the coarse tip says nothing about what has grown from it.
+  // The jump beside the coarse tip is no measure for the path that has grown from it.
   Setting setting(0.3);
   setting.fluid.jump[0] = setting.fluid.jump[1] = 0;
   setting.fluid.pressure[1] = 3e6;
@@ -201,8 +201,7 @@ TEST(Tips, WithAPathOfTheirOwnAreNeverRuledOut) {
 }
 
 TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
-  // What has grown from the tip, and the coarse level does not know of, turns by 100 degrees: when it is long enough to
-  // be handed over the mesh refuses it.
+  // The path of the fine level turns by 100 degrees: the mesh refuses it when it is long enough to be handed over.
   Setting setting(0.3);
   setting.fluid.jump[0] = 0;
   setting.fluid.pressure[1] = 30e6;
