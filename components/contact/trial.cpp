@@ -100,8 +100,8 @@ std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
                slip = jump_.now()[dimension * i + 1];
   const bool is_closed = normal < 0 && !t.is_open();
   const double held = t.strength.cohesion - t.strength.friction * normal;
-  // Walls that rest after they have slid keep what has slid and parted within the cell: the friction is then that which
-  // is mobilised. Otherwise a pressure that falls by next to nothing would change the walls next to a kink at once.
+  // Walls at rest that have slid keep their slip and opening within the cell: the friction is then the mobilised one.
+  // Otherwise a tiny fall of the pressure would change the walls next to a kink at once.
   const bool has_slid = std::abs(slip) > least_slip * std::abs(shear) / stiffness()[dimension * i + 1];
   if (is_closed && !has_slid && std::abs(shear) < (1 - at_bound) * held) return std::nullopt;
   const double dilation = std::copysign(t.dilation, slip);

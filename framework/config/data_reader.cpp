@@ -69,7 +69,7 @@ void check_constant_windows(const Data& sum, const std::vector<Window>& windows,
   }
   std::vector<double> instants = sum.switch_times();
   if (instants.empty()) return;
-  // The time before the first window counts only if it is not before 0 s, where nearly all scenes start.
+  // The time before the first window counts if this window begins after 0 s, where nearly all scenes start.
   if (instants.front() > 0) instants.insert(instants.begin(), std::nextafter(instants.front(), -forever));
   for (const double t : instants) {
     const double value = sum.at({Point::Zero(), 0, t});

@@ -115,7 +115,7 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
       "file", geometry.file,
       {.doc = "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: groups "
               "of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."});
-  // expand_fracture_table replaces tables of fractures by these sections before they are read.
+  // The short form `fractures: {table: FILE}` has been expanded by expand_fracture_table.
   spec.named_sections(
       "fractures", fracture_spec("", {}, "", [](FractureGeometry) {}),
       [&geometry, folder](const std::string& name, const Origin& origin) {

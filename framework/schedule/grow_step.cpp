@@ -117,7 +117,7 @@ StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, do
   SPREKK_EXPECT(std::isfinite(before) && std::isfinite(now), before, now);
   SPREKK_ASSERT(smallest_step_ > 0, smallest_step_);
   constexpr double aim = 0.5;   // of the overshoot: the middle of what is accepted
-  constexpr double half = 0.5;  // of the step, where its loads do not tell the part to take
+  constexpr double half = 0.5;  // of the step, where the part to take does not follow from its loads
   constexpr double of_diffusion = 0.5, at_constant_rate = 1;  // powers of time with which loads rise
   constexpr double least = 0.01, most = 0.9;                  // of the step that was refused
   const double wanted = (1 + aim * options_.overshoot - before) / (now - before);  // of the rise of this step

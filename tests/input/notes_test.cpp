@@ -1,4 +1,4 @@
-// What a run or a check tells beside its answer: each note with a scene that deserves it and one that does not.
+// The notes of runs and checks: each with a scene that has the note, and one that has not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Walls without friction that open as they slip, and fluid that cannot follow: nothing tells Newton's method which way
-// they are about to slide but the load.
+// Walls without friction that open as they slip, and fluid that cannot follow: only the load determines in which
+// direction they are about to slide.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

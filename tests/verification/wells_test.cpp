@@ -101,7 +101,8 @@ TEST(Wells, PressureIsThatOfTheis) {
     const double radius = *couplers::equivalent_radius(trial.mesh(), fluxes_of(trial), home, each.mobility);
     const double size = std::sqrt(each.mobility.determinant()), diffusivity = size / 1e-9;
     const double first = 4 * trial.mesh().cell_measure[home] / diffusivity, last = 5 * first;
-    ASSERT_LT(std::sqrt(4 * each.mobility.diagonal().maxCoeff() / 1e-9 * last), 510 / 2.0);  // the sides feel nothing
+    ASSERT_LT(std::sqrt(4 * each.mobility.diagonal().maxCoeff() / 1e-9 * last),
+              510 / 2.0);  // the flow does not reach the sides
     SceneRun run = SceneRun::from_text(theis(each, first / 100, last));
     const double bore = couplers::radius_of_bore_hole(0.1, each.mobility);
     double worst = 0, early = 0;
@@ -155,7 +156,7 @@ TEST(Wells, LimitBindsAtItsTime) {
         const double q = sign * run.quantity("wells.w.rate"), p = sign * (run.quantity("wells.w.pressure") - 1e6);
         const double binds = run.quantity("wells.w.binds_0_rate_1_pressure_2_shut");
         EXPECT_LE(run.iterations(), 3);
-        // Backward Euler: the larger of both is wrong by nothing before, and follows its own formula after.
+        // Backward Euler is exact for the constant rate before the limit, and has a recurrence of its own after it.
         const double free = implicit + rate * dt / capacity;
         const bool is_bound = free + resistance * rate > gap;
         implicit =
@@ -351,7 +352,7 @@ time: {end: 1 s, step: 1 s}
       {{pressure, pressure}, {rate, pressure}, {rate, rate}, {rate, rock}, {rate, water}, {rock, rate}, {water, rate}});
 }
 
-/// What a scene may not ask for, and the words of the answer, when it is built.
+/// Scenes that are refused when they are built, and the messages.
 TEST(Wells, MistakesAreRefused) {
   const auto has = [](const std::string& from, const std::string& to, const std::string& words) {
     std::string scene = closed_box(1, "highest_pressure: 1.203 MPa", 500), said;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double first_slope = -0.3;          ///< of ln K_eq over one increment, as long as none is known
 constexpr double shared_slope = -0.2;         ///< the same by the growth of another tip
-constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one tells no slope between two meshes
+constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one gives no slope from two meshes
 constexpr double first_part = 0.25;           ///< of an increment: the first trial of a tip without a known speed
 constexpr double gain = 0.5;                  ///< of the norm of the best trial: what counts as progress
 constexpr int patience = 8;                   ///< trials without progress
@@ -26,7 +26,7 @@ constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside
 constexpr double of_difference =
     30;  ///< the weight of differences of advances in that norm: slopes of loads, 0.3, over those of H, 0.01
 constexpr double largest_turn = 0.3;     ///< rad, between two trials
-constexpr double quarter_turn = 1.5;     ///< rad: a move that turns further has learnt no slope of K_II
+constexpr double quarter_turn = 1.5;     ///< rad: for a move that turns further the slope of K_II is wrong
 constexpr double largest_factor = 3;     ///< between lengths of a new segment in two trials
 constexpr double largest_advance = 0.6;  ///< of an increment, between two trials
 constexpr double at_limit = 1e-9;        ///< of a length that is at its limit, but for rounding
@@ -251,7 +251,7 @@ void Front::learn(const std::vector<FrontState>& states) {
   step(from);
 }
 
-/// Drops what earlier trials and searches have told of the slopes.
+/// Drops the slopes from earlier trials and searches.
 void Front::forget() {
   make_jacobian();
   for (int i = 0; i < count(); ++i)
@@ -367,8 +367,8 @@ bool Front::free_tips(const Eigen::VectorXd& residual) {
   return false;
 }
 
-/// A tip that is below its toughness, but within the error of the mesh, begins without an advance. Where the growth of
-/// another unloads both alike, this holds for its own, too.
+/// A tip that is below its toughness, but within the error of the mesh, begins without an advance. If growth of another
+/// tip unloads both alike, its own growth does so, too.
 void Front::begin_beside_front(int tip) {
   length_[tip] = tips_[tip].covered;
   angle_[tip] = tips_[tip].angle;

@@ -365,7 +365,7 @@ void Tips::rewound() {
     tip.now = tip.accepted;
     tip.evaluated_for = 0;
     tip.kept_factors.reset();
-    // A step that is repeated does not know of the trials of the one that was refused.
+    // A repeated step starts without the trials of the refused one.
     tip.pattern.reset();
   }
   notes_.clear();

@@ -176,8 +176,8 @@ TEST(Front, TipsAreNearlyAtTheirToughness) {
   }
 }
 
-/// The step from rest to growth, of both or of one of two tips, leaves no load for which nothing is found, and the
-/// front depends on the load continuously. Steps of 1e-5 in the load move a front by less than the least slope allows.
+/// Growth of both or of one of two tips begins without a load for which no front is found, and the front depends on the
+/// load continuously. Steps of 1e-5 in the load move a front by less than the least slope allows.
 TEST(Front, BeginsContinuously) {
   for (const double difference : {0.0005, 0.0019, 0.0021, 0.005, 0.02}) {
     for (const double own : {0.0, 20.0}) {
@@ -213,7 +213,7 @@ TEST(Front, LetsATipRestThatTheOtherUnloads) {
   EXPECT_EQ(front.angle(1), -2.0);
 }
 
-/// Tips at the speed of their last step, with what the search of that step has learnt.
+/// Tips at the speed of their last step, with the slopes from the search of that step.
 TEST(Front, NeedsFewTrialsAfterASimilarStep) {
   const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
   const Front first = form.solved(exact());
@@ -274,7 +274,8 @@ TEST(Front, NeedsFewTrialsAfterASegmentWasDivided) {
   EXPECT_LE(front.trials(), 4);
 }
 
-/// Nothing is learnt of the turns of a tip that rests: after some steps in which it does, it needs no more trials.
+/// The search learns no slopes for the turns of a tip at rest: after some steps at rest it needs no more trials than
+/// before.
 TEST(Front, NeedsFewTrialsAfterStepsAtRest) {
   CurvedPath path{0.12, 0.4, tip(0.4)};
   const Front before = path.solved();
@@ -364,8 +365,8 @@ TEST(Front, TellsAdvanceThatIsTooFar) {
   EXPECT_EQ((ClosedForm{{3}, {tip(0.4)}}.solved(options()).verdict()), Front::Verdict::too_far);
 }
 
-/// What has parted in earlier steps neither heals nor turns: a new segment that does not grow is done, although K_II
-/// does not vanish at its end.
+/// The part of earlier steps neither heals nor turns: a new segment that does not grow is finished, although K_II does
+/// not vanish at its end.
 TEST(Front, ANewSegmentRestsWhereItHasParted) {
   FrontTip start = tip(0.1);
   start.covered = 0;

@@ -47,7 +47,7 @@ TEST_P(Condensed, SolvesFracturedBiot) {
   EXPECT_EQ(solver.name(), std::string("condensed ") + GetParam());
 }
 
-// What contact asks of walls that stick: jumps of zero, which are differences of displacements that are not zero.
+// The conditions of walls that stick: jumps of zero, which are differences of displacements that are not zero.
 TEST_P(Condensed, TakesRoundOffOfJumpsThatAreZeroForNoMistake) {
   LinearSystem system = biot.build();
   std::vector<Triplet> entries;
@@ -176,9 +176,9 @@ TEST_P(Condensed, AnswersAlikeWhateverFloatedBefore) {
   }
 }
 
-// A bulk that is regular by less and less, as the shift of its matrix comes near to an eigenvalue, -Laplace's of a mode
-// that no sum of rows tells, while local unknowns keep the whole system regular. Reference: the definition of the
-// backward error.
+// A bulk that comes nearer and nearer to a singular one, as the shift of its matrix approaches an eigenvalue of
+// -Laplace, of a mode whose sum over rows vanishes, while local unknowns keep the whole system regular. Reference: the
+// definition of the backward error.
 TEST_P(Condensed, AcceptsABulkWhoseFirstSolutionOneRefinementMakesAccurate) {
   constexpr int n = 20;
   const double angle = std::numbers::pi / (n + 1), eigenvalue = 4 - 2 * std::cos(2 * angle) - 2 * std::cos(3 * angle);

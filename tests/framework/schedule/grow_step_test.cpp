@@ -23,7 +23,7 @@ class Still : public Part {
   void assemble(Assembly&, const StepTime&) const override {}
 };
 
-/// Tips of which the test says what they do.
+/// Tips whose behaviour the test sets.
 class Tips : public Still, public Growing {
  public:
   Load examine(const StepTime&) override { return load; }
@@ -148,7 +148,7 @@ TEST(GrowStep, TheRepeatedStepReachesTheLoadAndIsTaken) {
   EXPECT_EQ(run.tips.grown, 1);
 }
 
-// A load that rises with the root of time, as where fluid diffuses: two refusals tell the root.
+// A load that rises with the root of time, as where fluid diffuses: the root follows from two refusals.
 TEST(GrowStep, RefusalsInARowTellHowTheLoadRises) {
   Schedule run(usual);
   double dt = standard;

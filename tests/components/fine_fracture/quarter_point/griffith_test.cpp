@@ -26,7 +26,7 @@ TEST(Griffith, InteractionIntegralIsWithinATenthOfAPercentAtThePapersResolution)
   }
 }
 
-/// The integrals do not depend on their domain by more than the mesh makes of them.
+/// The integrals depend on their domain by no more than the error of the mesh.
 TEST(Griffith, IntensitiesHardlyDependOnTheDomainOfTheIntegral) {
   const Griffith exact = paper_crack(1e6, 0.7e6, -3e6);
   const FineModel model(paper_box(), paper_mesh(), table_1_rock);
