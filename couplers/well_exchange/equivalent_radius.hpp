@@ -12,7 +12,7 @@ namespace sprekk::couplers {
 ///   p = −q/(2 pi sqrt(det M)) ln rho,  rho^2 = sqrt(det M) x·M^-1 x,
 /// has the pressure that a mesh gives the cell with the source q. Peaceman's radius (1978, 1983), found as he found it:
 /// the discrete equations are solved around the cell, with the pressure of the source prescribed in the cells around a
-/// patch of up to `most_layers`. So it is right for any shape of cells, any anisotropy and any discretization with
+/// patch (WellPatch). So it is right for any shape of cells, any anisotropy and any discretization with
 /// unknowns on cells. On squares with the two-point flux it is 0.198 h. None where the cell touches the boundary or a
 /// fracture. Throws std::invalid_argument, with the reason, for a discretization with unknowns on faces, and for one
 /// with nonlinear fluxes.

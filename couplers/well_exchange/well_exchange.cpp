@@ -1,6 +1,7 @@
 // well_exchange: fluid flows between wells and the rock or the fractures in which they are open.
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/temperature.hpp"
 #include "components/capabilities/wells.hpp"
+#include "couplers/well_exchange/early_resistance.hpp"
 #include "couplers/well_exchange/equivalent_radius.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/invariants.hpp"
@@ -33,7 +35,8 @@ struct WellExchangeOptions {
 };
 
 /// Determines the rate q of each place of the wells, out of the well: R q = p_well − p, with the pressure p of the cell
-/// that the place lies in. In rock R = (ln(r_e/r_w) + skin)/(2 pi sqrt(det M)), Peaceman's index (equivalent_radius).
+/// that the place lies in. In rock R = (ln(r_e/r_w) + skin)/(2 pi sqrt(det M)), Peaceman's index, and what a rate that
+/// changes adds to it (EarlyResistance): weight_k m_k/(2 pi sqrt(det M)), dm_k/dt = dq/dt − m_k c/scale_k.
 /// In a fracture R is zero unless an index is given: fluid flows from the middle of the cell to both sides, and the
 /// pressure there is that of the cell. R = 1/index where the scene gives one. The terms of the rock are constant,
 /// whichever limit of the well binds: what switches is on the side of the wells.
@@ -49,6 +52,9 @@ class WellExchange : public Coupler {
         places_(wells_.places()),
         cells_(places_.size(), none),
         log_of_radii_(Vector::Zero(count())),
+        early_(places_.size()),
+        diffusivity_(Vector::Zero(count())),
+        memory_(context.fields.add(mesh_, memory_spec(context, wells_.rate(), count()))),
         resistance_(Vector::Zero(count())),
         scale_(Vector::Zero(count())) {
     context.determine(wells_.rate());
@@ -94,7 +100,7 @@ class WellExchange : public Coupler {
       if (places_[k].index)
         resistance_[k] = 1 / *places_[k].index;
       else if (!places_[k].fracture)
-        resistance_[k] = log_of_radii_[k] / conductance_of_rock(k);
+        use_rock(k);
       double scale = resistance_[k];
       if (scale == 0) {
         const double conductance = fracture_->conductance(cells_[k]);
@@ -116,8 +122,32 @@ class WellExchange : public Coupler {
     assembly.linear(rate, of_wells_, wells_.pressure(), 1, &scale_);
     if (rock_) assembly.linear(rate, of_rock_, rock_->pressure(), 1, &scale_);
     if (fracture_) assembly.linear(rate, of_fracture_, fracture_->pressure(), 1, &scale_);
-    assembly.add(rate, of_rate_.cwiseProduct(rate.now()));
-    assembly.diagonal(rate, rate, of_rate_);
+    Vector of_rate = of_rate_;
+    add_early(assembly, step, of_rate);
+    assembly.add(rate, of_rate.cwiseProduct(rate.now()));
+    assembly.diagonal(rate, rate, of_rate);
+  }
+
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
+    const Field& rate = wells_.rate();
+    if (std::ranges::find(solved, &rate) == solved.end()) return;
+    Vector memory = memory_.accepted();
+    const Vector change = rate.now() - rate.accepted();
+    for (int k = 0; k < count(); ++k)
+      for (int i = 0; i < early_terms; ++i) {
+        double& value = memory[early_terms * k + i];
+        value = kept(k, i, step.dt) * (value + change[k]);
+      }
+    memory_.set(std::move(memory));
+  }
+
+  /// Where the cell of a well is another one, its flow counts as steady.
+  void carry_over(const Part& part, const MeshChange&) override {
+    const auto& before = dynamic_cast<const WellExchange&>(part);
+    Vector memory = memory_.now();
+    for (int k = 0; k < count(); ++k)
+      if (early_[k].scales != before.early_[k].scales) memory.segment<early_terms>(early_terms * k).setZero();
+    memory_.set_both(std::move(memory));
   }
 
   void hold_constants(ConstantModes& modes) const override {
@@ -188,8 +218,49 @@ class WellExchange : public Coupler {
     return nearest;
   }
 
+  static FieldSpec memory_spec(const CouplerContext& context, const Field& rate, int count) {
+    return {.owner = context.name,
+            .name = "memory",
+            .location = Location::listed,
+            .components = early_terms,
+            .listed = count,
+            .role = Role::derived(),
+            .unit = "m^2/s",
+            .doc = "Rates that have changed a while ago and still change the resistance of the rock around wells",
+            .accepted_with = rate.name()};
+  }
+
   double conductance_of_rock(int k) const {
     return 2 * std::numbers::pi * std::sqrt(fluxes_->mobility()[cells_[k]].determinant());
+  }
+
+  /// The resistance of a place in rock, and the diffusivity around it in the metric of its index.
+  void use_rock(int k) {
+    const Tensor& mobility = fluxes_->mobility()[cells_[k]];
+    resistance_[k] = log_of_radii_[k] / conductance_of_rock(k);
+    const double largest = Eigen::SelfAdjointEigenSolver<Tensor>(mobility).eigenvalues()[1];
+    diffusivity_[k] = rock_->diffusivity(cells_[k]) * std::sqrt(mobility.determinant()) / largest;
+  }
+
+  /// What a step of backward Euler leaves of m_k.
+  double kept(int k, int term, double dt) const {
+    const double scale = early_[k].scales[term];
+    return scale > 0 ? 1 / (1 + diffusivity_[k] * dt / scale) : 0;
+  }
+
+  /// Adds the resistance at early times to the factors of the rates, and what is known of it to the rows.
+  void add_early(Assembly& assembly, const StepTime& step, Vector& of_rate) const {
+    const Field& rate = wells_.rate();
+    Vector known = Vector::Zero(count());
+    for (int k = 0; k < count(); ++k)
+      for (int i = 0; i < early_terms; ++i) {
+        const double weight = early_[k].weights[i];
+        if (weight == 0) continue;
+        const double factor = scale_[k] * weight * kept(k, i, step.dt) / conductance_of_rock(k);
+        of_rate[k] += factor;
+        known[k] += factor * (memory_.accepted()[early_terms * k + i] - rate.accepted()[k]);
+      }
+    if (!known.isZero(0)) assembly.add(rate, known);
   }
 
   /// The cell of a place in rock; finds its index.
@@ -208,25 +279,28 @@ class WellExchange : public Coupler {
       throw InputError(place.origin, "well '" + place.name + "' is open to rock that lets no fluid through",
                        "its permeability is zero", "give it a permeability, or move the well");
     if (place.index) return home;
-    const std::optional<double> radius = radius_of(place, home);
-    if (!radius)
+    const double bore = radius_of_bore_hole(place.radius, mobility);
+    const double effective =
+        bore * std::exp(-std::min(place.skin, 0.0));  // rock that conducts well widens the bore hole
+    const std::optional<EarlyResistance> early = resistance_of(place, home, effective);
+    if (!early)
       throw InputError(place.origin, "the index of well '" + place.name + "' cannot be found",
                        "its cell at " + to_text(mesh_.cell_center[home]) + " touches a side or a fracture",
                        "use smaller cells there, give its 'index', or name the 'fracture' in which it is open");
-    const double bore = radius_of_bore_hole(place.radius, mobility);
-    log_of_radii_[k] = std::log(*radius / bore) + place.skin;
+    log_of_radii_[k] = early->log_of_radii + std::max(place.skin, 0.0);
+    early_[k] = *early;
     if (!(log_of_radii_[k] > 0))
       throw InputError(place.origin, "the index of well '" + place.name + "' is not positive",
                        fmt::format("ln(r_e/r_w) + skin is {:.3g}: the cells have the pressure of the well at r_e = "
                                    "{:.3g} m, and its radius is {:.3g} m",
-                                   log_of_radii_[k], *radius, bore),
+                                   log_of_radii_[k], effective * std::exp(early->log_of_radii), bore),
                        "use larger cells, a smaller radius, or a larger skin");
     return home;
   }
 
-  std::optional<double> radius_of(const WellPlace& place, int home) const {
+  std::optional<EarlyResistance> resistance_of(const WellPlace& place, int home, double bore) const {
     try {
-      return equivalent_radius(mesh_, *fluxes_, home, fluxes_->mobility()[home]);
+      return early_resistance(mesh_, *fluxes_, home, fluxes_->mobility()[home], bore);
     } catch (const std::invalid_argument& error) {
       throw InputError(place.origin, "the index of well '" + place.name + "' is not known for this flow", error.what(),
                        "use matrix_flow/mpfa or matrix_flow/tpfa, or give its 'index'");
@@ -239,11 +313,14 @@ class WellExchange : public Coupler {
   MatrixFluxes* fluxes_;
   FractureFluid* fracture_;
   const std::vector<WellPlace>& places_;
-  std::vector<int> cells_;  ///< of the rock or of the fracture, one a place
-  Vector log_of_radii_;     ///< ln(r_e/r_w) + skin of places in rock without a given index
-  Vector resistance_;       ///< R, Pa s/m^2, one a place
-  Vector scale_, of_rate_;  ///< of the rows, m^2/(Pa s), and the factor of the rate
-  Operator of_wells_;       ///< places × wells: −1
+  std::vector<int> cells_;              ///< of the rock or of the fracture, one a place
+  Vector log_of_radii_;                 ///< ln(r_e/r_w) + skin of places in rock without a given index
+  std::vector<EarlyResistance> early_;  ///< one a place; of the others zero
+  Vector diffusivity_;                  ///< around places in rock without a given index, m^2/s
+  Field& memory_;                       ///< m_k of every place, m^2/s
+  Vector resistance_;                   ///< R of a steady flow, Pa s/m^2, one a place
+  Vector scale_, of_rate_;              ///< of the rows, m^2/(Pa s), and the factor of the rate
+  Operator of_wells_;                   ///< places × wells: −1
   Operator of_rock_, into_rock_, of_fracture_, into_fracture_;
 };
 

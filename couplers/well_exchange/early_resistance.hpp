@@ -1,0 +1,33 @@
+// What a well resists before the flow around it is steady on the scale of its cell.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "components/capabilities/fluid_fluxes.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::couplers {
+
+/// The number of terms of a resistance that changes with time.
+constexpr int early_terms = 12;
+
+/// How the difference of the pressures of a well and of its cell answers a rate q that begins at the time 0:
+///   p_well − p_cell = q/(2 pi sqrt(det M)) (ln(r_e/r_w) + sum over k of weight_k exp(−c t/scale_k)),
+/// with the diffusivity c in the metric of rho (WellPatch). A mesh knows nothing of a flow that has not left the cell
+/// of the well, so that its pressure with the steady index alone is late by about h^2/(8 c) on squares. The terms
+/// replace what the mesh gives its cell by the answer of a bore hole in rock without end, K_0(x)/(x K_1(x)), x = r_w
+/// sqrt(s/c) for the transform at s (van Everdingen and Hurst 1949); Blanc et al. (1999) do the same with tables. They
+/// are a fit of least squares to the transforms, and vanish when the flow is steady.
+struct EarlyResistance {
+  double log_of_radii = 0;                    ///< ln(r_e/r_w)
+  std::array<double, early_terms> weights{};  ///< 1
+  std::array<double, early_terms> scales{};   ///< m^2
+};
+
+/// `bore`: the radius of the bore hole in the metric of rho, m. None where the cell touches the boundary or a fracture.
+/// Throws std::invalid_argument as WellPatch does.
+std::optional<EarlyResistance> early_resistance(const Mesh& mesh, const MatrixFluxes& fluxes, int middle,
+                                                const Tensor& mobility, double bore);
+
+}  // namespace sprekk::couplers

@@ -1,0 +1,48 @@
+// The cells around a well, and the discrete equations of the flow in them.
+#pragma once
+
+#include <Eigen/SparseLU>
+#include <memory>
+#include <vector>
+
+#include "components/capabilities/fluid_fluxes.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::couplers {
+
+/// Up to `most_layers` layers of cells around a cell with a source, in rock of one mobility M; with rho, the distance
+/// in the metric rho^2 = sqrt(det M) x·M^-1 x. Pressures p are those of a source of the rate q times 2 pi sqrt(det
+/// M)/q.
+class WellPatch {
+ public:
+  /// Empty where the cell touches the boundary or a fracture. Throws std::invalid_argument, with the reason, for a
+  /// discretization with unknowns on faces, and for one with nonlinear fluxes.
+  WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, int middle, const Tensor& mobility);
+
+  bool is_empty() const { return cells_.empty(); }
+  /// The pressure that a constant source of a steady flow gives its cell, with those of a line source, −ln rho, in the
+  /// cells around the patch.
+  double steady_pressure() const;
+  /// s times the Laplace transform of the pressure of the cell after a source has begun, with s = c·`decay` (1/m^2) and
+  /// the diffusivity c: K_0(rho sqrt(decay)) of a line source in the cells around the patch.
+  double transformed_pressure(double decay) const;
+
+ private:
+  /// A pressure outside of the patch, `weight` of which flows into a cell of it.
+  struct Outside {
+    int row;
+    double weight, distance;
+  };
+  template <class Source>
+  double pressure(double decay, const Source& source) const;
+
+  std::vector<int> cells_;
+  std::vector<double> areas_;
+  std::vector<Triplet> entries_;  ///< of the steady equations, m^2/(Pa s)
+  std::vector<Outside> outside_;
+  int middle_ = none;                                                             ///< among cells_
+  double size_;                                                                   ///< sqrt(det M)
+  mutable std::shared_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> solver_;  ///< with the ordering of the first
+};
+
+}  // namespace sprekk::couplers
