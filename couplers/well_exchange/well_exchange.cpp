@@ -35,7 +35,8 @@ struct WellExchangeOptions {
 /// Determines the rate q of each place of the wells, out of the well: R q = p_well − p, with the pressure p of the cell
 /// that the place lies in. In rock R = (ln(r_e/r_w) + skin)/(2 pi sqrt(det M)), Peaceman's index (equivalent_radius).
 /// In a fracture R is zero unless an index is given: fluid flows from the middle of the cell to both sides, and the
-/// pressure there is that of the cell. R = 1/index where the scene gives one. The terms of the rock are constant,
+/// pressure there is that of the cell. R = 1/index where the scene gives one. The rows are pressures: as rates, a place
+/// with a small index would be judged by what flows at one with a large index. The terms of the rock are constant,
 /// whichever limit of the well binds: what switches is on the side of the wells.
 class WellExchange : public Coupler {
  public:
@@ -49,8 +50,7 @@ class WellExchange : public Coupler {
         places_(wells_.places()),
         cells_(places_.size(), none),
         log_of_radii_(Vector::Zero(count())),
-        resistance_(Vector::Zero(count())),
-        scale_(Vector::Zero(count())) {
+        resistance_(Vector::Zero(count())) {
     context.determine(wells_.rate());
     refuse_heat(context);
     std::vector<Triplet> of_rock, of_fracture, of_wells;
@@ -101,10 +101,8 @@ class WellExchange : public Coupler {
         scale = conductance > 0 ? 1 / conductance : 1;
       }
       of_wells[k] = scale;
-      scale_[k] = 1 / scale;
-      SPREKK_ASSERT(std::isfinite(scale_[k]) && scale_[k] > 0, k, scale_[k]);
+      SPREKK_ASSERT(std::isfinite(scale) && scale > 0, k, scale);
     }
-    of_rate_ = resistance_.cwiseProduct(scale_);
     wells_.scale(of_wells);
   }
 
@@ -113,11 +111,11 @@ class WellExchange : public Coupler {
     if (rock_) supply(assembly, rock_->pressure(), into_rock_, step.dt);
     if (fracture_) supply(assembly, fracture_->pressure(), into_fracture_, step.dt);
     if (!assembly.has_row(rate)) return;
-    assembly.linear(rate, of_wells_, wells_.pressure(), 1, &scale_);
-    if (rock_) assembly.linear(rate, of_rock_, rock_->pressure(), 1, &scale_);
-    if (fracture_) assembly.linear(rate, of_fracture_, fracture_->pressure(), 1, &scale_);
-    assembly.add(rate, of_rate_.cwiseProduct(rate.now()));
-    assembly.diagonal(rate, rate, of_rate_);
+    assembly.linear(rate, of_wells_, wells_.pressure());
+    if (rock_) assembly.linear(rate, of_rock_, rock_->pressure());
+    if (fracture_) assembly.linear(rate, of_fracture_, fracture_->pressure());
+    assembly.add(rate, resistance_.cwiseProduct(rate.now()));
+    assembly.diagonal(rate, rate, resistance_);
   }
 
   void hold_constants(ConstantModes& modes) const override {
@@ -242,7 +240,6 @@ class WellExchange : public Coupler {
   std::vector<int> cells_;  ///< of the rock or of the fracture, one a place
   Vector log_of_radii_;     ///< ln(r_e/r_w) + skin of places in rock without a given index
   Vector resistance_;       ///< R, Pa s/m^2, one a place
-  Vector scale_, of_rate_;  ///< of the rows, m^2/(Pa s), and the factor of the rate
   Operator of_wells_;       ///< places × wells: −1
   Operator of_rock_, into_rock_, of_fracture_, into_fracture_;
 };
