@@ -99,7 +99,10 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
-  const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
+  /// By penalty the stiffness is part of the answer, which may not depend on how Newton's method finds it.
+  const Vector& stiffness() const {
+    return is_without_shortcuts_ && multiplier_ != Multiplier::none ? stiffness_of_walls_ : stiffness_of_fractures_;
+  }
   Trial trial(int cell) const;
   /// Whether the trial's traction is that of the iterate.
   bool trial_has_present() const;

@@ -95,6 +95,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
 
+  double round_off_base_of_fluxes() const override {
+    return largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>();
+  }
   const Vector& face_fluxes() const override;
   std::vector<Derivative> face_flux_derivatives() const override;
   std::vector<FluidSource> fluid_sources() const override { return sources_; }

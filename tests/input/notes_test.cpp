@@ -242,6 +242,27 @@ TEST(Notes, APressureBeyondEveryLoadIsTold) {
   EXPECT_TRUE(run_of("flow.yaml", {}).note("beyond every load").is_null());
 }
 
+TEST(Notes, WallsThatOverlapByMoreThanTheApertureAreTold) {
+  const auto note = [](const char* factor) {
+    return run_of("fractured.yaml", {"components.conduit.initial_aperture=0.01 mm", "materials.permeability=1e-12 m^2",
+                                     "components.contact={type: contact/penalty, friction: 0.5, stiffness_factor: " +
+                                         std::string(factor) + "}"})
+        .note("aperture below zero");
+  };
+  EXPECT_FALSE(note("1e-3").is_null());
+  EXPECT_TRUE(note("100").is_null());
+}
+
+TEST(Notes, TrianglesOfFirstOrderInIncompressibleRockAreTold) {
+  const auto notes = [](const std::string& order, const std::string& poisson) {
+    return notes_of_check("rock.yaml", {"components.rock.type=poromechanics/fem", "components.rock.order=" + order,
+                                        "components.rock.poisson_ratio=" + poisson, "mesh={size: 0.3 m}"});
+  };
+  EXPECT_THAT(notes("first", "0.46"), HasSubstr("nearly incompressible"));
+  EXPECT_THAT(notes("first", "0.44"), Not(HasSubstr("nearly incompressible")));
+  EXPECT_THAT(notes("second", "0.499"), Not(HasSubstr("nearly incompressible")));
+}
+
 /// Rock that conducts 10,000 times better at 30 degrees to the x axis than across; `mirrored`: at -30 degrees.
 std::string anisotropic(bool mirrored = false) {
   return std::string("components.pore.permeability={xx: 7.50025e-14 m^2, yy: 2.50075e-14 m^2, xy: ") +

@@ -1,5 +1,7 @@
 #include "components/poromechanics/fem/fem_rock.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -271,7 +273,23 @@ std::vector<double> FemRock::switch_times() const {
   return merged_switch_times(data);
 }
 
-void FemRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
+void FemRock::note_input(Notes& notes) const {
+  note_conditions(notes, options_, mesh_, name(), origin_);
+  constexpr double locks = 11;  // (lambda + 2 G)/G where nu = 0.45
+  if (order_ == ElementOrder::second) return;
+  double stiffest = 0;
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const Stiffness& cell = stiffness_.of_cells()[c];
+    if (mesh_.cell_nodes[c].size() == dimension + 1) stiffest = std::max(stiffest, cell(0, 0) / cell(2, 2));
+  }
+  if (stiffest < locks) return;
+  notes.add(
+      name() + " may lock",
+      fmt::format("'{}' is nearly incompressible: lambda + 2 G is {:.3g} times G (triangles of first order cannot keep "
+                  "their volume and bend: they are too stiff, and fluid that cannot leave alternates from cell to "
+                  "cell) write 'order: second', or take poromechanics/mpsa",
+                  name(), stiffest));
+}
 
 void FemRock::note_step(Notes& notes, const StepTime&) const {
   const Vector all = coefficients();
