@@ -7,7 +7,7 @@
 
 #include "framework/mesh/medium.hpp"
 #include "framework/meshing/fracture_table.hpp"
-#include "framework/meshing/random_fractures_spec.hpp"
+#include "framework/meshing/random/random_fractures_spec.hpp"
 
 namespace sprekk {
 namespace {

@@ -18,8 +18,8 @@ namespace {
 
 /// Degrees; what tools/stress has found to be harmless.
 constexpr double least_good_angle = 5;
-/// Cells of a pocket. A triangle with three edges on each side has as many: with fewer, the pressure and the strain in
-/// it hardly vary.
+/// Cells of a pocket. A triangle with three edges on each side has as many: with fewer, values in it hardly
+/// vary.
 constexpr int few_cells = 9;
 /// Unknowns. Measured: with 44,000 in two dimensions each of two processes is as busy as one alone.
 constexpr long worth_sharing = 50'000;
@@ -56,8 +56,8 @@ void note_pockets(const Mesh& mesh, Notes& notes) {
   if (small.empty()) return;
   const Pocket& worst = small.front();
   notes.add("small pocket between fractures",
-            fmt::format("fractures {} enclose {:.2g} m^2 with {} cells at {}{} (pressure and strain hardly vary in so "
-                        "few) lower mesh.fracture_size or the size of these fractures, or move one of them",
+            fmt::format("fractures {} enclose {:.2g} m^2 with {} cells at {}{} (values hardly vary in so few) lower "
+                        "mesh.fracture_size or the size of these fractures, or move one of them",
                         names_of(mesh, worst.fractures), worst.measure, worst.cells, to_text(worst.center),
                         others(small.size() - 1, "pockets have few")));
 }

@@ -1,4 +1,4 @@
-#include "framework/meshing/random_fractures.hpp"
+#include "framework/meshing/random/random_fractures.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

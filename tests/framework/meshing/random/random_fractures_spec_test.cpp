@@ -1,4 +1,4 @@
-#include "framework/meshing/random_fractures_spec.hpp"
+#include "framework/meshing/random/random_fractures_spec.hpp"
 
 #include "framework/config/yaml/parse_yaml.hpp"
 #include "framework/mesh/planar.hpp"

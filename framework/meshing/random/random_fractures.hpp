@@ -10,6 +10,7 @@ namespace sprekk {
 
 /// The law of the lengths of a set.
 struct LengthLaw {
+  /// The density: one value, a power of the length, or lognormal.
   enum class Kind { constant, power, lognormal };
   Kind kind = Kind::constant;
   double value = 0;             ///< m, of a constant

@@ -1,4 +1,4 @@
-#include "framework/meshing/random_fractures.hpp"
+#include "framework/meshing/random/random_fractures.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "framework/mesh/planar.hpp"
-#include "framework/meshing/random_laws.hpp"
+#include "framework/meshing/random/random_laws.hpp"
 
 namespace sprekk {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/meshing/random_laws.hpp"
+#include "framework/meshing/random/random_laws.hpp"
 
 #include <algorithm>
 #include <cmath>

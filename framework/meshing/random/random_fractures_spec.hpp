@@ -2,7 +2,7 @@
 #pragma once
 
 #include "framework/config/spec.hpp"
-#include "framework/meshing/random_fractures.hpp"
+#include "framework/meshing/random/random_fractures.hpp"
 
 namespace sprekk {
 
