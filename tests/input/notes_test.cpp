@@ -326,6 +326,36 @@ TEST(Notes, ASmallAngleOfTheMeshIsTold) {
   EXPECT_TRUE(note("30 deg").is_null());
 }
 
+TEST(Notes, FracturesThatMeetAtASmallAngleAreNamed) {
+  const auto note = [](const std::string& angle) {
+    return run_of("fractured.yaml",
+                  {"geometry.fractures.other={center: [0.5 m, 0.5 m], length: 0.3 m, angle: " + angle + "}"})
+        .note("small angle between fractures");
+  };
+  for (const char* angle : {"3 deg", "-3 deg"}) {
+    const Json told = note(angle);
+    ASSERT_FALSE(told.is_null()) << angle;
+    EXPECT_THAT(told["text"].get<std::string>(), HasSubstr("'crack', 'other' meet at 3 degrees at (0.5, 0.5)"));
+  }
+  EXPECT_TRUE(note("6 deg").is_null());
+}
+
+TEST(Notes, APocketOfFewCellsIsTold) {
+  const auto note = [](const std::string& size) {
+    return run_of("fractured.yaml", {"geometry.fractures={crack: {points: [[0.3 m, 0.4 m], [0.7 m, 0.4 m]]}, "
+                                     "b: {points: [[0.4 m, 0.35 m], [0.55 m, 0.65 m]]}, "
+                                     "c: {points: [[0.62 m, 0.35 m], [0.47 m, 0.65 m]]}}",
+                                     "components.conduit.injection.well.at=[0.5 m, 0.4 m]",
+                                     "mesh={size: 0.2 m, fracture_size: " + size + "}"})
+        .note("small pocket between fractures");
+  };
+  const Json told = note("0.1 m");
+  ASSERT_FALSE(told.is_null());
+  EXPECT_THAT(told["text"].get<std::string>(),
+              ::testing::AllOf(HasSubstr("fractures 'crack', 'b', 'c' enclose 0.0"), HasSubstr("fracture_size")));
+  EXPECT_TRUE(note("0.02 m").is_null());
+}
+
 TEST(Notes, APorePressureOfTwiceTheLoadsIsTold) {
   // A side that is held at 1 MPa, the load, or at 2 MPa, a pressure that is given; and a well that brings 1 GPa.
   const std::string well = "components.pore.wells.feed={at: [0.5 m, 0.2 m], rate: ";
