@@ -124,7 +124,7 @@ class Biot : public Coupler, public StabilizesPreconditioner {
   /// of the same state on the new mesh. The difference of both totals is spread evenly over the new cells, so that the
   /// total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
-    if (decoupled_ || options_.one_way) return;
+    if (decoupled_ || options_.one_way || change.is_at_start) return;
     Vector volume = rock_.volume_change().now();
     replicate(mesh_, Location::cell, 1, volume);
     double difference = 0, area = 0;
