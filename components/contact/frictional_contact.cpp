@@ -107,7 +107,7 @@ void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
                 change.fracture_cell.size());
   const auto& before = dynamic_cast<const FrictionalContact&>(part);
   const Vector covered = covered_parts(change, mesh_);
-  // If all new cells cover old ones, slip may end within a new cell, and all cells are bonded.
+  // A new cell that covers no old one begins closed, and slip ends in it: then the old cells are not held.
   const bool holds_all = covered.size() > 0 && covered.minCoeff() > 0;
   bonded_.resize(change.fracture_cell.size());
   for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = holds_all || change.fracture_cell[i] == none;

@@ -105,8 +105,7 @@ class Comparison {
 
   const RegionInputs &before_, &after_;
   const MeshChange& change_;
-  std::vector<int>
-      old_node_;  ///< by the corners of kept cells; its region may differ, if there are other cells around it
+  std::vector<int> old_node_;  ///< by the corners of kept cells; its region differs if it has other cells
   std::vector<char> is_same_face_, is_same_cell_;
 };
 

@@ -50,8 +50,7 @@ class LinearInCells {
       normal += weight * way * way.transpose();
       right += weight * (value - own) * way.transpose();
     }
-    constexpr double least_determinant =
-        1e-6;  // over that of neighbours all around: neighbours in one line do not determine a gradient
+    constexpr double least_determinant = 1e-6;  // over that of neighbours all around; less: they lie in one line
     const double half_trace = normal.trace() / dimension;
     if (!(normal.determinant() > least_determinant * half_trace * half_trace))
       return Gradient::Zero(components_, dimension);

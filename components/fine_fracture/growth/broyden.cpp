@@ -5,8 +5,7 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double least_effect = 1e-6;  ///< of the largest effect: the effect of an unknown counts as at least this
-constexpr double least_fresh =
-    0.1;  ///< of a move: where its part normal to earlier moves is smaller, these are forgotten
+constexpr double least_fresh = 0.1;    ///< of a move: with a smaller part normal to earlier moves these are forgotten
 
 }  // namespace
 

@@ -23,11 +23,10 @@ constexpr int patience = 8;                   ///< trials without progress
 constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
 constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
 constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
-constexpr double of_difference =
-    30;  ///< the weight of differences of advances in that norm: slopes of loads, 0.3, over those of H, 0.01
-constexpr double largest_turn = 0.3;     ///< rad, between two trials
-constexpr double quarter_turn = 1.5;     ///< rad: for a move that turns further the slope of K_II is wrong
-constexpr double largest_factor = 3;     ///< between lengths of a new segment in two trials
+constexpr double of_difference = 30;  ///< that of differences of advances: slopes of loads, 0.3, over those of H, 0.01
+constexpr double largest_turn = 0.3;  ///< rad, between two trials
+constexpr double quarter_turn = 1.5;  ///< rad: for a move that turns further the slope of K_II is wrong
+constexpr double largest_factor = 3;  ///< between lengths of a new segment in two trials
 constexpr double largest_advance = 0.6;  ///< of an increment, between two trials
 constexpr double at_limit = 1e-9;        ///< of a length that is at its limit, but for rounding
 constexpr double equal_advances = 1e-9;  ///< of an increment: differences below this are round-off

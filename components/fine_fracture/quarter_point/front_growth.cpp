@@ -28,10 +28,9 @@ constexpr double least_advance = 0.05;      ///< of an increment: a step in whic
 constexpr double least_first_part = 0.2;    ///< of an increment: what stays of a first segment behind a kink
 constexpr double largest_first_part = 0.8;  ///< of a first segment: the same
 constexpr double longest_advance = 1.5;     ///< of an increment, in one step
-constexpr double on_the_way =
-    0.2;  ///< of an increment: of places nearer to one another only one counts, for their direction
-constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
-constexpr double shorter_step = 0.5;     ///< the next attempt at a step that is too long
+constexpr double on_the_way = 0.2;          ///< of an increment: of nearer places only one gives a direction
+constexpr double wanted_advance = 0.85;     ///< of an increment, of the fastest tip in one step
+constexpr double shorter_step = 0.5;        ///< the next attempt at a step that is too long
 
 /// Of the last step and of the one before. Segments are divided every other step, and advances alternate with that.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }

@@ -233,8 +233,7 @@ void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
 
 Growing::Growth Tips::grow(const StepTime&) {
   std::vector<GrowingTip> growing;
-  std::vector<double>
-      at_start;  // Pa m^0.5, K_IC of each tip; the search depends on K/K_IC only, so it gets K scaled to this toughness
+  std::vector<double> at_start;  // Pa m^0.5, K_IC of each tip; the search gets K scaled to this toughness
   const auto over_start = [&](int tip, const TipPath& path) {
     return toughness(tips_[tip].end, position(tips_[tip], path)) / at_start[tip];
   };
