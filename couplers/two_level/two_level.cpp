@@ -134,6 +134,21 @@ class TwoLevel : public Coupler, public TipSurroundings {
     return *stiffness;
   }
 
+  std::uint64_t stiffness_by_place() const override {
+    const std::uint64_t version = rock_.properties_version() + 1;
+    if (version != compared_for_) {
+      compared_for_ = version;
+      const auto first = rock_.stiffness(0);
+      is_uniform_ = true;
+      for (int cell = 1; cell < mesh_.cell_count() && is_uniform_; ++cell) {
+        const auto other = rock_.stiffness(cell);
+        // Anisotropic rock is refused where its stiffness is asked for.
+        is_uniform_ = !first || !other || (first->lambda == other->lambda && first->shear == other->shear);
+      }
+    }
+    return is_uniform_ ? 0 : version;
+  }
+
   Point displacement(const Point& x, const Point& inside) const override {
     return displacement_.at<dimension>(cell_at(inside), x);
   }
@@ -232,6 +247,8 @@ class TwoLevel : public Coupler, public TipSurroundings {
   std::vector<AlongFracture> along_;
   Vector traction_, jump_, fluid_traction_;
   std::uint64_t updated_for_ = 0;
+  mutable std::uint64_t compared_for_ = 0;  ///< version of the properties for which is_uniform_ has been found
+  mutable bool is_uniform_ = true;          ///< whether one stiffness holds everywhere
 };
 
 const RegisterCoupler<TwoLevel, TwoLevelOptions> registration("two_level");

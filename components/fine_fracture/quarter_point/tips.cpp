@@ -25,6 +25,7 @@ Sifs times(const Sifs& sifs, double factor) {
 Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     : Component(context.name), mesh_(context.mesh), origin_(context.origin), options_(options) {
   check_increment();
+  check_longest();
   for (const TipEnd& end : all_ends(mesh_)) {
     if (kind_of(mesh_, end) == FracturePoint::Kind::junction) joints_.push_back({end, name_of(mesh_, end)});
     if (kind_of(mesh_, end) != FracturePoint::Kind::tip) continue;
@@ -33,6 +34,7 @@ Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     tip.name = name_of(mesh_, end);
     tip.coarse_size = original_size(mesh_, end);
     check_size(tip);
+    check_shortest(tip);
     tips_.push_back(std::move(tip));
   }
 }
@@ -63,6 +65,31 @@ void Tips::check_increment() const {
       fmt::format("'growth.increment' of {} is {:.4g} m, and 'size' is {:.4g} m", name(), increment, options_.size),
       fmt::format("an increment has to end in the square around its tip, which reaches {:.4g} m", half),
       "choose a shorter increment, or a larger 'size'");
+}
+
+/// Within steps each increment is a cell or two of the coarse level, in the held procedure an edge or two of the fine
+/// one.
+void Tips::check_shortest(const Tip& tip) const {
+  constexpr double shortest = 0.01;  // of the cell at the tip
+  const double least = shortest * tip.coarse_size;
+  if (!options_.toughness || options_.growth.increment >= least) return;
+  throw InputError(origin_,
+                   fmt::format("'growth.increment' of {} is {:.4g} m, and the mesh at the tip {} has edges of {:.4g} m",
+                               name(), options_.growth.increment, tip.name, tip.coarse_size),
+                   fmt::format("segments of a path that are shorter than a hundredth of an edge ({:.4g} m) make a run "
+                               "longer and no answer better: the edges limit it",
+                               least),
+                   "choose a longer increment, of half an edge for example, or a smaller mesh.fracture_size");
+}
+
+void Tips::check_longest() const {
+  const GrowthOptions& growth = options_.growth;
+  if (!options_.toughness || !growth.longest || *growth.longest >= growth.smallest_length()) return;
+  throw InputError(origin_,
+                   fmt::format("'growth.longest' of {} is {:.4g} m, and its shortest increment is {:.4g} m", name(),
+                               *growth.longest, growth.smallest_length()),
+                   "a tip grows by no less than 'smallest' times 'increment' at once: it could never grow",
+                   "choose a larger 'longest', or leave it out: there is no limit then");
 }
 
 const FractureCell& Tips::last_cell(const TipEnd& end) const { return end_cell(mesh_, end); }
