@@ -8,6 +8,7 @@
 
 #include "components/capabilities/wells.hpp"
 #include "components/wells/options.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::wells {
@@ -33,7 +34,7 @@ Binding binding(const Control& control, double pressure, double rate, double res
 /// Unknown: the pressure p of every well, one for all of its places. Its equation is the branch of `binding` in which
 /// the values are (m^2/s); Newton's method with it is an active-set method, which changes branches within a solve. The
 /// rates are given by a coupler (WellPressures::rate), which knows what is around.
-class LimitedWells : public Component, public WellPressures {
+class LimitedWells : public Component, public WellPressures, public KeepsTotals {
  public:
   LimitedWells(const ComponentContext& context, const Options& options);
 
@@ -42,6 +43,7 @@ class LimitedWells : public Component, public WellPressures {
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
+  void begin_totals() override { injected_.set_both(Vector::Zero(injected_.size())); }
   std::uint64_t discrete_state() const override;
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;

@@ -30,6 +30,7 @@
 #include "framework/report/report.hpp"
 #include "framework/run/note_records.hpp"
 #include "framework/run/simulation.hpp"
+#include "framework/scene/state_of_run.hpp"
 #include "framework/run/stop_condition.hpp"
 
 namespace sprekk {
@@ -59,7 +60,8 @@ void check_scene(const Scene& scene) {
   const ActivityListener listener([&](const std::string& what) { progress.part(what); });
   progress.watch();
   progress.phase("building the model");
-  const Model model(scene);
+  Model model(scene);
+  if (scene.start.from) take_state_of_run(*scene.start.from, model);
   progress.close();
   StopCondition(scene, model.quantities());
   const Notes notes = model.input_notes();
