@@ -30,8 +30,8 @@
 #include "framework/report/report.hpp"
 #include "framework/run/note_records.hpp"
 #include "framework/run/simulation.hpp"
-#include "framework/scene/state_of_run.hpp"
 #include "framework/run/stop_condition.hpp"
+#include "framework/scene/state_of_run.hpp"
 
 namespace sprekk {
 

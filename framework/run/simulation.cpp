@@ -23,8 +23,8 @@
 #include "framework/run/run_recorder.hpp"
 #include "framework/run/scene_fingerprint.hpp"
 #include "framework/run/simulation_state.hpp"
-#include "framework/scene/start_state.hpp"
 #include "framework/run/step_attempts.hpp"
+#include "framework/scene/start_state.hpp"
 
 namespace sprekk {
 

@@ -93,9 +93,10 @@ void Model::make_start(const ScheduleContext& context) {
       counts = true;
     }
   if (!counts)
-    throw InputError(start.origin, "'settle' names no component that counts from a reference",
-                     "none of them has unknowns that are counted from the state at the start",
-                     "name the component whose changes are to be counted from there, with what it cannot be solved without");
+    throw InputError(
+        start.origin, "'settle' names no component that counts from a reference",
+        "none of them has unknowns that are counted from the state at the start",
+        "name the component whose changes are to be counted from there, with what it cannot be solved without");
   SolveOptions options;
   options.components = start.settle;
   options.origin = start.origin;

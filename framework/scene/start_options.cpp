@@ -16,8 +16,7 @@ Spec StartOptions::spec() {
     origin = node.origin;
     if (from && !settle.empty())
       throw InputError(node.origin, "'from' contradicts 'settle'",
-                       "the state of the other run is in equilibrium, and goes on",
-                       "remove one of them");
+                       "the state of the other run is in equilibrium, and goes on", "remove one of them");
     if (from && from->empty())
       throw InputError(node.origin, "'from' names no folder", "it is empty",
                        "give the folder of the other run's results");

@@ -240,6 +240,77 @@ TEST(Excavation, PressureOfTheUndrainedRock) {
   }
 }
 
+/// Reference: a hole in rock of a uniform stress S and pressure p_0 that drains it, in the steady state. With the
+/// pressure p = p_0 ln(r/a)/ln(R/a) and no total stress on the outline,
+///   u_r = S a^2/(2 G r) + alpha/((lambda + 2 G) r) times the integral of (p − p_0) r from a to r,
+/// and 2 pi (k/mu) p_0/ln(R/a) flows into the hole: a region that conducts well, in which a well holds the pressure
+/// zero.
+TEST(Excavation, HoleThatDrainsTheRock) {
+  const double alpha = 0.8, pressure = 2e6, stress = -5e6, log = std::log(20.0), mobility = 1e-12;
+  const double lambda = 2 * shear * poisson / (1 - 2 * poisson), per_p = alpha / (lambda + 2 * shear);
+  const auto radial = [&](double r) {  // u_r/r
+    const double drained = (r * r / 2 * std::log(r) - (r * r - 1) / 4) / log - (r * r - 1) / 2;
+    return (stress / (2 * shear) + per_p * pressure * drained) / (r * r);
+  };
+  const std::string r2 = "(x*x+y*y)";
+  const std::string of_r = fmt::format("(({}+{}*(({}/4*log({})-({}-1)/4)/{}-({}-1)/2))/{})", stress / (2 * shear),
+                                       per_p * pressure, r2, r2, r2, log, r2, r2);
+  const std::string held = fmt::format("{{displacement: [(x*{0}) m, (y*{0}) m]}}", of_r);
+  const std::string given = fmt::format("{{pressure: ({}*log({})/{}) Pa}}", pressure / 2, r2, log);
+  double coarser_u = 0, coarser_p = 0;
+  for (const int corners : {32, 64}) {
+    SceneRun run = SceneRun::from_text(fmt::format(R"(
+geometry:
+  box: {{x: [-4 m, 4 m], y: [-4 m, 4 m]}}
+  regions: {{tunnel: {{polygon: [{0}]}}}}
+mesh: {{size: {1} m}}
+components:
+  pore:
+    type: matrix_flow/mpfa
+    permeability: {{regions: {{tunnel: 1e-8 m^2, default: 1e-15 m^2}}}}
+    viscosity: 1 mPa*s
+    storage: 1e-11 1/Pa
+    initial_pressure: 2 MPa
+    boundary: {{left: {2}, right: {2}, bottom: {2}, top: {2}}}
+  rock:
+    type: poromechanics/mpsa
+    young_modulus: 10 GPa
+    poisson_ratio: 0.25
+    initial_stress: -5 MPa
+    boundary: {{left: {3}, right: {3}, bottom: {3}, top: {3}}}
+    excavation: {{tunnel: {{support: 0}}}}
+  wells: {{type: wells/limited, wells: {{drain: {{at: [0 m, 0 m], pressure: 0 Pa, index: 1 m^2/(Pa*s)}}}}}}
+couplers:
+  - {{type: biot, between: [pore, rock], biot_coefficient: 0.8}}
+  - {{type: well_exchange, between: [wells, pore]}}
+schedule: [{{solve: [pore, rock, wells]}}]
+time: {{end: 1e10 s, step: 1e9 s}}
+)",
+                                                   circle(corners), 2 * std::numbers::pi / corners, given, held));
+    run.run();
+    const Mesh& mesh = run.mesh();
+    double du = 0, nu = 0, dp = 0, np = 0;
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      if (mesh.region_names[mesh.cell_region[c]] == "tunnel") continue;
+      const Point x = mesh.cell_center[c], exact = radial(x.norm()) * x;
+      const double area = mesh.cell_measure[c];
+      du += area * (run.field("rock.displacement").segment<2>(2 * c) - exact).squaredNorm();
+      nu += area * exact.squaredNorm();
+      dp += area * std::pow(run.field("pore.pressure")[c] - pressure * std::log(x.norm()) / log, 2);
+      np += area * pressure * pressure;
+    }
+    const double u = std::sqrt(du / nu), p = std::sqrt(dp / np);
+    const double inflow = -run.quantity("wells.drain.rate") / (2 * std::numbers::pi * mobility * pressure / log) - 1;
+    std::printf("%d corners: displacement %.2e, order %.2f; pressure %.2e, order %.2f; inflow off by %.1e\n", corners,
+                u, std::log2(coarser_u / u), p, std::log2(coarser_p / p), inflow);
+    EXPECT_LT(u, 4e-3 * 32 / corners);
+    EXPECT_LT(p, 5e-4 * 32 / corners);
+    EXPECT_LT(std::abs(inflow), 3e-3 * 32 / corners);
+    coarser_u = u;
+    coarser_p = p;
+  }
+}
+
 /// What a scene may not ask for, and the words of the answer.
 TEST(Excavation, MistakesAreRefused) {
   const auto said = [](const std::string& from, const std::string& to) -> std::string {

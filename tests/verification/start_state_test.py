@@ -196,9 +196,15 @@ class Start(unittest.TestCase):
             for row in whole[:1]:
                 self.assertLess(abs(self.number(row, "top.y")), 1e-14)
             self.assertGreater(abs(self.number(whole[-1], "top.y")), 1e-4)
-            self.rows(f"parts_{rock}", changed(scene, ("end: 4 s", "end: 2 s")))
+            for name in (f"parts_{rock}", f"half_{rock}"):
+                self.rows(name, changed(scene, ("end: 4 s", "end: 2 s")))
             parts = self.rows(f"parts_{rock}", scene, options=("--restart", f"parts_{rock}/checkpoint.h5"))
             self.assertEqual([dict(row) for row in whole], [dict(row) for row in parts])
+            goes_on = self.rows(f"goes_on_{rock}", changed(scene, ("start: {settle: [rock, contact]}", f"start: {{from: half_{rock}}}"),
+                                                           ("time: {end: 4 s", "time: {start: 2 s, end: 4 s")))
+            for row, other in zip(whole[2:], goes_on, strict=True):
+                self.assertEqual(row["top.y[m]"], other["top.y[m]"])
+                self.assertEqual(row["force.n[Pa]"], other["force.n[Pa]"])
             shared = self.rows(f"shared_{rock}", scene, 2)
             for row, other in zip(whole, shared):
                 for name in row:
