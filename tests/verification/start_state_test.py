@@ -134,6 +134,29 @@ class Start(unittest.TestCase):
         settled = ALPHA / MODULUS * (1 - integral)
         self.assertAlmostEqual(self.number(second[-1], "end.y") / settled, 1, delta=2 / CELLS**2)
 
+    def test_scenes_go_on(self):
+        """Slip and apertures, temperatures, and wells whose rates have just changed: two runs are one."""
+        scenes = Path(__file__).resolve().parents[2] / "configs/tutorial"
+        for name, step, half, end in (("first_scene", "1 h", "2 h", "4 h"), ("heat_doublet", "20 day", "60 day", "120 day"),
+                                      ("well_limits", "0.05 day", "0.2 day", "0.4 day")):
+            def rows(folder, *settings):
+                options = [option for setting in (f"time.step={step}", *settings) for option in ("--set", setting)]
+                done = subprocess.run([SPREKK, "run", "-q", scenes / f"{name}.yaml", *options, "-o", folder], capture_output=True,
+                                      text=True, timeout=100, cwd=self.folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with open(self.folder / folder / "history.csv") as file:
+                    return list(csv.DictReader(file))
+            whole = rows(f"{name}_whole", f"time.end={end}")
+            first = rows(f"{name}_first", f"time.end={half}")
+            second = rows(f"{name}_second", f"time.start={half}", f"time.end={end}", f"start={{from: {name}_first}}")
+            self.assertEqual(len(whole), len(first) + len(second))
+            for column in whole[0]:
+                if any(word in column for word in ("stored", "injected", "outflow", "error", "iterations")):
+                    continue
+                size = max(abs(float(row[column])) for row in whole)
+                for row, other in zip(whole[len(first):], second, strict=True):
+                    self.assertAlmostEqual(float(other[column]), float(row[column]), delta=1e-9 * size, msg=f"{name} {column}")
+
     def test_on_two_processes(self):
         self.rows("first", COLUMN)
         alone = self.rows("alone", self.second())
