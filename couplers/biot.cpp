@@ -6,6 +6,8 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -54,7 +56,7 @@ struct BiotOptions {
 ///
 /// alpha and the compressibility of the grains are taken at the end of the step. They multiply changes of the state: a
 /// change of alpha or of the compressibility alone moves no fluid.
-class Biot : public Coupler, public StabilizesPreconditioner {
+class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals, public CountsFromHere {
  public:
   Biot(const CouplerContext& context, const BiotOptions& options)
       : Coupler(context.name),
@@ -137,6 +139,15 @@ class Biot : public Coupler, public StabilizesPreconditioner {
     counted_volume_.set_both(std::move(volume));
   }
 
+  /// What the volume differs from zero by, where displacements are zero, is round-off.
+  void count_from_here() override {
+    if (decoupled_ || options_.one_way) return;
+    Vector volume = rock_.volume_change().now();
+    replicate(mesh_, Location::cell, 1, volume);
+    counted_volume_.set_both(std::move(volume));
+  }
+
+  void begin_totals() override { stored_.set_both(Vector::Zero(stored_.size())); }
   void balance(std::map<std::string, Balance>& balances) const override {
     balances["fluid"].stored += stored_.now().sum();
   }

@@ -1,6 +1,8 @@
 // The unknowns of the contact, and how Newton's method finds its way among the states of the cells.
 #include "components/contact/frictional_contact.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -277,7 +279,21 @@ void FrictionalContact::output(std::vector<OutputField>& fields) const {
   fields.push_back({name() + ".state_0_stick_1_slip_2_open", "1", Location::fracture_cell, 1, std::move(states)});
 }
 
+void FrictionalContact::count_from_here() {
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    slip_at_start_ = std::max(slip_at_start_, tangential(jump_.now(), i).norm());
+}
+
 void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
+  constexpr double rounding = 1e-12;  // m
+  if (slip_at_start_ > rounding)
+    notes.add(
+        name() + " has slid at the start",
+        fmt::format("walls have slid by up to {:.3g} m while the state at the start was settled (friction does not "
+                    "hold them there, and their slip and opening are part of the results) look at the initial "
+                    "stress and at the friction, if they were meant to stick",
+                    slip_at_start_),
+        slip_at_start_);
   std::vector<char> is_open(mesh_.fracture_cell_count());
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_open[i] = state(i) == State::open;
   note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, options_->large_jump});

@@ -10,6 +10,7 @@
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
@@ -47,7 +48,7 @@ struct Trial;
 /// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
 /// Cells without friction never take that piece: they have no opening to lose, and the direction of f_t = 0, in which
 /// they are about to slide at the start of a step, is round-off.
-class FrictionalContact : public Component, public FractureContact, public IterateDependent {
+class FrictionalContact : public Component, public FractureContact, public IterateDependent, public CountsFromHere {
  public:
   /// `stiffness_factor`: c over the stiffness of the rock against a jump of the cell.
   FrictionalContact(const ComponentContext& context, const Options& options,
@@ -63,6 +64,8 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   /// friction would not be undone.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
+  /// Jumps go on, since friction and dilation depend on them; a note tells of walls that have slid.
+  void count_from_here() override;
   void observe_iterate(const std::vector<Field*>& unknowns) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
@@ -151,6 +154,7 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   Vector carried_traction_;                  ///< Pa, of the state that is being settled on other cells; otherwise empty
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
+  double slip_at_start_ = 0;                 ///< m, the largest, of the state that was settled
   bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction
   std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in observe_iterate
   bool is_without_shortcuts_ = false;        ///< after Newton's method has failed

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/capabilities/temperature.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 
@@ -30,7 +31,7 @@ struct Options {
 /// meet, each half leads to the junction, which stores nothing. What comes through the walls, and what flowing fluid
 /// carries, is added by couplers; a is the aperture at the start of the run, and fluid that enters later brings its own
 /// heat capacity.
-class FractureHeat : public Component, public FractureTemperature {
+class FractureHeat : public Component, public FractureTemperature, public KeepsTotals {
  public:
   FractureHeat(const ComponentContext& context, const Options& options);
 
@@ -39,6 +40,7 @@ class FractureHeat : public Component, public FractureTemperature {
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
+  void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
 
   Field& temperature() override { return temperature_; }

@@ -11,6 +11,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/matrix_flow/flux_operators.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
@@ -57,7 +58,7 @@ struct Options {
 /// then, or has a nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for
 /// a constant density. Properties may change with time, and are taken at the end of the step; a change of the storage S
 /// alone moves no fluid.
-class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, public MatrixFluxes {
+class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, public MatrixFluxes, public KeepsTotals {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
@@ -74,6 +75,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
+  void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
   void hold_constants(ConstantModes& modes) const override;
   void output(std::vector<OutputField>& fields) const override;

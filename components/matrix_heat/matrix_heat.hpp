@@ -8,6 +8,7 @@
 
 #include "components/capabilities/flux_discretization.hpp"
 #include "components/capabilities/temperature.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 
@@ -34,7 +35,7 @@ struct Options {
 ///   C V (T − T_old) + dt (sum of the conducted fluxes out of it) − dt H V = 0,  flux = −k grad T,
 /// with the heat capacity C of rock and what is in its pores at the start. What flowing fluid carries is added by a
 /// coupler.
-class MatrixHeat : public Component, public MatrixTemperature, public HeatWalls {
+class MatrixHeat : public Component, public MatrixTemperature, public HeatWalls, public KeepsTotals {
  public:
   MatrixHeat(const ComponentContext& context, const Options& options, DiscretizeFlux discretize);
 
@@ -43,6 +44,7 @@ class MatrixHeat : public Component, public MatrixTemperature, public HeatWalls 
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
+  void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
 
   Field& temperature() override { return temperature_; }

@@ -102,6 +102,7 @@ void Rock::note_step(Notes& notes, const StepTime&) const {
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const auto& [first, second] = mesh_.face_cells[f];
     if (second == none) continue;
+    if (stiffness_.excavation().is_removed(first) || stiffness_.excavation().is_removed(second)) continue;
     const double distance = (mesh_.cell_center[second] - mesh_.cell_center[first]).norm();
     const double strain =
         (u.segment<dimension>(dimension * second) - u.segment<dimension>(dimension * first)).norm() / distance;

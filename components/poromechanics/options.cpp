@@ -53,6 +53,7 @@ std::vector<const Data*> Options::loads() const {
   data.push_back(&rock_density);
   for (const auto& [side, condition] : boundary)
     for (const Data* given : condition.data()) data.push_back(given);
+  for (const auto& [name, region] : excavation) data.push_back(&region.support);
   return data;
 }
 
@@ -205,6 +206,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
         return side_spec(boundary[key]);
       },
       {.doc = "Conditions by the name of the side (left, right, bottom, top, or of the imported mesh)."});
+  add_excavation(spec, excavation);
   spec.check([this](const Node& node) {
     if (!is_anisotropic && (!young_modulus || !poisson_ratio))
       throw InputError(node.origin, "the stiffness of '" + node.path + "' is not determined",

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "components/poromechanics/excavation.hpp"
 #include "components/poromechanics/face_conditions.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/config/spec.hpp"
@@ -53,6 +54,7 @@ struct Options {
   VectorData body_force;             ///< N/m^3
   TensorData initial_stress;         ///< Pa
   std::map<std::string, SideCondition> boundary;
+  ExcavatedRegions excavation;
   double large_strain = 0.01;  ///< from where on a note says that the theory of small strains ends
   /// The data of all loads but the initial stress: those of the boundary, body force, density and gravity.
   std::vector<const Data*> loads() const;

@@ -65,14 +65,15 @@ void Rock::accept_pore_pressure(const Field& pressure, const Vector& alpha, cons
   SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
   SPREKK_EXPECT(reference.size() == mesh_.cell_count(), pressure.name(), reference.size(), mesh_.cell_count());
   SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.name(), pressure.size(), mesh_.cell_count());
-  loads_.push_back({{&pressure, alpha, reference}, {}});
+  loads_.push_back({{&pressure, alpha, reference, alpha}, {}});
 }
 
 void Rock::change_alpha(const Field& pressure, const Vector& alpha) {
   SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
   for (Load& load : loads_) {
     if (load.pressure != &pressure) continue;
-    load.alpha = alpha;
+    load.given = alpha;
+    load.alpha = stiffness_.excavation().of_rock(alpha);
     ++load.alpha_version;
   }
 }
@@ -104,7 +105,7 @@ void Rock::find_conditions() {
   conditions_.assign(mesh_.face_count(), {});
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) {
-      if (!initial_load(f).isZero(0)) conditions_[f] = {MechanicalCondition::load, MechanicalCondition::load};
+      if (may_have_initial_load(f)) conditions_[f] = {MechanicalCondition::load, MechanicalCondition::load};
       continue;
     }
     conditions_[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
@@ -176,6 +177,9 @@ void Rock::use_operators() {
     for (SparseMatrix* rows : {&operators_.volume_displacement, &operators_.volume_stress, &operators_.volume_boundary})
       *rows = keep_rows(*rows, own);
   }
+  if (const Excavation& excavation = stiffness_.excavation(); !excavation.is_empty())
+    for (SparseMatrix* rows : {&operators_.volume_displacement, &operators_.volume_stress, &operators_.volume_boundary})
+      *rows = keep_rows(*rows, excavation.left());
   const SparseMatrix outflow = cell_sums(mesh_, operators_.force_displacement, dimension, rank);
   SPREKK_ASSERT(operators_.force_displacement.rows() == dimension * mesh_.face_count(),
                 operators_.force_displacement.rows());
@@ -210,9 +214,28 @@ void Rock::use_loads() {
 }
 
 Point Rock::initial_traction(int face, int side) const {
+  const int cell = mesh_.face_cells[face][side];
+  const double support = stiffness_.excavation().support(cell);
+  if (settled_) return support / mesh_.face_measure[face] * settled_->forces.segment<dimension>(dimension * face);
   if (options_.initial_stress.is_zero()) return Point::Zero();
-  const Place place{mesh_.face_center[face], mesh_.cell_region[mesh_.face_cells[face][side]], 0};
-  return options_.initial_stress.at(place) * mesh_.face_normal[face];
+  const Place place{mesh_.face_center[face], mesh_.cell_region[cell], 0};
+  return support * (options_.initial_stress.at(place) * mesh_.face_normal[face]);
+}
+
+bool Rock::may_have_initial_load(int face) const {
+  const auto [one, other] = mesh_.face_cells[face];
+  const Excavation& excavation = stiffness_.excavation();
+  return !initial_load(face).isZero(0) || excavation.is_excavated(one) != excavation.is_excavated(other);
+}
+
+void Rock::use_excavation() {
+  const Excavation& excavation = stiffness_.excavation();
+  if (excavation.version() == used_excavation_) return;
+  used_excavation_ = excavation.version();
+  for (Load& load : loads_) {
+    load.alpha = excavation.of_rock(load.given);
+    ++load.alpha_version;
+  }
 }
 
 Point Rock::initial_load(int face) const {
@@ -229,6 +252,7 @@ void Rock::evaluate_data(const StepTime& step) {
   evaluated_for_ = step;
   boundary_applied_ = false;
   stiffness_.evaluate(step);
+  use_excavation();
 
   boundary_values_ = Vector::Zero(dimension * mesh_.face_count());
   initial_forces_ = Vector::Zero(dimension * mesh_.face_count());
@@ -254,7 +278,8 @@ void Rock::evaluate_data(const StepTime& step) {
           Point(boundary_values_.segment<dimension>(dimension * f));
     for (int k = 0; k < dimension; ++k)
       if (const Data* displacement = condition->displacement_of(k))
-        boundary_values_[dimension * f + k] = value_in_step(*displacement, place, step);
+        boundary_values_[dimension * f + k] =
+            value_in_step(*displacement, place, step) - (settled_ ? settled_->displacements[dimension * f + k] : 0);
   }
   body_forces_ = Vector::Zero(dimension * mesh_.cell_count());
   const bool vary = options_.body_force.depends_on_space() || options_.rock_density.depends_on_space() ||
@@ -266,7 +291,8 @@ void Rock::evaluate_data(const StepTime& step) {
              value_in_step(options_.rock_density, place, step) * value_in_step(options_.gravity, place, step);
     };
     body_forces_.segment<dimension>(dimension * c) =
-        mesh_.cell_measure[c] * (vary ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
+        stiffness_.excavation().support(c) * mesh_.cell_measure[c] *
+        (vary ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
   }
 }
 
@@ -285,6 +311,10 @@ void Rock::apply_boundary() {
   if (wall_remainder_) values += wall_forces_ * wall_remainder_->now();
   volume_change_.constant = operators_.volume_boundary * values;
   if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * values);
+  if (wall_traction_ && settled_)
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+      if (is_owned(mesh_, Location::fracture_cell, i))
+        jump_.constant.segment<dimension>(dimension * i) += settled_->jumps.segment<dimension>(dimension * i);
   for (const Load& load : loads_) {
     const Vector reference = load.alpha.cwiseProduct(load.reference);
     force_constant_ -= load.force_on_cell.entries() * load.reference;
@@ -320,6 +350,35 @@ Vector Rock::face_forces() const {
   return forces;
 }
 
+void Rock::count_from_here() {
+  SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
+  SettledRock settled;
+  settled.forces = face_forces();
+  replicate(mesh_, Location::face, dimension, settled.forces);
+  settled.stress = mean_stress();
+  settled.displacements = boundary_values_;
+  for (int f = 0; f < mesh_.face_count(); ++f)
+    for (int k = 0; k < dimension; ++k)
+      if (conditions_[f][k] != MechanicalCondition::displacement) settled.displacements[dimension * f + k] = 0;
+  if (wall_traction_) {
+    settled.jumps = jump_.now();
+    replicate(mesh_, Location::fracture_cell, dimension, settled.jumps);
+  }
+  settled_ = std::move(settled);
+  displacement_.set_both(Vector::Zero(displacement_.size()));
+  data_evaluated_ = false;
+  begin_step(StepTime(evaluated_for_));
+}
+
+void Rock::save(std::map<std::string, Vector>& state) const {
+  if (settled_) settled_->save(name(), state);
+}
+
+void Rock::restore(const std::map<std::string, Vector>& state) {
+  settled_ = SettledRock::restored(name(), state);
+  data_evaluated_ = false;
+}
+
 Vector Rock::outer_displacement() const {
   Vector values = boundary_values_;
   if (wall_traction_) values += wall_forces_ * wall_load();
@@ -337,6 +396,7 @@ Vector Rock::pore_stress() const {
 
 SymmetricTensor Rock::initial_stress(int cell, const Point& x) const {
   SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
+  if (settled_) return settled_->stress.segment<3>(3 * cell);
   return options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
 }
 
@@ -352,11 +412,9 @@ std::vector<double> Rock::switch_times() const {
   return merged_switch_times(data);
 }
 
-void Rock::output(std::vector<OutputField>& fields) const {
-  // Mean stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when
-  // constant, and near tips of cracks with the moments of the singular tractions about the centres of the faces.
-  if (discretizations_ == 0) return;
-  const Vector forces = face_forces(), moments = operators_.moment_displacement * displacement_.now();
+Vector Rock::stress_of(const Vector& forces, const Vector& moments) const {
+  // Of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when constant, and near
+  // tips of cracks with the moments of the singular tractions about the centres of the faces.
   Vector stress = Vector::Zero(3 * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {
@@ -367,8 +425,23 @@ void Rock::output(std::vector<OutputField>& fields) const {
           Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0])) +
           sign / mesh_.cell_measure[c] * moments.segment<3>(3 * face);
     }
+  return stress;
+}
+
+Vector Rock::mean_stress() const {
+  Vector stress = stress_of(face_forces(), operators_.moment_displacement * displacement_.now());
+  if (settled_) {
+    const Vector of_moments = settled_->stress - stress_of(settled_->forces, Vector::Zero(3 * mesh_.face_count()));
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      stress.segment<3>(3 * c) += stiffness_.excavation().support(c) * of_moments.segment<3>(3 * c);
+  }
   replicate(mesh_, Location::cell, 3, stress);
-  fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, 3, std::move(stress)});
+  return stress;
+}
+
+void Rock::output(std::vector<OutputField>& fields) const {
+  if (discretizations_ == 0) return;
+  fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, 3, mean_stress()});
 }
 
 }  // namespace sprekk::poromechanics

@@ -8,7 +8,9 @@
 #include "components/poromechanics/options.hpp"
 #include "components/poromechanics/pore_load.hpp"
 #include "components/poromechanics/rock_stiffness.hpp"
+#include "components/poromechanics/settled_rock.hpp"
 #include "components/poromechanics/stress_discretization.hpp"
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::poromechanics {
@@ -18,7 +20,7 @@ namespace sprekk::poromechanics {
 /// with C and alpha at the end of the step: earlier values have no effect. An initial stress that is not in equilibrium
 /// loads the rock: u is counted from the state before equilibrium.
 /// Each pair of rows balances the forces on one cell (N/m): −(sum of the forces on its faces) − body force = 0.
-class Rock : public Component, public PoroelasticRock, public RockWalls, public RockState {
+class Rock : public Component, public PoroelasticRock, public RockWalls, public RockState, public CountsFromHere {
  public:
   /// Throws InputError for sides that do not exist, for a stiffness that is not positive definite, and when the
   /// displacements that are prescribed let the rock move as a rigid body.
@@ -30,6 +32,9 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   /// Discretizes on the new mesh; the unchanged part of the discretization of `before` is kept.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
+  void count_from_here() override;
+  void save(std::map<std::string, Vector>& state) const override;
+  void restore(const std::map<std::string, Vector>& state) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
@@ -82,10 +87,17 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   /// Tractions, and what is left on the walls beside them, Pa, (normal, tangential) of each fracture cell.
   Vector wall_load() const { return wall_traction_->now() + wall_remainder_->now(); }
   /// The traction of the initial stress of the cell on the given side (0 or 1) of a face, on the normal of the face,
-  /// Pa.
+  /// Pa; of a cell that is taken away what is left of it.
   Point initial_traction(int face, int side) const;
   /// The load on a face from different initial stresses of the two regions at it, N/m; zero if they are in equilibrium.
   Point initial_load(int face) const;
+  bool may_have_initial_load(int face) const;
+  /// Lets pore pressures load what is left of the rock.
+  void use_excavation();
+  /// The mean stress of each cell from forces on all faces, and their moments about the centres of the faces, Pa.
+  Vector stress_of(const Vector& forces, const Vector& moments) const;
+  /// The mean total stress of each cell, Pa, (xx, yy, xy).
+  Vector mean_stress() const;
 
   const Mesh& mesh_;
   Options options_;
@@ -95,6 +107,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   Field* wall_traction_ = nullptr;   ///< exists with fractures only
   Field* wall_remainder_ = nullptr;  ///< exists with fractures only
   RockStiffness stiffness_;
+  std::optional<SettledRock> settled_;  ///< the state from which displacements are counted, if it was settled
+  std::uint64_t used_excavation_ = 0;
   std::vector<Load> loads_;
 
   std::vector<Stiffness> stiffness_of_operators_;  ///< of the operators; only if properties change, in one process

@@ -11,7 +11,12 @@ namespace sprekk::poromechanics {
 
 RockStiffness::RockStiffness(const Options& options, const Mesh& mesh, double start_time, std::string component,
                              Origin origin)
-    : options_(options), component_(std::move(component)), origin_(std::move(origin)), stiffness_(mesh.cell_count()) {
+    : options_(options),
+      component_(std::move(component)),
+      origin_(std::move(origin)),
+      excavation_(options.excavation, mesh),
+      changes_(!excavation_.is_empty()),
+      stiffness_(mesh.cell_count()) {
   const std::vector<Place> places = cell_places(mesh);
   for (const Data* data : data()) {
     moduli_.emplace_back(*data, places, start_time);
@@ -27,16 +32,17 @@ RockStiffness::RockStiffness(const Options& options, const Mesh& mesh, double st
 void RockStiffness::evaluate(const StepTime& step) {
   if (!changes_) return;
   for (Property& modulus : moduli_) modulus.evaluate(step);
+  excavation_.evaluate(step);
   bulk_modulus_.evaluate(step);
   compute();
 }
 
 void RockStiffness::compute() {
-  std::uint64_t version = 0;
+  std::uint64_t version = excavation_.version();
   for (const Property& modulus : moduli_) version += modulus.version();
   if (version == version_) return;
   const int cells = static_cast<int>(stiffness_.size());
-  for (int c = 0; c < cells; ++c) stiffness_[c] = at(c);
+  for (int c = 0; c < cells; ++c) stiffness_[c] = excavation_.stiffness(c) * at(c);
   version_ = version;  // at the end, since the loop above may throw
   if (options_.is_anisotropic) return;
   Vector bulk_modulus(cells);

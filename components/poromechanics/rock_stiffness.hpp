@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/capabilities/rock_state.hpp"
+#include "components/poromechanics/excavation.hpp"
 #include "components/poromechanics/options.hpp"
 #include "components/poromechanics/stiffness.hpp"
 #include "framework/assembly/property.hpp"
@@ -27,9 +28,10 @@ class RockStiffness {
   const std::vector<Stiffness>& of_cells() const { return stiffness_; }
   std::optional<LameParameters> lame(int cell) const;             ///< none for anisotropic rock
   const Property& bulk_modulus() const { return bulk_modulus_; }  ///< Pa
-  bool changes() const { return changes_; }                       ///< whether a property depends on time
-  std::uint64_t version() const { return version_; }              ///< grows whenever a stiffness has changed
-  std::vector<const Data*> data() const;                          ///< the properties
+  const Excavation& excavation() const { return excavation_; }
+  bool changes() const { return changes_; }           ///< whether a property depends on time
+  std::uint64_t version() const { return version_; }  ///< grows whenever a stiffness has changed
+  std::vector<const Data*> data() const;              ///< the properties
 
  private:
   void compute();
@@ -38,6 +40,7 @@ class RockStiffness {
   const Options& options_;
   std::string component_;
   Origin origin_;
+  Excavation excavation_;
   std::vector<Property> moduli_;  ///< Young's modulus and Poisson's ratio, or the entries of AnisotropicStiffness
   Property bulk_modulus_;
   bool changes_ = false;

@@ -8,6 +8,7 @@
 
 #include "components/capabilities/wells.hpp"
 #include "components/wells/options.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::wells {
@@ -34,7 +35,7 @@ Binding binding(const Control& control, double pressure, double rate, double res
 /// the values are, divided by the rate or the pressure that the well is to have: a well is judged by its own figures,
 /// also beside one that brings a million times as much. Newton's method with it is an active-set method, which changes
 /// branches within a solve. The rates are given by a coupler (WellPressures::rate), which knows what is around.
-class LimitedWells : public Component, public WellPressures {
+class LimitedWells : public Component, public WellPressures, public KeepsTotals {
  public:
   LimitedWells(const ComponentContext& context, const Options& options);
 
@@ -43,6 +44,7 @@ class LimitedWells : public Component, public WellPressures {
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
+  void begin_totals() override { injected_.set_both(Vector::Zero(injected_.size())); }
   std::uint64_t discrete_state() const override;
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;

@@ -5,6 +5,7 @@
 
 #include "couplers/heat_advection/streams.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/scene/registry.hpp"
@@ -56,7 +57,7 @@ struct HeatAdvectionOptions {
 ///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)),
 /// so that a uniform temperature stays uniform whatever the fluxes are, and nothing is lost or made: heat is conserved
 /// in each schedule, also where the streams are those of a flow that is solved before or after.
-class HeatAdvection : public Coupler {
+class HeatAdvection : public Coupler, public KeepsTotals {
  public:
   HeatAdvection(const CouplerContext& context, const HeatAdvectionOptions& options)
       : Coupler(context.name), mesh_(context.mesh), options_(options) {
@@ -103,6 +104,11 @@ class HeatAdvection : public Coupler {
     };
     if (has(rock_.temperature)) count(rock_, streams_of_rock(sources()), step);
     if (has(fractures_.temperature)) count(fractures_, streams_of_fractures(sources()), step);
+  }
+
+  void begin_totals() override {
+    for (const Medium* place : {&rock_, &fractures_})
+      if (place->temperature) place->cumulative->set_both(Vector::Zero(place->cumulative->size()));
   }
 
   void balance(std::map<std::string, Balance>& balances) const override {

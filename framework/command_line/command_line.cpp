@@ -33,6 +33,7 @@
 #include "framework/run/simulation.hpp"
 #include "framework/run/start_notes.hpp"
 #include "framework/run/stop_condition.hpp"
+#include "framework/scene/state_of_run.hpp"
 
 namespace sprekk {
 
@@ -61,7 +62,8 @@ void check_scene(const Scene& scene) {
   const ActivityListener listener([&](const std::string& what) { progress.part(what); });
   progress.watch();
   progress.phase("building the model");
-  const Model model(scene);
+  Model model(scene);
+  if (scene.start.from) take_state_of_run(*scene.start.from, model);
   progress.close();
   StopCondition(scene, model.quantities());
   long unknowns = 0;

@@ -24,6 +24,7 @@
 #include "framework/run/scene_fingerprint.hpp"
 #include "framework/run/simulation_state.hpp"
 #include "framework/run/step_attempts.hpp"
+#include "framework/scene/start_state.hpp"
 
 namespace sprekk {
 
@@ -47,8 +48,10 @@ std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Restar
                                   Progress& progress) {
   progress.watch();
   progress.phase("building the model");
-  return restart ? std::make_unique<Model>(scene, restart->mesh(), std::move(log))
-                 : std::make_unique<Model>(scene, std::move(log));
+  if (restart) return std::make_unique<Model>(scene, restart->mesh(), std::move(log));
+  auto model = std::make_unique<Model>(scene, std::move(log));
+  take_start(*model);
+  return model;
 }
 
 /// Steps end at output times and where data jump.

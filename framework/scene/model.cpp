@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
 #include "framework/mesh/partition.hpp"
@@ -65,8 +66,10 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   }
   std::map<std::string, Part*> named;
   for (const auto& component : components_) named[component->name()] = component.get();
-  schedule_ =
-      scene_.schedule({mesh_, fields_, parts_, std::move(log), named, scene_.time.step, &growing_, &histories_});
+  const ScheduleContext context{mesh_, fields_,          parts_,    std::move(log),
+                                named, scene_.time.step, &growing_, &histories_};
+  schedule_ = scene_.schedule(context);
+  make_start(context);
   now_doing("the first evaluation of all data");
   check_determined();
   refusing_bad_data([this] { check_data(); });
@@ -74,6 +77,47 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   check_stages();
   check_constant_modes();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_);
+}
+
+void Model::make_start(const ScheduleContext& context) {
+  const StartOptions& start = scene_.start;
+  if (start.settle.empty()) return;
+  if (!growing_.empty())
+    throw InputError(start.origin, "the state at the start is not settled in a scene whose fractures grow",
+                     "a mesh that has changed does not know the state from which changes are counted",
+                     "remove 'settle', or the 'grow' step");
+  bool counts = false;
+  for (const std::string& name : start.settle)
+    if (const auto* part = dynamic_cast<const CountsFromHere*>(context.named.at(name))) {
+      part->require_countable();
+      counts = true;
+    }
+  if (!counts)
+    throw InputError(
+        start.origin, "'settle' names no component that counts from a reference",
+        "none of them has unknowns that are counted from the state at the start",
+        "name the component whose changes are to be counted from there, with what it cannot be solved without");
+  SolveOptions options;
+  options.components = start.settle;
+  options.origin = start.origin;
+  options.newton = scene_.newton;
+  options.linear = scene_.linear;
+  ScheduleContext quiet = context;
+  quiet.log = {};  // coupling.csv has the iterations of time steps
+  settle_ = std::make_unique<SolveStep>(options, quiet);
+}
+
+StepStatus Model::settle_start() {
+  if (!settle_) return {true, "", 0};
+  now_doing("settling the state at the start");
+  const StepTime at_start{scene_.time.start, scene_.time.step, scene_.time.start};
+  begin_step(parts_, at_start);
+  StepStatus status = settle_->run(at_start);
+  if (!status.converged) return status;
+  for (Part* part : parts_)
+    if (auto* counts = dynamic_cast<CountsFromHere*>(part)) counts->count_from_here();
+  accept();
+  return status;
 }
 
 void Model::check_determined() const {

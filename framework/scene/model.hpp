@@ -8,6 +8,7 @@
 #include "framework/scene/scene.hpp"
 #include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/schedule_step.hpp"
+#include "framework/schedule/solve_step.hpp"
 #include "framework/schedule/step_history.hpp"
 
 namespace sprekk {
@@ -41,6 +42,10 @@ class Model {
   void accept();
   void rewind();
 
+  /// Solves for the components of `start: settle`, everything else held, with data as they are at the start, accepts
+  /// the state and lets parts count from there (CountsFromHere). Does nothing without it.
+  StepStatus settle_start();
+
   /// The steps of the schedule that let the mesh grow.
   const std::vector<GrowStep*>& growing() const { return growing_; }
   /// The state that parts and the schedule keep outside of fields, for checkpoints.
@@ -53,8 +58,11 @@ class Model {
   std::vector<OutputField> output() const;          ///< for pictures
   std::vector<PendingPath> pending_paths() const;   ///< of fractures that have grown further than the mesh knows
   Notes input_notes() const;                        ///< of the scene and of all parts
+  /// Adds to input_notes.
+  void add_note(const std::string& topic, const std::string& text) { scene_.notes.add(topic, text); }
 
  private:
+  void make_start(const ScheduleContext& context);
   void check_determined() const;
   void check_stages() const;
   void check_data();
@@ -69,6 +77,7 @@ class Model {
   std::vector<GrowStep*> growing_;
   std::vector<StepHistory*> histories_;
   std::unique_ptr<ScheduleStep> schedule_;
+  std::unique_ptr<SolveStep> settle_;  ///< of the state at the start, if the scene has it settled
   std::vector<Probe> probes_;
 };
 

@@ -48,8 +48,9 @@ Spec OutputOptions::spec() {
 
 namespace {
 
-const std::vector<std::string> section_names = {"name",     "plugins",  "geometry", "mesh",   "materials", "components",
-                                                "couplers", "schedule", "time",     "output", "solver",    "newton"};
+const std::vector<std::string> section_names = {"name",       "plugins",  "geometry", "mesh", "materials",
+                                                "components", "couplers", "schedule", "time", "start",
+                                                "output",     "solver",   "newton"};
 
 void check_sections(const Node& whole) {
   if (!whole.is_map())
@@ -211,6 +212,13 @@ Node section(const Node& whole, const std::string& key) {
   return empty;
 }
 
+/// Throws InputError for a component that is not there.
+void check_start(const Scene& scene) {
+  const std::vector<std::string> known = component_names(scene);
+  for (const std::string& name : scene.start.settle)
+    if (std::ranges::count(known, name) == 0) throw unknown_name(scene.start.origin, "component", name, known);
+}
+
 void check_output(const Scene& scene) {
   constexpr double most_outputs = 1e6;
   if (!scene.output.every) return;
@@ -285,6 +293,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   read_section("mesh", mesh_spec(scene.mesh));
   validate_geometry(scene.geometry, scene.mesh);
   read_section("time", scene.time.spec());
+  read_section("start", scene.start.spec());
   read_section("output", scene.output.spec());
   check_output(scene);
   read_section("solver", solver_spec(scene.linear));
@@ -300,6 +309,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   read.column_used = [&columns_used](const std::string& column) { columns_used.insert(column); };
   read_components(scene, read);
   read_couplers(scene, read);
+  check_start(scene);
   const Node& schedule = *whole.find("schedule");
   scene.linear.bulk_changes_often = has_step(schedule, "grow");
   scene.schedule =
@@ -314,10 +324,11 @@ std::vector<Spec> scene_section_specs() {
   static Geometry geometry;
   static MeshOptions mesh;
   static TimeOptions time;
+  static StartOptions start;
   static OutputOptions output;
   static LinearOptions linear;
   static NewtonOptions newton;
-  return {geometry_spec(geometry), mesh_spec(mesh),     time.spec(),
+  return {geometry_spec(geometry), mesh_spec(mesh),     time.spec(),        start.spec(),
           output.spec(),           solver_spec(linear), newton_spec(newton)};
 }
 

@@ -10,6 +10,7 @@
 #include "framework/meshing/geometry.hpp"
 #include "framework/scene/probe.hpp"
 #include "framework/scene/registry.hpp"
+#include "framework/scene/start_options.hpp"
 #include "framework/schedule/newton.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/step_controller.hpp"
@@ -55,6 +56,7 @@ struct Scene {
   std::vector<CouplerEntry> couplers;
   ScheduleBuilder schedule;
   TimeOptions time;
+  StartOptions start;
   OutputOptions output;
   NewtonOptions newton;
   LinearOptions linear;

@@ -10,6 +10,7 @@
 
 #include "framework/config/yaml/load_scene.hpp"
 #include "framework/config/yaml/parse_yaml.hpp"
+#include "framework/scene/start_state.hpp"
 
 namespace sprekk::testing {
 
@@ -29,6 +30,7 @@ SceneRun SceneRun::from_text(const std::string& yaml) { return SceneRun(read_sce
 
 SceneRun::SceneRun(const Scene& scene) {
   model_ = std::make_unique<Model>(scene);
+  take_start(*model_);
   std::vector<double> targets = model_->switch_times();
   targets.insert(targets.end(), scene.output.times.begin(), scene.output.times.end());
   controller_ = std::make_unique<StepController>(scene.time, targets);

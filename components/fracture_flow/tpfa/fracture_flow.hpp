@@ -14,6 +14,7 @@
 #include "components/fracture_flow/tpfa/junction_fluxes.hpp"
 #include "components/fracture_flow/tpfa/mean_along.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
 
@@ -27,7 +28,7 @@ namespace sprekk::fracture_flow {
 /// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
 /// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
 /// pressures, and the flux out of one cell enters the next one to the bit. Properties are those at the end of the step.
-class FractureFlow : public Component, public FractureFluid, public FractureFluxes {
+class FractureFlow : public Component, public FractureFluid, public FractureFluxes, public KeepsTotals {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
@@ -45,6 +46,7 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   void constrain(Assembly& assembly) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
+  void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
   void hold_constants(ConstantModes& modes) const override;
   void report(std::vector<Quantity>& quantities) const override;

@@ -71,13 +71,16 @@ std::vector<Field*> FemRock::unknowns() const {
 void FemRock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
   SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.name(), pressure.size(), mesh_.cell_count());
   SPREKK_EXPECT(alpha.size() == mesh_.cell_count() && reference.size() == mesh_.cell_count(), pressure.name());
-  loads_.push_back({&pressure, alpha, reference});
+  loads_.push_back({&pressure, alpha, reference, alpha});
 }
 
 void FemRock::change_alpha(const Field& pressure, const Vector& alpha) {
   SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
   for (PoreLoad& load : loads_)
-    if (load.pressure == &pressure) load.alpha = alpha;
+    if (load.pressure == &pressure) {
+      load.given = alpha;
+      load.alpha = stiffness_.excavation().of_rock(alpha);
+    }
   ++alpha_version_;
 }
 
@@ -98,7 +101,9 @@ void FemRock::discretize() {
                                     owned_values(mesh_, field->spec().location, dimension)));
     first += field->size();
   }
-  volume_ = quantity_of(operators_.volume, owned_values(mesh_, Location::cell, 1));
+  std::vector<char> cells = owned_values(mesh_, Location::cell, 1);
+  for (int c = 0; c < mesh_.cell_count(); ++c) cells[c] = cells[c] && !stiffness_.excavation().is_removed(c);
+  volume_ = quantity_of(operators_.volume, cells);
   if (wall_traction_) jump_ = quantity_of(operators_.jump, owned_values(mesh_, Location::fracture_cell, dimension));
 }
 
@@ -109,12 +114,19 @@ void FemRock::evaluate_data(const StepTime& step) {
   evaluated_for_ = step;
   is_given_used_ = false;
   stiffness_.evaluate(step);
+  if (const std::uint64_t version = stiffness_.excavation().version(); version != used_excavation_) {
+    used_excavation_ = version;
+    for (PoreLoad& load : loads_) load.alpha = stiffness_.excavation().of_rock(load.given);
+    ++alpha_version_;
+  }
   discretize();  // the body force acts on interior functions, too
-  given_ = given_loads(options_, mesh_, held_, operators_, step);
+  given_ = given_loads(options_, mesh_, held_, operators_, stiffness_.excavation(),
+                       settled_ ? &settled_->forces : nullptr, step);
+  if (settled_) given_.displacements -= settled_->displacements;
 }
 
 FemRock::Quantity FemRock::quantity_of(LinearInFem operators, const std::vector<char>& owned) const {
-  if (parallel::size() > 1)
+  if (std::ranges::count(owned, 0) > 0)
     for (SparseMatrix* rows : {&operators.of_displacement, &operators.of_stress, &operators.of_traction,
                                &operators.of_force, &operators.of_given})
       *rows = keep_rows(*rows, owned);
@@ -165,6 +177,41 @@ void FemRock::use_given() {
     for (const PoreLoad& load : loads_)
       quantity->value.constant -= operators.of_stress * load.alpha.cwiseProduct(load.reference);
   }
+  if (!settled_ || !wall_traction_) return;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    if (is_owned(mesh_, Location::fracture_cell, i))
+      jump_.value.constant.segment<dimension>(dimension * i) += settled_->jumps.segment<dimension>(dimension * i);
+}
+
+void FemRock::require_countable() const {
+  if (order_ == ElementOrder::first)
+    throw InputError(origin_, "the displacements of '" + name() + "' cannot be counted from a settled state",
+                     "elements of first order are stabilized by more than the stress of their cells",
+                     "use 'order: second', or poromechanics/mpsa");
+}
+
+void FemRock::count_from_here() {
+  SettledRock settled;
+  settled.forces = settled_forces(options_, mesh_, stiffness_.of_cells(), operators_, coefficients());
+  settled.stress = mean_stress();
+  settled.displacements = given_.displacements;
+  if (wall_traction_) {
+    settled.jumps = jump_.value.now();
+    replicate(mesh_, Location::fracture_cell, dimension, settled.jumps);
+  }
+  settled_ = std::move(settled);
+  for (Field* field : unknowns()) field->set_both(Vector::Zero(field->size()));
+  data_evaluated_ = false;
+  begin_step(StepTime(evaluated_for_));
+}
+
+void FemRock::save(std::map<std::string, Vector>& state) const {
+  if (settled_) settled_->save(name(), state);
+}
+
+void FemRock::restore(const std::map<std::string, Vector>& state) {
+  settled_ = SettledRock::restored(name(), state);
+  data_evaluated_ = false;
 }
 
 void FemRock::begin_step(const StepTime& step) {
@@ -222,8 +269,11 @@ Vector FemRock::mean_stress() const {
       const double pore = load.alpha[c] * (load.pressure->now()[c] - load.reference[c]);
       of_cell -= pore * Eigen::Vector3d(1, 1, 0);
     }
-    if (!options_.initial_stress.is_zero())
-      of_cell += options_.initial_stress_at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
+    const double support = stiffness_.excavation().support(c);
+    if (settled_)
+      of_cell += support * settled_->stress.segment<symmetric_components>(symmetric_components * c);
+    else if (!options_.initial_stress.is_zero())
+      of_cell += support * options_.initial_stress_at({mesh_.cell_center[c], mesh_.cell_region[c], 0});
     stress.segment<symmetric_components>(symmetric_components * c) = of_cell;
   }
   return stress;
@@ -259,6 +309,7 @@ Vector FemRock::pore_stress() const {
 
 SymmetricTensor FemRock::initial_stress(int cell, const Point& x) const {
   SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
+  if (settled_) return settled_->stress.segment<symmetric_components>(symmetric_components * cell);
   return options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
 }
 
@@ -295,7 +346,8 @@ void FemRock::note_step(Notes& notes, const StepTime&) const {
   const Vector all = coefficients();
   LargestStrain largest;
   for (int c = 0; c < mesh_.cell_count(); ++c)
-    if (const double strain = mean_gradient(all, c).norm(); strain > largest.strain)
+    if (const double strain = mean_gradient(all, c).norm();
+        strain > largest.strain && !stiffness_.excavation().is_removed(c))
       largest = {strain, mesh_.cell_center[c]};
   note_large_strain(notes, name(), largest, options_, stiffness_.of_cells());
 }

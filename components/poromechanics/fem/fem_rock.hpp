@@ -11,6 +11,8 @@
 #include "components/poromechanics/options.hpp"
 #include "components/poromechanics/pore_load.hpp"
 #include "components/poromechanics/rock_stiffness.hpp"
+#include "components/poromechanics/settled_rock.hpp"
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::poromechanics {
@@ -26,7 +28,7 @@ struct FemOptions : Options {
 ///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
 /// with C and alpha at the end of the step and p one value a cell. Each row balances the work of these stresses in the
 /// displacement of one function with that of the loads (N/m), or holds a prescribed displacement.
-class FemRock : public Component, public PoroelasticRock, public RockWalls, public RockState {
+class FemRock : public Component, public PoroelasticRock, public RockWalls, public RockState, public CountsFromHere {
  public:
   /// Throws InputError as Rock does.
   FemRock(const ComponentContext& context, const FemOptions& options);
@@ -35,6 +37,11 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
   bool allows_stages() const override { return true; }
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
+  /// Not at first order: what stabilizes it is no stress of cells.
+  void require_countable() const override;
+  void count_from_here() override;
+  void save(std::map<std::string, Vector>& state) const override;
+  void restore(const std::map<std::string, Vector>& state) override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
@@ -90,6 +97,8 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
   RockStiffness stiffness_;
   Held held_;
   std::vector<PoreLoad> loads_;
+  std::optional<SettledRock> settled_;  ///< the state from which displacements are counted, if it was settled
+  std::uint64_t used_excavation_ = 0;
 
   std::uint64_t discretized_mesh_ = 0, discretized_stiffness_ = 0, alpha_version_ = 1, used_alpha_ = 0;
   bool data_evaluated_ = false, is_given_used_ = false;  ///< given_ is in the constants of quantities

@@ -11,22 +11,31 @@ namespace sprekk::poromechanics {
 
 namespace {
 
+/// Adds forces on functions of a cell to those on all coefficients.
+void add_to(Vector& forces, const std::vector<int>& first, const Eigen::VectorXd& of_cell) {
+  for (int i = 0; i < static_cast<int>(first.size()); ++i)
+    forces.segment<dimension>(first[i]) += of_cell.segment<dimension>(dimension * i);
+}
+
 void add_forces_in_cells(const Options& options, const RawDisplacement& raw, const FemOperators& operators,
-                         const StepTime& step, GivenLoads& loads) {
+                         const Excavation& excavation, const Vector* settled, const StepTime& step, GivenLoads& loads) {
   const Mesh& mesh = raw.mesh;
   const bool has_weight = !options.body_force.is_zero() || !options.rock_density.is_zero();
-  if (!has_weight && options.initial_stress.is_zero()) return;
+  const bool has_stress = !options.initial_stress.is_zero() && !settled;
+  int next = 0;  // in the settled forces
+  if (!has_weight && !has_stress && !settled) return;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const std::vector<int> first = raw.of_cell(c);
     const int functions = static_cast<int>(first.size());
+    const double support = excavation.support(c);
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dimension * (functions + 1));
     for (const CellPoint& point : cell_points(mesh, c, operators.tips)) {
       const Place place{point.x, mesh.cell_region[c], 0};
       const Point weight =
-          value_in_step(options.body_force, place, step) +
-          value_in_step(options.rock_density, place, step) * value_in_step(options.gravity, place, step);
+          support * (value_in_step(options.body_force, place, step) +
+                     value_in_step(options.rock_density, place, step) * value_in_step(options.gravity, place, step));
       if (!weight.isZero(0)) loads.largest_stress = std::numeric_limits<double>::infinity();
-      const Tensor stress = options.initial_stress.is_zero() ? Tensor::Zero() : options.initial_stress.at(place);
+      const Tensor stress = has_stress ? Tensor(support * options.initial_stress.at(place)) : Tensor::Zero();
       for (int i = 0; i <= functions; ++i)
         forces.segment<dimension>(dimension * i) +=
             point.weight * (point.value[i] * weight - stress * point.gradient.col(i));
@@ -34,8 +43,10 @@ void add_forces_in_cells(const Options& options, const RawDisplacement& raw, con
     const Point on_interior = forces.tail<dimension>();
     const Eigen::VectorXd total =
         forces.head(dimension * functions) + operators.of_interior[c].transpose() * on_interior;
-    for (int i = 0; i < functions; ++i)
-      loads.forces.segment<dimension>(first[i]) += total.segment<dimension>(dimension * i);
+    add_to(loads.forces, first, total);
+    if (!settled) continue;
+    add_to(loads.forces, first, -support * settled->segment(next, dimension * functions));
+    next += dimension * functions;
   }
 }
 
@@ -80,10 +91,10 @@ void find_largest_stress(const Options& options, const Mesh& mesh, const StepTim
 }  // namespace
 
 GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held, const FemOperators& operators,
-                       const StepTime& step) {
+                       const Excavation& excavation, const Vector* settled, const StepTime& step) {
   const RawDisplacement raw{mesh};
   GivenLoads loads{Vector::Zero(raw.size()), Vector::Zero(raw.size()), 0};
-  add_forces_in_cells(options, raw, operators, step, loads);
+  add_forces_in_cells(options, raw, operators, excavation, settled, step, loads);
   const auto displacement = [&](const HeldBy& by, const Point& x) {
     const Data& data = *condition_of(options, mesh, by.face)->displacement_of(by.axis);
     return by.share * value_in_step(data, {x, mesh.cell_region[mesh.face_cells[by.face][0]], 0}, step);
@@ -107,6 +118,33 @@ GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& hel
       for (const HeldBy& by : held.nodes[node].by[k]) loads.displacements[raw.of_node(node) + k] += at_node(by, node);
   find_largest_stress(options, mesh, step, loads);
   return loads;
+}
+
+Vector settled_forces(const Options& options, const Mesh& mesh, const std::vector<Stiffness>& stiffness,
+                      const FemOperators& operators, const Vector& coefficients) {
+  const RawDisplacement raw{mesh};
+  std::vector<double> all;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const std::vector<int> first = raw.of_cell(c);
+    const int functions = static_cast<int>(first.size());
+    const std::vector<CellPoint> points = cell_points(mesh, c, operators.tips);
+    Eigen::VectorXd displacement(dimension * functions);
+    for (int i = 0; i < functions; ++i)
+      displacement.segment<dimension>(dimension * i) = coefficients.segment<dimension>(first[i]);
+    Eigen::VectorXd forces = cell_stiffness(points, stiffness[c], ElementOrder::second).of_unknowns * displacement;
+    if (!options.initial_stress.is_zero()) {
+      Eigen::VectorXd of_stress = Eigen::VectorXd::Zero(dimension * (functions + 1));
+      for (const CellPoint& point : points) {
+        const Tensor stress = options.initial_stress.at({point.x, mesh.cell_region[c], 0});
+        for (int i = 0; i <= functions; ++i)
+          of_stress.segment<dimension>(dimension * i) += point.weight * stress * point.gradient.col(i);
+      }
+      const Point on_interior = of_stress.tail<dimension>();
+      forces += of_stress.head(dimension * functions) + operators.of_interior[c].transpose() * on_interior;
+    }
+    all.insert(all.end(), forces.begin(), forces.end());
+  }
+  return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
 }  // namespace sprekk::poromechanics

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "components/poromechanics/excavation.hpp"
 #include "components/poromechanics/fem/fem_operators.hpp"
 #include "framework/assembly/step_time.hpp"
 
@@ -18,8 +19,15 @@ struct GivenLoads {
   double largest_stress = 0;
 };
 
-/// Throws DataError.
+/// `settled`: the forces of the stress of every cell in a state that was settled (settled_forces), which replaces the
+/// initial stress; or nullptr. Throws DataError.
 GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held, const FemOperators& operators,
-                       const StepTime& step);
+                       const Excavation& excavation, const Vector* settled, const StepTime& step);
+
+/// The forces of the total stress of every cell on the functions of its corners and faces (RawDisplacement::of_cell),
+/// cell after cell, N/m. `coefficients`: all of them, m; the pore pressures are those of the start. For the second
+/// order.
+Vector settled_forces(const Options& options, const Mesh& mesh, const std::vector<Stiffness>& stiffness,
+                      const FemOperators& operators, const Vector& coefficients);
 
 }  // namespace sprekk::poromechanics

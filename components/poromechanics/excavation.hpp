@@ -1,0 +1,56 @@
+// Regions of the rock that are taken away.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "framework/assembly/step_time.hpp"
+#include "framework/config/spec.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::poromechanics {
+
+/// When a region is taken away.
+struct ExcavatedRegion {
+  Origin origin;
+  Data support;  ///< part of its initial stress that acts on what is around it; 1 as long as it is there
+  Spec spec();
+};
+using ExcavatedRegions = std::map<std::string, ExcavatedRegion>;  ///< by the name of the region
+
+/// The state of the excavations in a step. A region of which `support` is below 1 is taken away: its stiffness falls to
+/// the part `left_stiffness`, its pore pressure no longer loads the rock, and of its initial stress and its weight the
+/// part `support` is left, so that what is around it is loaded by the rest (convergence and confinement, Panet and
+/// Guenot 1982).
+class Excavation {
+ public:
+  /// Nothing is taken away before `evaluate`. Throws InputError for a region that the mesh does not have.
+  Excavation(const ExcavatedRegions& regions, const Mesh& mesh);
+
+  bool is_empty() const { return regions_.empty(); }
+  void evaluate(const StepTime& step);
+  bool is_excavated(int cell) const { return !regions_.empty() && region_of_cell_[cell] != none; }  ///< once
+  bool is_removed(int cell) const { return support(cell) < 1; }
+  double support(int cell) const { return is_excavated(cell) ? support_[region_of_cell_[cell]] : 1; }
+  double stiffness(int cell) const { return is_removed(cell) ? left_stiffness : 1; }  ///< of that before
+  std::uint64_t version() const { return version_; }                                  ///< grows with what is removed
+  std::vector<const Data*> data() const;
+  /// `alpha` (one a cell) without the cells that are removed.
+  Vector of_rock(Vector alpha) const;
+  /// One flag a cell: whether it is not removed.
+  std::vector<char> left() const;
+
+ private:
+  /// So little that displacements change by about this part of themselves, and enough to determine those inside.
+  static constexpr double left_stiffness = 1e-6;
+  std::vector<const ExcavatedRegion*> regions_;
+  std::vector<int> region_of_cell_;  ///< empty without regions
+  std::vector<double> support_;
+  std::uint64_t version_ = 0;
+};
+
+/// Parameters by the name of the region.
+void add_excavation(Spec& spec, ExcavatedRegions& regions);
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,17 @@
+// Parts whose unknowns are changes from a state at the start.
+#pragma once
+
+namespace sprekk {
+
+/// A part with unknowns that are counted from a reference state.
+class CountsFromHere {
+ public:
+  virtual ~CountsFromHere() = default;
+  /// Throws InputError, with the reason, where it cannot be done.
+  virtual void require_countable() const {}
+  /// Makes the present state the reference: the unknowns become zero, and nothing else of the state changes. To be
+  /// called after the state has been settled, with parts that have begun a step.
+  virtual void count_from_here() = 0;
+};
+
+}  // namespace sprekk
