@@ -12,6 +12,7 @@
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/gaps.hpp"
+#include "framework/schedule/limits_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
 
 namespace sprekk {
@@ -194,10 +195,23 @@ StepStatus Model::attempt(const StepTime& step) {
     coupler->begin_step(step);
   }
   now_doing("assembling and ordering");
-  const StepStatus status = schedule_->run(step);
+  StepStatus status = schedule_->run(step);
+  if (status.converged) refuse_too_long(step, status);
   require_agreement("how a step ended",
                     {step.start, step.dt, status.converged ? 1.0 : 0.0, status.retry_dt, double(status.iterations)});
   return status;
+}
+
+void Model::refuse_too_long(const StepTime& step, StepStatus& status) const {
+  for (const Part* part : parts_) {
+    const auto* limiting = dynamic_cast<const LimitsStep*>(part);
+    const std::optional<StepTooLong> refusal = limiting ? limiting->too_long(step) : std::nullopt;
+    if (!refusal || (!status.converged && refusal->retry_dt >= status.retry_dt)) continue;
+    SPREKK_ASSERT(refusal->retry_dt > 0 && refusal->retry_dt < step.dt, refusal->retry_dt, step.dt);
+    status.converged = false;
+    status.retry_dt = refusal->retry_dt;
+    status.reason = refusal->why;
+  }
 }
 
 void Model::accept() {

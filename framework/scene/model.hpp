@@ -67,6 +67,8 @@ class Model {
   void check_stages() const;
   void check_data();
   void check_constant_modes() const;
+  /// A step that a part takes for too long (LimitsStep) has not converged.
+  void refuse_too_long(const StepTime& step, StepStatus& status) const;
 
   Scene scene_;
   Mesh mesh_;
