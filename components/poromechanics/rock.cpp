@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/principal_stress.hpp"
+#include "components/poromechanics/stress_without_displacement.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_mean.hpp"
@@ -352,10 +354,11 @@ std::vector<double> Rock::switch_times() const {
   return merged_switch_times(data);
 }
 
-void Rock::output(std::vector<OutputField>& fields) const {
+Vector Rock::mean_stress() const {
+  if (discretizations_ == 0 || displacement_.now().isZero(0))
+    return stress_without_displacement(mesh_, options_, pore_stress());
   // Mean stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when
   // constant, and near tips of cracks with the moments of the singular tractions about the centres of the faces.
-  if (discretizations_ == 0) return;
   const Vector forces = face_forces(), moments = operators_.moment_displacement * displacement_.now();
   Vector stress = Vector::Zero(3 * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c)
@@ -368,7 +371,9 @@ void Rock::output(std::vector<OutputField>& fields) const {
           sign / mesh_.cell_measure[c] * moments.segment<3>(3 * face);
     }
   replicate(mesh_, Location::cell, 3, stress);
-  fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, 3, std::move(stress)});
+  return stress;
 }
+
+void Rock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
 
 }  // namespace sprekk::poromechanics
