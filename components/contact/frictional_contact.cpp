@@ -17,6 +17,7 @@
 #include "components/contact/note_jumps.hpp"
 #include "components/contact/options.hpp"
 #include "components/contact/rate_and_state_walls.hpp"
+#include "components/contact/shear_load.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
@@ -294,8 +295,18 @@ void FrictionalContact::report(std::vector<Quantity>& quantities) const {
 
 void FrictionalContact::output(std::vector<OutputField>& fields) const {
   Vector states(mesh_.fracture_cell_count());
-  for (int i = 0; i < states.size(); ++i) states[i] = static_cast<double>(state(i));
+  const bool is_at_start = traction_.now().isZero(0) && jump_.now().isZero(0);  // walls touch, and carry nothing yet
+  for (int i = 0; i < states.size(); ++i) states[i] = is_at_start ? 0.0 : static_cast<double>(state(i));
   fields.push_back({name() + ".state_0_stick_1_slip_2_open", "1", Location::fracture_cell, 1, std::move(states)});
+  Vector tendency(mesh_.fracture_cell_count()), used(mesh_.fracture_cell_count());
+  for (int i = 0; i < tendency.size(); ++i) {
+    const Trial t = trial(i);
+    const ShearLoad load = shear_load(traction_.now().segment<dimension>(dimension * i), t.strength, t.gap > 0);
+    tendency[i] = load.slip_tendency;
+    used[i] = load.friction_used;
+  }
+  fields.push_back({name() + ".slip_tendency", "1", Location::fracture_cell, 1, std::move(tendency)});
+  fields.push_back({name() + ".friction_used", "1", Location::fracture_cell, 1, std::move(used)});
   if (rate_and_state_) rate_and_state_->output(fields);
 }
 

@@ -82,9 +82,12 @@ FluxOperators MatrixFlow::fluxes_around(const std::vector<char>& nodes, const Te
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one.
-  if (discretized_mobility_ == 0) return;
-  const Vector& fluxes = face_fluxes();
   Vector velocity = Vector::Zero(dimension * mesh_.cell_count());
+  if (discretized_mobility_ == 0) {  // nothing has flowed yet
+    fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
+    return;
+  }
+  const Vector& fluxes = face_fluxes();
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {
       const double out = mesh_.face_cells[face][0] == c ? fluxes[face] : -fluxes[face];

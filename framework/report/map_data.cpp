@@ -19,43 +19,24 @@ using Json = nlohmann::ordered_json;
 
 constexpr int colour_count = 256;
 
-/// The components that a name ends with: "xx", "yy", "xy" of "rock.stress_xx_yy_xy"; none for other names.
-std::vector<std::string> named_components(const std::string& quantity, int count) {
-  std::vector<std::string> names;
-  std::string rest = quantity;
-  for (int i = 0; i < count; ++i) {
-    const std::size_t bar = rest.rfind('_');
-    if (bar == std::string::npos || rest.size() - bar > 3) return {};
-    names.insert(names.begin(), rest.substr(bar + 1));
-    rest.resize(bar);
-  }
-  return names;
+/// Files have a third component of vectors for ParaView only.
+bool is_vector(const Grid::Values& sample) {
+  return !sample.component_names.empty() && sample.component_names.front() == "x";
 }
 
-/// Whether an array is a vector: files have a third component for ParaView only.
-bool is_vector(const RunResults& results, const Grid::Values& sample) {
-  if (sample.components != 3) return false;
-  for (const RunResults::Written& written : results.written) {
-    const Grid::Values* const values = written.matrix.find(sample.name);
-    for (std::size_t i = 2; values && i < values->values.size(); i += 3)
-      if (values->values[i] != 0) return false;
-  }
-  return true;
-}
-
-void add_fields(const RunResults& results, const Grid::Values& sample, std::vector<MapField>& fields) {
+void add_fields(const Grid::Values& sample, std::vector<MapField>& fields) {
   const ColumnName name = column_name(sample.name);
-  const std::vector<std::string> components = named_components(name.quantity, sample.components);
   if (sample.components == 1) {
     fields.push_back({name.quantity, name.unit, sample.name, 0});
-  } else if (components.empty() && is_vector(results, sample)) {
+  } else if (is_vector(sample)) {
     fields.push_back({name.quantity + ", length", name.unit, sample.name, MapField::length_of_vector});
     fields.push_back({name.quantity + ", x", name.unit, sample.name, 0});
     fields.push_back({name.quantity + ", y", name.unit, sample.name, 1});
   } else {
     for (int c = 0; c < sample.components; ++c) {
-      const std::string part = components.empty() ? std::to_string(c + 1) : components[static_cast<std::size_t>(c)];
-      fields.push_back({name.quantity + ": " + part, name.unit, sample.name, c});
+      const auto& names = sample.component_names;
+      const std::string part = names.empty() ? std::to_string(c + 1) : names[static_cast<std::size_t>(c)];
+      fields.push_back({name.quantity + ", " + part, name.unit, sample.name, c});
     }
   }
 }
@@ -141,7 +122,7 @@ std::vector<MapField> map_fields(const RunResults& results) {
   const std::vector<Grid::Values>& arrays = results.written.back().matrix.arrays;
   const auto add_all = [&](const auto& is_wanted) {
     for (const Grid::Values& values : arrays)
-      if (is_wanted(values)) add_fields(results, values, fields);
+      if (is_wanted(values)) add_fields(values, fields);
   };
   add_all([](const Grid::Values& values) { return values.components == 1 && values.name != "region"; });
   add_all([](const Grid::Values& values) { return values.components != 1; });

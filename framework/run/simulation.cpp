@@ -70,6 +70,7 @@ class Simulation {
 
  private:
   IterationLog log();
+  void write_start();
   ExitCode step_to_the_end(const InterruptGuard& interrupt);
   void accept(const StepTime& step, const StepStatus& status);
   bool follow_growth();  ///< false when the mesh could not
@@ -126,6 +127,19 @@ IterationLog Simulation::log() {
                                record.residual, record.equation),
                    true);
   };
+}
+
+/// Writes the fields at the start of a new run.
+void Simulation::write_start() {
+  Model& model = *state_.model;
+  if (continued_ || !model.scene().output.fields) return;
+  try {
+    model.prepare(state_.controller.next());  // what the first step does first, and does not repeat
+  } catch (const DataError&) {
+    return;  // the first step says so
+  }
+  const ScopedTimer timer(profile_, "output");
+  output_.write_fields(state_.controller.time(), 0, model, model.output());
 }
 
 ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
@@ -229,6 +243,7 @@ ExitCode Simulation::run() {
   for (const NoteRecord& note : recorder_.record().notes) progress_.event("note: " + described(note));
   ExitCode code = ExitCode::failed;
   try {
+    write_start();
     code = step_to_the_end(interrupt);
   } catch (const std::exception& error) {
     progress_.close();

@@ -85,7 +85,7 @@ class Report(unittest.TestCase):
         # The block fills the frame: all pixels of it have a colour.
         width, height = int(page.canvas["width"]) - 120 - 230, int(page.canvas["height"]) - 20 - 80
         self.assertGreater(int(page.canvas["data-pixels"]), 0.995 * width * height)
-        self.assertEqual(page.small, 4)
+        self.assertEqual(page.small, 5)  # the start, and four times
         text = file.read_text(encoding="utf-8")
         for expected in ("first_scene", "done", "MPa", "mesh.fracture_size", "linear: factorization", "crack"):
             self.assertIn(expected, text)
@@ -97,7 +97,7 @@ class Report(unittest.TestCase):
             document.getElementById(id).value = value;
             document.getElementById(id).dispatchEvent(new Event(event));
           };
-          set('map-field', 2, 'change');
+          set('map-field', 4, 'change');
           set('map-time', 0, 'input');
           set('map-scale', 'one', 'change');
           for (const id of ['map-lines', 'map-in', 'map-out', 'map-out']) document.getElementById(id).click();
@@ -111,7 +111,7 @@ class Report(unittest.TestCase):
         used.write_text(file.read_text(encoding="utf-8").replace("</body>", use), encoding="utf-8")
         page = self.opened(used)
         self.assertEqual(page.canvas["data-field"], "rock.displacement, x")
-        self.assertEqual(page.body["data-time"], "12 h")
+        self.assertEqual(page.body["data-time"], "0 s")
         self.assertRegex(page.body["data-value"], r"^x = [-0-9.]+ m, y = [-0-9.]+ m: rock\.displacement, x = [-0-9.]+ mm$")
 
     def test_run_without_fractures_or_probes(self):

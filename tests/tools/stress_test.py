@@ -41,7 +41,7 @@ def at_rest():
     cells = len(matrix.cells)
     x, y = physics.stresses(P, 1.0)
     matrix.cell_data = {"pore.pressure[Pa]": np.full(cells, P["initial"]),
-                        "rock.stress_xx_yy_xy[Pa]": np.tile([x, y, 0.0], (cells, 1)),
+                        "rock.stress[Pa]": np.tile([x, y, 0.0], (cells, 1)),
                         "rock.displacement[m]": np.zeros((cells, 3))}
     slip = np.array([0.0, 1e-5, 1e-5, 0.0])
     opening = slip * np.tan(np.radians(P["dilation"]))
@@ -88,7 +88,7 @@ class Checks(unittest.TestCase):
             self.found(check_contact.failures(P, change("fractures", name, cell, value)), text)
 
     def test_balances(self):
-        self.found(check_balance.momentum(P, change("matrix", "rock.stress_xx_yy_xy[Pa]", 5, 1e5)), "momentum")
+        self.found(check_balance.momentum(P, change("matrix", "rock.stress[Pa]", 5, 1e5)), "momentum")
         self.found(check_balance.fracture_mass(P, change("fractures", "conduit.aperture[m]", 0, 1e-9), 0), "fracture 0")
         self.found(check_balance.matrix_mass(P, change("matrix", "pore.pressure[Pa]", 7, 1e3)), "the matrix")
 
@@ -115,7 +115,7 @@ class Checks(unittest.TestCase):
         instant = at_rest()
         now = physics.end(p) / 8  # the horizontal load is 0, and half as far it is as large as at any time
         instant.time = now
-        instant.matrix.cell_data["rock.stress_xx_yy_xy[Pa]"][:] = [*physics.stresses(p, now), 0.0]
+        instant.matrix.cell_data["rock.stress[Pa]"][:] = [*physics.stresses(p, now), 0.0]
         instant.fractures.cell_data["contact.jump.normal[m]"][:] = 0
         drop = -factor * np.mean(physics.stresses(p, 0.0))  # the load that has been, and rest
         for part, times, count in ((0.99, [0.0, now], 0), (0.99, [now], 1), (1.1, [0.0, now], 1)):

@@ -31,7 +31,7 @@ def momentum(p, instants):
     found = []
     for instant in instants:
         area = cell_areas(instant.matrix)
-        stress = instant.cell("rock.stress_xx_yy_xy[Pa]")
+        stress = instant.cell("rock.stress[Pa]")
         mean = area @ stress[:, :2] / (p["width"] * p["height"])
         wanted = physics.stresses(p, instant.time)
         pressure = instant.cell("pore.pressure[Pa]")
@@ -170,7 +170,7 @@ def cumulative_balance(p, instants, history):
         aperture, in_fracture = instant.on_fractures("conduit.aperture", "m"), instant.on_fractures("conduit.pressure", "Pa")
         length = np.linalg.norm(np.diff(instant.fractures.points[instant.fractures.cells], axis=1)[:, 0], axis=1)
         area, pressure = cell_areas(instant.matrix), instant.cell("pore.pressure[Pa]")
-        stress = instant.cell("rock.stress_xx_yy_xy[Pa]")
+        stress = instant.cell("rock.stress[Pa]")
         volume = (np.abs(stress[:, :2]).sum(1) + p["alpha"] * np.abs(pressure - p["initial"])) / (2 * bulk)
         size = max(size, (area * (p["storage"] * np.abs(pressure - before) + p["alpha"] * volume)).max())
         before = pressure

@@ -95,7 +95,7 @@ class Stresses:
         self.least = self.most = self.largest = 0.0
 
     def see(self, instant):
-        stress = instant.cell("rock.stress_xx_yy_xy[Pa]")[:, :2]
+        stress = instant.cell("rock.stress[Pa]")[:, :2]
         means = [stress.mean(1).min(), stress.mean(1).max()]
         if self.p["sides"] == "stress":
             means += [np.mean(physics.stresses(self.p, t)) for t in self.times[self.times <= instant.time]]

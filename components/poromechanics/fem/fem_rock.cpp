@@ -8,6 +8,8 @@
 
 #include "components/poromechanics/check_conditions.hpp"
 #include "components/poromechanics/notes.hpp"
+#include "components/poromechanics/principal_stress.hpp"
+#include "components/poromechanics/stress_without_displacement.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -259,6 +261,10 @@ Tensor FemRock::mean_gradient(const Vector& coefficients, int cell) const {
 }
 
 Vector FemRock::mean_stress() const {
+  const std::vector<Field*> fields = unknowns();
+  const bool is_at_rest = std::ranges::all_of(fields, [](const Field* field) { return field->now().isZero(0); });
+  if (discretizations_ == 0 || (!settled_ && is_at_rest))
+    return stress_without_displacement(mesh_, options_, pore_stress());
   const Vector all = coefficients();
   Vector stress(symmetric_components * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
@@ -313,10 +319,7 @@ SymmetricTensor FemRock::initial_stress(int cell, const Point& x) const {
   return options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
 }
 
-void FemRock::output(std::vector<OutputField>& fields) const {
-  if (discretizations_ == 0) return;
-  fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, symmetric_components, mean_stress()});
-}
+void FemRock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
 
 std::vector<double> FemRock::switch_times() const {
   std::vector<const Data*> data = stiffness_.data(), loads = options_.loads();
