@@ -240,6 +240,47 @@ TEST(Excavation, PressureOfTheUndrainedRock) {
   }
 }
 
+/// Reference: a column in equilibrium with its weight of which the upper fifth is dug off rises by rho g h (y +
+/// H)/(lambda
+/// + 2 G), and a support by a half of the stress lets it rise by a half.
+TEST(Excavation, PitUnloadsWhatIsBelow) {
+  const double modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+  for (const std::string rock : {"mpsa", "fem"})
+    for (const double support : {0.0, 0.5}) {
+      SceneRun run = SceneRun::from_text(fmt::format(R"(
+geometry:
+  box: {{x: [0 m, 10 m], y: [-100 m, 0 m]}}
+  regions: {{pit: {{polygon: [[0 m, -20 m], [10 m, -20 m], [10 m, 0 m], [0 m, 0 m]]}}}}
+mesh: {{kind: structured, shape: quadrilaterals, cells: [2, 20]}}
+components:
+  rock:
+    type: poromechanics/{}
+    young_modulus: 10 GPa
+    poisson_ratio: 0.25
+    rock_density: 2000 kg/m^3
+    gravity: [0, -10 m/s^2]
+    boundary: {{left: {{displacement_x: 0 m}}, right: {{displacement_x: 0 m}}, bottom: {{displacement_y: 0 m}}}}
+    excavation: {{pit: {{support: [{{value: 1, to: 1 s}}, {{value: {}, from: 1 s}}]}}}}
+start: {{settle: rock}}
+schedule: [{{solve: rock}}]
+time: {{end: 2 s, step: 1 s}}
+)",
+                                                     rock, support));
+      EXPECT_TRUE(run.step());
+      EXPECT_LT(run.field("rock.displacement").lpNorm<Eigen::Infinity>(), 1e-14);  // its weight shortens it by 8 mm
+      EXPECT_TRUE(run.step());
+      const Vector& u = run.field("rock.displacement");
+      const bool on_cells = u.size() == 2 * run.mesh().cell_count();
+      const double load = (1 - support) * 2000 * 10 * 20, top = load * 80 / modulus;
+      for (int i = 0; i < u.size() / 2; ++i) {
+        const double y = (on_cells ? run.mesh().cell_center[i] : run.mesh().nodes[i]).y();
+        if (y > -19.9) continue;
+        EXPECT_NEAR(u[2 * i + 1], load * (y + 100) / modulus, 1e-9 * top) << rock << y;
+        EXPECT_NEAR(u[2 * i], 0, 1e-9 * top);
+      }
+    }
+}
+
 /// Reference: a hole in rock of a uniform stress S and pressure p_0 that drains it, in the steady state. With the
 /// pressure p = p_0 ln(r/a)/ln(R/a) and no total stress on the outline,
 ///   u_r = S a^2/(2 G r) + alpha/((lambda + 2 G) r) times the integral of (p − p_0) r from a to r,
