@@ -78,6 +78,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
   void hold_constants(ConstantModes& modes) const override;
+  /// The rates of wells, and the outflow through each side with a condition, at the end of the step.
+  void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
