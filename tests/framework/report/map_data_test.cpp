@@ -67,6 +67,31 @@ TEST(MapJson, has_fractures_and_what_they_have_grown_beyond_the_mesh) {
   EXPECT_EQ(data["times"][1]["lines"], nlohmann::json::parse("[[0, 0, 0.5, 0], [0.5, 0, 0.75, 0.25]]"));
 }
 
+TEST(MapJson, has_what_colours_fractures_and_their_names) {
+  RunResults results;
+  results.record = R"({"scene": {"fractures": ["joint", "fault"]}})";
+  results.written = {written(0), written(1)};
+  for (double slip : {1e-3, 5e-3}) {
+    Grid& grid = results.written[slip > 2e-3].fractures;
+    grid.points = {{0, 0}, {0.5, 0}, {0.5, 0.5}};
+    grid.cells = {0, 1, 1, 2};
+    grid.points_per_cell = 2;
+    grid.arrays = {{"fracture", Grid::Place::cell, 1, {0, 1}},
+                   {"a.slip[m]", Grid::Place::cell, 1, {0, slip}},
+                   {"a.pair[m]", Grid::Place::cell, 3, {0, 0, 0, 0, 0, 0}}};
+  }
+  const auto data = nlohmann::json::parse(map_json(results));
+  EXPECT_EQ(data["names"], nlohmann::json::parse(R"(["joint", "fault"])"));
+  ASSERT_EQ(data["lineFields"].size(), 1U);
+  EXPECT_EQ(data["lineFields"][0]["label"], "a.slip");
+  EXPECT_EQ(data["lineFields"][0]["unit"], "mm");
+  EXPECT_EQ(data["lineFields"][0]["high"], 5.0);
+  // 0 and 1 mm between 0 and 5: nothing and a fifth of 65535, 0x3333, little-endian; then nothing and all.
+  EXPECT_EQ(data["times"][0]["lineValues"][0], "AAAzMw==");
+  EXPECT_EQ(data["times"][1]["lineValues"][0], "AAD//w==");
+  EXPECT_EQ(data["times"][1]["fracture"], "AAABAA==");
+}
+
 TEST(MapJson, takes_fewer_times_of_a_large_run) {
   RunResults results;
   for (int i = 0; i < 10; ++i) results.written.push_back(written(i));
