@@ -19,7 +19,7 @@ ROLES = {
     "matrix_flow": [("mpfa", {}), ("tpfa", {}), ("rt0", {}), ("ntpfa", {})],
     "poromechanics": [("mpsa", {}), ("fem", {"order": "first"}), ("fem", {"order": "second"})],
     "contact": [("coulomb", {}), ("augmented_lagrangian", {}), ("penalty", {})],
-    "fine_fracture": [("quarter_point", {}), ("jump_fit", {})],
+    "fine_fracture": [("quarter_point", {}), ("boundary_element", {}), ("jump_fit", {})],
 }
 # Swaps without a meaning: the type, a piece of the reason, and in which scenes.
 REFUSED = {

@@ -1,30 +1,18 @@
-// The parameters of tips.
+// The parameters of tips with fine levels.
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
 namespace sprekk::fine_fracture {
 
-Spec TipsOptions::spec() {
-  Spec spec("fine_fracture/quarter_point",
-            "Tips of fractures: stress-intensity factors from a fine level around each, and growth (the paper's secs. "
-            "2.5, 4.3).");
-  spec.ignore("type");
+void TipsOptions::declare_size(Spec& spec) {
   spec.quantity("size", size,
                 {.unit = "m",
                  .range = positive(),
                  .doc = "Side of the square around a tip; what reaches out of the rock is cut off.",
                  .source = "l of the paper's sec. 3.1",
                  .required = true});
-  spec.quantity("mesh_ratio", mesh_ratio,
-                {.range = {.low = 0, .high = 1, .low_allowed = false},
-                 .doc = "Edge length at the tip over that of the coarse level.",
-                 .source = "epsilon_m of the paper's sec. 4.1"});
-  spec.integer("sectors", sectors, {.range = between(8, 64), .doc = "Quarter-point elements around a tip."});
-  spec.quantity(
-      "tolerance", tolerance,
-      {.range = strictly_between(0, 1),
-       .doc = "Meshes of the fine level are refined until the estimated error of the stress is below this part "
-              "of it (energy norm, Zienkiewicz and Zhu 1992); without it sizes are what is given.",
-       .source = "the paper's sec. 4.1"});
+}
+
+void TipsOptions::declare_growth(Spec& spec) {
   spec.data(
       "toughness", toughness,
       {.unit = "Pa*m^0.5",
@@ -33,10 +21,6 @@ Spec TipsOptions::spec() {
               "not grow.",
        .source = "the paper's sec. 2.5",
        .material = true});
-  spec.choice("factors", factors,
-              {{"interaction_integral", "over a domain around the tip, with the tractions of the walls"},
-               {"displacement_correlation", "from the nodes of the quarter-point elements (the paper)"}},
-              {.doc = "How stress-intensity factors follow from the displacement.", .source = "the paper's sec. 4.3"});
   spec.choice("meeting", meeting,
               {{"join", "it joins the other fracture, at the nearest point of its mesh, unless that closes a ring"},
                {"stop", "it stops for good"}},
@@ -56,7 +40,6 @@ Spec TipsOptions::spec() {
        .doc = "The fine level of a tip is not solved while twice the K_eq estimated from the jump behind the tip "
               "is below this part of the toughness; 0: always solved."});
   spec.section("growth", growth.spec(), {.doc = "How tips grow."});
-  return spec;
 }
 
 }  // namespace sprekk::fine_fracture

@@ -1,19 +1,19 @@
 // Stress intensity factors of tips: from a fine level, or an estimate where none is needed.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
 #include "components/fine_fracture/quarter_point/ends.hpp"
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/mesh/original_end.hpp"
-#include "framework/mesh/topology_hash.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
 
 bool is_same(const FineGeometry& a, const FineGeometry& b) {
-  return a.outline == b.outline &&
+  return a.outline == b.outline && a.beyond == b.beyond &&
          std::equal(a.cracks.begin(), a.cracks.end(), b.cracks.begin(), b.cracks.end(),
                     [](const CrackPath& x, const CrackPath& y) { return x.points == y.points && x.walls == y.walls; });
 }
@@ -23,51 +23,67 @@ bool has_room(const std::vector<Point>& square, const Point& place, double radiu
   return (place - square[0]).minCoeff() > radius && (square[2] - place).minCoeff() > radius;
 }
 
-std::uint64_t topology_of(const FineMesh& mesh) {
-  TopologyHash hash;
-  for (const FineMesh::Element& element : mesh.elements)
-    for (const int node : element.nodes) hash.add(node);
-  return hash.value();
-}
-
 }  // namespace
 
-Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
+void Tips::check_stiffness(const FineDomain& domain, const LameParameters& rock) const {
+  constexpr int across = 16;          // places that are looked at
+  constexpr double round_off = 1e-9;  // of a stiffness
+  const Point low = domain.geometry.outline[0], size = domain.geometry.outline[2] - low;
+  for (int i = 0; i <= across; ++i)
+    for (int k = 0; k <= across; ++k) {
+      const Point x = low + size.cwiseProduct(Point(double(i) / across, double(k) / across));
+      const LameParameters there = surroundings_->stiffness(x);
+      if (std::abs(there.shear - rock.shear) <= round_off * rock.shear &&
+          std::abs(there.lambda - rock.lambda) <= round_off * std::abs(rock.lambda))
+        continue;
+      throw UnsuitableRock(fmt::format("the rock at ({:.4g} m, {:.4g} m) has a shear modulus of {:.4g} Pa, and {:.4g} "
+                                       "Pa at a tip with this place in its square",
+                                       x[0], x[1], there.shear, rock.shear),
+                           "boundary elements take rock of one stiffness there");
+    }
+}
+
+Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) try {
   Tip& tip = tips_[index];
   // The square of the fine level stays around the tip of the coarse mesh while the path grows in it.
   const Point center = position(tip, {});
-  FineMeshOptions mesh;
-  mesh.tip_size = options_.mesh_ratio * tip.coarse_size;
-  constexpr double edges_across = 10;  // of the domain, away from the fractures; the estimated error refines them
-  mesh.far_size = std::max(mesh.tip_size, options_.size / edges_across);
-  mesh.sectors = options_.sectors;
   const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
   // Growth with the state held may lead out of the square of an earlier trial.
-  if (tip.pattern && !has_room(tip.pattern->outline, position(tip, paths[index]), mesh.tip_size)) tip.pattern.reset();
-  FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls,
+  if (tip.pattern && !has_room(tip.pattern->outline, position(tip, paths[index]), maker_->room(tip.coarse_size)))
+    tip.pattern.reset();
+  const std::vector<FracturePath> all = paths_with(paths);
+  FineDomain domain = fine_domain(mesh_, all, tip.end, center, options_.size, tip.coarse_size, walls,
                                   tip.pattern ? &tip.pattern->outline : nullptr);
-  const FineRock rock = rock_around(center);
-  if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
+  if (maker_->wants_beyond()) add_beyond(domain, all);
+  const LameParameters lame = surroundings_->stiffness(center);
+  if (maker_->needs_one_stiffness() && !tip.pattern) check_stiffness(domain, lame);
+  const FineRock rock =
+      maker_->needs_one_stiffness() ? FineRock(Elasticity{lame.lambda, lame.shear}) : rock_around(center);
+  if (!tip.level || !(tip.level->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
     tip.kept_factors.reset();
     tip.offsets = nullptr;
     tip.domain = std::move(domain);
-    if (options_.tolerance) {
-      Adapted adapted =
-          adapt(tip.domain.geometry, mesh, rock, loads_of(tip), {.tolerance = *options_.tolerance}, profile_);
-      tip.model.emplace(std::move(adapted.model));
-      meshes_ += adapted.meshes;
-      solves_ += adapted.meshes;
-      return keep_factors(tip, adapted.solution);
+    const bool keeps = is_followed(tip);
+    const FineLoads loads = loads_of(tip);
+    MadeFineLevel made = maker_->make({.domain = tip.domain,
+                                       .rock = rock,
+                                       .size = options_.size,
+                                       .coarse_size = tip.coarse_size,
+                                       .anchor = original_end(mesh_, tip.end.fracture, tip.end.at_end),
+                                       .follows = grows_within_steps_,
+                                       .keeps = keeps,
+                                       .kept = tip.pattern,
+                                       .loads = loads,
+                                       .profile = profile_});
+    tip.level = std::move(made.level);
+    meshes_ += made.meshes;
+    if (made.factors) {
+      solves_ += made.meshes;
+      return keep_factors(tip, *made.factors);
     }
-    const bool keeps_pattern = is_followed(tip);
-    TriangulationKeeper keeper{original_end(mesh_, tip.end.fracture, tip.end.at_end),
-                               keeps_pattern ? tip.pattern : nullptr};
-    tip.model.emplace(tip.domain.geometry, mesh, rock, TipPlace{tip.domain.crack, tip.domain.is_last}, profile_,
-                      grows_within_steps_ ? &keeper : nullptr);
-    tip.has_pattern = keeps_pattern;
-    tip.topology = topology_of(tip.model->mesh());
-    if (keeps_pattern) tip.pattern = keeper.kept;
-    ++meshes_;
+    tip.has_pattern = keeps;
+    tip.topology = tip.level->topology();
+    if (keeps) tip.pattern = std::move(made.kept);
   } else {
     tip.domain = std::move(domain);
   }
@@ -80,9 +96,12 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   }
   ++solves_;
   FineLoads loads = loads_of(tip);
-  if (!tip.offsets) tip.offsets = surroundings_->stress_offsets(tip.model->offset_places());
+  if (!tip.offsets) tip.offsets = surroundings_->stress_offsets(tip.level->offset_places());
   loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
-  return keep_factors(tip, tip.model->solve(loads));
+  return keep_factors(tip, tip.level->solve(loads));
+} catch (const UnsuitableRock& rock) {
+  throw InputError(origin_, std::string(rock.what()) + ", for " + name(), rock.wanted,
+                   "choose fine_fracture/quarter_point, or a smaller 'size'");
 }
 
 FineRock Tips::rock_around(const Point& center) const {
@@ -94,20 +113,10 @@ FineRock Tips::rock_around(const Point& center) const {
   return version == 0 ? FineRock(at(center)) : FineRock(at, version);
 }
 
-Sifs Tips::keep_factors(Tip& tip, const FineSolution& solution) const {
-  const Sifs sifs = factors_of(tip, solution);
-  tip.kept_factors = {surroundings_->version(), sifs, tip.now.sif_error};
-  return sifs;
-}
-
-Sifs Tips::factors_of(Tip& tip, const FineSolution& solution) const {
-  for (const TipIntensities& found : solution.tips) {
-    if (found.crack != tip.domain.crack || found.is_last != tip.domain.is_last) continue;
-    tip.now.sif_error = found.error.norm();
-    const Point k = options_.factors == "interaction_integral" ? found.K : found.K_correlation;
-    return {k[0], k[1], found.T};
-  }
-  throw std::logic_error("the fine level has lost its tip");
+Sifs Tips::keep_factors(Tip& tip, const TipFactors& factors) const {
+  tip.now.sif_error = factors.error;
+  tip.kept_factors = {surroundings_->version(), factors.sifs, factors.error};
+  return factors.sifs;
 }
 
 double Tips::toughness(const TipEnd& end, const Point& x) const {

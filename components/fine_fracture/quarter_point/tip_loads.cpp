@@ -88,6 +88,11 @@ FineLoads Tips::loads_of(const Tip& tip) const {
   loads.wall_jump = [this, &domain, arc, inside](int crack, int segment, double s) {
     return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s + inside * (0.5 - s)));
   };
+  loads.jump_beyond = [this, &domain](int path, int segment, double s) {
+    const std::vector<double>& along = domain.beyond[path].arc;
+    return surroundings_->wall_jump(domain.beyond[path].fracture,
+                                    along[segment] + s * (along[segment + 1] - along[segment]));
+  };
   return loads;
 }
 

@@ -8,7 +8,6 @@
 #include "components/fine_fracture/quarter_point/ends.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/mesh/topology_hash.hpp"
-#include "framework/scene/registry.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -22,8 +21,12 @@ Sifs times(const Sifs& sifs, double factor) {
 
 }  // namespace
 
-Tips::Tips(const ComponentContext& context, const TipsOptions& options)
-    : Component(context.name), mesh_(context.mesh), origin_(context.origin), options_(options) {
+Tips::Tips(const ComponentContext& context, const TipsOptions& options, std::unique_ptr<const FineLevelMaker> maker)
+    : Component(context.name),
+      mesh_(context.mesh),
+      origin_(context.origin),
+      options_(options),
+      maker_(std::move(maker)) {
   check_increment();
   check_longest();
   for (const TipEnd& end : all_ends(mesh_)) {
@@ -37,6 +40,14 @@ Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     check_shortest(tip);
     tips_.push_back(std::move(tip));
   }
+}
+
+void Tips::accept_surroundings(TipSurroundings& surroundings) {
+  surroundings_ = &surroundings;
+  if (surroundings.gives_jumps() && !maker_->takes_jumps())
+    throw InputError(origin_, name() + " cannot take displacement jumps of walls from the coarse level",
+                     "boundary elements find jumps from tractions; prescribed ones would be the only source of factors",
+                     "choose 'reconstruction: wall_traction', fine_fracture/quarter_point or fine_fracture/jump_fit");
 }
 
 /// Displacements of the outline are linear over coarse cells: a square that cannot keep one of them away from its tip
@@ -185,9 +196,8 @@ Growing::Load Tips::examine(const StepTime& step) {
   return loads;
 }
 
-/// With a tolerance, meshes follow an error estimate, and factors are no smooth functions of the advance.
 bool Tips::may_grow_within_steps() const {
-  return options_.toughness && options_.growth.seeks_arrest() && options_.growth.is_implicit() && !options_.tolerance;
+  return options_.toughness && options_.growth.seeks_arrest() && options_.growth.is_implicit() && maker_->is_steady();
 }
 
 void Tips::grow_within_steps() {
@@ -377,7 +387,7 @@ void Tips::accepted() {
     tip.accepted = tip.now;
     // The next step starts with a triangulation that follows from the geometry alone, as after a restart.
     if (tip.has_pattern) {
-      tip.model.reset();
+      tip.level.reset();
       tip.kept_factors.reset();
       tip.evaluated_for = 0;
       tip.pattern.reset();
@@ -429,11 +439,5 @@ void Tips::carry_over(const Part& before, const MeshChange& change) {
     }
   }
 }
-
-namespace {
-
-const RegisterComponent<Tips, TipsOptions> registration("fine_fracture/quarter_point");
-
-}  // namespace
 
 }  // namespace sprekk::fine_fracture

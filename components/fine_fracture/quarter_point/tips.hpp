@@ -6,30 +6,27 @@
 #include <vector>
 
 #include "components/capabilities/fracture_tips.hpp"
+#include "components/fine_fracture/fine_level.hpp"
 #include "components/fine_fracture/growth/grow_tips.hpp"
 #include "components/fine_fracture/growth/way_of_tip.hpp"
 #include "components/fine_fracture/quarter_point/domain/fine_domain.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/model.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/growing.hpp"
 
 namespace sprekk::fine_fracture {
 
-/// Parameters of the tips and their fine levels.
+/// Parameters of tips with fine levels of any kind.
 struct TipsOptions {
-  double size = 0;          ///< m, l of sec. 4.3 of the paper
-  double mesh_ratio = 0.5;  ///< epsilon_m of sec. 4.1 of the paper
-  int sectors = 16;
-  std::optional<double> tolerance;  ///< of the error estimate; without it, meshes have the given sizes
-  std::optional<Data> toughness;    ///< K_IC, Pa m^0.5
-  std::string factors = "interaction_integral";
+  double size = 0;                ///< m, l of sec. 4.3 of the paper
+  std::optional<Data> toughness;  ///< K_IC, Pa m^0.5
   std::string meeting = "join";
   double cavity = 4;           ///< radius in coarse mesh sizes
   double cavity_growth = 0.3;  ///< of edges in it, m per m
   double skip_below = 0.5;
   GrowthOptions growth;
-  Spec spec();
+  void declare_size(Spec& spec);
+  void declare_growth(Spec& spec);
 };
 
 /// The component of tips. It has no unknowns in the coarse level: it reads the state of the coarse level around each
@@ -37,7 +34,7 @@ struct TipsOptions {
 /// too short for the coarse level stays in the fine level, until it is long enough to be passed on.
 class Tips : public Component, public FractureTips, public MovingTips, public Growing {
  public:
-  Tips(const ComponentContext& context, const TipsOptions& options);
+  Tips(const ComponentContext& context, const TipsOptions& options, std::unique_ptr<const FineLevelMaker> maker);
 
   void begin_step(const StepTime& step) override { step_ = step; }
   void assemble(Assembly&, const StepTime&) const override {}
@@ -51,7 +48,8 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   std::vector<Profile::Entry> efforts() const override;
   void note_step(Notes& notes, const StepTime& step) const override;
 
-  void accept_surroundings(TipSurroundings& surroundings) override { surroundings_ = &surroundings; }
+  /// Throws InputError for jumps on walls where the fine level takes none.
+  void accept_surroundings(TipSurroundings& surroundings) override;
 
   Load examine(const StepTime& step) override;
   Growth grow(const StepTime& step) override;
@@ -104,21 +102,21 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
     State now, accepted;
     double length_at_start = 0;        ///< m, what had grown at the start of the step that was examined last
     std::optional<double> taken_over;  ///< s, start of the step in which the mesh took growth over last
-    /// The factors for `model`, `domain` and one state of the coarse level.
+    /// The factors for `level`, `domain` and one state of the coarse level.
     struct KeptFactors {
       std::uint64_t version;  ///< of the surroundings
       Sifs sifs;
       double error;  ///< Pa m^0.5, estimated
     };
     // A factorization is reused while geometry and rock stay the same, the factors while the coarse level does, too.
-    std::optional<FineModel> model;
-    TipSurroundings::StressOffsets offsets;  ///< at the places of the model, found when they are first asked for
+    std::unique_ptr<const FineLevel> level;
+    TipSurroundings::StressOffsets offsets;  ///< at the places of the level, found when they are first asked for
     FineDomain domain;
     std::optional<KeptFactors> kept_factors;
     std::uint64_t evaluated_for = 0;
-    /// The triangulation of the trials within a step: it moves along, so that factors depend smoothly on the advance.
-    std::shared_ptr<const Triangulated> pattern;
-    bool has_pattern = false;         ///< whether `model` was made with it
+    /// What trials within a step have in common, so that factors depend smoothly on the advance.
+    std::shared_ptr<const KeptLevel> pattern;
+    bool has_pattern = false;         ///< whether `level` was made with it
     std::optional<Point> next_start;  ///< State::segment_start on the trial meshes of this step
     std::uint64_t topology = 0;       ///< of the mesh of the last fine level that was made
   };
@@ -156,11 +154,11 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   std::vector<TipPath> paths_now() const;
   FineRock rock_around(const Point& center) const;
   Sifs evaluate(std::size_t tip, const std::vector<TipPath>& paths);
+  /// Throws UnsuitableRock.
+  void check_stiffness(const FineDomain& domain, const LameParameters& rock) const;
   FineLoads loads_of(const Tip& tip) const;
-  /// The factors of this tip in a solution. Sets their estimated error.
-  Sifs factors_of(Tip& tip, const FineSolution& solution) const;
-  /// As factors_of, and keeps the factors for this state of the coarse level.
-  Sifs keep_factors(Tip& tip, const FineSolution& solution) const;
+  /// Sets their estimated error, and keeps the factors for this state of the coarse level.
+  Sifs keep_factors(Tip& tip, const TipFactors& factors) const;
   /// The load as estimated from the displacement jump of the coarse level beside the tip, without a fine level.
   double estimated_load(const Tip& tip) const;
   /// K_IC of rock that this end of a fracture grows into, Pa m^0.5. Throws DataError.
@@ -207,6 +205,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   const Mesh& mesh_;
   Origin origin_;  ///< of the component in the scene
   TipsOptions options_;
+  std::unique_ptr<const FineLevelMaker> maker_;
   TipSurroundings* surroundings_ = nullptr;
   std::vector<Tip> tips_;
   std::vector<Joint> joints_;

@@ -237,4 +237,56 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
   return domain;
 }
 
+void add_beyond(FineDomain& domain, const std::vector<FracturePath>& paths) {
+  const std::vector<Point>& outline = domain.geometry.outline;
+  const Rectangle inner{outline[0], outline[2]};
+  const Point reach = Point::Constant((inner.high - inner.low).maxCoeff());
+  const Rectangle outer{inner.low - reach, inner.high + reach};
+  std::vector<std::vector<Point>>& pieces = domain.geometry.beyond;
+  pieces.clear();
+  domain.beyond.clear();
+  for (int f = 0; f < static_cast<int>(paths.size()); ++f) {
+    const FracturePath& path = paths[f];
+    bool is_open = false;  // whether the last piece continues
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const Point &a = path.points[i], &b = path.points[i + 1];
+      const auto [begin, end] = clipped(outer, a, b);
+      if (end - begin <= rounding) {
+        is_open = false;
+        continue;
+      }
+      auto [enters, leaves] = clipped(inner, a, b);
+      if (leaves - enters <= rounding) enters = leaves = end;
+      for (const auto& [first, last] : {std::pair(begin, enters), std::pair(leaves, end)}) {
+        if (last - first > rounding) {
+          const auto at = [&](double t) { return snapped(inner, Point(a + t * (b - a))); };
+          const auto arc = [&](double t) { return path.arc[i] + t * (path.arc[i + 1] - path.arc[i]); };
+          if (!is_open || first > 0) {
+            pieces.push_back({at(first)});
+            domain.beyond.push_back({f, {arc(first)}});
+          }
+          pieces.back().push_back(at(last));
+          domain.beyond.back().arc.push_back(arc(last));
+          is_open = last == 1;
+        } else {
+          is_open = false;
+        }
+      }
+    }
+    const double near = rounding * reach.maxCoeff();
+    const auto ends_on_outline = [&](const Point& x) { return std::abs(inner.depth(x)) < near; };
+    const std::size_t last = path.points.size() - 1;
+    if (!path.first_is_tip && ends_on_outline(path.points[0])) {
+      const Point& x = path.points[0];
+      pieces.push_back({x + reach[0] * (x - path.points[1]).normalized(), x});
+      domain.beyond.push_back({f, {path.arc[0], path.arc[0]}});
+    }
+    if (!path.last_is_tip && ends_on_outline(path.points[last])) {
+      const Point& x = path.points[last];
+      pieces.push_back({x, x + reach[0] * (x - path.points[last - 1]).normalized()});
+      domain.beyond.push_back({f, {path.arc[last], path.arc[last]}});
+    }
+  }
+}
+
 }  // namespace sprekk::fine_fracture

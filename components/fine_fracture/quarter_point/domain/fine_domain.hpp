@@ -42,8 +42,9 @@ struct FineDomain {
     std::vector<double> arc;
   };
   std::vector<Source> sources;
-  int crack = none;     ///< the crack that has the tip
-  bool is_last = true;  ///< whether the tip is its last point, else the first
+  std::vector<Source> beyond;  ///< of the paths of geometry.beyond
+  int crack = none;            ///< the crack that has the tip
+  bool is_last = true;         ///< whether the tip is its last point, else the first
 };
 
 constexpr double largest_enlargement = 1.5;  ///< of the side of a fine level's square, to keep away from fractures
@@ -56,5 +57,9 @@ constexpr double largest_enlargement = 1.5;  ///< of the side of a fine level's 
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
                        double size, double gap, CrackPath::Walls coarse_walls,
                        const std::vector<Point>* outline = nullptr);
+
+/// Adds the parts of paths outside of the outline, as far away from it as it is wide, to `beyond`. A path that ends on
+/// the outline, where the rock ends, goes straight on with the jump of its end.
+void add_beyond(FineDomain& domain, const std::vector<FracturePath>& paths);
 
 }  // namespace sprekk::fine_fracture

@@ -27,6 +27,8 @@ struct FineGeometry {
   std::vector<Point> outline;  ///< m, convex, counter-clockwise; edge i joins points i and i + 1
   std::vector<CrackPath> cracks;
   std::vector<Side> sides = {};  ///< one per edge of the outline; empty: displacement everywhere
+  /// Paths (m) of fractures outside of the outline, where a fine level takes their jumps; see FineLoads::jump_beyond.
+  std::vector<std::vector<Point>> beyond = {};
 
   Side side(int edge) const { return sides.empty() ? Side::displacement : sides[edge]; }
 };

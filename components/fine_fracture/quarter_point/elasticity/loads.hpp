@@ -28,6 +28,8 @@ struct FineLoads {
   std::function<std::optional<TipSurroundings::Sliding>(int crack, int segment, double s)> sliding = {};
   /// u(minus) - u(plus), in global components. Not called at tips, where the walls meet.
   std::function<Point(int crack, int segment, double s)> wall_jump = {};
+  /// u(minus) - u(plus) on the paths beyond the outline, s along the segment as above.
+  std::function<Point(int path, int segment, double s)> jump_beyond = {};
   /// (xx, yy, xy), a column a place, of the part of the total stress that is not elastic: total = C eps(u) + offset.
   /// For example -alpha (p - p0) I + initial stress. Only values are used, so it may jump. A model asks for its
   /// `offset_places` in each solve.

@@ -1,6 +1,6 @@
-// What tips take from the coarse level: the pressures at their own ends on walls that have grown, and jumps by which
-// they are ruled out without a fine level.
-#include "components/fine_fracture/quarter_point/tips.hpp"
+// What tips ask of the coarse level: pressures of their own ends on walls that have grown, and whether they can be
+// ruled out without a fine level.
+#include "components/fine_fracture/quarter_point/quarter_point.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ class Fluid : public TipSurroundings {
 
 /// A straight fracture of length 2 in the middle of a wide box.
 struct Setting {
-  explicit Setting(double angle, bool is_reversed = false, const TipsOptions& options = Setting::options())
+  explicit Setting(double angle, bool is_reversed = false, const QuarterPointOptions& options = Setting::options())
       : along((is_reversed ? -1 : 1) * std::cos(angle), (is_reversed ? -1 : 1) * std::sin(angle)),
         mesh(make_mesh(along)),
         tips({"tips", mesh, fields, 0, {}}, options) {
@@ -69,8 +69,8 @@ struct Setting {
     options.fracture_size = 0.25;
     return generate_mesh(geometry, options);
   }
-  static TipsOptions options() {
-    TipsOptions options;
+  static QuarterPointOptions options() {
+    QuarterPointOptions options;
     options.size = 2 * half_box;
     options.toughness = toughness;
     options.growth.increment = 0.1;
@@ -99,7 +99,7 @@ struct Setting {
   Mesh mesh;
   FieldStore fields;
   Fluid fluid;
-  Tips tips;
+  QuarterPoint tips;
 };
 
 /// Int of sqrt((a + x)/(a − x)) from one place to another.
@@ -145,7 +145,7 @@ TEST(Tips, AreRuledOutByTheJumpBesideThem) {
 
 TEST(Tips, HandOverPathsOfHalfAnEdge) {
   // Edges are 0.25 m long, and an increment is 0.1 m. A path of 0.95 of half an edge is as good as one of a half.
-  TipsOptions options = Setting::options();
+  QuarterPointOptions options = Setting::options();
   options.growth.length = "fixed";
   options.growth.at_most = 1;
   for (const double angle : {0.0, 0.6})
@@ -197,8 +197,8 @@ struct TwoFractures {
     options.fracture_size = 0.25;
     return generate_mesh(geometry, options);
   }
-  static TipsOptions options(double other_toughness) {
-    TipsOptions options = Setting::options();
+  static QuarterPointOptions options(double other_toughness) {
+    QuarterPointOptions options = Setting::options();
     options.toughness =
         Data([=](const Place& place) { return place.fracture == 1 ? other_toughness : toughness; }, false, true);
     options.growth.length = "fixed";
@@ -220,7 +220,7 @@ struct TwoFractures {
   Mesh mesh;
   FieldStore fields;
   FluidInTheFirst fluid;
-  Tips tips;
+  QuarterPoint tips;
 };
 
 // The increment of 0.1 m brings the other tip above its toughness. Up to ten increments away it grows at once, beyond
@@ -245,7 +245,7 @@ TEST(Tips, GrowByIncrementsOfOthersAtOnceUpToADistanceOfTen) {
 
 TEST(Tips, AskForEdgesThatGrowAsTheSceneSays) {
   EXPECT_EQ(Setting(0.3).tips.cavity().growth, 0.3);
-  TipsOptions options = Setting::options();
+  QuarterPointOptions options = Setting::options();
   options.cavity_growth = 0.7;
   EXPECT_EQ(Setting(0.3, false, options).tips.cavity().growth, 0.7);
 }
@@ -322,7 +322,7 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
 
 TEST(Tips, ThatTheOutlineStopsAboveTheirToughnessSaySo) {
   // One increment would do to leave the box.
-  TipsOptions options = Setting::options();
+  QuarterPointOptions options = Setting::options();
   options.growth.increment = 25;
   for (const std::string length : {"fixed", "arrest"}) {
     SCOPED_TRACE(length);

@@ -1,0 +1,166 @@
+#include "components/fine_fracture/boundary_element/density_integrals.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <vector>
+
+#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk::fine_fracture {
+namespace {
+
+constexpr int n = element_nodes;
+using Powers = std::array<Complex, n>;
+using Square = Eigen::Matrix<double, n, n>;
+
+/// The exponents of t.
+const std::array<double, n>& exponents(Density density) {
+  static constexpr std::array<double, n> whole{0, 1, 2, 3, 4}, half{0.5, 1.5, 2.5, 3.5, 4.5}, both{0, 1, 2, 0.5, 1.5};
+  return density == Density::polynomial ? whole : density == Density::root ? half : both;
+}
+
+/// The coefficients of the functions (rows) in N_j (columns), through `count` nodes.
+Square coefficients(Density density, int count) {
+  Square values = Square::Identity();
+  for (int j = 0; j < count; ++j)
+    for (int k = 0; k < n; ++k) values(j, k) = k < count ? std::pow(element_places()[j], exponents(density)[k]) : 0;
+  return values.inverse();
+}
+
+const Square& coefficients(Density density) {
+  static const Square polynomial = coefficients(Density::polynomial, n), root = coefficients(Density::root, n),
+                      corner = coefficients(Density::corner, n);
+  return density == Density::polynomial ? polynomial : density == Density::root ? root : corner;
+}
+
+/// Integrals with powers of t.
+struct Integrals {
+  Powers value, slope, curvature;
+};
+
+/// From those of the first one on, whose exponent is `first`, by t^(k + 1)/(w − t) = w t^k/(w − t) − t^k.
+void continue_from(double first, Complex w, Integrals& integrals) {
+  auto& [value, slope, curvature] = integrals;
+  for (int k = 0; k + 1 < n; ++k) {
+    value[k + 1] = w * value[k] - 1 / (first + k + 1);
+    slope[k + 1] = value[k] + w * slope[k];
+    curvature[k + 1] = 2.0 * slope[k] + w * curvature[k];
+  }
+}
+
+/// `is_on`: w is a place of the element; logarithms have the mean of both sides, which is real.
+DensityIntegrals closed_form(Density density, Complex w, bool is_on) {
+  const auto log = [is_on](Complex x) { return is_on ? Complex(std::log(std::abs(x))) : std::log(x); };
+  const Complex rest = 1.0 / (w - 1.0);
+  Integrals whole{}, half{};
+  if (density != Density::root) {
+    whole.value[0] = log(w * rest);
+    whole.slope[0] = 1.0 / w - rest;
+    whole.curvature[0] = rest * rest - 1.0 / (w * w);
+    continue_from(0, w, whole);
+  }
+  if (density != Density::polynomial) {
+    const Complex s = std::sqrt(w), logarithm = log((s + 1.0) / (s - 1.0));
+    half.value[0] = s * logarithm - 2.0;
+    half.slope[0] = logarithm / (2.0 * s) - rest;
+    half.curvature[0] = rest * rest - rest / (2.0 * w) - logarithm / (4.0 * w * s);
+    continue_from(0.5, w, half);
+  }
+  const Square& matrix = coefficients(density);
+  DensityIntegrals result{};
+  for (int k = 0; k < n; ++k) {
+    const double exponent = exponents(density)[k];
+    const int power = static_cast<int>(exponent);
+    const Integrals& family = exponent == power ? whole : half;
+    for (int j = 0; j < n; ++j) {
+      result.value[j] += matrix(k, j) * family.value[power];
+      result.slope[j] += matrix(k, j) * family.slope[power];
+      result.curvature[j] += matrix(k, j) * family.curvature[power];
+    }
+  }
+  return result;
+}
+
+/// Densities times weights at Gauss points. Where the density has roots, the points are those of sqrt(t).
+struct Rule {
+  struct Place {
+    double t;
+    std::array<double, n> weights;
+  };
+  std::vector<Place> places;
+  explicit Rule(Density density) {
+    constexpr int points = 12;
+    for (const LinePoint& p : line_rule(points)) {
+      const double t = density == Density::polynomial ? p.t : p.t * p.t;
+      const double weight = density == Density::polynomial ? p.weight : 2 * p.t * p.weight;
+      Place place{t, densities_at(density, t)};
+      for (double& value : place.weights) value *= weight;
+      places.push_back(place);
+    }
+  }
+};
+
+DensityIntegrals by_quadrature(Density density, Complex w) {
+  static const Rule polynomial(Density::polynomial), root(Density::root), corner(Density::corner);
+  const Rule& rule = density == Density::polynomial ? polynomial : density == Density::root ? root : corner;
+  DensityIntegrals result{};
+  for (const Rule::Place& place : rule.places) {
+    const Complex kernel = 1.0 / (w - place.t), square = -kernel * kernel, cube = -2.0 * square * kernel;
+    for (int j = 0; j < n; ++j) {
+      result.value[j] += place.weights[j] * kernel;
+      result.slope[j] += place.weights[j] * square;
+      result.curvature[j] += place.weights[j] * cube;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+const std::array<double, element_nodes>& element_places() {
+  static const std::array<double, n> places = [] {
+    std::array<double, n> found;
+    for (int j = 0; j < n; ++j) found[j] = line_rule(n)[j].t;
+    return found;
+  }();
+  return places;
+}
+
+DensityIntegrals density_integrals(Density density, Complex w) {
+  constexpr double near = 2;  // lengths from the middle: from there on 12 points have all digits
+  return std::abs(w - 0.5) < near ? closed_form(density, w, false) : by_quadrature(density, w);
+}
+
+DensityIntegrals density_integrals_on(Density density, double t) {
+  SPREKK_EXPECT(t > 0 && t < 1, t);
+  return closed_form(density, t, true);
+}
+
+std::array<double, element_nodes> rise_at_tip(bool fewer) {
+  const Square matrix = fewer ? coefficients(Density::root, n - 1) : coefficients(Density::root);
+  std::array<double, n> rise{};
+  for (int j = 0; j < (fewer ? n - 1 : n); ++j) rise[j] = matrix(0, j);
+  return rise;
+}
+
+std::array<double, element_nodes> slopes_at_tip() {
+  // The finite part of the integral of t^(k + 1/2)/t^2 from 0 to 1 is 1/(k − 1/2), and the slope its negative.
+  const Square& matrix = coefficients(Density::root);
+  std::array<double, n> slopes{};
+  for (int j = 0; j < n; ++j)
+    for (int k = 0; k < n; ++k) slopes[j] -= matrix(k, j) / (k - 0.5);
+  return slopes;
+}
+
+std::array<double, element_nodes> densities_at(Density density, double t) {
+  const Square& matrix = coefficients(density);
+  std::array<double, n> values{};
+  for (int k = 0; k < n; ++k) {
+    const double power = std::pow(t, exponents(density)[k]);
+    for (int j = 0; j < n; ++j) values[j] += matrix(k, j) * power;
+  }
+  return values;
+}
+
+}  // namespace sprekk::fine_fracture
