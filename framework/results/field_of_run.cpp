@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
-
-#include "framework/types.hpp"
 
 namespace sprekk {
 namespace {
@@ -16,9 +13,6 @@ namespace fs = std::filesystem;
 
 /// A fracture of another mesh may be off a place on it by this, over the length of its own cell there.
 constexpr double beside = 0.5;
-
-/// Words for the components of a vector, and of a symmetric tensor, in their order.
-const std::array<std::vector<std::string>, 2> component_words = {{{"x", "y"}, {"xx", "yy", "xy"}}};
 
 std::string without_unit(const std::string& label) { return label.substr(0, label.find('[')); }
 
@@ -29,14 +23,13 @@ std::string unit_of(const std::string& label) {
   return unit == "1" ? "" : unit;
 }
 
-/// The number of the component of an array that is asked for as "quantity" or "quantity.component"; -1 for another.
-int component_of(const Grid::Values& array, const std::string& field) {
+/// The names by which the components of an array are asked for: "quantity", or "quantity.component".
+std::vector<std::string> names_of(const Grid::Values& array) {
   const std::string name = without_unit(array.name);
-  if (array.components == 1) return field == name ? 0 : -1;
-  for (const std::vector<std::string>& words : component_words)
-    for (std::size_t c = 0; c < words.size(); ++c)
-      if (field == name + "." + words[c]) return static_cast<int>(c);
-  return -1;
+  std::vector<std::string> names;
+  for (const std::string& component : array.component_names) names.push_back(name + "." + component);
+  if (names.size() != static_cast<std::size_t>(array.components)) names = {name};
+  return names;
 }
 
 }  // namespace
@@ -66,9 +59,11 @@ FieldOfRun::FieldOfRun(fs::path folder, const std::string& field, const Origin& 
     const Grid first = read_grid(snapshots.front().file);
     for (const Grid::Values& array : first.arrays) {
       if (!array.name.ends_with(']')) continue;  // numbers of regions and fractures
-      known.push_back(without_unit(array.name) + (array.components == 1 ? "" : ".x"));
-      component_ = component_of(array, field);
-      if (component_ < 0) continue;
+      const std::vector<std::string> names = names_of(array);
+      known.insert(known.end(), names.begin(), names.end());
+      const auto found = std::ranges::find(names, field);
+      if (found == names.end()) continue;
+      component_ = static_cast<int>(found - names.begin());
       array_ = array.name;
       unit_ = unit_of(array.name);
       is_on_fractures_ = on_fractures;

@@ -23,6 +23,7 @@ class FieldOfRun {
 
   const std::string& unit() const { return unit_; }  ///< SI, "" for a plain number
   bool is_on_fractures() const { return is_on_fractures_; }
+  std::size_t time_count() const { return snapshots_.size(); }   ///< of written times
   double first_time() const { return snapshots_.front().time; }  ///< s
   double last_time() const { return snapshots_.back().time; }    ///< s
   /// `fracture`: its number, for fields on fractures. Throws std::runtime_error where the run has no such place or its

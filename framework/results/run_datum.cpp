@@ -32,8 +32,8 @@ Data read_run_datum(const Node& node, const DataRequest& request) {
                        fmt::format("it has written fields from {} s to {} s", run->first_time(), run->last_time()),
                        "choose a time between them, or 'end'");
   }
-  if (!fixed && run->first_time() == run->last_time())
-    throw InputError(of.origin, fmt::format("the run has {} at one time only, {} s", field, run->last_time()),
+  if (!fixed && run->time_count() <= 2)
+    throw InputError(of.origin, fmt::format("the run has {} at its start and end only", field),
                      "what changes with time needs more",
                      "write 'at: end' for a field that stays, or run it again with 'output: {every: …}'");
   return Data(

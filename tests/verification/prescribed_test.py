@@ -218,7 +218,7 @@ output: {probes: {p: {of: conduit.pressure, at: [0.7 m, 0.4 m]}, q: {of: conduit
             self.assertIn("did you mean 'pore.pressure'", messages("{run: flow, of: pore.presure}"))
             self.assertIn("has the dimension of temperature", messages("{run: flow, of: heat.temperature}"))
             self.assertIn("'of'", messages("{run: flow}"))
-            self.assertIn("at one time only", messages("{run: last, of: pore.pressure}"))
+            self.assertIn("at its start and end only", messages("{run: last, of: pore.pressure}"))
             self.assertIn("has no value at t = ", messages("{run: flow, of: pore.pressure}"))
             self.assertIn("the run has no pore.pressure at 7200 s", messages("{run: flow, of: pore.pressure, at: 2 h}"))
             self.assertIn("outside of the mesh of the run", messages("{run: flow, of: pore.pressure, at: end}", column(False)))
