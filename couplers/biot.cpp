@@ -5,6 +5,7 @@
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "components/capabilities/rock_stress.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_totals.hpp"
@@ -63,6 +64,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
         mesh_(context.mesh),
         fluid_(context.the<MatrixFluid>()),
         rock_(context.the<PoroelasticRock>()),
+        stress_(context.find<RockStress>()),
         counted_volume_(context.fields.add(
             mesh_, counted_field(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
         stored_(context.fields.add(
@@ -126,7 +128,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   /// of the same state on the new mesh. The difference of both totals is spread evenly over the new cells, so that the
   /// total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
-    if (decoupled_ || options_.one_way) return;
+    if (decoupled_ || options_.one_way || change.is_at_start) return;
     Vector volume = rock_.volume_change().now();
     replicate(mesh_, Location::cell, 1, volume);
     double difference = 0, area = 0;
@@ -148,6 +150,16 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   }
 
   void begin_totals() override { stored_.set_both(Vector::Zero(stored_.size())); }
+  /// Biot's effective stress, sigma + alpha p I with the stress sigma (tension positive) and the pressure p.
+  void output(std::vector<OutputField>& fields) const override {
+    if (decoupled_ || stress_ == nullptr) return;
+    Vector effective = stress_->mean_stress();
+    const Vector load = alpha_.values().cwiseProduct(fluid_.pressure().now());
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      effective.segment<dimension>(symmetric_components * c).array() += load[c];
+    fields.push_back({name() + ".effective_stress", "Pa", Location::cell, symmetric_components, std::move(effective)});
+  }
+
   void balance(std::map<std::string, Balance>& balances) const override {
     balances["fluid"].stored += stored_.now().sum();
   }
@@ -234,6 +246,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   const Mesh& mesh_;
   MatrixFluid& fluid_;
   PoroelasticRock& rock_;
+  const RockStress* stress_;  ///< nullptr where the rock does not give it
   Field& counted_volume_;
   Field& stored_;
   Origin origin_;

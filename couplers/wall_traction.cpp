@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "components/capabilities/rock_state.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -52,6 +54,14 @@ class WallTraction : public Coupler {
                        "name one of them in `between`");
     context.determine(rock_.wall_traction());
     if (contact_) context.determine(contact_->jump());
+    if (contact_ && contact_->needs_shear_modulus()) {
+      rock_state_ = &context.the<RockState>();
+      if (!shear_modulus())
+        throw InputError(
+            context.origin, "the shear modulus beside the fractures is unknown",
+            "the friction of '" + contact_->traction().spec().owner + "' needs it, and anisotropic rock has none",
+            "give the rock beside fractures young_modulus and poisson_ratio");
+    }
     if (!fluid_) return;
     alpha_ = Property(options_.fracture_biot_coefficient, fracture_cell_places(mesh_), context.start_time);
   }
@@ -78,6 +88,7 @@ class WallTraction : public Coupler {
     replicate(mesh_, Location::fracture_cell, dimension, compliance);
     compliance_ = positive(std::move(compliance));
     if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
+    if (rock_state_) contact_->set_shear_modulus(shear_modulus().value());
     SPREKK_ASSERT(compliance_.minCoeff() > 0, compliance_.minCoeff());
     if (loaded_with_ != alpha_.version()) load_with_fluid();
   }
@@ -120,6 +131,21 @@ class WallTraction : public Coupler {
   }
 
  private:
+  /// Beside each fracture cell, Pa: twice that of both sides in series. Nothing where rock is anisotropic.
+  std::optional<Vector> shear_modulus() const {
+    Vector modulus(mesh_.fracture_cell_count());
+    for (int i = 0; i < modulus.size(); ++i) {
+      double compliance = 0;
+      for (const int face : mesh_.fracture_cells[i].faces) {
+        const std::optional<LameParameters> stiffness = rock_state_->stiffness(mesh_.face_cells[face][0]);
+        if (!stiffness) return std::nullopt;
+        compliance += 0.5 / stiffness->shear;
+      }
+      modulus[i] = 1 / compliance;
+    }
+    return modulus;
+  }
+
   /// On rough meshes (two fractures one cell apart) a wall may move against its own traction while the cells around it
   /// do not move. The compliance is used as a scale, and by the contact as stiffness of walls, so it must be positive:
   /// at least a tenth of the mean compliance, in proportion to the length of the cell.
@@ -150,6 +176,7 @@ class WallTraction : public Coupler {
   WallTractionOptions options_;
   RockWalls& rock_;
   FractureContact* contact_;
+  const RockState* rock_state_ = nullptr;  ///< where the contact needs the shear modulus
   FractureFluid* fluid_;
   std::string fluid_left_out_;  ///< a component of the scene that the coupler does not stand between
   Property alpha_;              ///< alpha_i of Eq. 4 of the paper, with a fluid

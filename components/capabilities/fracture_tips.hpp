@@ -26,6 +26,8 @@ class TipSurroundings {
   virtual int region(const Point& x) const = 0;
   /// Throws std::runtime_error where the rock is anisotropic.
   virtual LameParameters stiffness(const Point& x) const = 0;
+  /// 0 where one stiffness holds everywhere; otherwise a number that changes whenever that of some place has changed.
+  virtual std::uint64_t stiffness_by_place() const { return 0; }
   /// The displacement at x, m. `inside` is a point near x on the side of the fracture that is meant.
   virtual Point displacement(const Point& x, const Point& inside) const = 0;
   /// A function that gives the stress without strain (of the pore pressure and the initial stress) at the last update:

@@ -16,14 +16,14 @@ CellEquations equations_of(const Trial& t, const Point& traction, const CellSett
   CellEquations equations;
   Point& own = equations.residual;
   Tensor &by_f = equations.by_traction, &by_u = equations.by_jump;
-  if (t.is_open() && !settings.weakens) {
+  if (t.is_open() && !settings.weakens && !t.at_rate) {
     own << f_n / c_n, f_t / c_t;
     by_f.diagonal().setConstant(1 / c_t);
     by_f(0, 0) = 1 / c_n;
   } else {
     constexpr int tangents = dimension - 1;
     using Row = Eigen::Matrix<double, 1, dimension>;
-    const ReturnedTraction<tangents> returned = return_to_cone<tangents>(t);
+    const ReturnedTraction<tangents> returned = t.at_rate ? t.at_rate->traction : return_to_cone<tangents>(t);
     Row gap_by_u;
     gap_by_u << 1, -t.slip_direction.transpose() * t.dilation;
     const auto gap_by_t = gap_by_u.template tail<tangents>();
@@ -40,8 +40,9 @@ CellEquations equations_of(const Trial& t, const Point& traction, const CellSett
     by_f_t.setIdentity();
     if (has_present) by_f_t -= returned.by_trial;
     by_f_t /= c_t;
-    if (!t.sticks() && t.normal <= 0) {
-      const TangentialVector by_normal = returned.by_bound * t.strength.friction / c_t;
+    if (t.normal <= 0 && (t.at_rate || !t.sticks())) {
+      const TangentialVector by_normal =
+          (t.at_rate ? t.at_rate->by_pressure : TangentialVector(returned.by_bound * t.strength.friction)) / c_t;
       by_f.bottomLeftCorner<tangents, 1>() = by_normal * (has_present + c_n * t.gap_by_traction);
       by_u.bottomLeftCorner<tangents, 1>() = by_normal * c_n;
       by_u.bottomRightCorner<tangents, tangents>() += by_normal * c_n * gap_by_t;

@@ -16,6 +16,8 @@
 #include "components/contact/laws/closure.hpp"
 #include "components/contact/note_jumps.hpp"
 #include "components/contact/options.hpp"
+#include "components/contact/rate_and_state_walls.hpp"
+#include "components/contact/shear_load.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
@@ -26,8 +28,8 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
                                      double stiffness_factor)
     : Component(context.name),
       mesh_(context.mesh),
-      traction_(add_traction(context)),
-      jump_(add_jump(context)),
+      traction_(add_traction(context, options.depends_on_rate ? Friction::of_rate : Friction::of_path)),
+      jump_(add_jump(context, options.depends_on_rate ? Friction::of_rate : Friction::of_path)),
       options_(std::make_unique<Options>(options)),
       dilation_limit_(options.dilation_limit),
       weakening_(options.weakening),
@@ -43,6 +45,8 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
   friction_ = Property(options_->friction, places, context.start_time);
   dilation_angle_ = Property(options_->dilation_angle, places, context.start_time);
   if (options_->dynamic_friction) dynamic_friction_ = Property(*options_->dynamic_friction, places, context.start_time);
+  if (options.depends_on_rate)
+    rate_and_state_ = std::make_unique<RateAndStateWalls>(context, options.rate_and_state, friction_);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
   fracture_measure_.assign(mesh_.fractures.size(), 0);
@@ -61,13 +65,15 @@ double FrictionalContact::closure_by_traction(double normal_traction) const {
 
 void FrictionalContact::evaluate_data(const StepTime& step) {
   friction_.evaluate(step);
+  if (rate_and_state_ && friction_.depends_on_time()) rate_and_state_->evaluate_data(friction_);
   if (options_->dynamic_friction) dynamic_friction_.evaluate(step);
   if (!dilation_angle_.depends_on_time()) return;
   dilation_angle_.evaluate(step);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
 }
 
-void FrictionalContact::begin_step(const StepTime&) {
+void FrictionalContact::begin_step(const StepTime& step) {
+  if (rate_and_state_) rate_and_state_->begin_step(step);
   back_slip_.clear();
   kept_.clear();
   last_.resize(0);
@@ -109,8 +115,10 @@ void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
                 change.fracture_cell.size());
   const auto& before = dynamic_cast<const FrictionalContact&>(part);
   const Vector covered = covered_parts(change, mesh_);
-  // Where the end of slip comes to lie within a new closed cell, old cells have to follow.
-  const bool holds_all = covered.size() > 0 && covered.minCoeff() > 0;
+  // A new cell that covers no old one begins closed, and slip ends in it: then the old cells are not held. Slip at a
+  // rate takes time: it stays.
+  const bool holds_all = rate_and_state_ || (covered.size() > 0 && covered.minCoeff() > 0);
+  if (rate_and_state_) rate_and_state_->carry_over(*before.rate_and_state_);
   bonded_.resize(change.fracture_cell.size());
   for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = holds_all || change.fracture_cell[i] == none;
   Vector jump = jump_on_changed_mesh(change, {mesh_, jump_.accepted()}, {before.mesh_, before.jump_.accepted()});
@@ -126,7 +134,15 @@ void FrictionalContact::settled(const MeshChange& change) {
 }
 
 void FrictionalContact::after_solve(const std::vector<Field*>& solved, const StepTime&) {
-  if (!path_ || std::find(solved.begin(), solved.end(), &traction_) == solved.end()) return;
+  if (std::find(solved.begin(), solved.end(), &traction_) == solved.end()) return;
+  if (rate_and_state_ && bonded_.empty()) {
+    constexpr int tangents = dimension - 1;
+    Vector rates(tangents * mesh_.fracture_cell_count());
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+      rates.segment<tangents>(tangents * i) = trial(i).at_rate.value().slip_rate;
+    rate_and_state_->set_slip_rates(std::move(rates));
+  }
+  if (!path_) return;
   Vector paths(mesh_.fracture_cell_count());
   for (int i = 0; i < paths.size(); ++i) paths[i] = path(i, gap(i, traction_.now(), jump_.now()));
   path_->set(std::move(paths));
@@ -160,7 +176,10 @@ void FrictionalContact::observe_iterate(const std::vector<Field*>& unknowns) {
   }
 }
 
-State FrictionalContact::state(int i) const { return trial(i).state(); }
+State FrictionalContact::state(int i) const {
+  const State state = trial(i).state();
+  return rate_and_state_ && state == State::stick && rate_and_state_->slips(i) ? State::slip : state;
+}
 
 namespace {
 
@@ -172,7 +191,7 @@ bool is_forward(const TangentialVector& vector) { return dimension == 2 && vecto
 
 int FrictionalContact::piece(int i) const {
   const Trial t = trial(i);
-  const State now = state(i);
+  const State now = t.state();
   const bool knows_direction = now == State::slip && friction_[i] > 0;
   const int piece = 2 * static_cast<int>(now) + (knows_direction && is_forward(t.tangential));
   if (!follows_pieces_) return piece;
@@ -199,7 +218,7 @@ void FrictionalContact::deactivate_conditions() {
 
 int FrictionalContact::keep_states() {
   constexpr double least = 1e-6;  // of the largest jump; smaller jumps are round-off
-  if (!is_solved_for_) return 0;
+  if (!is_solved_for_ || rate_and_state_) return 0;
   kept_.assign(mesh_.fracture_cell_count(), 0);
   int count = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
@@ -271,12 +290,24 @@ void FrictionalContact::report(std::vector<Quantity>& quantities) const {
   quantities.push_back({name() + ".cells_stick", "1", static_cast<double>(counts[0])});
   quantities.push_back({name() + ".cells_slip", "1", static_cast<double>(counts[1])});
   quantities.push_back({name() + ".cells_open", "1", static_cast<double>(counts[2])});
+  if (rate_and_state_) rate_and_state_->report(name(), slips(), quantities);
 }
 
 void FrictionalContact::output(std::vector<OutputField>& fields) const {
   Vector states(mesh_.fracture_cell_count());
-  for (int i = 0; i < states.size(); ++i) states[i] = static_cast<double>(state(i));
+  const bool is_at_start = traction_.now().isZero(0) && jump_.now().isZero(0);  // walls touch, and carry nothing yet
+  for (int i = 0; i < states.size(); ++i) states[i] = is_at_start ? 0.0 : static_cast<double>(state(i));
   fields.push_back({name() + ".state_0_stick_1_slip_2_open", "1", Location::fracture_cell, 1, std::move(states)});
+  Vector tendency(mesh_.fracture_cell_count()), used(mesh_.fracture_cell_count());
+  for (int i = 0; i < tendency.size(); ++i) {
+    const Trial t = trial(i);
+    const ShearLoad load = shear_load(traction_.now().segment<dimension>(dimension * i), t.strength, t.gap > 0);
+    tendency[i] = load.slip_tendency;
+    used[i] = load.friction_used;
+  }
+  fields.push_back({name() + ".slip_tendency", "1", Location::fracture_cell, 1, std::move(tendency)});
+  fields.push_back({name() + ".friction_used", "1", Location::fracture_cell, 1, std::move(used)});
+  if (rate_and_state_) rate_and_state_->output(fields);
 }
 
 void FrictionalContact::count_from_here() {
@@ -297,6 +328,49 @@ void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
   std::vector<char> is_open(mesh_.fracture_cell_count());
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_open[i] = state(i) == State::open;
   note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, options_->large_jump});
+  if (rate_and_state_) rate_and_state_->note_step(name(), traction_.now(), slips(), notes);
+}
+
+void FrictionalContact::note_input(Notes& notes) const {
+  if (rate_and_state_) rate_and_state_->note_input(name(), notes);
+}
+
+Vector FrictionalContact::slips() const {
+  constexpr int tangents = dimension - 1;
+  Vector slips(tangents * mesh_.fracture_cell_count());
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    slips.segment<tangents>(tangents * i) = tangential(jump_.now(), i);
+  return slips;
+}
+
+void FrictionalContact::accepted() {
+  if (rate_and_state_) rate_and_state_->accepted(slips());
+}
+
+void FrictionalContact::save(std::map<std::string, Vector>& state) const {
+  if (rate_and_state_) rate_and_state_->save(name(), state);
+}
+
+void FrictionalContact::restore(const std::map<std::string, Vector>& state) {
+  if (rate_and_state_) rate_and_state_->restore(name(), state);
+}
+
+double FrictionalContact::longest_step(double) const {
+  return rate_and_state_ ? rate_and_state_->longest_step() : std::numeric_limits<double>::infinity();
+}
+
+std::optional<StepTooLong> FrictionalContact::too_long(const StepTime& step) const {
+  if (!rate_and_state_) return std::nullopt;
+  Vector slip = slips();
+  constexpr int tangents = dimension - 1;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    slip.segment<tangents>(tangents * i) -= tangential(jump_.accepted(), i);
+  return rate_and_state_->too_long(slip, step);
+}
+
+void FrictionalContact::set_shear_modulus(const Vector& modulus) {
+  SPREKK_EXPECT(modulus.size() == mesh_.fracture_cell_count(), modulus.size());
+  if (rate_and_state_) rate_and_state_->set_shear_modulus(modulus);
 }
 
 std::unique_ptr<Component> frictional_contact(const ComponentContext& context, const Options& options,

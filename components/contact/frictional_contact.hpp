@@ -10,17 +10,18 @@
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
+#include "components/contact/trial_state.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
+#include "framework/schedule/limits_step.hpp"
 
 namespace sprekk::contact {
 
 class Closure;
+class RateAndStateWalls;
 struct Options;
-enum class State;
-struct Trial;
 
 /// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. In space
 /// the tangential part has two components, |·| is its norm and the interval [−b, b] a disk (return_map.hpp). With the
@@ -37,6 +38,11 @@ struct Trial;
 /// with the closure c of walls under pressure, and for the strength that the walls have left at the path q of slip and
 /// opening: f_n = min(T(q), f_n + c_n h), b = C(q) − mu(q) min(0, f_n + c_n h).
 ///
+/// Where friction depends on slip rate and state (RateAndStateLaw), walls under shear always creep, and the return of
+/// the trial is the solution of
+///   f_t = tau(|d|/dt, theta, −min(0, f_n + c_n h)) d/|d| with f_t + c_t d held at the trial,
+/// which is smooth where walls touch: there is no cone, and no state of sticking. `State` is then `slip` above V_0.
+///
 /// mu_s and psi are those of the end of the step. The gap knows the slip and not its history: where psi falls, a
 /// fracture that has slipped closes.
 ///
@@ -48,7 +54,11 @@ struct Trial;
 /// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
 /// Cells without friction never take that piece: they have no opening to lose, and the direction of f_t = 0, in which
 /// they are about to slide at the start of a step, is round-off.
-class FrictionalContact : public Component, public FractureContact, public IterateDependent, public CountsFromHere {
+class FrictionalContact : public Component,
+                          public FractureContact,
+                          public IterateDependent,
+                          public CountsFromHere,
+                          public LimitsStep {
  public:
   /// `stiffness_factor`: c over the stiffness of the rock against a jump of the cell.
   FrictionalContact(const ComponentContext& context, const Options& options,
@@ -83,7 +93,13 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   std::vector<double> switch_times() const override;
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
+  void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
+  void accepted() override;
+  void save(std::map<std::string, Vector>& state) const override;
+  void restore(const std::map<std::string, Vector>& state) override;
+  double longest_step(double start) const override;
+  std::optional<StepTooLong> too_long(const StepTime& step) const override;
 
   Field& traction() override { return traction_; }
   Field& jump() override { return jump_; }
@@ -96,14 +112,22 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   /// while open overlap by |d| tan psi. With a larger normal stiffness the iteration would take them to stick, return
   /// to where they were, open, and so on; with the limit it takes them to slip.
   void set_wall_stiffness(const Vector& stiffness) override;
+  bool needs_shear_modulus() const override { return rate_and_state_ != nullptr; }
+  void set_shear_modulus(const Vector& modulus) override;
   std::optional<SlidingWalls> sliding(int cell) const override;
 
   State state(int cell) const;
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
-  const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
+  /// By penalty the stiffness is part of the answer, which may not depend on how Newton's method finds it.
+  const Vector& stiffness() const {
+    return is_without_shortcuts_ && multiplier_ != Multiplier::none ? stiffness_of_walls_ : stiffness_of_fractures_;
+  }
   Trial trial(int cell) const;
+  /// What friction at a slip rate makes of the trial.
+  Trial::AtRate at_rate(int cell, const Trial& trial) const;
+  Vector slips() const;  ///< m, now, along the tangents of each cell
   /// Whether the trial's traction is that of the iterate.
   bool trial_has_present() const;
   double multiplier(int cell) const;                       ///< Pa, normal
@@ -141,13 +165,14 @@ class FrictionalContact : public Component, public FractureContact, public Itera
   Weakening weakening_;
   Multiplier multiplier_;
   double stiffness_factor_;
-  Vector last_;                              ///< Pa, the traction of the iterate before; empty at the start of a step
-  std::unique_ptr<Closure> closure_;         ///< null for hard walls
-  Property friction_, dilation_angle_;       ///< mu_s, psi
-  Property dynamic_friction_;                ///< mu_d, where friction weakens
-  Vector dilation_;                          ///< tan psi
-  std::vector<char> bonded_;                 ///< empty for none
-  Vector bonded_jump_;                       ///< m, of all cells; empty where none is bonded
+  Vector last_;                       ///< Pa, the traction of the iterate before; empty at the start of a step
+  std::unique_ptr<Closure> closure_;  ///< null for hard walls
+  std::unique_ptr<RateAndStateWalls> rate_and_state_;  ///< null where friction does not depend on the rate
+  Property friction_, dilation_angle_;                 ///< mu_s, psi
+  Property dynamic_friction_;                          ///< mu_d, where friction weakens
+  Vector dilation_;                                    ///< tan psi
+  std::vector<char> bonded_;                           ///< empty for none
+  Vector bonded_jump_;                                 ///< m, of all cells; empty where none is bonded
   Vector carried_traction_;                  ///< Pa, of the state that is being settled on other cells; otherwise empty
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "components/contact/laws/closure_options.hpp"
+#include "components/contact/laws/rate_and_state_options.hpp"
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
 #include "framework/config/spec.hpp"
@@ -21,6 +22,8 @@ struct Options {
   Weakening weakening;
   bool weakens = false;                  ///< whether the scene has the section
   std::optional<Data> dynamic_friction;  ///< mu_d
+  RateAndStateOptions rate_and_state;
+  bool depends_on_rate = false;  ///< whether the scene has the section
   ClosureOptions closure;
   /// Jump over the length of its fracture from where on a note says that it is large.
   double large_jump = 0.01;

@@ -1,4 +1,4 @@
-// The gap of a cell, what its walls hold, and the traction that the return map takes back.
+// The gap of a cell, the strength of its walls, and the trial traction of the return map.
 #include "components/contact/trial_state.hpp"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "components/contact/frictional_contact.hpp"
+#include "components/contact/rate_and_state_walls.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::contact {
@@ -82,26 +83,48 @@ Trial FrictionalContact::trial(int i) const {
     t.path_by_slip = direction_of<dimension - 1>(magnitude<dimension - 1>(slipped) > 0 ? slipped : t.tangential);
   }
   t.bound = t.strength.cohesion - t.strength.friction * std::min(0.0, t.normal);
+  // No cone limits what depends on the rate.
+  if (rate_and_state_) t.bound = std::numeric_limits<double>::infinity();
   if (!kept_.empty() && kept_[i] && !t.is_open()) t.bound = std::numeric_limits<double>::infinity();
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
   t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
   constexpr double round_off = 1e-10;  // of the traction that makes the slip
   t.least_bound = round_off * c_t * magnitude<dimension - 1>(u_t);
+  if (rate_and_state_ && rate_and_state_->has_step()) t.at_rate = at_rate(i, t);
   return t;
+}
+
+Trial::AtRate FrictionalContact::at_rate(int i, const Trial& t) const {
+  constexpr int tangents = dimension - 1;
+  const double size = magnitude<tangents>(t.tangential);
+  const RateAndStateLaw::Returned held =
+      rate_and_state_->returned(i, friction_[i], size, std::max(0.0, -t.normal), stiffness()[dimension * i + 1]);
+  const TangentialVector direction = direction_of<tangents>(t.tangential);
+  Trial::AtRate at_rate;
+  at_rate.slip_rate = direction * held.slip_rate;
+  at_rate.by_pressure = direction * held.by_pressure;
+  at_rate.traction.tangential = direction * held.traction;
+  // A turn of the trial turns the traction.
+  const double of_turn = size > 0 ? held.traction / size : held.by_trial;
+  at_rate.traction.by_trial.setIdentity();
+  at_rate.traction.by_trial -= direction * direction.transpose();
+  at_rate.traction.by_trial *= of_turn;
+  at_rate.traction.by_trial += direction * direction.transpose() * held.by_trial;
+  return at_rate;
 }
 
 std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   if constexpr (dimension != 2) return std::nullopt;
   if (is_bonded(i)) return std::nullopt;
-  constexpr double at_bound = 1e-6;    // below it by so much of it: walls stick
+  constexpr double at_bound = 1e-6;    // relative: walls with less shear than the bound by more than this stick
   constexpr double least_slip = 1e-3;  // of the slip that would take all shear from the walls
   const Trial t = trial(i);
   const double normal = traction_.now()[dimension * i], shear = traction_.now()[dimension * i + 1],
                slip = jump_.now()[dimension * i + 1];
   const bool is_closed = normal < 0 && !t.is_open();
   const double held = t.strength.cohesion - t.strength.friction * normal;
-  // Walls that rest after they have slid keep what has slid and parted within the cell: the friction is then that which
-  // is mobilised. Otherwise a pressure that falls by next to nothing would change the walls next to a kink at once.
+  // Walls at rest that have slid keep their slip and opening within the cell: the friction is then the mobilised one.
+  // Otherwise a tiny fall of the pressure would change the walls next to a kink at once.
   const bool has_slid = std::abs(slip) > least_slip * std::abs(shear) / stiffness()[dimension * i + 1];
   if (is_closed && !has_slid && std::abs(shear) < (1 - at_bound) * held) return std::nullopt;
   const double dilation = std::copysign(t.dilation, slip);

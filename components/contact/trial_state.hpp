@@ -1,6 +1,8 @@
 // The trial state of a cell.
 #pragma once
 
+#include <optional>
+
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/return_map.hpp"
 #include "framework/types.hpp"
@@ -17,6 +19,13 @@ struct Trial : TrialTraction<dimension - 1> {
   TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
   double path_by_gap;
   double least_bound;  ///< friction below it does not hold anything: which way it points is round-off
+  /// What walls hold whose friction depends on slip rate; nothing where the cone of friction says it.
+  struct AtRate {
+    ReturnedTraction<dimension - 1> traction;
+    TangentialVector by_pressure = TangentialVector::Zero();  ///< d traction / d (−normal) where the walls touch
+    TangentialVector slip_rate = TangentialVector::Zero();    ///< m/s
+  };
+  std::optional<AtRate> at_rate;
   /// Whether the cell slides towards zero slip, against friction.
   bool slides_back() const {
     return bound > least_bound && !is_open() && !sticks() && tangential.dot(slip_direction) < 0;

@@ -48,8 +48,15 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .source = "linear slip weakening: Ida 1972, Andrews 1976",
              .in_time = true});
   spec.section("weakening", lost, {.doc = "How walls lose strength: linearly over a path, for good."}, &weakens);
+  spec.section("rate_and_state", rate_and_state.spec(),
+               {.doc = "Friction that depends on slip rate and on a state that ages, with the friction of steady slip "
+                       "from `friction`."},
+               &depends_on_rate);
   spec.section("closure", closure.spec(), {.doc = "How far walls in contact approach each other under pressure."});
   spec.check([this](const Node& node) {
+    if (weakens && depends_on_rate)
+      throw InputError(node.find("rate_and_state")->origin, "'rate_and_state' and 'weakening' exclude each other",
+                       "each says how friction changes with slip", "remove one of them");
     if (!weakens && weakening.cohesion > 0)
       throw InputError(node.origin, "'cohesion' is never lost", "the scene has no 'weakening'",
                        "add weakening: {distance: ...} with the path over which it is lost");
@@ -86,6 +93,12 @@ struct PenaltyOptions : Options {
                               "Frictional contact by penalty: walls in contact overlap by traction over stiffness, and "
                               "slip elastically by as much before friction gives way. The error is of first order in "
                               "1/stiffness_factor.");
+    spec.check([this](const Node& node) {
+      if (depends_on_rate)
+        throw InputError(node.find("rate_and_state")->origin, "contact/penalty has no 'rate_and_state'",
+                         "its walls slip elastically before friction gives way, and that slip would count as slip rate",
+                         "take contact/coulomb or contact/augmented_lagrangian");
+    });
     spec.quantity(
         "stiffness_factor", stiffness,
         {.range = positive(), .doc = "Stiffness between the walls over that of the rock against a jump of one cell."});

@@ -11,7 +11,7 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-/// Of rock without permeability: no pressure on a face drives a flux, and it is the mean of the pressures beside it.
+/// For rock without permeability: pressures on faces are means of those of the cells beside, and drive no flux.
 FacePressureOperators means_on_faces(const Mesh& mesh) {
   FacePressureOperators operators;
   operators.flux.resize(mesh.face_count(), mesh.face_count());

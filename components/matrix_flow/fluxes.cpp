@@ -4,6 +4,7 @@
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
+#include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -79,12 +80,38 @@ FluxOperators MatrixFlow::fluxes_around(const std::vector<char>& nodes, const Te
   return discretize_(mesh_, std::vector<Tensor>(mesh_.cell_count(), mobility), sealed, nodes);
 }
 
+void MatrixFlow::report(std::vector<Quantity>& quantities) const {
+  const bool has_flowed = discretized_mobility_ != 0;
+  for (const auto& [well, given] : options_.wells) {
+    double rate = 0;
+    for (const FluidSource& source : sources_)
+      if (source.name == well)
+        for (const auto& [cell, part] : source.rates) rate += part;
+    quantities.push_back({name() + "." + well + ".rate", "m^2/s", rate});
+  }
+  if (options_.boundary.empty()) return;
+  Vector outflow = Vector::Zero(static_cast<Eigen::Index>(mesh_.side_names.size()));
+  if (has_flowed) {
+    const Vector& fluxes = face_fluxes();
+    for (int f = 0; f < mesh_.face_count(); ++f)
+      if (mesh_.face_side[f] != none && is_owned(mesh_, Location::face, f)) outflow[mesh_.face_side[f]] += fluxes[f];
+    parallel::sum(outflow);
+  }
+  for (std::size_t side = 0; side < mesh_.side_names.size(); ++side)
+    if (options_.boundary.count(mesh_.side_names[side]) > 0)
+      quantities.push_back(
+          {name() + "." + mesh_.side_names[side] + ".outflow", "m^2/s", outflow[static_cast<Eigen::Index>(side)]});
+}
+
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one.
-  if (discretized_mobility_ == 0) return;
-  const Vector& fluxes = face_fluxes();
   Vector velocity = Vector::Zero(dimension * mesh_.cell_count());
+  if (discretized_mobility_ == 0) {  // nothing has flowed yet
+    fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
+    return;
+  }
+  const Vector& fluxes = face_fluxes();
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {
       const double out = mesh_.face_cells[face][0] == c ? fluxes[face] : -fluxes[face];

@@ -78,6 +78,8 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
   void hold_constants(ConstantModes& modes) const override;
+  /// The rates of wells, and the outflow through each side with a condition, at the end of the step.
+  void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
@@ -97,6 +99,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override { return wall_pressure_; }
 
+  double round_off_base_of_fluxes() const override {
+    return largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>();
+  }
   const Vector& face_fluxes() const override;
   std::vector<Derivative> face_flux_derivatives() const override;
   std::vector<FluidSource> fluid_sources() const override { return sources_; }

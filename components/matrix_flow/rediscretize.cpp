@@ -9,8 +9,8 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-/// The cells whose geometry and mobility the local problem of each node may read: its own, and near a tip those that
-/// tell the flow around it, and those of all nodes near the same tip (dissipative_share).
+/// The cells whose geometry and mobility the local problem of each node may read: its own, and near a tip those to
+/// which the flow around the tip is fitted, and those of all nodes near the same tip (dissipative_share).
 Adjacency cells_read(const Mesh& mesh) {
   const std::vector<int> tips = ends_nearby(mesh);
   auto around = cells_around_tips(mesh, tips);

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/principal_stress.hpp"
+#include "components/poromechanics/stress_without_displacement.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_mean.hpp"
@@ -429,6 +431,8 @@ Vector Rock::stress_of(const Vector& forces, const Vector& moments) const {
 }
 
 Vector Rock::mean_stress() const {
+  if (discretizations_ == 0 || (!settled_ && displacement_.now().isZero(0)))
+    return stress_without_displacement(mesh_, options_, pore_stress());
   Vector stress = stress_of(face_forces(), operators_.moment_displacement * displacement_.now());
   if (settled_) {
     const Vector of_moments = settled_->stress - stress_of(settled_->forces, Vector::Zero(3 * mesh_.face_count()));
@@ -439,9 +443,6 @@ Vector Rock::mean_stress() const {
   return stress;
 }
 
-void Rock::output(std::vector<OutputField>& fields) const {
-  if (discretizations_ == 0) return;
-  fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, 3, mean_stress()});
-}
+void Rock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
 
 }  // namespace sprekk::poromechanics

@@ -5,6 +5,7 @@
 
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
+#include "components/capabilities/rock_stress.hpp"
 #include "components/poromechanics/options.hpp"
 #include "components/poromechanics/pore_load.hpp"
 #include "components/poromechanics/rock_stiffness.hpp"
@@ -20,7 +21,12 @@ namespace sprekk::poromechanics {
 /// with C and alpha at the end of the step: earlier values have no effect. An initial stress that is not in equilibrium
 /// loads the rock: u is counted from the state before equilibrium.
 /// Each pair of rows balances the forces on one cell (N/m): −(sum of the forces on its faces) − body force = 0.
-class Rock : public Component, public PoroelasticRock, public RockWalls, public RockState, public CountsFromHere {
+class Rock : public Component,
+             public PoroelasticRock,
+             public RockWalls,
+             public RockState,
+             public RockStress,
+             public CountsFromHere {
  public:
   /// Throws InputError for sides that do not exist, for a stiffness that is not positive definite, and when the
   /// displacements that are prescribed let the rock move as a rigid body.
@@ -60,6 +66,8 @@ class Rock : public Component, public PoroelasticRock, public RockWalls, public 
   SymmetricTensor initial_stress(int cell, const Point& x) const override;
   std::optional<LameParameters> stiffness(int cell) const override { return stiffness_.lame(cell); }
   std::uint64_t properties_version() const override;
+
+  Vector mean_stress() const override;
 
   /// The total force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m, x and y); for tests and output.
   Vector face_forces() const;

@@ -78,7 +78,8 @@ LimitedWells::LimitedWells(const ComponentContext& context, const Options& optio
                                                   Role::unknown(BlockKind::interface), "Pa", "Pressure in the wells"))),
       rate_(context.fields.add(context.mesh, rate_spec(context, places_.size()))),
       injected_(context.fields.add(context.mesh, injected_spec(context, places_.size()))),
-      resistance_(Vector::Ones(count())) {
+      resistance_(Vector::Ones(count())),
+      scale_of_rates_(Vector::Ones(count())) {
   std::vector<Triplet> ones;
   for (std::size_t k = 0; k < places_.size(); ++k) ones.emplace_back(places_[k].well, static_cast<int>(k), 1.0);
   of_places_.resize(count(), static_cast<int>(places_.size()));
@@ -132,6 +133,20 @@ void LimitedWells::scale(const Vector& resistance) {
   SPREKK_EXPECT(resistance.size() == static_cast<Eigen::Index>(places_.size()), resistance.size(), places_.size());
   SPREKK_EXPECT(resistance.minCoeff() > 0 && is_finite(resistance), resistance.minCoeff());
   resistance_ = (of_places_ * resistance.cwiseInverse()).cwiseInverse();  // places are parallel
+  choose_scales();
+}
+
+void LimitedWells::choose_scales() {
+  double largest_rate = 0, largest_pressure = pressure_.accepted().lpNorm<Eigen::Infinity>();
+  for (const Control& control : now_) {
+    largest_rate = std::max(largest_rate, std::abs(control.rate));
+    largest_pressure = std::max(largest_pressure, std::abs(control.pressure));
+  }
+  scale_of_pressures_ = largest_pressure > 0 ? largest_pressure : 1;
+  scale_of_rates_ = scale_of_pressures_ * resistance_.cwiseInverse();  // where no well has a rate
+  for (int w = 0; w < count(); ++w)
+    if (largest_rate > 0) scale_of_rates_[w] = now_[w].rate != 0 ? std::abs(now_[w].rate) : largest_rate;
+  SPREKK_ASSERT(scale_of_rates_.minCoeff() > 0 && is_finite(scale_of_rates_), scale_of_rates_.minCoeff());
 }
 
 Binding LimitedWells::binding_now(int well, double rate) const {
@@ -144,15 +159,15 @@ void LimitedWells::assemble(Assembly& assembly, const StepTime&) const {
   Vector of_rate = Vector::Zero(count()), of_pressure = Vector::Zero(count()), given = Vector::Zero(count());
   for (int w = 0; w < count(); ++w) switch (binding_now(w, rates[w])) {
       case Binding::rate:
-        of_rate[w] = 1;
-        given[w] = now_[w].rate;
+        of_rate[w] = 1 / scale_of_rates_[w];
+        given[w] = now_[w].rate / scale_of_rates_[w];
         break;
       case Binding::pressure:
-        of_pressure[w] = 1 / resistance_[w];
-        given[w] = now_[w].pressure / resistance_[w];
+        of_pressure[w] = 1 / scale_of_pressures_;
+        given[w] = now_[w].pressure / scale_of_pressures_;
         break;
       case Binding::shut:
-        of_rate[w] = 1;
+        of_rate[w] = 1 / scale_of_rates_[w];
         break;
     }
   assembly.add(pressure_, of_rate.cwiseProduct(rates));

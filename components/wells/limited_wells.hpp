@@ -32,8 +32,9 @@ struct Control {
 Binding binding(const Control& control, double pressure, double rate, double resistance);
 
 /// Unknown: the pressure p of every well, one for all of its places. Its equation is the branch of `binding` in which
-/// the values are (m^2/s); Newton's method with it is an active-set method, which changes branches within a solve. The
-/// rates are given by a coupler (WellPressures::rate), which knows what is around.
+/// the values are, divided by the rate or the pressure that the well is to have: a well is judged by its own figures,
+/// also beside one that brings a million times as much. Newton's method with it is an active-set method, which changes
+/// branches within a solve. The rates are given by a coupler (WellPressures::rate), which knows what is around.
 class LimitedWells : public Component, public WellPressures, public KeepsTotals {
  public:
   LimitedWells(const ComponentContext& context, const Options& options);
@@ -61,16 +62,19 @@ class LimitedWells : public Component, public WellPressures, public KeepsTotals 
   Control control(int well, const StepTime& step) const;
   Vector rates() const { return of_places_ * rate_.now(); }  ///< m^2/s, one a well
   Binding binding_now(int well, double rate) const;
+  void choose_scales();
 
   Options options_;
   std::vector<std::string> names_;
   std::vector<WellPlace> places_;
   Field& pressure_;
   Field& rate_;
-  Field& injected_;           ///< m^2, at each place since the start
-  SparseMatrix of_places_;    ///< wells × places: ones
-  std::vector<Control> now_;  ///< in this step, one a well
-  Vector resistance_;         ///< Pa s/m^2, one a well
+  Field& injected_;                ///< m^2, at each place since the start
+  SparseMatrix of_places_;         ///< wells × places: ones
+  std::vector<Control> now_;       ///< in this step, one a well
+  Vector resistance_;              ///< Pa s/m^2, one a well
+  Vector scale_of_rates_;          ///< m^2/s, one a well: what its equation is divided by where it is one of rates
+  double scale_of_pressures_ = 1;  ///< Pa, where it is one of pressures
 };
 
 }  // namespace sprekk::wells

@@ -250,7 +250,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     const double scale = options_.fluid_heat_capacity * step.dt;
     const Vector capacity = options_.fluid_heat_capacity * place.received->accepted();
     Vector carried = Vector::Zero(temperature.size()), through_sides = carried;
-    double largest = 0, largest_rate = 0;
+    double largest = 0, largest_rate = 0, largest_difference = 0;
     std::vector<Triplet> own, of_rock, of_fractures;
     std::array<std::vector<Triplet>, 3> by_flux;  // by Stream::Flux
     for (const Stream& stream : streams) {
@@ -262,6 +262,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
       if (stream.is_outside) through_sides[stream.cell] += std::abs(amount);
       largest = std::max(largest, std::abs(amount));
       largest_rate = std::max(largest_rate, stream.rate);
+      if (stream.flux == Stream::Flux::face) largest_difference = std::max(largest_difference, std::abs(difference));
       own.emplace_back(stream.cell, stream.cell, scale * stream.rate);
       if (stream.from == Stream::From::rock_cell) of_rock.emplace_back(stream.cell, stream.index, -scale * stream.rate);
       if (stream.from == Stream::From::fracture_cell)
@@ -274,6 +275,8 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     assembly.add(temperature, carried);
     assembly.compare_with(temperature, largest);
     assembly.compare_round_off(temperature, scale * largest_rate * temperature.now().lpNorm<Eigen::Infinity>());
+    if (largest_difference > 0)  // fluxes through faces are differences of larger numbers
+      assembly.compare_round_off(temperature, scale * largest_difference * matrix_->round_off_base_of_fluxes());
     BalanceRows(assembly, temperature).add_throughput(through_sides);
     if (!assembly.wants_derivatives()) return;
     const auto block = [&](const std::vector<Triplet>& entries, int columns) {

@@ -92,7 +92,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
           mesh_.fracture_cells[tip.at_end ? fracture.first_cell + fracture.cell_count - 1 : fracture.first_cell];
       const int cell = mesh_.face_cells[last.faces[0]][0];
       const double diffusivity = rock_fluid->diffusivity(cell), reach = diffusivity / tip.speed;
-      // How far fluid has to go to the middle of the cell, and what the cell takes on the way.
+      // The length of the cell normal to the wall.
       const double size = mesh_.cell_measure[cell] / last.measure;
       if (!(reach < size)) continue;
       notes.add(name() + ": fracture " + fracture.name + " outruns its leak-off",
@@ -132,6 +132,21 @@ class TwoLevel : public Coupler, public TipSurroundings {
     if (!stiffness)
       throw std::runtime_error("the fine level of fracture tips needs an isotropic rock; it is anisotropic here");
     return *stiffness;
+  }
+
+  std::uint64_t stiffness_by_place() const override {
+    const std::uint64_t version = rock_.properties_version() + 1;
+    if (version != compared_for_) {
+      compared_for_ = version;
+      const auto first = rock_.stiffness(0);
+      is_uniform_ = true;
+      for (int cell = 1; cell < mesh_.cell_count() && is_uniform_; ++cell) {
+        const auto other = rock_.stiffness(cell);
+        // Anisotropic rock is refused where its stiffness is asked for.
+        is_uniform_ = !first || !other || (first->lambda == other->lambda && first->shear == other->shear);
+      }
+    }
+    return is_uniform_ ? 0 : version;
   }
 
   Point displacement(const Point& x, const Point& inside) const override {
@@ -232,6 +247,8 @@ class TwoLevel : public Coupler, public TipSurroundings {
   std::vector<AlongFracture> along_;
   Vector traction_, jump_, fluid_traction_;
   std::uint64_t updated_for_ = 0;
+  mutable std::uint64_t compared_for_ = 0;  ///< version of the properties for which is_uniform_ has been found
+  mutable bool is_uniform_ = true;          ///< whether one stiffness holds everywhere
 };
 
 const RegisterCoupler<TwoLevel, TwoLevelOptions> registration("two_level");

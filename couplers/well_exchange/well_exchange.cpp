@@ -38,7 +38,8 @@ struct WellExchangeOptions {
 /// that the place lies in. In rock R = (ln(r_e/r_w) + skin)/(2 pi sqrt(det M)), Peaceman's index, and what a rate that
 /// changes adds to it (EarlyResistance): weight_k m_k/(2 pi sqrt(det M)), dm_k/dt = dq/dt − m_k c/scale_k.
 /// In a fracture R is zero unless an index is given: fluid flows from the middle of the cell to both sides, and the
-/// pressure there is that of the cell. R = 1/index where the scene gives one. The terms of the rock are constant,
+/// pressure there is that of the cell. R = 1/index where the scene gives one. The rows are pressures: as rates, a place
+/// with a small index would be judged by what flows at one with a large index. The terms of the rock are constant,
 /// whichever limit of the well binds: what switches is on the side of the wells.
 class WellExchange : public Coupler {
  public:
@@ -55,8 +56,7 @@ class WellExchange : public Coupler {
         early_(places_.size()),
         diffusivity_(Vector::Zero(count())),
         memory_(context.fields.add(mesh_, memory_spec(context, wells_.rate(), count()))),
-        resistance_(Vector::Zero(count())),
-        scale_(Vector::Zero(count())) {
+        resistance_(Vector::Zero(count())) {
     context.determine(wells_.rate());
     refuse_heat(context);
     std::vector<Triplet> of_rock, of_fracture, of_wells;
@@ -80,7 +80,7 @@ class WellExchange : public Coupler {
     if (fracture_) use(of_fracture, mesh_.fracture_cell_count(), of_fracture_, into_fracture_);
   }
 
-  /// What the well gives is what the cells around it get, in the same solve.
+  /// Wells and the cells around them must be solved together, or a rate would count differently on both sides.
   std::vector<Dependence> dependences() const override {
     std::vector<Dependence> pairs;
     const std::string wells = wells_.rate().spec().owner;
@@ -107,10 +107,8 @@ class WellExchange : public Coupler {
         scale = conductance > 0 ? 1 / conductance : 1;
       }
       of_wells[k] = scale;
-      scale_[k] = 1 / scale;
-      SPREKK_ASSERT(std::isfinite(scale_[k]) && scale_[k] > 0, k, scale_[k]);
+      SPREKK_ASSERT(std::isfinite(scale) && scale > 0, k, scale);
     }
-    of_rate_ = resistance_.cwiseProduct(scale_);
     wells_.scale(of_wells);
   }
 
@@ -119,10 +117,10 @@ class WellExchange : public Coupler {
     if (rock_) supply(assembly, rock_->pressure(), into_rock_, step.dt);
     if (fracture_) supply(assembly, fracture_->pressure(), into_fracture_, step.dt);
     if (!assembly.has_row(rate)) return;
-    assembly.linear(rate, of_wells_, wells_.pressure(), 1, &scale_);
-    if (rock_) assembly.linear(rate, of_rock_, rock_->pressure(), 1, &scale_);
-    if (fracture_) assembly.linear(rate, of_fracture_, fracture_->pressure(), 1, &scale_);
-    Vector of_rate = of_rate_;
+    assembly.linear(rate, of_wells_, wells_.pressure());
+    if (rock_) assembly.linear(rate, of_rock_, rock_->pressure());
+    if (fracture_) assembly.linear(rate, of_fracture_, fracture_->pressure());
+    Vector of_rate = resistance_;
     add_early(assembly, step, of_rate);
     assembly.add(rate, of_rate.cwiseProduct(rate.now()));
     assembly.diagonal(rate, rate, of_rate);
@@ -256,7 +254,7 @@ class WellExchange : public Coupler {
       for (int i = 0; i < early_terms; ++i) {
         const double weight = early_[k].weights[i];
         if (weight == 0) continue;
-        const double factor = scale_[k] * weight * kept(k, i, step.dt) / conductance_of_rock(k);
+        const double factor = weight * kept(k, i, step.dt) / conductance_of_rock(k);
         of_rate[k] += factor;
         known[k] += factor * (memory_.accepted()[early_terms * k + i] - rate.accepted()[k]);
       }
@@ -319,7 +317,6 @@ class WellExchange : public Coupler {
   Vector diffusivity_;                  ///< around places in rock without a given index, m^2/s
   Field& memory_;                       ///< m_k of every place, m^2/s
   Vector resistance_;                   ///< R of a steady flow, Pa s/m^2, one a place
-  Vector scale_, of_rate_;              ///< of the rows, m^2/(Pa s), and the factor of the rate
   Operator of_wells_;                   ///< places × wells: −1
   Operator of_rock_, into_rock_, of_fracture_, into_fracture_;
 };

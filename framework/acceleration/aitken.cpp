@@ -8,8 +8,8 @@ namespace sprekk {
 
 namespace {
 
-/// x + ω r with r = G(x) − x and ω_k = −ω_(k−1) r_(k−1)·(r_k − r_(k−1)) / |r_k − r_(k−1)|², kept within bounds of its
-/// size (Küttler and Wall, Comput. Mech. 43 (2008) 61, Eq. 44).
+/// x + ω r with r = G(x) − x and ω_k = −ω_(k−1) r_(k−1)·(r_k − r_(k−1)) / |r_k − r_(k−1)|²; the absolute value of ω_k
+/// is kept within bounds (Küttler and Wall, Comput. Mech. 43 (2008) 61, Eq. 44).
 class Aitken : public Accelerator {
  public:
   Aitken(double first, double least, double most) : first_(first), least_(least), most_(most) {}

@@ -10,8 +10,7 @@ namespace sprekk {
 namespace {
 
 /// x_{k+1} = G(x_k) combined with up to `depth` earlier iterates so that the linearized residual G(x) − x is least
-/// (Anderson 1965; in the form of Walker and Ni 2011). Where the residual has grown, earlier iterates are forgotten:
-/// what they told has led further away.
+/// (Anderson 1965; in the form of Walker and Ni 2011). Where the residual has grown, earlier iterates are dropped.
 class Anderson : public Accelerator {
  public:
   explicit Anderson(int depth) : depth_(depth) {}

@@ -87,7 +87,7 @@ SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
   constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
   SumRow sum;
   for (const auto& [column, total] : totals) {
-    if (std::abs(total.value) <= round_off * total.size) continue;  // what cancels is no entry
+    if (std::abs(total.value) <= round_off * total.size) continue;  // terms that cancel give no entry
     sum.columns.push_back(column);
     sum.values.push_back(total.value);
   }
@@ -128,7 +128,7 @@ void BalanceSums::put_into(const LinearSystem& plain, const Assembly& assembly,
   for (const Balances::Quantity& quantity : assembly.balances().quantities()) {
     if (!replace_a_row(assembly, quantity)) continue;
     SumRow sum = sum_of_rows(assembly, quantity, owned, first);
-    if (sum.columns.empty()) continue;  // a mode that nothing holds, as the solver will find
+    if (sum.columns.empty()) continue;  // nothing determines this mode: the solver will report it
     const int row = row_to_replace(assembly, quantity, owned, first);
     SPREKK_ASSERT(is_index(row, plain.local.cols()), quantity.name, row, plain.local.cols());
     sums.push_back(row);

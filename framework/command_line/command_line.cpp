@@ -21,6 +21,7 @@
 #include "framework/command_line/sweep_command.hpp"
 #include "framework/config/resolved_yaml.hpp"
 #include "framework/linear/linear_solver.hpp"
+#include "framework/meshing/fracture_table.hpp"
 #include "framework/output/activity.hpp"
 #include "framework/output/build_info.hpp"
 #include "framework/output/output_folder.hpp"
@@ -30,6 +31,7 @@
 #include "framework/report/report.hpp"
 #include "framework/run/note_records.hpp"
 #include "framework/run/simulation.hpp"
+#include "framework/run/start_notes.hpp"
 #include "framework/run/stop_condition.hpp"
 #include "framework/scene/state_of_run.hpp"
 
@@ -64,7 +66,9 @@ void check_scene(const Scene& scene) {
   if (scene.start.from) take_state_of_run(*scene.start.from, model);
   progress.close();
   StopCondition(scene, model.quantities());
-  const Notes notes = model.input_notes();
+  long unknowns = 0;
+  for (const Field* field : model.schedule().unknowns()) unknowns += field->size();
+  const Notes notes = start_notes(model, mesh_quality(model.mesh()), unknowns);
   if (!parallel::is_root()) return;
   for (const NoteRecord& note : records_of(notes)) std::cerr << "note: " << described(note) << "\n";
   std::cout << scene.name << ": ok, " << model.mesh().cell_count() << " cells, " << model.mesh().fracture_cell_count()
@@ -96,15 +100,16 @@ void require_command(const CLI::App& app, int argc, char** argv) {
     throw unknown_name({"sprekk", 0, 0}, "command", argv[1], names);
 }
 
-/// After `--restart`, what ends like a scene is one, and no checkpoint: the option moves behind it.
+/// A file behind `--restart` with the ending of a scene is the scene, not the checkpoint: the option is moved behind
+/// it.
 void let_restart_follow_scenes(int argc, char** argv) {
   const auto is_scene = [](std::string_view name) { return name.ends_with(".yaml") || name.ends_with(".yml"); };
   for (int i = 1; i + 1 < argc; ++i)
     if (std::string_view(argv[i]) == "--restart" && is_scene(argv[i + 1])) std::swap(argv[i], argv[i + 1]);
 }
 
-/// Every process has found the wrong input, so the first one tells it; a folder that cannot be written may be known to
-/// the first process only.
+/// Every process finds a mistake of the input, so the first one reports it. A folder that cannot be written may be
+/// known to the first process only.
 int answer_wrong_input(const InputError& error) {
   if (parallel::is_root()) std::cerr << "error: " << error.what() << "\n";
   return static_cast<int>(ExitCode::wrong_input);
@@ -146,6 +151,9 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   CLI::App* show_command =
       app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   scene.add_to(*show_command);
+  CLI::App* fractures_command =
+      app.add_subcommand("fractures", "Prints the fractures as a table, also those that are drawn at random");
+  scene.add_to(*fractures_command);
   CLI::App* graph_command = app.add_subcommand("graph", "Draws components, couplers and schedule");
   scene.add_to(*graph_command);
   graph_command
@@ -162,8 +170,8 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   CLI::App* manual_command = app.add_subcommand("man", "Prints the manual page, for man");
   CLI::App* completion_command = app.add_subcommand("completion", "Prints a script that completes commands in a shell");
   std::vector<std::string> plugins;
-  for (CLI::App* command : {run_command, check_command, show_command, graph_command, list_command, explain_command,
-                            schema_command, reference_command, sweep.command()})
+  for (CLI::App* command : {run_command, check_command, show_command, fractures_command, graph_command, list_command,
+                            explain_command, schema_command, reference_command, sweep.command()})
     command
         ->add_option("--plugin", plugins,
                      "Loads a shared library with further components and couplers; once for each. SPREKK_PLUGINS and a "
@@ -195,6 +203,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
       std::cout << (shell == "zsh" ? zsh_completion(declared_command(app)) : bash_completion(declared_command(app)));
     if (*reference_command) write_reference(reference_folder);
     if (*show_command) print_scene(scene.read());
+    if (*fractures_command) std::cout << fracture_table(scene.read().geometry.fractures);
     if (*graph_command) draw_graph(Model(scene.read()), picture);
     if (*check_command) check_scene(scene.read());
     if (*report_command) std::cout << "report: " << write_report(reported).string() << "\n";

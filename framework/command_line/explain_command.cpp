@@ -40,10 +40,8 @@ Json schedule_of(const Json& step) {
   return {{"anyOf", {{{"type", "array"}, {"minItems", 1}, {"items", step}}, step}}};
 }
 
-/// What a step of a schedule looks like: the steps inside of others are schedules, too. The options of a step stand
-/// beside its key where they have it among them, as in `{solve: [a, b], stabilize: none}`, and below it otherwise, as
-/// in
-/// `{iterate: {steps: …}}`.
+/// The schema of a step. The steps inside of a step are a schedule, too. The options of a step stand beside its key if
+/// the key is one of them, as in `{solve: [a, b], stabilize: none}`, else below it, as in `{iterate: {steps: …}}`.
 Json schema_of_step(const std::string& key, Json options) {
   if (options["properties"].contains("steps")) {
     const Json description = options["properties"]["steps"]["description"];
@@ -103,7 +101,7 @@ void print_schema(std::ostream& out) {
     if (item.kind == "component" || item.kind == "coupler") {
       inner["properties"]["type"] = {{"const", item.name}};
       if (item.kind == "coupler") inner["properties"]["between"] = {{"type", "array"}, {"items", {{"type", "string"}}}};
-      // Required material properties may stand in `materials:`.
+      // Material properties may stand in `materials:` instead, so none is required here.
       if (inner.contains("required")) inner.erase("required");
       inner["required"] = {"type"};
       for (const Parameter& parameter : item.spec.parameters())

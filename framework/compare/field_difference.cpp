@@ -57,7 +57,7 @@ Components own_components(const Grid::Values& array) {
   return components;
 }
 
-/// Each triangle or line stands for itself, and so do points, for the parts of the cells around them.
+/// Triangles and lines count by their size, points by their parts of the cells around them.
 Places own_places(const Grid& grid, Grid::Place place) {
   Places cells, points{grid.points, std::vector<double>(grid.points.size(), 0.0)};
   const auto count = at(grid.points_per_cell);
@@ -86,7 +86,7 @@ std::vector<std::pair<const Grid::Values*, const Grid::Values*>> common_arrays(c
   return pairs;
 }
 
-/// Adds differences, and gives those of one family one scale in the end.
+/// Collects differences. In the end all of one scale family get the same scale.
 class Collected {
  public:
   void add(const std::string& name, const Components& field, const Components& other, const Places& places) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/compare/cell_sampler.hpp"
+#include "framework/results/cell_sampler.hpp"
 
 namespace sprekk {
 

@@ -11,9 +11,9 @@
 namespace sprekk {
 namespace {
 
-constexpr double same_time = 1e-9;  // of two rows, over the time
+constexpr double same_time = 1e-9;  // relative difference of two times
 
-/// How the stepping went, not what came out.
+/// Whether a column describes the time steps, not results.
 bool tells_of_steps(const std::string& column) {
   return column == "time[s]" || column == "step[s]" || column == "iterations[1]";
 }

@@ -8,8 +8,8 @@
 namespace sprekk {
 namespace {
 
-// Distances are measured at the corners of a line and between them: a segment's farthest point is a corner, or lies
-// where two segments of the other line are equally near.
+// Distances are measured at the corners of a line and between them: a segment's farthest point is a corner, or a point
+// that is equally near to two segments of the other line.
 constexpr int points_between = 7;
 constexpr double round_off = 1e-13;  // of a distance, over the length of the lines
 constexpr double at_the_end = 1e-9;  // of the length of a segment

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "framework/compare/cell_sampler.hpp"
+#include "framework/results/cell_sampler.hpp"
 
 namespace sprekk {
 

@@ -15,7 +15,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double same_time = 1e-9;  // of two written times, over the time
+constexpr double same_time = 1e-9;  // relative difference of two times
 
 const Snapshot* written_at(const std::vector<Snapshot>& all, double time) {
   for (const Snapshot& snapshot : all)
@@ -63,7 +63,7 @@ void remark_endings(RunDifference& difference) {
     }
 }
 
-/// What only one of two lists of quantities has.
+/// Adds a remark on quantities that only one of the two lists has.
 void remark_missing(RunDifference& difference, const std::vector<std::string>& names,
                     const std::vector<std::string>& others) {
   const std::vector<std::string> here = not_in(names, others), there = not_in(others, names);
@@ -130,7 +130,7 @@ void compare_fields(RunDifference& difference) {
   }
 }
 
-/// Keeps the quantities that are asked for; throws InputError for one that is none.
+/// Keeps the quantities that are asked for; throws InputError for an unknown one.
 void keep_only(RunDifference& difference, const std::vector<std::string>& only) {
   std::set<std::string> names;
   const auto is_wanted = [&](const std::string& column) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "framework/config/data_reader.hpp"
 #include "framework/config/expression.hpp"
@@ -40,6 +41,32 @@ Data in_si(const ColumnValue& given, const DataRequest& request) {
   return within_range(Data(given.value * scale), given.where, request);
 }
 
+/// "joints_" of "joints_*", which stands for all names that begin so; nothing of a plain name.
+std::optional<std::string> beginning_of(const std::string& key) {
+  if (key.size() < 2 || key.back() != '*') return std::nullopt;
+  return key.substr(0, key.size() - 1);
+}
+
+bool stands_for(const std::string& key, const std::string& name) {
+  const auto beginning = beginning_of(key);
+  return beginning ? name.starts_with(*beginning) : key == name;
+}
+
+/// The entry of a name: its own, or that of the beginning that it has, or the default; nullptr without one.
+const Node* value_for(const Node& map, const std::string& name, const DataRequest& request) {
+  if (const Node* own = map.find(name)) return own;
+  const Node::Entry* found = nullptr;
+  for (const Node::Entry& entry : map.entries) {
+    if (!beginning_of(entry.key) || !stands_for(entry.key, name)) continue;
+    if (found)
+      throw InputError(entry.origin, fmt::format("{} has two values for {}", quoted(request.name), quoted(name)),
+                       fmt::format("{} and {} both stand for it", quoted(found->key), quoted(entry.key)),
+                       "give its own name, too");
+    found = &entry;
+  }
+  return found ? &found->value : map.find("default");
+}
+
 }  // namespace
 
 std::vector<const Node*> values_by_name(const Node& node, const DataRequest& request, const NamedPlaces& places,
@@ -48,15 +75,16 @@ std::vector<const Node*> values_by_name(const Node& node, const DataRequest& req
   const Node& map = *node.find(places.key);
   if (!map.is_map()) throw wrong_kind(map, request.name + "." + places.key, "a map of a value for each " + places.one);
   for (const Node::Entry& entry : map.entries) {
-    const bool is_known = entry.key == "default" || std::find(names.begin(), names.end(), entry.key) != names.end();
+    const bool is_known = entry.key == "default" || std::ranges::any_of(names, [&](const std::string& name) {
+                            return stands_for(entry.key, name);
+                          });
     if (!is_known) throw unknown_name(entry.origin, places.one, entry.key, names);
   }
   if (names.empty())
     throw InputError(map.origin, "the scene has no " + places.key, "", "give one value without '" + places.key + "'");
   std::vector<const Node*> values;
   for (const std::string& name : names) {
-    const Node* value = map.find(name);
-    if (value == nullptr) value = map.find("default");
+    const Node* const value = value_for(map, name, request);
     if (value == nullptr)
       throw InputError(
           map.origin,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "framework/config/expression.hpp"
@@ -67,7 +69,7 @@ void check_constant_windows(const Data& sum, const std::vector<Window>& windows,
   }
   std::vector<double> instants = sum.switch_times();
   if (instants.empty()) return;
-  // In a scene that starts at the `from` of a window, as nearly all do at 0 s, the time before has no effect.
+  // The time before the first window counts if this window begins after 0 s, where nearly all scenes start.
   if (instants.front() > 0) instants.insert(instants.begin(), std::nextafter(instants.front(), -forever));
   for (const double t : instants) {
     const double value = sum.at({Point::Zero(), 0, t});
@@ -87,43 +89,65 @@ Data read_windows(const Node& node, const DataRequest& request) {
   return sum;
 }
 
+/// The variables that a table depends on, from `of`: one of them, or a list; by default the time.
+std::vector<std::string> variables_of_table(const Node& node, const DataRequest& request) {
+  const Node* const of = node.find("of");
+  if (!of) return {"t"};
+  std::vector<std::string> allowed = {"t"};
+  for (int axis = 0; axis < dimension; ++axis) allowed.push_back(std::string(1, static_cast<char>('x' + axis)));
+  std::vector<std::string> variables;
+  const auto add = [&](const Node& item) {
+    const std::string& variable = read_scalar(item, request.name + ".of");
+    if (std::ranges::count(allowed, variable) == 0)
+      throw unknown_name(item.origin, "variable of a table:", variable, allowed);
+    if (std::ranges::count(variables, variable) > 0)
+      throw InputError(item.origin, "the table of " + quoted(request.name) + " names " + variable + " twice", "",
+                       "name each variable once");
+    variables.push_back(variable);
+  };
+  if (!of->is_list()) add(*of);
+  for (const Node& item : of->items) add(item);
+  if (variables.empty()) throw InputError(of->origin, "'of' is an empty list", "a table depends on t, x or y");
+  return variables;
+}
+
 Data read_tabulated(const Node& node, const DataRequest& request) {
   require_known_keys(node, {"table", "column", "of", "unit"}, request);
   TableRequest wanted;
   wanted.file = read_scalar(*node.find("table"), request.name + ".table");
   wanted.folder = request.context.folder;
   if (const Node* column = node.find("column")) wanted.column = read_scalar(*column, request.name + ".column");
-  wanted.of = "t";
-  if (const Node* of = node.find("of")) {
-    wanted.of = read_scalar(*of, request.name + ".of");
-    const std::vector<std::string> allowed = {"t", "x", "y"};
-    if (std::find(allowed.begin(), allowed.end(), wanted.of) == allowed.end()) {
-      throw unknown_name(of->origin, "variable of a table:", wanted.of, allowed);
-    }
-  }
+  wanted.of = variables_of_table(node, request);
   if (const Node* unit = node.find("unit")) wanted.unit = read_scalar(*unit, request.name + ".unit");
   wanted.needed_unit = request.about.unit;
   wanted.name = request.name;
   wanted.where = node.origin;
   const auto table = std::make_shared<const Table>(read_table(wanted));
-  for (const double value : table->ordinate) {
+  for (const double value : table->values) {
     if (request.about.range.contains(value)) continue;
     throw InputError(
         node.origin,
         fmt::format("{} is {} in the table {}, out of range", quoted(request.name), value, quoted(wanted.file)),
         "it must be " + request.about.range.text() + " " + request.about.unit);
   }
-  if (wanted.of == "t") return Data([table](const Place& place) { return table->at(place.t); }, true, false);
-  const int axis = wanted.of == "x" ? 0 : 1;
-  return Data([table, axis](const Place& place) { return table->at(place.x[axis]); }, false, true);
+  std::vector<int> axes;  // of the place, and -1 for the time
+  for (const std::string& variable : wanted.of) axes.push_back(variable == "t" ? -1 : variable[0] - 'x');
+  const bool in_time = std::ranges::count(axes, -1) > 0;
+  return Data(
+      [table, axes](const Place& place) {
+        std::array<double, dimension + 1> at{};
+        for (std::size_t k = 0; k < axes.size(); ++k) at[k] = axes[k] < 0 ? place.t : place.x[axes[k]];
+        return table->at({at.data(), axes.size()});
+      },
+      in_time, !in_time || axes.size() > 1);
 }
 
 /// Reads any form of a datum. Its range is not checked yet, except where messages on its parts say more.
 Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_scalar()) return parse_data(node.scalar, request.about.unit, node.origin, request.name);
-  const std::string forms = "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) +
-                            ", an expression of x, y and t, " +
-                            "{regions: …}, {fractures: …}, {column: …}, {table: …} or {value: , from: , to: }";
+  const std::string forms =
+      "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) + ", an expression of x, y and t, " +
+      "{regions: …}, {fractures: …}, {column: …}, {table: …}, {run: …} or {value: , from: , to: }";
   if (node.is_null()) throw wrong_kind(node, request.name, forms);
   if (request.about.constant_only) throw wrong_kind(node, request.name, "one number");
   if (has(node, "regions")) {
@@ -133,13 +157,26 @@ Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_list() || has(node, "value")) return read_windows(node, request);
   if (has(node, "table")) return read_tabulated(node, request);
   if (has(node, "column")) return read_fracture_column(node, request);
+  if (const DataForms::value_type* form = other_form(node)) return form->second(node, request);
   const std::string key = node.entries.empty() ? "" : node.entries.front().key;
   if (key.empty()) throw wrong_kind(node, request.name, forms);
-  throw unknown_name(node.entries.front().origin, "key of " + quoted(request.name) + ":", key,
-                     {"regions", "fractures", "column", "table", "value"});
+  std::vector<std::string> keys = {"regions", "fractures", "column", "table", "value"};
+  for (const auto& [form, read] : data_forms()) keys.push_back(form);
+  throw unknown_name(node.entries.front().origin, "key of " + quoted(request.name) + ":", key, keys);
 }
 
 }  // namespace
+
+DataForms& data_forms() {
+  static DataForms forms;
+  return forms;
+}
+
+const DataForms::value_type* other_form(const Node& node) {
+  for (const DataForms::value_type& form : data_forms())
+    if (has(node, form.first)) return &form;
+  return nullptr;
+}
 
 Data within_range(Data data, const Origin& where, const DataRequest& request) {
   const Range range = request.about.range;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct DataRequest {
   const About& about;
   const ReadContext& context;
 };
+
+/// Forms of a datum that other folders read: maps with a key of their own, by this key.
+using DataForms = std::map<std::string, std::function<Data(const Node&, const DataRequest&)>>;
+DataForms& data_forms();
 
 /// A value in any form that a scene may use (spec.hpp lists them), in SI units. All three throw InputError where it is
 /// malformed, out of range, or has another dimension.
@@ -59,6 +64,9 @@ struct NamedPlaces {
 /// none, and for names that are unknown.
 std::vector<const Node*> values_by_name(const Node& node, const DataRequest& request, const NamedPlaces& places,
                                         const std::vector<std::string>& names);
+
+/// The form of data_forms that the map has, or nullptr.
+const DataForms::value_type* other_form(const Node& node);
 
 /// Whether the map has the key `key`, so that its form is known.
 inline bool has(const Node& node, const std::string& key) { return node.is_map() && node.find(key) != nullptr; }

@@ -1,4 +1,5 @@
 // The JSON schema of a spec, for editors.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -62,7 +63,12 @@ Json value_schema(const Parameter& parameter) {
   if (kind == "texts") return {{"type", {"string", "number", "array"}}, {"items", {{"type", {"string", "number"}}}}};
   if (kind == "section") return map_schema(*parameter.inner);
   if (kind == "named sections") {
-    return {{"type", {"object", "null"}}, {"additionalProperties", map_schema(*parameter.inner)}};
+    Json schema = {{"type", {"object", "null"}}, {"additionalProperties", map_schema(*parameter.inner)}};
+    // {table: FILE} stands for a set of this name (expand_fracture_table).
+    const auto has_table = [](const Parameter& p) { return p.name == "table" && p.kind == "text"; };
+    if (std::ranges::any_of(parameter.inner->parameters(), has_table))
+      schema["properties"]["table"] = {{"anyOf", {Json{{"type", "string"}}, map_schema(*parameter.inner)}}};
+    return schema;
   }
   if (kind == "list of sections") return list_schema(map_schema(*parameter.inner));
   if (kind != "integer") return Json::object();  // the declaring class reads it itself

@@ -1,4 +1,4 @@
-// The name that was probably meant by a misspelt one.
+// The known name that is nearest to a misspelt one.
 #include <algorithm>
 #include <cctype>
 

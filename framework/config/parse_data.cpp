@@ -1,4 +1,4 @@
-// Tells quantities from expressions, and expressions from the unit behind them.
+// Distinguishes quantities from expressions, and separates expressions from the unit behind them.
 #include <cctype>
 
 #include "framework/config/expression.hpp"

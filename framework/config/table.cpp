@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <numeric>
 
 #include "framework/config/csv_rows.hpp"
 #include "framework/config/number.hpp"
@@ -25,22 +26,16 @@ class TableReader {
     if (rows_.empty() && headings_.empty()) refuse_empty("it has no row of numbers");
     columns_ = headings_.empty() ? rows_.front().cells.size() : headings_.size();
     if (rows_.empty()) refuse_empty("it has headings only");
-    const std::size_t abscissa = abscissa_column();
-    const std::size_t ordinate = ordinate_column(abscissa);
-    const double abscissa_scale = heading_scale(abscissa, request_.of == "t" ? "s" : "m");
-    const double ordinate_scale =
+    read_coordinates();
+    const std::size_t column = value_column();
+    const double scale =
         request_.unit ? scale_to_si(*request_.unit, request_.needed_unit, *request_.unit, request_.where, request_.name)
-                      : heading_scale(ordinate, request_.needed_unit);
+                      : heading_scale(column, request_.needed_unit);
     Table table;
-    for (const CsvRow& row : rows_) {
-      const double value = abscissa_scale * number(row, abscissa);
-      if (!table.abscissa.empty() && !(value > table.abscissa.back())) {
-        throw InputError({request_.file, row.line}, quoted(row.cells[abscissa]) + " does not follow the row before",
-                         "the column of " + request_.of + " must increase from row to row", "sort the rows");
-      }
-      table.abscissa.push_back(value);
-      table.ordinate.push_back(ordinate_scale * number(row, ordinate));
-    }
+    for (const std::vector<double>& coordinates : coordinates_) table.axes.push_back(sorted(coordinates));
+    const std::vector<std::size_t> order = rows_by_place();
+    require_grid(table.axes, order);
+    for (const std::size_t row : order) table.values.push_back(scale * number(rows_[row], column));
     return table;
   }
 
@@ -73,11 +68,84 @@ class TableReader {
     return std::nullopt;
   }
 
-  std::size_t abscissa_column() const { return named_column(request_.of).value_or(0); }
+  /// The column of each variable, with its coordinates in SI units. One variable has to increase.
+  void read_coordinates() {
+    for (const std::string& variable : request_.of) {
+      const std::optional<std::size_t> named = named_column(variable);
+      if (!named && request_.of.size() > 1)
+        throw unknown_name(request_.where, "variable of the table " + quoted(request_.file) + ":", variable, names());
+      const std::size_t column = named.value_or(0);
+      const double scale = heading_scale(column, variable == "t" ? "s" : "m");
+      std::vector<double>& coordinates = coordinates_.emplace_back();
+      for (const CsvRow& row : rows_) {
+        const double value = scale * number(row, column);
+        if (request_.of.size() == 1 && !coordinates.empty() && !(value > coordinates.back()))
+          throw InputError({request_.file, row.line}, quoted(row.cells[column]) + " does not follow the row before",
+                           "the column of " + variable + " must increase from row to row", "sort the rows");
+        coordinates.push_back(value);
+      }
+      variable_columns_.push_back(column);
+    }
+  }
 
-  std::size_t ordinate_column(std::size_t abscissa) const {
+  static std::vector<double> sorted(std::vector<double> coordinates) {
+    std::sort(coordinates.begin(), coordinates.end());
+    coordinates.erase(std::unique(coordinates.begin(), coordinates.end()), coordinates.end());
+    return coordinates;
+  }
+
+  std::vector<double> place_of(std::size_t row) const {
+    std::vector<double> place;
+    for (const std::vector<double>& coordinates : coordinates_) place.push_back(coordinates[row]);
+    return place;
+  }
+
+  /// The rows in the order of Table::values.
+  std::vector<std::size_t> rows_by_place() const {
+    std::vector<std::size_t> order(rows_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [this](std::size_t a, std::size_t b) { return place_of(a) < place_of(b); });
+    return order;
+  }
+
+  /// Refuses rows that are not all combinations of the coordinates, each once.
+  void require_grid(const std::vector<std::vector<double>>& axes, const std::vector<std::size_t>& order) const {
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (place_of(order[i]) == place_of(order[i - 1]))
+        throw InputError({request_.file, rows_[order[i]].line}, place_text(place_of(order[i])) + " stands twice",
+                         fmt::format("line {} has it, too", rows_[order[i - 1]].line), "remove one of the rows");
+    double count = 1;
+    for (const std::vector<double>& axis : axes) count *= static_cast<double>(axis.size());
+    if (count == static_cast<double>(order.size())) return;
+    std::size_t first = 0;  // the first combination without a row
+    const auto combination = [&axes](std::size_t i) {
+      std::vector<double> place(axes.size());
+      for (std::size_t k = axes.size(); k-- > 0; i /= axes[k].size()) place[k] = axes[k][i % axes[k].size()];
+      return place;
+    };
+    while (first < order.size() && place_of(order[first]) == combination(first)) ++first;
+    throw InputError(request_.where, fmt::format("the table {} is no complete grid", quoted(request_.file)),
+                     fmt::format("{} of {} combinations of {} have no row, the first one {}",
+                                 count - static_cast<double>(order.size()), count, listed(request_.of),
+                                 place_text(combination(first))),
+                     "give each combination a row");
+  }
+
+  /// "x = 1 m, t = 0 s".
+  std::string place_text(const std::vector<double>& place) const {
+    std::string text;
+    for (std::size_t k = 0; k < place.size(); ++k)
+      text +=
+          fmt::format("{}{} = {} {}", k == 0 ? "" : ", ", request_.of[k], place[k], request_.of[k] == "t" ? "s" : "m");
+    return text;
+  }
+
+  std::size_t value_column() const {
     if (!request_.column.empty()) return wanted_column();
-    if (columns_ == 2) return 1 - abscissa;
+    if (columns_ == request_.of.size() + 1)
+      for (std::size_t column = 0; column < columns_; ++column)
+        if (std::ranges::count(variable_columns_, column) == 0) return column;
     throw InputError(
         request_.where, fmt::format("'column' is missing for the table {}", quoted(request_.file)),
         fmt::format("the table has {} columns{}{}", columns_, headings_.empty() ? "" : ": ", listed(names())),
@@ -119,17 +187,43 @@ class TableReader {
   std::vector<CsvRow> rows_;
   std::size_t columns_ = 0;
   std::vector<CsvHeading> headings_;
+  std::vector<std::vector<double>> coordinates_;  ///< of each variable, row by row
+  std::vector<std::size_t> variable_columns_;
 };
 
 }  // namespace
 
-double Table::at(double abscissa_value) const {
-  const auto above = std::upper_bound(abscissa.begin(), abscissa.end(), abscissa_value);
-  if (above == abscissa.begin()) return ordinate.front();
-  if (above == abscissa.end()) return ordinate.back();
-  const auto i = static_cast<std::size_t>(above - abscissa.begin());
-  const double weight = (abscissa_value - abscissa[i - 1]) / (abscissa[i] - abscissa[i - 1]);
-  return (1 - weight) * ordinate[i - 1] + weight * ordinate[i];
+double Table::at(std::span<const double> place) const {
+  // Of each axis the interval, and the share of its upper end.
+  struct Interval {
+    std::size_t below;
+    double share;
+  };
+  std::vector<Interval> intervals;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const std::vector<double>& axis = axes[k];
+    const auto above = std::upper_bound(axis.begin(), axis.end(), place[k]);
+    if (above == axis.begin())
+      intervals.push_back({0, 0});
+    else if (above == axis.end())
+      intervals.push_back({axis.size() - 1, 0});
+    else
+      intervals.push_back(
+          {static_cast<std::size_t>(above - axis.begin()) - 1, (place[k] - *(above - 1)) / (*above - *(above - 1))});
+  }
+  double value = 0;
+  for (std::size_t corner = 0; corner < std::size_t{1} << axes.size(); ++corner) {
+    std::size_t at = 0;
+    double weight = 1;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      const bool upper = (corner >> k & 1) != 0;
+      weight *= upper ? intervals[k].share : 1 - intervals[k].share;
+      at = at * axes[k].size() + intervals[k].below + (upper ? 1 : 0);
+      if (weight == 0) break;  // there may be nothing above
+    }
+    if (weight != 0) value += weight * values[at];
+  }
+  return value;
 }
 
 Table read_table(const TableRequest& request) { return TableReader(request).read(); }

@@ -255,7 +255,7 @@ ExitCode Convergence::reach() {
               << " would need parameters finer by more than 64) allow a larger error, or begin finer with --coarsest\n";
     return ExitCode::failed;
   }
-  // A folder for each choice: another one may follow with another wanted error.
+  // Each choice has a folder of its own: another call may ask for another error.
   std::string name = chosen;
   Factors of_scene = *factors;
   for (double& factor : of_scene) {

@@ -8,9 +8,9 @@ namespace {
 
 constexpr double fine_level = 0.5;
 constexpr double least_order = 0.5, most_order = 2;
-constexpr double safety = 1.5;      // of an extrapolation with an observed order
-constexpr double cancelled = 0.25;  // of errors that cancel one another
-constexpr double round_off = 1e-9;  // of a value: what solvers leave
+constexpr double safety = 1.5;      // factor on an extrapolation with an observed order
+constexpr double cancelled = 0.25;  // share of the errors that counts where they cancel one another
+constexpr double round_off = 1e-9;  // of a value: the error of the solvers
 
 }  // namespace
 

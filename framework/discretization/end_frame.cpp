@@ -38,7 +38,7 @@ EndFrame::Polar EndFrame::polar(const Point& x, int side) const {
   SPREKK_EXPECT(side >= -1 && side <= 1, side);
   const Point local = axes_.transpose() * (x - origin_);
   const double angle = std::atan2(local.y(), local.x());
-  // A fracture that bends a little leaves the line of the end: behind the end, `side` decides the sign of the angle.
+  // Behind the end a fracture with a slight bend is beside the line through the end, so `side` decides the sign there.
   const bool is_beyond = angle * side < 0 && std::abs(local.y()) < -0.5 * local.x();
   return {local.norm(), is_beyond ? angle + 2 * std::numbers::pi * side : angle};
 }

@@ -9,7 +9,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double largest_bend = 10;  ///< degrees: behind a sharper one the field of an end does not go on
+constexpr double largest_bend = 10;  ///< degrees: beyond a sharper bend the field of the end is another one
 const double straight = std::cos(largest_bend * std::numbers::pi / 180);
 
 }  // namespace

@@ -27,10 +27,10 @@ std::vector<int> outer_nodes(const Mesh& mesh) {
   return {nodes.begin(), nodes.end()};
 }
 
-/// What is nearest in the way of an end's field.
+/// The nearest obstacle to the field of an end.
 struct Obstacle {
   double distance = std::numeric_limits<double>::infinity();  ///< m
-  bool is_other_tip = false;                                  ///< of the fracture, which is straight
+  bool is_other_tip = false;                                  ///< the other tip of the same, straight fracture
 };
 
 Obstacle nearest_obstacle(const Mesh& mesh, int end, const std::vector<int>& outer, const ZoneLimits& limits) {
@@ -54,7 +54,8 @@ struct Reached {
   double weight;
 };
 
-/// The nodes of a zone that ends half of the way to an obstacle, reached along nodes where the field goes on.
+/// The nodes of a zone that ends half of the way to an obstacle, as far as they are connected along nodes with an
+/// undisturbed field.
 std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Obstacle& obstacle, const ZoneLimits& limits) {
   const double radius = 0.5 * obstacle.distance;
   const double width = obstacle.is_other_tip ? limits.joining_part : limits.fading_part;

@@ -51,7 +51,7 @@ class Comparison {
     }
   }
 
-  /// The node before whose region is the same, or none.
+  /// The node before the change that has the same region, or none.
   int kept_node(int node) const {
     const int was = old_node_[node];
     if (was == none || !same_bits(after_.mesh.nodes[node], before_.mesh.nodes[was])) return none;
@@ -105,7 +105,7 @@ class Comparison {
 
   const RegionInputs &before_, &after_;
   const MeshChange& change_;
-  std::vector<int> old_node_;  ///< by the corners of kept cells; with other cells around it, it is another region
+  std::vector<int> old_node_;  ///< by the corners of kept cells; its region differs if it has other cells
   std::vector<char> is_same_face_, is_same_cell_;
 };
 

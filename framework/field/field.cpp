@@ -50,7 +50,7 @@ void Field::set(Vector values) {
 void Field::set_accepted(Vector values) {
   if (values.size() != size()) throw std::logic_error("field " + name() + ": wrong number of values");
   accepted_ = std::move(values);
-  accepted_version_ = ~++given_;  // counted from the other end
+  accepted_version_ = ~++given_;  // never the version of current values: these count up from 0
 }
 
 void Field::accept() {

@@ -43,7 +43,7 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
                            const std::function<void(Vector&)>& apply_inverse, Vector& x) {
   constexpr int refinements = 3;
   constexpr double accurate = 1e-13, acceptable = 1e-10, useless = 0.3;
-  constexpr double hardly_better = 0.5;  // of the error before: further refinement is useless
+  constexpr double hardly_better = 0.5;  // of the error before: a smaller gain ends the refinement
   SPREKK_EXPECT(b_rows.size() == scaled.matrix.rows(), b_rows.size(), scaled.matrix.rows());
   SPREKK_EXPECT(scaled.row_scale.size() == b_rows.size(), scaled.row_scale.size(), b_rows.size());
   SPREKK_EXPECT(scaled.column_scale.size() == scaled.matrix.cols(), scaled.column_scale.size(), scaled.matrix.cols());

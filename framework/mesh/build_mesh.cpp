@@ -263,7 +263,7 @@ class MeshBuilder {
       }
       for (int i = 0; i < last; ++i) place_fracture_cell(mesh_.fracture_cells[first_cell + i], chain[i], chain[i + 1]);
     }
-    // In the order of fractures, not of nodes: images of a mesh whose nodes are numbered otherwise are alike.
+    // In the order of fractures, so that the result does not depend on how the nodes are numbered.
     for (const auto& [name, chain] : raw_.fractures) {
       for (const int node : chain) {
         const auto found = ends_at.find(node);

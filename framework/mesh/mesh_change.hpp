@@ -35,6 +35,8 @@ struct MeshChange {
   std::vector<ReplacedPart> replaced_parts;
   /// Whether fractures are where they were, so that a state differs by its cells alone.
   bool is_at_rest = false;
+  /// Whether no step has been made before the change: the state is that which the scene gives, on any mesh.
+  bool is_at_start = false;
 };
 
 /// Per new fracture cell: the part of its length that replaced cells covered: 1 for kept cells, 0 where rock parts.

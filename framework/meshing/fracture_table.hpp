@@ -25,6 +25,11 @@ struct FractureTable {
 /// of its first row count. Throws InputError with the file's line for what is missing, unknown or no finite number.
 std::vector<FractureGeometry> read_fracture_table(const FractureTable& table);
 
+/// The text of a CSV file from which read_fracture_table reads these fractures to the last bit, with their names, the
+/// lengths of their cells where all have one, and the further columns that all have. Throws InputError for a name that
+/// a table cannot hold, and where there are no fractures.
+std::string fracture_table(const std::vector<FractureGeometry>& fractures);
+
 /// Throws InputError for a column that says nothing of the geometry and that no datum takes, such as a misspelt one.
 void require_used_columns(const std::vector<FractureGeometry>& fractures, const std::set<std::string>& used);
 

@@ -7,6 +7,7 @@
 
 #include "framework/mesh/medium.hpp"
 #include "framework/meshing/fracture_table.hpp"
+#include "framework/meshing/random/random_fractures_spec.hpp"
 
 namespace sprekk {
 namespace {
@@ -39,18 +40,31 @@ Spec box_spec(const std::shared_ptr<BoxInput>& input, Box& box) {
 
 struct FractureInput {
   std::string table;
+  bool is_random = false;
+  RandomFractures random;
   std::vector<Point> points;
   std::optional<Point> center;
   std::optional<double> length, size, angle;
 };
 
-/// `keep` receives each fracture once it is read.
-Spec fracture_spec(const std::string& name, const Origin& origin, const std::string& folder,
-                   std::function<void(FractureGeometry)> keep) {
+/// Where the fractures of a scene go once they are read.
+struct FractureKeeper {
+  std::function<void(FractureGeometry)> keep;
+  std::function<void(RandomFractures)> keep_set;
+};
+
+/// Throws InputError for further parameters beside a key that gives a whole set.
+void require_alone(const Node& whole, const std::string& name, const std::string& how, const std::string& key) {
+  if (whole.keys().size() > 1)
+    throw InputError(whole.origin, "the fractures '" + name + "' are given twice",
+                     "they " + how + " and have further parameters", "keep " + key + " alone");
+}
+
+Spec fracture_spec(const std::string& name, const Origin& origin, const std::string& folder, FractureKeeper keeper) {
   const auto input = std::make_shared<FractureInput>();
   Spec spec("fracture",
-            "A polyline, given by its points or as a straight line by center, length and angle; or a set of fractures "
-            "from a table.");
+            "A polyline, given by its points or as a straight line by center, length and angle; or a set of fractures, "
+            "from a table or drawn at random.");
   spec.points("points", input->points,
               {.unit = "m", .doc = "The points of the polyline; the plus side is to its left."});
   spec.point("center", input->center, {.unit = "m", .doc = "The middle of a straight fracture."});
@@ -65,14 +79,20 @@ Spec fracture_spec(const std::string& name, const Origin& origin, const std::str
             {.doc = "A CSV file beside the scene with many fractures: a row for each with the columns x1, y1, x2, y2, "
                     "or for each point of a polyline with name, x, y; also name and size. They are called NAME_1, "
                     "NAME_2, … where they have no names. Data may take further columns by {column: …}."});
-  spec.check([input, name, origin, folder, keep = std::move(keep)](const Node& whole) {
+  input->random.name = name;
+  input->random.origin = origin;
+  spec.section("random", random_fractures_spec(input->random),
+               {.doc = "A set that is drawn at random: NAME_1, NAME_2, …, the longest first."}, &input->is_random);
+  spec.check([input, name, origin, folder, keeper = std::move(keeper)](const Node& whole) {
     if (!input->table.empty()) {
-      if (whole.keys().size() > 1)
-        throw InputError(whole.origin, "the fractures '" + name + "' are given twice",
-                         "they come from a table and have further parameters", "keep the table alone");
+      require_alone(whole, name, "come from a table", "the table");
       for (FractureGeometry& fracture : read_fracture_table({input->table, folder, name, origin}))
-        keep(std::move(fracture));
+        keeper.keep(std::move(fracture));
       return;
+    }
+    if (input->is_random) {
+      require_alone(whole, name, "are random", "'random'");
+      return keeper.keep_set(input->random);
     }
     FractureGeometry fracture{name, input->points, input->size, origin};
     const bool has_points = !input->points.empty(), has_center = input->center.has_value();
@@ -91,9 +111,20 @@ Spec fracture_spec(const std::string& name, const Origin& origin, const std::str
       const Point half = 0.5 * *input->length * Point(std::cos(angle), std::sin(angle));
       fracture.points = {*input->center - half, *input->center + half};
     }
-    keep(std::move(fracture));
+    keeper.keep(std::move(fracture));
   });
   return spec;
+}
+
+/// Draws the random sets once everything else is known.
+void draw_sets(const std::vector<RandomFractures>& sets, Geometry& geometry) {
+  for (const RandomFractures& set : sets) {
+    if (geometry.is_imported())
+      throw InputError(set.origin, "the random set '" + set.name + "' is given together with a mesh file",
+                       "the file holds all fractures as groups of curves", "draw them into the file");
+    if (geometry.box.size().minCoeff() <= 0) return;  // validate_geometry says so
+    draw_fractures(set, geometry);
+  }
 }
 
 Spec region_spec(const std::string& name, const Origin& origin, std::function<void(RegionGeometry)> keep) {
@@ -115,12 +146,14 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
       "file", geometry.file,
       {.doc = "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: groups "
               "of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."});
-  // Tables are written shorter by expand_fracture_table.
+  const auto sets = std::make_shared<std::vector<RandomFractures>>();
+  // The short form `fractures: {table: FILE}` has been expanded by expand_fracture_table.
   spec.named_sections(
-      "fractures", fracture_spec("", {}, "", [](FractureGeometry) {}),
-      [&geometry, folder](const std::string& name, const Origin& origin) {
+      "fractures", fracture_spec("", {}, "", {}),
+      [&geometry, folder, sets](const std::string& name, const Origin& origin) {
         return fracture_spec(name, origin, folder,
-                             [&geometry](FractureGeometry f) { geometry.fractures.push_back(std::move(f)); });
+                             {[&geometry](FractureGeometry f) { geometry.fractures.push_back(std::move(f)); },
+                              [sets](RandomFractures set) { sets->push_back(std::move(set)); }});
       },
       {.doc = "The fractures, by name; they may cross and touch one another inside of the " + medium_name() + "."});
   spec.named_sections("regions", region_spec("", {}, [](RegionGeometry) {}),
@@ -130,13 +163,14 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                       },
                       {.doc = "Polygons that the mesh conforms to, by name; the rest is called " + medium_name() +
                               ", and later ones cover earlier ones."});
-  spec.check([&geometry, folder](const Node& whole) {
+  spec.check([&geometry, folder, sets](const Node& whole) {
     const bool has_box = whole.find("box"), has_file = geometry.is_imported();
     if (has_box == has_file) {
       throw InputError(whole.origin,
                        has_box ? "the geometry has a box and a file" : "the geometry has neither box nor file",
                        "it needs exactly one of them", "write box: {x: [0 m, 1 m], y: [0 m, 1 m]}");
     }
+    draw_sets(*sets, geometry);
     if (!has_file) return;
     geometry.file_origin = origin_of(whole, "file");
     if (std::filesystem::path(geometry.file).is_relative() && folder != ".") {

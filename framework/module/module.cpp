@@ -14,7 +14,7 @@ namespace {
 const void* opened(const std::string& name) {
   const std::string file = "sprekk_" + name + ".so";
   const auto failed = [&](const std::string& why) {
-    // What the loader says when it finds no room for a library.
+    // The loader's messages when it finds no memory for a library.
     for (const char* lack : {"failed to map segment", "annot allocate memory"})
       if (why.find(lack) != std::string::npos)
         return std::runtime_error("there is not enough memory to open the module " + file + " (" + why +

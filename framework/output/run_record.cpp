@@ -17,6 +17,7 @@ Json scene_json(const RunRecord& record) {
   return {{"name", record.scene_name},
           {"files", record.scene_files},
           {"parameters", parameters},
+          {"fractures", record.fractures},
           {"text", record.scene_text}};
 }
 

@@ -25,6 +25,7 @@ struct RunRecord {
   std::vector<std::string> scene_files;
   std::string scene_text;  ///< the merged scene as YAML
   std::vector<Parameter> parameters;
+  std::vector<std::string> fractures;  ///< names, by the number that fields on fractures have
   /// A plug-in, and the types of components and couplers that it has brought.
   struct UsedPlugin {
     std::string file;

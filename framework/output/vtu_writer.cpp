@@ -3,6 +3,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "framework/field/component_names.hpp"
 #include "framework/field/weights_in_cell.hpp"
 #include "framework/module/module.hpp"
 #include "framework/output/atomic_file.hpp"
@@ -19,7 +20,8 @@ void add_field(std::vector<GridData::Array>& arrays, const OutputField& field, c
   const int written = components == dimension ? 3 : components;
   const int count = static_cast<int>(field.values.size()) / components / stride;
   // VTK 9.1 writes names as they are: quotes and brackets in them would break the file.
-  GridData::Array array{xml_escaped(labelled(name, field.unit)), written, {}};
+  GridData::Array array{xml_escaped(labelled(name, field.unit)), written, {}, false, component_names(components)};
+  if (components == dimension) array.component_names.resize(written, "z");
   array.values.reserve(static_cast<std::size_t>(count) * written);
   for (int i = 0; i < count; ++i) {
     const double* in = field.values.data() + (i * stride + first) * components;

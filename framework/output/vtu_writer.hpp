@@ -16,8 +16,8 @@ std::string labelled(const std::string& quantity, const std::string& unit);
 
 /// Writes the triangles and quadrilaterals with the fields on cells and nodes, those on faces as means of cells, and
 /// the region of each cell; other fields are left out. Vectors (two components) get a third one, 0, as ParaView
-/// expects; tensors are written as they are. Throws std::logic_error for a field of the wrong size, std::runtime_error
-/// when the file cannot be written.
+/// expects; tensors are written as they are. Both name their components (component_names). Throws std::logic_error for
+/// a field of the wrong size, std::runtime_error when the file cannot be written.
 void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
 
 /// Writes the fracture cells as lines with the fields on them, and the number of each cell's fracture. Pairs on

@@ -50,11 +50,12 @@ std::vector<Value> gather_values(const std::vector<Value>& mine, MPI_Datatype ty
 void start_mpi() {
   if (is_running()) return;
   if (!launched_by_mpirun()) {
-    // One process talks to nobody. Without a daemon and without networks Open MPI starts in 0.03 s instead of 0.4 s.
+    // A process of its own has nobody to communicate with. Without a daemon and without networks Open MPI starts in
+    // 0.03 s instead of 0.4 s.
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     setenv("OMPI_MCA_pml", "ob1", 0);
     setenv("OMPI_MCA_mpi_yield_when_idle", "0", 1);
-    // Nor does it need a folder for them in the one that all runs of a user share, and remove under one another.
+    // Nor does it need a session folder: all runs of a user have theirs in one folder, which the first to end removes.
     setenv("OMPI_MCA_btl", "self", 0);
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   }

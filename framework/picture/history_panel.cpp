@@ -31,7 +31,7 @@ bool hides(const Curve& upper, const Curve& lower, double range) {
   return 2 * count > upper.y.size();
 }
 
-/// Curves on top of others get gaps, through which those are seen.
+/// Curves that hide others get gaps, in which the others show.
 void show_hidden(std::vector<Curve>& curves) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Curve& curve : curves)

@@ -44,7 +44,7 @@ std::string readable(const std::string& symbol) {
   return status == 0 ? text.get() : symbol;
 }
 
-/// What the loader says, as an error that tells what to do.
+/// The loader's message, as an error with a suggestion.
 InputError refused(const std::filesystem::path& file, const std::string& said, const Origin& where) {
   const std::string what = "plug-in '" + file.string() + "' cannot be loaded";
   const std::string lead = "undefined symbol: ", interface = "sprekk_interface_";

@@ -15,10 +15,10 @@
 namespace sprekk {
 namespace {
 
-/// rad, a usual smallest angle of cells that are made anew: however often they have moved, cells may become as bad as
-/// those that move once.
+/// rad, a usual smallest angle of cells that are made anew. It stands for the angle before any move, so that the limit
+/// for moved cells is the same however often they move.
 constexpr double angle_of_new_cells = 0.56;
-constexpr double least_share = 0.1;  ///< of a cell that is divided, for each part
+constexpr double least_share = 0.1;  ///< of a divided cell: the smallest part
 
 std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 

@@ -218,7 +218,7 @@ class Growth {
   std::vector<int> holder_;                  ///< per new cell, in their order: the removed cell that holds its centre
 };
 
-/// What a mesh with extensions, made from a healed mesh, is to the mesh before that was healed.
+/// Relates a mesh that was extended after healing to the mesh before healing.
 void relate_to_given(const Mesh& given, const HealedMesh& healed, GrownMesh& grown) {
   const auto through = [](const std::vector<int>& origin, std::vector<int>& entities) {
     for (int& entity : entities)

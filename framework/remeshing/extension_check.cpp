@@ -23,7 +23,7 @@ constexpr double rounding = 1e-12;
 constexpr double parallel = 1e-14;
 /// Of an edge: a shorter segment of a path has no direction.
 constexpr double shortest = 1e-6;
-/// Of the least gap: a tip looks that much farther ahead than what its last increment may have.
+/// Factor on the least gap where a tip looks ahead: it asks for more room than the check of its next path will.
 constexpr double room_ahead = 1.5;
 /// Two parts of one path must be farther from each other than this part of their distance along the path.
 constexpr double self_gap = 0.25;

@@ -37,7 +37,8 @@ class Sizes {
     }
     if (sources_[0].empty()) return upper;
     const double sum = nearest[0] + nearest[1];
-    // Steep enough for the length of the rim's edges at the rim, within the slope that mesh_region() can follow.
+    // The slope with which sizes reach the length of the rim's edges at the rim, up to the slope that mesh_region() can
+    // follow.
     const double straight = sum > 0 ? (size[0] * nearest[1] + size[1] * nearest[0]) / sum : 0;
     return std::max(upper, straight);
   }

@@ -55,7 +55,7 @@ class ReplacedCells {
   int outer_point(int cell) const { return mesh_.fracture_cells[cell].points[extension_.at_end ? 1 : 0]; }
 
   void check_length(double replaced_length) const {
-    if (extension_.points.empty()) return;  // refused with all paths without points
+    if (extension_.points.empty()) return;  // refused later, like all paths without points
     constexpr double round_off = 1e-12;
     Point from = mesh_.fracture_points[inner_point(cells_.front())].position;
     double length = 0;

@@ -75,7 +75,7 @@ class Motion {
     return nodes;
   }
 
-  /// Nodes of fractures are at rest unless a path moves them; bound ones stay in any case.
+  /// Nodes of fractures are at rest unless a path moves them; bound nodes are always at rest.
   void lay_to_rest() {
     const Mesh& mesh = grown_.mesh;
     is_bound_.assign(raw_.nodes.size(), false);
@@ -105,7 +105,7 @@ class Motion {
       is_at_rest_[node] = is_bound_[node] || is_on_fracture[node];
   }
 
-  /// Those with an end that follows.
+  /// The edges with an end that is not at rest.
   std::vector<std::array<int, 2>> edges() const {
     std::vector<std::array<int, 2>> edges;
     for (const auto& [a, b] : grown_.mesh.face_nodes) {
@@ -134,7 +134,7 @@ bool have_same_numbers(const Mesh& one, const Mesh& other) {
          std::ranges::equal(one.fracture_cells, other.fracture_cells, same_cell);
 }
 
-/// All but the overlap and the replaced parts is as it was: only new cells have moved.
+/// Only new cells have moved, so only the overlap and the replaced parts differ from those of `grown`.
 MeshChange change_of(const Mesh& before, const GrownMesh& grown, const Mesh& mesh) {
   MeshChange change = grown.change;
   for (int face = 0; face < mesh.face_count(); ++face)

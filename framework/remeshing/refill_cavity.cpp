@@ -203,7 +203,7 @@ class Refilling {
     return fill_cavity(outline, size_factor, options_.growth);
   }
 
-  /// The mean of where the fractures that grow in a cavity have ended before any growth.
+  /// The mean of the original ends, before any growth, of the fractures that grow in a cavity.
   Point anchor(int part, const std::vector<int>& part_of_path) const {
     Point sum = Point::Zero();
     int count = 0;

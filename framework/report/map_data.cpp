@@ -10,6 +10,7 @@
 #include "framework/picture/colours.hpp"
 #include "framework/picture/display_unit.hpp"
 #include "framework/report/base64.hpp"
+#include "framework/report/fracture_names.hpp"
 #include "framework/report/fracture_path.hpp"
 
 namespace sprekk {
@@ -19,43 +20,24 @@ using Json = nlohmann::ordered_json;
 
 constexpr int colour_count = 256;
 
-/// The components that a name ends with: "xx", "yy", "xy" of "rock.stress_xx_yy_xy"; none for other names.
-std::vector<std::string> named_components(const std::string& quantity, int count) {
-  std::vector<std::string> names;
-  std::string rest = quantity;
-  for (int i = 0; i < count; ++i) {
-    const std::size_t bar = rest.rfind('_');
-    if (bar == std::string::npos || rest.size() - bar > 3) return {};
-    names.insert(names.begin(), rest.substr(bar + 1));
-    rest.resize(bar);
-  }
-  return names;
+/// Files have a third component of vectors for ParaView only.
+bool is_vector(const Grid::Values& sample) {
+  return !sample.component_names.empty() && sample.component_names.front() == "x";
 }
 
-/// Without the third component of vectors, which files have for ParaView only.
-bool is_vector(const RunResults& results, const Grid::Values& sample) {
-  if (sample.components != 3) return false;
-  for (const RunResults::Written& written : results.written) {
-    const Grid::Values* const values = written.matrix.find(sample.name);
-    for (std::size_t i = 2; values && i < values->values.size(); i += 3)
-      if (values->values[i] != 0) return false;
-  }
-  return true;
-}
-
-void add_fields(const RunResults& results, const Grid::Values& sample, std::vector<MapField>& fields) {
+void add_fields(const Grid::Values& sample, std::vector<MapField>& fields) {
   const ColumnName name = column_name(sample.name);
-  const std::vector<std::string> components = named_components(name.quantity, sample.components);
   if (sample.components == 1) {
     fields.push_back({name.quantity, name.unit, sample.name, 0});
-  } else if (components.empty() && is_vector(results, sample)) {
+  } else if (is_vector(sample)) {
     fields.push_back({name.quantity + ", length", name.unit, sample.name, MapField::length_of_vector});
     fields.push_back({name.quantity + ", x", name.unit, sample.name, 0});
     fields.push_back({name.quantity + ", y", name.unit, sample.name, 1});
   } else {
     for (int c = 0; c < sample.components; ++c) {
-      const std::string part = components.empty() ? std::to_string(c + 1) : components[static_cast<std::size_t>(c)];
-      fields.push_back({name.quantity + ": " + part, name.unit, sample.name, c});
+      const auto& names = sample.component_names;
+      const std::string part = names.empty() ? std::to_string(c + 1) : names[static_cast<std::size_t>(c)];
+      fields.push_back({name.quantity + ", " + part, name.unit, sample.name, c});
     }
   }
 }
@@ -108,12 +90,35 @@ void add_lines(const Grid& fractures, Json& lines) {
   }
 }
 
-/// All fractures, and what they have grown beyond the mesh.
+/// All fractures, and the paths of growth that the mesh does not have yet.
 Json lines_json(const RunResults::Written& written) {
   Json lines = Json::array();
   add_lines(written.fractures, lines);
   add_lines(written.paths, lines);
   return lines;
+}
+
+/// The ends of the cells of fractures, and the number of the fracture of each.
+void add_segments(const Grid& fractures, Json& time) {
+  std::vector<float> ends;
+  for (const int point : fractures.cells) {
+    const auto& position = fractures.points[static_cast<std::size_t>(point)];
+    ends.insert(ends.end(), {float(position[0]), float(position[1])});
+  }
+  std::vector<std::uint16_t> numbers;
+  if (const Grid::Values* const number = fractures.find("fracture"))
+    for (const double value : number->values) numbers.push_back(static_cast<std::uint16_t>(value));
+  time["segments"] = base64_of(ends);
+  time["fracture"] = base64_of(numbers);
+}
+
+Json names_json(const RunResults& results) {
+  int count = 0;
+  for (const RunResults::Written& written : results.written)
+    if (const Grid::Values* const number = written.fractures.find("fracture"))
+      for (const double value : number->values) count = std::max(count, static_cast<int>(value) + 1);
+  if (count == 0) return Json::array();
+  return fracture_names(results.record, static_cast<std::size_t>(count));
 }
 
 std::size_t bytes_of(const Grid& grid, std::size_t field_count) {
@@ -141,7 +146,7 @@ std::vector<MapField> map_fields(const RunResults& results) {
   const std::vector<Grid::Values>& arrays = results.written.back().matrix.arrays;
   const auto add_all = [&](const auto& is_wanted) {
     for (const Grid::Values& values : arrays)
-      if (is_wanted(values)) add_fields(results, values, fields);
+      if (is_wanted(values)) add_fields(values, fields);
   };
   add_all([](const Grid::Values& values) { return values.components == 1 && values.name != "region"; });
   add_all([](const Grid::Values& values) { return values.components != 1; });
@@ -149,26 +154,50 @@ std::vector<MapField> map_fields(const RunResults& results) {
   return fields;
 }
 
+std::vector<MapField> fracture_map_fields(const RunResults& results) {
+  std::vector<MapField> fields;
+  if (results.written.empty()) return fields;
+  for (const Grid::Values& values : results.written.back().fractures.arrays) {
+    if (values.place != Grid::Place::cell || values.components != 1 || values.name == "fracture") continue;
+    const ColumnName name = column_name(values.name);
+    fields.push_back({name.quantity, name.unit, values.name, 0});
+  }
+  return fields;
+}
+
+namespace {
+
+/// The range of a field over the given grids, and its entry in the JSON.
+ColourRange add_field(const MapField& field, const std::vector<const Grid*>& grids, Json& entries) {
+  ColourRange range;
+  for (const Grid* grid : grids) range.include(values_of(*grid, field));
+  if (range.low > range.high) range = {0, 0};
+  const DisplayUnit unit = display_unit(field.unit, std::max(std::abs(range.low), std::abs(range.high)));
+  const Grid::Values* const array = grids.back()->find(field.array);
+  entries.push_back({{"label", field.label},
+                     {"unit", unit.text},
+                     {"low", range.low / unit.scale},
+                     {"high", range.high / unit.scale},
+                     {"onPoints", array != nullptr && array->place == Grid::Place::point}});
+  return range;
+}
+
+}  // namespace
+
 std::string map_json(const RunResults& results, std::size_t most_bytes) {
-  const std::vector<MapField> fields = map_fields(results);
-  Json data = {
-      {"colours", Json::array()}, {"fields", Json::array()}, {"meshes", Json::array()}, {"times", Json::array()}};
+  const std::vector<MapField> fields = map_fields(results), line_fields = fracture_map_fields(results);
+  Json data = {{"colours", Json::array()},     {"fields", Json::array()}, {"lineFields", Json::array()},
+               {"names", names_json(results)}, {"meshes", Json::array()}, {"times", Json::array()}};
   for (int i = 0; i < colour_count; ++i) data["colours"].push_back(viridis(i / (colour_count - 1.0)));
   const auto times = chosen(results, fields.size(), most_bytes);
-  std::vector<ColourRange> ranges;
-  for (const MapField& field : fields) {
-    ColourRange range;
-    for (const RunResults::Written* written : times) range.include(values_of(written->matrix, field));
-    if (range.low > range.high) range = {0, 0};
-    const DisplayUnit unit = display_unit(field.unit, std::max(std::abs(range.low), std::abs(range.high)));
-    const Grid::Values* const array = results.written.back().matrix.find(field.array);
-    data["fields"].push_back({{"label", field.label},
-                              {"unit", unit.text},
-                              {"low", range.low / unit.scale},
-                              {"high", range.high / unit.scale},
-                              {"onPoints", array != nullptr && array->place == Grid::Place::point}});
-    ranges.push_back(range);
+  std::vector<const Grid*> grids, lines;
+  for (const RunResults::Written* written : times) {
+    grids.push_back(&written->matrix);
+    lines.push_back(&written->fractures);
   }
+  std::vector<ColourRange> ranges, line_ranges;
+  for (const MapField& field : fields) ranges.push_back(add_field(field, grids, data["fields"]));
+  for (const MapField& field : line_fields) line_ranges.push_back(add_field(field, lines, data["lineFields"]));
   const Grid* last_mesh = nullptr;
   for (const RunResults::Written* written : times) {
     const Grid& grid = written->matrix;
@@ -182,6 +211,11 @@ std::string map_json(const RunResults& results, std::size_t most_bytes) {
                              {"mesh", data["meshes"].size() - 1},
                              {"lines", lines_json(*written)},
                              {"values", values}});
+    add_segments(written->fractures, data["times"].back());
+    Json line_values = Json::array();
+    for (std::size_t i = 0; i < line_fields.size(); ++i)
+      line_values.push_back(packed(values_of(written->fractures, line_fields[i]), line_ranges[i]));
+    data["times"].back()["lineValues"] = line_values;
   }
   std::string text = data.dump();
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; ++at) text.replace(at, 1, "\\u003c");

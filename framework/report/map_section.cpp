@@ -8,13 +8,18 @@ namespace sprekk {
 
 std::string map_section(const RunResults& results) {
   if (results.written.empty()) return "";
-  std::string options;
-  int i = 0;
-  for (const MapField& field : map_fields(results))
-    options += fmt::format("<option value=\"{}\">{}</option>", i++, escaped_markup(field.label));
+  const auto options_of = [](const std::vector<MapField>& fields) {
+    std::string options;
+    int i = 0;
+    for (const MapField& field : fields)
+      options += fmt::format("<option value=\"{}\">{}</option>", i++, escaped_markup(field.label));
+    return options;
+  };
+  const std::string options = options_of(map_fields(results)), of_fractures = options_of(fracture_map_fields(results));
   std::string text = fmt::format(
       "<div class=\"controls\">\n"
       "<label>field <select id=\"map-field\">{}</select></label>\n"
+      "<label>fractures <select id=\"map-line-field\"><option value=\"-1\">black</option>{}</select></label>\n"
       "<label>time <input type=\"range\" id=\"map-time\" min=\"0\" step=\"1\"> <output "
       "id=\"map-time-text\"></output></label>\n"
       "<label>colours <select id=\"map-scale\"><option value=\"all\">the same at all times</option>"
@@ -28,7 +33,7 @@ std::string map_section(const RunResults& results) {
       "map to read a value; drag to "
       "move it.</p></div>\n"
       "<div id=\"map-small\"></div>\n</div>\n",
-      options);
+      options, of_fractures);
   if (results.written_count > results.written.size())
     text +=
         html_paragraph(fmt::format("{} of {} written times are shown.", results.written.size(), results.written_count));

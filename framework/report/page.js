@@ -10,8 +10,22 @@
     points: new Float32Array(bytes(mesh.points)),
     cells: new Uint32Array(bytes(mesh.cells)),
   }));
-  const values = data.times.map((time) => time.values.map((text) => new Uint16Array(bytes(text))));
-  const colours = data.colours.map((text) => [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16)));
+  const unpacked = (texts) => texts.map((text) => new Uint16Array(bytes(text)));
+  const values = data.times.map((time) => unpacked(time.values));
+  const lineValues = data.times.map((time) => unpacked(time.lineValues));
+  const segments = data.times.map((time) => new Float32Array(bytes(time.segments)));
+  const fractureOf = data.times.map((time) => new Uint16Array(bytes(time.fracture)));
+  const rgb = (text) => [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16));
+  const colours = data.colours.map(rgb);
+  // Those of fractures (matplotlib's inferno at six places) stand out from those of the rock.
+  const lineColours = (() => {
+    const anchors = ['#000004', '#420a68', '#932667', '#dd513a', '#fca50a', '#fcffa4'].map(rgb);
+    return colours.map((_, i) => {
+      const place = i / (colours.length - 1) * (anchors.length - 1);
+      const k = Math.min(Math.floor(place), anchors.length - 2);
+      return anchors[k].map((a, c) => Math.round(a + (place - k) * (anchors[k + 1][c] - a)));
+    });
+  })();
 
   const bounds = (coordinates, box = [Infinity, Infinity, -Infinity, -Infinity]) => {
     for (let i = 0; i < coordinates.length; i += 2) {
@@ -31,7 +45,7 @@
     return [box[0] - room, box[1] - room, box[2] + room, box[3] + room];
   };
 
-  const state = { field: 0, time: data.times.length - 1, sameScale: true, box: whole.slice() };
+  const state = { field: 0, lineField: -1, time: data.times.length - 1, sameScale: true, box: whole.slice() };
 
   // Round numbers between low and high, about `count` of them.
   const ticks = (low, high, count) => {
@@ -47,16 +61,25 @@
   };
 
   // The range of the colours, in display units.
-  const scale = (fieldIndex, timeIndex) => {
-    const field = data.fields[fieldIndex];
+  const rangeOf = (field, packed) => {
     if (state.sameScale) return [field.low, field.high];
     let low = 65535, high = 0;
-    for (const v of values[timeIndex][fieldIndex]) {
+    for (const v of packed) {
       if (v < low) low = v;
       if (v > high) high = v;
     }
     const size = (field.high - field.low) / 65535;
     return low > high ? [0, 0] : [field.low + low * size, field.low + high * size];
+  };
+  const scale = (fieldIndex, timeIndex) => rangeOf(data.fields[fieldIndex], values[timeIndex][fieldIndex]);
+  const lineScale = (timeIndex) => rangeOf(data.lineFields[state.lineField], lineValues[timeIndex][state.lineField]);
+  const lineValue = (timeIndex, i) => {
+    const field = data.lineFields[state.lineField];
+    return field.low + lineValues[timeIndex][state.lineField][i] * (field.high - field.low) / 65535;
+  };
+  const colourAt = (palette, value, range) => {
+    const share = range[1] > range[0] ? (value - range[0]) / (range[1] - range[0]) : 0.5;
+    return `rgb(${palette[Math.round(Math.min(1, Math.max(0, share)) * (palette.length - 1))].join(',')})`;
   };
 
   // The value at each pixel of a width × height picture of `box`, NaN outside of the mesh.
@@ -126,6 +149,17 @@
         context.stroke();
       }
     }
+    if (state.lineField >= 0) {
+      const range = lineScale(timeIndex), ends = segments[timeIndex];
+      context.lineWidth = 1.6 * thickness;
+      for (let i = 0; 4 * i < ends.length; ++i) {
+        context.strokeStyle = colourAt(lineColours, lineValue(timeIndex, i), range);
+        context.beginPath();
+        context.moveTo(left + (ends[4 * i] - box[0]) * sx, top + (box[3] - ends[4 * i + 1]) * sy);
+        context.lineTo(left + (ends[4 * i + 2] - box[0]) * sx, top + (box[3] - ends[4 * i + 3]) * sy);
+        context.stroke();
+      }
+    }
     context.restore();
   };
 
@@ -153,6 +187,7 @@
       frame.width = Math.max(700, Math.round(frame.height / shape));
     }
     frame.height = Math.max(frame.height, 300);
+    margin.right = state.lineField >= 0 ? 460 : 230;
     canvas.width = margin.left + frame.width + margin.right;
     canvas.height = margin.top + frame.height + margin.bottom;
     canvas.style.maxWidth = canvas.width / ratio + 'px';
@@ -186,18 +221,23 @@
     context.textAlign = 'center';
     context.fillText('y [m]', 0, 0);
     context.restore();
-    // The colour bar.
-    const x = left + frame.width + 40, width = 34, above = 40;
+    drawBar(context, left + frame.width + 40, colours, range, field.unit);
+    if (state.lineField >= 0)
+      drawBar(context, left + frame.width + 270, lineColours, lineScale(state.time), data.lineFields[state.lineField].unit);
+  };
+
+  const drawBar = (context, x, palette, range, unit) => {
+    const { top } = margin, width = 34, above = 40;
     const height = frame.height - above;
     for (let i = 0; i < height; ++i) {
-      const index = range[1] > range[0] ? Math.round((1 - i / (height - 1)) * (colours.length - 1)) : colours.length >> 1;
-      context.fillStyle = `rgb(${colours[index].join(',')})`;
+      const value = range[0] + (1 - i / (height - 1)) * (range[1] - range[0]);
+      context.fillStyle = colourAt(palette, value, range);
       context.fillRect(x, top + above + i, width, 1.5);
     }
     context.strokeRect(x, top + above, width, height);
     context.fillStyle = '#1d2329';
     context.textAlign = 'left';
-    if (field.unit) context.fillText(field.unit, x, top + 16);
+    if (unit) context.fillText(unit, x, top + 16);
     for (const tick of ticks(range[0], range[1], 7)) {
       const share = range[1] > range[0] ? (tick.value - range[0]) / (range[1] - range[0]) : 0.5;
       const y = top + above + (1 - share) * height;
@@ -236,6 +276,7 @@
     context.fillRect(0, 0, canvas.width, canvas.height);
     canvas.dataset.pixels = paint(context, margin.left, margin.top, frame.width, frame.height, pixels, range);
     canvas.dataset.field = field.label;
+    canvas.dataset.lineField = state.lineField < 0 ? '' : data.lineFields[state.lineField].label;
     drawLines(context, state.time, box, margin.left, margin.top, frame.width, frame.height, 3.5);
     drawFrame(context, box, range, field);
     shown = { pixels, box };
@@ -255,6 +296,29 @@
     const cx = (x0 + x1) / 2, cy = (y0 + y1) / 2, w = (x1 - x0) / 2 * factor, h = (y1 - y0) / 2 * factor;
     state.box = [cx - w, cy - h, cx + w, cy + h];
     draw();
+  };
+
+  // The cell of a fracture within some pixels of a place in the frame, or -1.
+  const segmentAt = (x, y) => {
+    const ends = segments[state.time], box = shown.box;
+    const sx = frame.width / (box[2] - box[0]), sy = frame.height / (box[3] - box[1]);
+    let nearest = 12, found = -1;
+    for (let i = 0; 4 * i < ends.length; ++i) {
+      const ax = (ends[4 * i] - box[0]) * sx, ay = (box[3] - ends[4 * i + 1]) * sy;
+      const dx = (ends[4 * i + 2] - box[0]) * sx - ax, dy = (box[3] - ends[4 * i + 3]) * sy - ay;
+      const along = Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)));
+      const away = Math.hypot(x - ax - along * dx, y - ay - along * dy);
+      if (away < nearest) [nearest, found] = [away, i];
+    }
+    return found;
+  };
+  const fractureText = (x, y) => {
+    const i = segmentAt(x, y);
+    if (i < 0) return '';
+    const name = data.names[fractureOf[state.time][i]];
+    if (state.lineField < 0) return `; fracture ${name}`;
+    const field = data.lineFields[state.lineField];
+    return `; fracture ${name}: ${field.label} = ${lineValue(state.time, i).toPrecision(4)} ${field.unit}`;
   };
 
   let dragged = null;
@@ -279,13 +343,19 @@
     const wx = box[0] + x / frame.width * (box[2] - box[0]), wy = box[3] - y / frame.height * (box[3] - box[1]);
     const field = data.fields[state.field];
     element('map-value').textContent =
-        `x = ${wx.toPrecision(4)} m, y = ${wy.toPrecision(4)} m: ${field.label} = ${value.toPrecision(4)} ${field.unit}`;
+        `x = ${wx.toPrecision(4)} m, y = ${wy.toPrecision(4)} m: ${field.label} = ${value.toPrecision(4)} ${field.unit}${fractureText(x, y)}`;
   });
 
   element('map-time').max = data.times.length - 1;
   element('map-time').parentElement.hidden = data.times.length < 2;
   element('map-lines').hidden = !data.times.some((time) => time.lines.length);
   element('map-field').addEventListener('change', (event) => { state.field = +event.target.value; draw(); });
+  element('map-line-field').parentElement.hidden = !data.lineFields.length;
+  element('map-line-field').addEventListener('change', (event) => {
+    state.lineField = +event.target.value;
+    setFrame();
+    draw();
+  });
   element('map-time').addEventListener('input', (event) => { state.time = +event.target.value; draw(); });
   element('map-scale').addEventListener('change', (event) => { state.sameScale = event.target.value === 'all'; draw(); });
   element('map-whole').addEventListener('click', () => { state.box = whole.slice(); draw(); });

@@ -43,7 +43,7 @@ std::string facts(const RunResults& results, const json& record) {
              counters = part(record, "counters");
   const std::vector<double> times = results.history.numbers("time[s]");
   const bool has_ended =
-      part(record, "exit").value("code", -1) != -1;  // a run that still works has no sums in its record
+      part(record, "exit").value("code", -1) != -1;  // the record of a run that is not over has no totals yet
   std::vector<std::vector<std::string>> rows = {{"scene", joined(part(scene, "files"))},
                                                 {"folder", results.folder.string()}};
   if (has_ended) rows.push_back({"wall time", duration_text(record.value("seconds", 0.0))});

@@ -16,7 +16,7 @@ namespace {
 void add_arrays(const std::vector<GridData::Array>& arrays, Grid::Place place, const std::vector<int>& sources,
                 Grid& grid) {
   for (const GridData::Array& array : arrays) {
-    Grid::Values values{array.name, place, array.components, {}};
+    Grid::Values values{array.name, place, array.components, {}, array.component_names};
     for (const int k : sources)
       for (int c = 0; c < array.components; ++c)
         values.values.push_back(array.values[static_cast<std::size_t>(k) * array.components + c]);

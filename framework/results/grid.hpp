@@ -17,7 +17,8 @@ struct Grid {
     std::string name;  ///< "quantity[unit]"
     Place place;
     int components;
-    std::vector<double> values;  ///< the components of an entity stand together
+    std::vector<double> values;                     ///< the components of an entity stand together
+    std::vector<std::string> component_names = {};  ///< one for each component, or none: files of earlier versions
   };
 
   std::vector<std::array<double, 2>> points;

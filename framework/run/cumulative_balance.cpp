@@ -17,7 +17,8 @@ const std::string key = "cumulative_balance.throughput.";
 void CumulativeBalance::note_step(const std::map<std::string, Balance>& balances, Notes& notes) {
   for (const auto& [name, balance] : balances) {
     double& throughput = throughput_[name];
-    // At least the amounts themselves: a part may leave its throughput out, or have sums in which places cancel.
+    // At least the amounts themselves: a part may give no throughput, or sums in which terms of different places
+    // cancel.
     throughput = std::max({throughput, balance.throughput, std::abs(balance.stored), std::abs(balance.injected),
                            std::abs(balance.outflow)});
     const double error = std::abs(balance.stored + balance.outflow - balance.injected);

@@ -157,8 +157,8 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
   }
 }
 
-/// Solves the step of a trial and lets the search learn from it. No verdict: growth is left out of the step, or the
-/// step was not solved. Paths that come too near to one another on the fine level are like a step that cannot be
+/// Solves the step of a trial and lets the search learn from it. There is no verdict if growth is left out of the step
+/// or the step is not solved. Paths that come too near to one another on the fine level count as a step that is not
 /// solved.
 StepStatus MeshGrowth::evaluate(Model& trial, const StepTime& step, std::size_t grow_step, FrontSearch& search,
                                 std::optional<FrontSearch::Verdict>& verdict) {
@@ -172,7 +172,7 @@ StepStatus MeshGrowth::evaluate(Model& trial, const StepTime& step, std::size_t 
   }
 }
 
-/// After some refusals of a step for its growth, halves of it are not tried any more: the shortest step is next.
+/// After some refusals of a step because of growth it is no longer halved: the shortest step comes next.
 void MeshGrowth::shorten(const StepTime& step, StepStatus& refused) {
   constexpr int halves = 3;
   refusals_ = refused_at_ == step.start ? refusals_ + 1 : 1;
@@ -194,7 +194,7 @@ MeshGrowth::Outcome MeshGrowth::before_acceptance() {
   return Outcome::nothing;
 }
 
-/// After a step in which growth was held: short steps go on until it has come to rest.
+/// After a step in which growth was held: steps stay short until nothing grows.
 MeshGrowth::Outcome MeshGrowth::follow_held(std::size_t grow_step) {
   const GrowStep& grow = *model_->growing()[grow_step];
   ++held_;
@@ -208,7 +208,7 @@ MeshGrowth::Outcome MeshGrowth::follow_held(std::size_t grow_step) {
 MeshGrowth::Outcome MeshGrowth::after_acceptance() {
   bool is_unsettled = false;
   double nearness = 0;
-  if (is_holding()) controller_.release();  // held anew where that is due
+  if (is_holding()) controller_.release();  // the loop below holds it again if necessary
   for (std::size_t i = 0; i < model_->growing().size(); ++i) {
     const GrowStep& grow = *model_->growing()[i];
     if (grow.grows_within_step()) {

@@ -14,7 +14,7 @@
 namespace sprekk {
 
 Restart::Restart(const Scene& scene, const std::filesystem::path& file, RunOutput& output) : file_(file) {
-  // A file that is missing is told by its reader, not as a folder that cannot be locked.
+  // A missing file is reported by its reader below, not as a folder that cannot be locked.
   if (std::error_code error; std::filesystem::exists(file, error)) output.lock();
   checkpoint_ = read_checkpoint(file);
   require_scene(checkpoint_, file, scene.name, scene_fingerprint(scene),

@@ -35,6 +35,7 @@ void RunRecorder::set_up_ends() {
 void RunRecorder::begin(const Model& model) {
   record_.scene_name = model.scene().name;
   record_.parameters = recorded_parameters(model.scene());
+  for (const Fracture& fracture : model.mesh().fractures) record_.fractures.push_back(fracture.name);
   for (const Plugin& plugin : loaded_plugins()) record_.plugins.push_back({plugin.file.string(), plugin.types});
   record_.blas = blas_in_use().name;
   record_.processes = parallel::size();

@@ -70,6 +70,7 @@ class Simulation {
 
  private:
   IterationLog log();
+  void write_start();
   ExitCode step_to_the_end(const InterruptGuard& interrupt);
   void accept(const StepTime& step, const StepStatus& status);
   bool follow_growth();  ///< false when the mesh could not
@@ -128,6 +129,19 @@ IterationLog Simulation::log() {
   };
 }
 
+/// Writes the fields at the start of a new run.
+void Simulation::write_start() {
+  Model& model = *state_.model;
+  if (continued_ || !model.scene().output.fields) return;
+  try {
+    model.prepare(state_.controller.next());  // what the first step does first, and does not repeat
+  } catch (const DataError&) {
+    return;  // the first step says so
+  }
+  const ScopedTimer timer(profile_, "output");
+  output_.write_fields(state_.controller.time(), 0, model, model.output());
+}
+
 ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
   const StepController& controller = state_.controller;
   Checkpoints checkpoints(state_, output_, scene_fingerprint(state_.model->scene()));
@@ -163,7 +177,7 @@ ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
 
 void Simulation::accept(const StepTime& step, const StepStatus& status) {
   Model& model = *state_.model;
-  // All of these before the step is accepted: which cells slip shows in what changed since the last accepted step.
+  // Evaluated before the step is accepted: slip, for example, is told from changes since the last accepted step.
   std::vector<Quantity> quantities = model.quantities();
   state_.notes.at_time(step.end);
   for (const Part* part : model.parts()) part->note_step(state_.notes, step);
@@ -215,7 +229,7 @@ void Simulation::fail(const std::string& reason) {
   try {
     output_.write_record(recorder_.record(), profile_);
   } catch (const std::exception&) {
-    // The reason is told by whoever catches what led here.
+    // The exception that led here is reported by its own handler.
   }
   report_last_checkpoint(output_);
 }
@@ -229,6 +243,7 @@ ExitCode Simulation::run() {
   for (const NoteRecord& note : recorder_.record().notes) progress_.event("note: " + described(note));
   ExitCode code = ExitCode::failed;
   try {
+    write_start();
     code = step_to_the_end(interrupt);
   } catch (const std::exception& error) {
     progress_.close();

@@ -76,12 +76,12 @@ std::vector<std::size_t> waiting_fields(const Model& model, const StepTime& step
   return waiting;
 }
 
-/// Whether equations may be piecewise, with states that are not left again: those on fractures.
+/// Whether equations may have discrete states that depend on the path to them: only equations on fractures have.
 bool may_keep_states(const Model& model) { return model.mesh().fracture_cell_count() > 0; }
 
 }  // namespace
 
-/// The waiting fields from which the second solution takes its pass.
+/// The values of waiting fields with which the second solution begins.
 SplittingError::Values SplittingError::waiting(const Model& model, const StepTime& step, const Values& accepted) const {
   Values values = accepted;
   if (!may_keep_states(model)) return values;
@@ -99,7 +99,7 @@ void SplittingError::after_acceptance(Model& model, const StepTime& step) {
   for (const auto& field : fields) accepted.push_back(field->accepted());
   const Values begin = waiting(model, step, accepted);
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    fields[i]->set(accepted[i] == before_[i] ? second_[i] : begin[i]);  // the step may not have touched it
+    fields[i]->set(accepted[i] == before_[i] ? second_[i] : begin[i]);  // the step may have left it unchanged
     fields[i]->set_accepted(second_[i]);
   }
   for (GrowStep* grow : model.growing()) grow->rest(true);

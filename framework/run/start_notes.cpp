@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "framework/linear/direct/blas_memory.hpp"
+#include "framework/mesh/network_shape.hpp"
+#include "framework/mesh/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -13,13 +18,56 @@ namespace {
 
 /// Degrees; what tools/stress has found to be harmless.
 constexpr double least_good_angle = 5;
+/// Cells of a pocket. A triangle with three edges on each side has as many: with fewer, values in it hardly
+/// vary.
+constexpr int few_cells = 9;
 /// Unknowns. Measured: with 44,000 in two dimensions each of two processes is as busy as one alone.
 constexpr long worth_sharing = 50'000;
+
+std::string names_of(const Mesh& mesh, const std::vector<int>& fractures) {
+  std::string names;
+  for (const int fracture : fractures) names += (names.empty() ? "'" : ", '") + mesh.fractures[fracture].name + "'";
+  return names;
+}
+
+std::string others(std::size_t count, const char* what) {
+  return count == 0 ? "" : fmt::format("; {} more {}", count, what);
+}
+
+/// Notes fractures that meet at a small angle, the smallest with its names.
+void note_angles(const Mesh& mesh, Notes& notes) {
+  std::vector<FractureAngle> small = angles_of_junctions(mesh);
+  const auto in_degrees = [](const FractureAngle& angle) { return angle.angle * 180 / std::numbers::pi; };
+  std::erase_if(small, [&](const FractureAngle& angle) { return in_degrees(angle) >= least_good_angle; });
+  if (small.empty()) return;
+  const FractureAngle& worst = *std::ranges::min_element(small, {}, &FractureAngle::angle);
+  notes.add("small angle between fractures",
+            fmt::format("fractures {} meet at {:.2g} degrees at {}{} (cells between them are as flat as the angle, and "
+                        "multi-point discretizations may overshoot there) let one end on the other at a larger angle, "
+                        "or make one fracture of both",
+                        names_of(mesh, {worst.one, worst.other}), in_degrees(worst), to_text(worst.at),
+                        others(small.size() - 1, "junctions have small angles")));
+}
+
+/// Notes parts of the rock between fractures that have few cells, the one with the fewest with its names.
+void note_pockets(const Mesh& mesh, Notes& notes) {
+  std::vector<Pocket> small = pockets(mesh);
+  std::erase_if(small, [](const Pocket& pocket) { return pocket.cells >= few_cells; });
+  if (small.empty()) return;
+  const Pocket& worst = small.front();
+  notes.add("small pocket between fractures",
+            fmt::format("fractures {} enclose {:.2g} m^2 with {} cells at {}{} (values hardly vary in so few) lower "
+                        "mesh.fracture_size or the size of these fractures, or move one of them",
+                        names_of(mesh, worst.fractures), worst.measure, worst.cells, to_text(worst.center),
+                        others(small.size() - 1, "pockets have few")));
+}
 
 }  // namespace
 
 Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns) {
   Notes notes = model.input_notes();
+  note_angles(model.mesh(), notes);
+  note_pockets(model.mesh(), notes);
   if (blas_in_use().is_reference)
     notes.add("reference BLAS",
               "the reference BLAS is in use, which makes sparse factorizations several times slower: "

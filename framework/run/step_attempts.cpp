@@ -19,7 +19,7 @@ StepAttempts::Outcome StepAttempts::run() {
     step_ = next_step();
     progress_.phase(fmt::format("step {} from {} over {}", state_.controller.steps() + 1, duration_text(step_.start),
                                 duration_text(step_.dt)));
-    // On a mesh that has grown within the step the attempt must come to its end: a restart would not know of the
+    // On a mesh that has grown within the step the attempt must come to its end: a checkpoint does not contain the
     // change.
     if (const auto given_up = attempt(!has_grown)) return *given_up;
     effort_.attempted(status_);

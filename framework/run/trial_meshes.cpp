@@ -42,7 +42,7 @@ TrialMeshes::TrialMeshes(Model& accepted, std::size_t grow_step, double time, It
       retire_(std::move(retire)),
       smallest_angle_(std::numeric_limits<double>::infinity()) {}
 
-/// Forgets the state on other cells.
+/// Forgets the mesh with tips at rest, and the meshes that were made from it.
 void TrialMeshes::drop() {
   if (at_rest_ && retire_) retire_(*at_rest_, nullptr);
   at_rest_.reset();
@@ -54,7 +54,7 @@ MeshChangeResult TrialMeshes::change(const Model& model, GrownMesh mesh) const {
   return change_mesh(model, grow_step_, std::move(mesh), data_, log_);
 }
 
-/// Where the accepted state has been carried over, the parts that stay of divided cells are on its mesh.
+/// The mesh with tips at rest has both parts of divided cells already, so paths on it begin behind the first part.
 std::vector<PathExtension> TrialMeshes::paths_from_base(const std::vector<PathExtension>& paths) const {
   std::vector<PathExtension> from = paths;
   if (at_rest_)

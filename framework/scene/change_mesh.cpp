@@ -93,11 +93,13 @@ MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMe
       std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), grown.smallest_angle, {}};
   Model& model = *result.model;
   SPREKK_ASSERT(model.parts().size() == before.parts().size(), model.parts().size(), before.parts().size());
-  transfer_fields(before.fields(), grown.change, before.mesh(), model.mesh(), model.fields());
+  grown.change.is_at_start = data.end <= before.scene().time.start;
+  if (!grown.change.is_at_start)
+    transfer_fields(before.fields(), grown.change, before.mesh(), model.mesh(), model.fields());
   for (Part* part : model.parts()) part->evaluate_data(data);
   for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);
   begin_step(model.parts(), data);
-  result.settling = model.growing()[grow_step]->settle(data);
+  result.settling = grown.change.is_at_start ? StepStatus{true, "", 0} : model.growing()[grow_step]->settle(data);
   for (Part* part : model.parts()) part->settled(grown.change);
   model.accept();
   return result;

@@ -32,6 +32,8 @@ CavityOptions cavity_of(const Model& before, std::size_t grow_step);
 
 /// Builds the model on a mesh that has grown from its own, carries the accepted state over and settles it
 /// (GrowStep::settle, with data as in the step `data`), so that the change of the mesh alone changes no pressure.
+/// Before the first step there is nothing to carry over or to settle: the state is the initial one of the scene, on
+/// which loads act from the first step on.
 MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMesh grown, const StepTime& data,
                              IterationLog log = {});
 

@@ -74,6 +74,17 @@ class CouplerContext {
       }
     return found;
   }
+  /// All components with this capability that the coupler stands between, in their order.
+  template <class Capability>
+  std::vector<Capability*> all() const {
+    std::vector<Capability*> found;
+    for (Component* component : between_)
+      if (auto* capable = dynamic_cast<Capability*>(component)) {
+        found.push_back(capable);
+        used_.insert(component);
+      }
+    return found;
+  }
   /// The name of a component of the scene that has this capability and that the coupler does not stand between;
   /// empty where there is none. For notes on what a coupler lacks that can do without.
   template <class Capability>

@@ -12,6 +12,7 @@
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/gaps.hpp"
+#include "framework/schedule/limits_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
 
 namespace sprekk {
@@ -76,7 +77,10 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   schedule_->check();
   check_stages();
   check_constant_modes();
-  for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_);
+  const bool has_output_probes =
+      std::ranges::any_of(scene_.output.probes, [&](const auto& probe) { return !fields_.has(probe.second.of); });
+  const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();
+  for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_, outputs);
 }
 
 void Model::make_start(const ScheduleContext& context) {
@@ -182,7 +186,7 @@ void require_agreement(const std::string& what, const std::vector<double>& value
 
 }  // namespace
 
-StepStatus Model::attempt(const StepTime& step) {
+void Model::prepare(const StepTime& step) {
   SPREKK_EXPECT(step.dt > 0 && step.end > step.start, step.start, step.dt, step.end);
   for (Part* part : parts_) part->evaluate_data(step);
   for (const auto& component : components_) {
@@ -193,11 +197,28 @@ StepStatus Model::attempt(const StepTime& step) {
     now_doing("preparing " + coupler->name());
     coupler->begin_step(step);
   }
+}
+
+StepStatus Model::attempt(const StepTime& step) {
+  prepare(step);
   now_doing("assembling and ordering");
-  const StepStatus status = schedule_->run(step);
+  StepStatus status = schedule_->run(step);
+  if (status.converged) refuse_too_long(step, status);
   require_agreement("how a step ended",
                     {step.start, step.dt, status.converged ? 1.0 : 0.0, status.retry_dt, double(status.iterations)});
   return status;
+}
+
+void Model::refuse_too_long(const StepTime& step, StepStatus& status) const {
+  for (const Part* part : parts_) {
+    const auto* limiting = dynamic_cast<const LimitsStep*>(part);
+    const std::optional<StepTooLong> refusal = limiting ? limiting->too_long(step) : std::nullopt;
+    if (!refusal || (!status.converged && refusal->retry_dt >= status.retry_dt)) continue;
+    SPREKK_ASSERT(refusal->retry_dt > 0 && refusal->retry_dt < step.dt, refusal->retry_dt, step.dt);
+    status.converged = false;
+    status.retry_dt = refusal->retry_dt;
+    status.reason = refusal->why;
+  }
 }
 
 void Model::accept() {
@@ -241,7 +262,9 @@ std::map<std::string, Balance> Model::balances() const {
 
 std::vector<Quantity> Model::quantities() const {
   std::vector<Quantity> quantities;
-  for (const Probe& probe : probes_) probe.measure(quantities);
+  const bool has_output_probes = std::ranges::any_of(probes_, &Probe::is_of_output);
+  const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();
+  for (const Probe& probe : probes_) probe.measure(quantities, outputs);
   for (const Part* part : parts_) part->report(quantities);
   for (const auto& [name, balance] : balances()) {
     quantities.push_back({name + "_stored", balance.unit, balance.stored});
@@ -282,6 +305,12 @@ std::vector<OutputField> Model::output() const {
   std::vector<OutputField> fields;
   for (const auto& field : fields_.all())
     if (!field->spec().role.is_derived() && field->size() > 0) fields.push_back(output_field(*field));
+  for (OutputField& field : derived_output()) fields.push_back(std::move(field));
+  return fields;
+}
+
+std::vector<OutputField> Model::derived_output() const {
+  std::vector<OutputField> fields;
   for (const Part* part : parts_) part->output(fields);
   return fields;
 }

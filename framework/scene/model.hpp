@@ -36,7 +36,9 @@ class Model {
   const std::vector<std::unique_ptr<Coupler>>& couplers() const { return couplers_; }
   const std::vector<Probe>& probes() const { return probes_; }
 
-  /// Attempts one step from the accepted state: evaluates data and runs the schedule. If the step converges, the
+  /// Evaluates the data of a step and updates all discretizations, as `attempt` does first. Throws DataError.
+  void prepare(const StepTime& step);
+  /// Attempts one step from the accepted state: prepares it and runs the schedule. If the step converges, the
   /// current values are those at its end. The caller accepts or rewinds.
   StepStatus attempt(const StepTime& step);
   void accept();
@@ -55,7 +57,7 @@ class Model {
   std::vector<double> switch_times() const;
   std::map<std::string, Balance> balances() const;  ///< of conserved quantities, by name
   std::vector<Quantity> quantities() const;         ///< for history.csv
-  std::vector<OutputField> output() const;          ///< for pictures
+  std::vector<OutputField> output() const;          ///< for pictures: fields, and what parts derive from them
   std::vector<PendingPath> pending_paths() const;   ///< of fractures that have grown further than the mesh knows
   Notes input_notes() const;                        ///< of the scene and of all parts
   /// Adds to input_notes.
@@ -67,6 +69,9 @@ class Model {
   void check_stages() const;
   void check_data();
   void check_constant_modes() const;
+  /// A step that a part takes for too long (LimitsStep) has not converged.
+  void refuse_too_long(const StepTime& step, StepStatus& status) const;
+  std::vector<OutputField> derived_output() const;  ///< what parts write beside their fields
 
   Scene scene_;
   Mesh mesh_;

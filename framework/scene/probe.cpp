@@ -6,7 +6,9 @@
 #include <map>
 
 #include "framework/discretization/linear_fit.hpp"
+#include "framework/field/component_names.hpp"
 #include "framework/field/weights_in_cell.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/point_location.hpp"
 
@@ -14,7 +16,10 @@ namespace sprekk {
 
 Spec ProbeOptions::spec() {
   Spec spec("probe", "A figure of a field: at a point, on a fracture, over a region, or over everything.");
-  spec.text("of", of, {.doc = "The field, for example pore.pressure.", .required = true});
+  spec.text("of", of,
+            {.doc = "The field, for example pore.pressure."
+                    " What parts write into files beside their fields can be probed, too.",
+             .required = true});
   spec.point("at", at, {.unit = "m", .doc = "A point."});
   spec.text("fracture", fracture, {.doc = "A fracture, for fields on fractures."});
   spec.text("region", region, {.doc = "A region, for fields of the matrix."});
@@ -36,20 +41,36 @@ Spec ProbeOptions::spec() {
 
 namespace {
 
-std::vector<std::string> field_names(const FieldStore& fields) {
+std::vector<std::string> names_of(const FieldStore& fields, const std::vector<OutputField>& outputs) {
   std::vector<std::string> names;
   for (const auto& field : fields.all()) names.push_back(field->name());
+  for (const OutputField& output : outputs) names.push_back(output.name);
   return names;
+}
+
+const OutputField* find(const std::vector<OutputField>& outputs, const std::string& name) {
+  const auto found = std::ranges::find(outputs, name, &OutputField::name);
+  return found == outputs.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
-Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields)
-    : name_(name), take_(options.take) {
-  if (!fields.has(options.of)) throw unknown_name(options.origin, "field", options.of, field_names(fields));
-  field_ = &fields.at(options.of);
-  const Location location = field_->spec().location;
-  if (!is_in_cells(location) && location != Location::fracture_cell)
+Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields,
+             const std::vector<OutputField>& outputs)
+    : name_(name), take_(options.take), of_(options.of) {
+  if (fields.has(of_)) {
+    field_ = &fields.at(of_);
+    location_ = field_->spec().location;
+    components_ = field_->spec().components;
+    unit_ = field_->spec().unit;
+  } else if (const OutputField* output = find(outputs, of_)) {
+    location_ = output->location;
+    components_ = output->components;
+    unit_ = output->unit;
+  } else {
+    throw unknown_name(options.origin, "field", of_, names_of(fields, outputs));
+  }
+  if (!is_in_cells(location_) && location_ != Location::fracture_cell)
     throw InputError(options.origin, "the field " + options.of + " cannot be probed",
                      "it has no values in cells or along fractures", "choose another field");
   check_names(mesh, options);
@@ -60,7 +81,7 @@ Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& m
 }
 
 void Probe::check_names(const Mesh& mesh, const ProbeOptions& options) const {
-  const bool on_fracture = field_->spec().location == Location::fracture_cell;
+  const bool on_fracture = location_ == Location::fracture_cell;
   std::vector<std::string> fractures;
   for (const Fracture& fracture : mesh.fractures) fractures.push_back(fracture.name);
   const auto check = [&](const char* what, const std::string& name, bool fits, const std::vector<std::string>& known) {
@@ -77,7 +98,7 @@ void Probe::check_names(const Mesh& mesh, const ProbeOptions& options) const {
 }
 
 void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
-  if (field_->spec().location == Location::fracture_cell) {
+  if (location_ == Location::fracture_cell) {
     int best = none;
     for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
       if (!options.fracture.empty() && mesh.fractures[mesh.fracture_cells[i].fracture].name != options.fracture)
@@ -96,11 +117,10 @@ void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
     weights_ = {{best, 1.0}};
     return;
   }
-  const Location location = field_->spec().location;
-  const int home = location == Location::cell ? none : PointLocation(mesh).cell_at(*options.at);
+  const int home = location_ == Location::cell ? none : PointLocation(mesh).cell_at(*options.at);
   if (home != none)
-    weights_ = weights_in_cell(mesh, location, home, *options.at);
-  else if (location == Location::cell)
+    weights_ = weights_in_cell(mesh, location_, home, *options.at);
+  else if (location_ == Location::cell)
     weights_ = linear_fit(mesh, *options.at);
   if (weights_.empty())
     throw InputError(options.origin, "probe '" + name_ + "' lies outside the " + medium_name(),
@@ -108,7 +128,7 @@ void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
 }
 
 void Probe::set_domain_weights(const Mesh& mesh, const ProbeOptions& options) {
-  if (field_->spec().location == Location::fracture_cell) {
+  if (location_ == Location::fracture_cell) {
     for (int i = 0; i < mesh.fracture_cell_count(); ++i)
       if (options.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == options.fracture)
         weights_.emplace_back(i, mesh.fracture_cells[i].measure);
@@ -116,7 +136,7 @@ void Probe::set_domain_weights(const Mesh& mesh, const ProbeOptions& options) {
     std::map<int, double> shares;  // of the entities in the measures of cells
     for (int c = 0; c < mesh.cell_count(); ++c)
       if (options.region.empty() || mesh.region_names[mesh.cell_region[c]] == options.region)
-        for (const auto& [entity, weight] : weights_in_cell(mesh, field_->spec().location, c, mesh.cell_center[c]))
+        for (const auto& [entity, weight] : weights_in_cell(mesh, location_, c, mesh.cell_center[c]))
           shares[entity] += weight * mesh.cell_measure[c];
     weights_.assign(shares.begin(), shares.end());
   }
@@ -129,13 +149,15 @@ void Probe::set_domain_weights(const Mesh& mesh, const ProbeOptions& options) {
   for (auto& [entity, weight] : weights_) weight /= total;
 }
 
-void Probe::measure(std::vector<Quantity>& quantities) const {
-  const int components = field_->spec().components;
-  const bool on_fracture = field_->spec().location == Location::fracture_cell;
-  static const char* const matrix_axes[] = {".x", ".y"};
-  static const char* const fracture_axes[] = {".n", ".t"};
-  for (int k = 0; k < components; ++k) {
-    const auto value = [&](int entity) { return field_->now()[entity * components + k]; };
+void Probe::measure(std::vector<Quantity>& quantities, const std::vector<OutputField>& outputs) const {
+  const OutputField* const output = field_ ? nullptr : find(outputs, of_);
+  SPREKK_EXPECT(field_ || output, of_);
+  const Vector& values = field_ ? field_->now() : output->values;
+  const bool on_fracture = location_ == Location::fracture_cell;
+  const std::vector<std::string> names =
+      on_fracture ? component_names_on_fractures(components_) : component_names(components_);
+  for (int k = 0; k < components_; ++k) {
+    const auto value = [&](int entity) { return values[entity * components_ + k]; };
     double result = 0;
     if (take_ == "smallest" || take_ == "largest") {
       const double sign = take_ == "largest" ? 1 : -1;
@@ -145,12 +167,9 @@ void Probe::measure(std::vector<Quantity>& quantities) const {
     } else {
       for (const auto& [entity, weight] : weights_) result += weight * value(entity);
     }
-    std::string unit = field_->spec().unit;
+    std::string unit = unit_;
     if (take_ == "integral") unit += on_fracture ? "*m" : "*m^2";
-    const std::string axis = components == 1   ? ""
-                             : components != 2 ? "." + std::to_string(k)
-                                               : (on_fracture ? fracture_axes[k] : matrix_axes[k]);
-    quantities.push_back({name_ + axis, unit, result});
+    quantities.push_back({components_ == 1 ? name_ : name_ + "." + names[k], unit, result});
   }
 }
 

@@ -8,13 +8,14 @@
 #include "framework/assembly/part.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/field/field_store.hpp"
+#include "framework/field/output_field.hpp"
 
 namespace sprekk {
 
 /// Parameters of a probe.
 struct ProbeOptions {
   Origin origin;
-  std::string of;           ///< a field, "pore.pressure"
+  std::string of;           ///< a field, "pore.pressure", or what a part writes beside its fields, "rock.stress"
   std::optional<Point> at;  ///< m
   std::string fracture;     ///< name
   std::string region;       ///< name
@@ -22,25 +23,33 @@ struct ProbeOptions {
   Spec spec();
 };
 
-/// Measures one figure of a field: a weighted sum of values, or the smallest or largest one. At a point of the matrix
-/// this is a linear fit to the cells around the point (least squares; exact for linear fields), and for fields on
-/// nodes and faces the linear value in the cell of the point; at a point of a fracture the value of the nearest
-/// fracture cell. Over a fracture or region it is the mean, integral, smallest or largest value.
+/// Measures one figure of a field, or of an output of a part (Part::output): a weighted sum of values, or the smallest
+/// or largest one. At a point of the matrix this is a linear fit to the cells around the point (least squares; exact
+/// for linear fields), and for fields on nodes and faces the linear value in the cell of the point; at a point of a
+/// fracture the value of the nearest fracture cell. Over a fracture or region it is the mean, integral, smallest or
+/// largest value.
 class Probe {
  public:
-  /// Throws InputError for unknown fields, fractures, regions, and points outside of the mesh.
-  Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields);
-  /// Appends one quantity for each component of the field: "name.x", "name.y" for vectors of the matrix, "name.n",
-  /// "name.t" on fractures.
-  void measure(std::vector<Quantity>& quantities) const;
+  /// `outputs`: what parts write beside their fields. Throws InputError for names that are neither a field nor an
+  /// output, for unknown fractures and regions, and for points outside of the mesh.
+  Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields,
+        const std::vector<OutputField>& outputs = {});
+  /// Whether it measures an output, which `measure` then needs.
+  bool is_of_output() const { return field_ == nullptr; }
+  /// Appends one quantity for each component: "name.x", "name.y" for vectors of the matrix, "name.xx", "name.yy",
+  /// "name.xy" for stresses, "name.n", "name.t" on fractures.
+  void measure(std::vector<Quantity>& quantities, const std::vector<OutputField>& outputs = {}) const;
 
  private:
   void check_names(const Mesh& mesh, const ProbeOptions& options) const;
   void set_point_weights(const Mesh& mesh, const ProbeOptions& options);
   void set_domain_weights(const Mesh& mesh, const ProbeOptions& options);
 
-  std::string name_, take_;
-  const Field* field_;
+  std::string name_, take_, of_;
+  const Field* field_ = nullptr;  ///< or nullptr for an output
+  Location location_;
+  int components_;
+  std::string unit_;
   std::vector<std::pair<int, double>> weights_;  ///< entity, weight
 };
 

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <set>
 
+#include "framework/config/data_reader.hpp"
 #include "framework/config/units.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/geometry_spec.hpp"
 #include "framework/meshing/validate_geometry.hpp"
 #include "framework/plugin/plugin.hpp"
+#include "framework/results/run_datum.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/solve_step.hpp"
 
@@ -267,6 +269,7 @@ void note_times(Scene& scene) {
 
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name) {
   check_sections(whole);
+  data_forms()["run"] = read_run_datum;
   Scene scene;
   scene.whole = whole;
   scene.notes.of_input(0);

@@ -50,7 +50,7 @@ class LinearInCells {
       normal += weight * way * way.transpose();
       right += weight * (value - own) * way.transpose();
     }
-    constexpr double least_determinant = 1e-6;  // of that of cells all around: neighbours in one line tell no gradient
+    constexpr double least_determinant = 1e-6;  // over that of neighbours all around; less: they lie in one line
     const double half_trace = normal.trace() / dimension;
     if (!(normal.determinant() > least_determinant * half_trace * half_trace))
       return Gradient::Zero(components_, dimension);
@@ -71,7 +71,7 @@ class LinearInCells {
   const Vector& means_;
   const int components_;
   std::vector<std::vector<int>> cells_at_;  ///< by node
-  std::map<int, Gradient> gradients_;       ///< by cell, as far as they were asked for
+  std::map<int, Gradient> gradients_;       ///< by cell, computed when they are needed
 };
 
 }  // namespace

@@ -103,7 +103,7 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading, [&](ScheduleReading& inner) {
     inner.is_iterated = true;
     inner.tightest_until = std::min(inner.tightest_until, options.until.tightest());
-    // What is iterated must be solved more tightly than the iteration asks for, or it would stall.
+    // Steps inside of an iteration must be solved more accurately than the iteration asks for, or it would stall.
     constexpr double tighter = 0.1;
     inner.newton.residual = std::min(inner.newton.residual, tighter * options.until.tightest());
     const Node* steps = node.find("iterate")->find("steps");

@@ -62,7 +62,7 @@ Growing* find_growing(const GrowOptions& options, const ScheduleContext& context
   return growing;
 }
 
-/// What holds together in a solve is to be settled together.
+/// Components that depend on one another must be settled together.
 void require_whole(const GrowOptions& options, const ScheduleContext& context) {
   const auto is_settled = [&](const std::string& name) { return std::ranges::count(options.settle, name) > 0; };
   for (const Part* part : context.parts)
@@ -87,7 +87,7 @@ SolveOptions settle_options(const GrowOptions& options, const Growing& growing) 
 
 namespace {
 
-/// Where the scene leaves open when the mesh takes over what has grown. A component grows in one way in the whole run.
+/// Decides what `update: auto` means. A component has one kind of growth in the whole run.
 GrowOptions decided(GrowOptions options, const Growing& growing, const ScheduleContext& context) {
   if (options.update != automatic) return options;
   const bool is_held = context.growing && std::ranges::any_of(*context.growing, [&](const GrowStep* other) {
@@ -116,14 +116,14 @@ bool GrowStep::may_shrink(const StepTime& step) const {
 StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) {
   SPREKK_EXPECT(std::isfinite(before) && std::isfinite(now), before, now);
   SPREKK_ASSERT(smallest_step_ > 0, smallest_step_);
-  constexpr double aim = 0.5;                                 // of the overshoot: the middle of what is accepted
-  constexpr double half = 0.5;                                // of the step, where the loads do not tell its part
+  constexpr double aim = 0.5;   // of the overshoot: the middle of what is accepted
+  constexpr double half = 0.5;  // of the step, where the part to take does not follow from its loads
   constexpr double of_diffusion = 0.5, at_constant_rate = 1;  // powers of time with which loads rise
   constexpr double least = 0.01, most = 0.9;                  // of the step that was refused
   const double wanted = (1 + aim * options_.overshoot - before) / (now - before);  // of the rise of this step
   double part = now > before ? wanted : half;
   if (refusal_ && refusal_->start == step.start && refusal_->dt > step.dt && refusal_->load > now && now > before) {
-    // Fluid diffuses: loads rise with a power of time between 1/2 and 1, which two refusals tell.
+    // Loads rise with a power of time, between 1/2 (diffusion) and 1 (constant rate), which follows from two refusals.
     const double power = std::log((refusal_->load - before) / (now - before)) / std::log(refusal_->dt / step.dt);
     part = std::pow(wanted, 1 / std::clamp(power, of_diffusion, at_constant_rate));
   }

@@ -91,8 +91,8 @@ class IterateStep::Changes {
     return sizes_.size() > watched && *std::max_element(sizes_.end() - watched, sizes_.end()) < smallest &&
            sizes_.back() > hardly_less * sizes_[sizes_.size() - 1 - watched];
   }
-  /// By which factor a pass changes more than the one before, in the mean of the last passes: what grows slower has
-  /// been left behind by then.
+  /// The mean factor by which changes grow from pass to pass, over the last passes, in which the fastest growing part
+  /// dominates.
   double factor() const { return std::pow(sizes_.back() / sizes_[sizes_.size() - 1 - last], 1.0 / last); }
 
  private:
@@ -210,7 +210,7 @@ bool is_error_below(double bound, double change, double change_before) {
 }  // namespace
 
 StepStatus IterateStep::converged(const StepTime& step, const StepStatus& status) {
-  // Substeps have counted what was exchanged, each for itself.
+  // Each substep has added its exchange to the cumulative balances already.
   if (options_.has_substeps) return status;
   for (Part* part : parts_) part->after_solve(fields_, step);
   return status;
@@ -264,7 +264,7 @@ StepStatus IterateStep::run(const StepTime& step) {
       continue;
     }
     changes.add(change);
-    // What passes that change nothing any more leave of a balance is lost in the round-off of the fields.
+    // If passes change no more than round-off, the imbalance that is left is round-off of the fields.
     if (check.rows_hold && changes.are_round_off()) return converged(step, {true, "", pass, 0, of_newton});
     if (changes.only_grow())
       return {false,
@@ -273,8 +273,8 @@ StepStatus IterateStep::run(const StepTime& step) {
                           "first, or accelerate with 'anderson'",
                           most_changed(change), changes.factor()),
               pass};
-    // A pass is a step of Newton's method, and may cycle between discrete states as that does: then it goes half of its
-    // way where the state has changed, and is not accelerated.
+    // Passes may cycle between discrete states, like Newton's method. Then a pass that changes the state is halved, and
+    // passes are not accelerated.
     if (state != last_state) {
       is_cycling = is_cycling || seen_states.count(state) > 1;
       seen_states.insert(state);
@@ -288,7 +288,7 @@ StepStatus IterateStep::run(const StepTime& step) {
     const bool is_other_state = state != last_state;
     last_state = state;
     if (!accelerator_ || is_cycling) continue;
-    // Earlier passes tell of this one as long as the passes are one smooth map.
+    // The accelerator may use earlier passes only as long as all of them belong to one smooth map.
     if (is_other_state) {
       accelerator_->forget();
       stalled.forget();

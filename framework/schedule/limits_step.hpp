@@ -1,12 +1,21 @@
 // Parts that bound the length of time steps.
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "framework/assembly/step_time.hpp"
 
 namespace sprekk {
 
+/// Why a step that has converged is to be repeated with a shorter one.
+struct StepTooLong {
+  double retry_dt;  ///< s, shorter than the step
+  std::string why;
+};
+
 /// Capability: bounds the next step, for what is explicit in time, or accurate over short steps only. Where the bound
-/// is what a step must keep to as a result of itself, refuse the step instead (StepStatus::retry_dt).
+/// is what a step must keep to as a result of itself, it refuses the step.
 class LimitsStep {
  public:
   virtual ~LimitsStep() = default;
@@ -14,6 +23,9 @@ class LimitsStep {
   /// on a repetition of the step; each process may know its own part, the shortest counts. A step that would be longer
   /// is divided into equal ones; a bound below the smallest step of the scene ends the run.
   virtual double longest_step(double start) const = 0;
+  /// Called when a step has converged, before it is accepted: whether its values show that it was too long. The same on
+  /// all processes.
+  virtual std::optional<StepTooLong> too_long(const StepTime& /*step*/) const { return std::nullopt; }
 };
 
 }  // namespace sprekk

@@ -95,7 +95,7 @@ void Newton::move(const std::vector<Vector>& from, const Vector& update, double 
   SPREKK_EXPECT(std::isfinite(length), length);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const auto part = update.segment(system_.first(static_cast<int>(u)), unknowns_[u]->size());
-    if (!part.isZero(0)) unknowns_[u]->set(from[u] + length * part);  // else it has its values at the start
+    if (!part.isZero(0)) unknowns_[u]->set(from[u] + length * part);  // else it keeps its values
   }
 }
 
@@ -104,7 +104,8 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
   SPREKK_EXPECT(check.is_round_off.size() == unknowns_.size(), check.is_round_off.size(), unknowns_.size());
   const std::vector<int>& rows = system_.rows();
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    if (!check.is_round_off[u] || check.is_unbalanced[u]) continue;
+    // Rows whose residuals are round-off are left alone, but not where their sum still has to be found.
+    if (!check.is_round_off[u] || check.is_unbalanced[u] || !check.is_round_off_in_sum[u]) continue;
     const int first = system_.first(static_cast<int>(u)), end = first + unknowns_[u]->size();
     const auto begin = std::lower_bound(rows.begin(), rows.end(), first);
     right.segment(begin - rows.begin(), std::lower_bound(begin, rows.end(), end) - begin).setZero();

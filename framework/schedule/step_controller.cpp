@@ -9,14 +9,14 @@ namespace sprekk {
 namespace {
 
 constexpr double rounding = 1e-9;         ///< of the standard step: times nearer than this are the same
-constexpr double least_rise = 1e-2;       ///< of a level; a smaller rise does not tell its rate
+constexpr double least_rise = 1e-2;       ///< of a level; a smaller rise does not give a rate
 constexpr double of_failed_size = 0.999;  ///< a step that is shorter by rounding only is as long as the failed one
 constexpr double smallest_part = 1e-6;    ///< of the standard step: the smallest, where the scene does not give it
-constexpr double shortest_part = 0.1;     ///< of the standard step: the shortest wait for a hold
+constexpr double shortest_part = 0.1;     ///< of the standard step: the shortest wait for a hold that is expected
 
 std::string key_of(const char* name) { return std::string("time_steps.") + name; }
 
-/// As a vector of one value, or without a value an empty one.
+/// A value becomes a vector of length 1, no value an empty one.
 struct Saving {
   std::map<std::string, Vector>& state;
   void operator()(const char* name, double value) const { state[key_of(name)] = Vector::Constant(1, value); }
@@ -223,7 +223,7 @@ void StepController::release(double level) {
   last.level = level;
   last.patience = 0;
   if (last.pause == 0) return;
-  constexpr double sooner = 0.5, later = 2;  // pauses over the last one
+  constexpr double sooner = 0.5, later = 2;  // bounds of the next pause over the last one
   const double share = last.rise > least_rise ? std::clamp((1 - level) / last.rise, sooner, later) : 1;
   last.expected = time_ + last.pause * share;
 }

@@ -51,7 +51,7 @@ const Responses& WaitingResponse::update(const StepTime& step) {
   const ResidualCheck check = check_residual(assembly, system_, options_.settled);
   if (!check.finite || check.rows_hold) return responses_;
   Vector load = -system_.residual(assembly), change;
-  for (std::size_t u = 0; u < waiting_.size(); ++u) {  // round-off is not pending
+  for (std::size_t u = 0; u < waiting_.size(); ++u) {  // residuals that are round-off cause no change
     if (!check.is_round_off[u]) continue;
     const int first = system_.first(static_cast<int>(u));
     const auto begin = std::ranges::lower_bound(system_.rows(), first);

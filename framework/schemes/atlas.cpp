@@ -81,7 +81,7 @@ class Atlas {
   Scene scene_;
   fs::path folder_;
   std::vector<Scheme> schemes_;
-  std::vector<std::string> behind_;  // steps of the scene that let it grow
+  std::vector<std::string> behind_;  // the scene's steps of growth, which follow those of a scheme
   std::vector<std::pair<std::string, std::vector<std::string>>> axes_;
   std::vector<std::optional<double>> predicted_;
   std::vector<SchemeResult> results_;

@@ -20,7 +20,7 @@ Json json_of(const SchemeResult& result) {
           {"order", result.scheme.is_monolithic() ? "monolithic"
                     : result.scheme.is_jacobi     ? "jacobi"
                                                   : "gauss_seidel"},
-          {"stabilization", result.scheme.stabilization},
+          {"stabilization", result.scheme.all_stabilizations()},
           {"acceleration", result.scheme.acceleration},
           {"converged", result.is_done},
           {"reason", result.reason},
@@ -44,9 +44,10 @@ void add_csv(const SchemeResult& result, const std::vector<std::string>& values,
   for (const std::string& value : values) at += (at.empty() ? "" : "; ") + value;
   text += fmt::format("{},{},{},{},{},{},{},{},{:.6g},{},{},{},{}\n", csv_quoted(result.run),
                       csv_quoted(result.scheme.split()), result.scheme.is_jacobi ? "jacobi" : "gauss_seidel",
-                      csv_quoted(result.scheme.stabilization), csv_quoted(result.scheme.acceleration), csv_quoted(at),
-                      result.is_done ? 1 : 0, result.total_passes(), result.processor, csv_number(result.measured),
-                      csv_number(result.predicted), csv_number(result.difference), csv_quoted(result.reason));
+                      csv_quoted(result.scheme.all_stabilizations()), csv_quoted(result.scheme.acceleration),
+                      csv_quoted(at), result.is_done ? 1 : 0, result.total_passes(), result.processor,
+                      csv_number(result.measured), csv_number(result.predicted), csv_number(result.difference),
+                      csv_quoted(result.reason));
 }
 
 /// The values of the axes at the k-th result of a map.

@@ -19,7 +19,8 @@ constexpr int iterations = 150, counted = 100;  // of the power iteration, and t
 /// The block of a group on the diagonal of M, factorized.
 class PassFactor::Group {
  public:
-  std::vector<int> rows;
+  std::vector<int> rows;     ///< of the block
+  std::vector<int> changed;  ///< places of rows whose unknowns the group changes
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
   bool is_regular = false;
 };
@@ -48,12 +49,15 @@ const PassFactor::Group* PassFactor::group(const std::vector<std::string>& compo
     if (!stabilization.empty()) part->stabilize(stabilization, diagonals);
   std::vector<int> place(static_cast<std::size_t>(matrix_.cols()), -1);
   Vector more = Vector::Zero(matrix_.cols());
+  const bool responds = stabilization == "response";
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    if (!std::ranges::count(components, unknowns_[u]->spec().owner)) continue;
+    const bool is_own = std::ranges::count(components, unknowns_[u]->spec().owner) > 0;
+    if (!is_own && !responds) continue;
     if (const auto found = diagonals.find(unknowns_[u]); found != diagonals.end())
       more.segment(first_[u], first_[u + 1] - first_[u]) = found->second;
     for (int row = first_[u]; row < first_[u + 1]; ++row) {
       place[row] = static_cast<int>(group->rows.size());
+      if (is_own) group->changed.push_back(place[row]);
       group->rows.push_back(row);
     }
   }
@@ -76,27 +80,28 @@ std::optional<double> PassFactor::of(const Scheme& scheme) {
   if (scheme.is_monolithic()) return 0;
   std::vector<const Group*> groups;
   for (std::size_t g = 0; g < scheme.groups.size(); ++g) {
-    groups.push_back(group(scheme.groups[g], g == scheme.stabilized ? scheme.stabilization : ""));
+    groups.push_back(group(scheme.groups[g], scheme.stabilization(g)));
     if (!groups.back()->is_regular) return std::nullopt;
   }
   std::mt19937 random(1);
   Vector error(matrix_.cols());
   for (double& entry : error) entry = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
-  // Errors of different fields differ in size: those that a pass makes do not, so the first pass comes before counting.
+  // The random start has arbitrary proportions between fields; after one pass they are those of errors, so the first
+  // pass is not counted.
   double logarithm = 0, size = 0;
   for (int k = 0; k < iterations; ++k) {
-    // Of a Jacobi pass all groups see the residual of its beginning, of a Gauss-Seidel pass the latest.
+    // All groups of a Jacobi pass see the residual at its beginning, those of a Gauss-Seidel pass the latest one.
     Vector residual = matrix_ * error;
     for (const Group* group : groups) {
       if (!scheme.is_jacobi && group != groups.front()) residual = matrix_ * error;
       Vector right(static_cast<Eigen::Index>(group->rows.size()));
       for (Eigen::Index i = 0; i < right.size(); ++i) right[i] = residual[group->rows[i]];
       const Vector change = group->factors.solve(right);
-      for (Eigen::Index i = 0; i < right.size(); ++i) error[group->rows[i]] -= change[i];
+      for (const int i : group->changed) error[group->rows[i]] -= change[i];
     }
-    // The size of the fields that are solved last, as all others follow from them.
+    // The size is that of the fields that are solved last, since all others follow from them.
     double norm = 0;
-    for (const int row : groups.back()->rows) norm = std::max(norm, std::abs(error[row]));
+    for (const int i : groups.back()->changed) norm = std::max(norm, std::abs(error[groups.back()->rows[i]]));
     if (!std::isfinite(norm)) return std::nullopt;
     if (norm == 0) return 0;
     if (k >= iterations - counted) logarithm += std::log(norm / size);

@@ -12,7 +12,8 @@
 namespace sprekk {
 
 /// The Jacobian A of all equations of a step. A pass of a scheme multiplies small errors by I − M⁻¹A, where M is A
-/// without the blocks that the scheme takes from the pass before, and with the stabilization.
+/// without the blocks that the scheme takes from the pass before, and with the stabilization. A group with the Schur
+/// complement of waiting unknowns takes its part of a step of Newton's method for all equations, A⁻¹.
 class PassFactor {
  public:
   /// Of the state in which the model is, which has to be that at the end of the step. One process.

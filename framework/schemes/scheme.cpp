@@ -28,19 +28,28 @@ std::string word_of(const std::string& text) {
   return word;
 }
 
+const char* const response = "response";
+
+/// Whether components that need others may be solved apart from them, with the Schur complement of waiting unknowns.
+enum class Apart { as_they_are, with_response };
+
+bool is_unknown_of(const Field& field, const std::string& component) {
+  return field.is_solved() && field.size() > 0 && field.spec().owner == component;
+}
+
 /// Components that have unknowns, those that belong together as one.
-std::vector<Group> atoms(const Model& model) {
+std::vector<Group> atoms(const Model& model, Apart apart) {
   std::vector<Group> atoms;
   for (const auto& component : model.components())
-    if (std::ranges::any_of(model.fields().all(), [&](const auto& field) {
-          return field->is_solved() && field->size() > 0 && field->spec().owner == component->name();
-        }))
+    if (std::ranges::any_of(model.fields().all(),
+                            [&](const auto& field) { return is_unknown_of(*field, component->name()); }))
       atoms.push_back({component->name()});
   const auto place_of = [&](const std::string& name) {
     return std::ranges::find_if(atoms, [&](const Group& atom) { return std::ranges::count(atom, name) > 0; });
   };
   for (const Part* part : model.parts())
     for (const Dependence& dependence : part->dependences()) {
+      if (apart == Apart::with_response && dependence.ends_with_response) continue;
       const auto one = place_of(dependence.on), other = place_of(dependence.component);
       if (one == atoms.end() || other == atoms.end() || one == other) continue;
       one->insert(one->end(), other->begin(), other->end());
@@ -89,19 +98,78 @@ std::vector<Scheme> stabilized(const Model& model, const Scheme& scheme) {
             std::ranges::any_of(diagonals, [&](const auto& entry) { return is_in(entry.first->spec().owner); });
         if (!has_field || std::ranges::all_of(couplers[k].between, is_in)) continue;
         all.push_back(scheme);
-        all.back().stabilization = name;
-        all.back().stabilized = g;
+        all.back().stabilizations[g] = name;
       }
     }
   return all;
 }
 
+/// Whether all unknowns of a group are on interfaces.
+bool is_on_interfaces(const Model& model, const Group& group) {
+  return std::ranges::none_of(model.fields().all(), [&](const auto& field) {
+    return is_bulk(field->spec().role.kind()) &&
+           std::ranges::any_of(group, [&](const std::string& component) { return is_unknown_of(*field, component); });
+  });
+}
+
+/// Whether components that need others are solved with them, or in a group that has a response.
+bool are_determined(const Model& model, const Scheme& scheme) {
+  for (std::size_t g = 0; g < scheme.groups.size(); ++g) {
+    if (scheme.stabilization(g) == response) continue;
+    const auto is_in = [&](const std::string& component) {
+      return std::ranges::count(scheme.groups[g], component) > 0;
+    };
+    for (const Part* part : model.parts())
+      for (const Dependence& dependence : part->dependences())
+        if (is_in(dependence.component) && !is_in(dependence.on)) return false;
+  }
+  return true;
+}
+
+std::vector<std::vector<Group>> partitions(const std::vector<Group>& atoms) {
+  std::vector<std::vector<Group>> all;
+  std::vector<Group> begin;
+  partition(atoms, 0, begin, all);
+  return all;
+}
+
+/// The orders of all partitions in which groups on interfaces alone have the Schur complement of waiting unknowns.
+std::vector<Scheme> with_responses(const Model& model) {
+  std::vector<Scheme> all;
+  for (const std::vector<Group>& groups : partitions(atoms(model, Apart::with_response))) {
+    if (groups.size() == 1) continue;
+    for (const std::vector<Group>& ordered : orders(groups)) {
+      Scheme scheme;
+      scheme.groups = ordered;
+      for (std::size_t g = 0; g < ordered.size(); ++g)
+        if (is_on_interfaces(model, ordered[g])) scheme.stabilizations[g] = response;
+      // Where all groups are on interfaces, none of them has to wait for the bulk.
+      if (scheme.stabilizations.empty() || scheme.stabilizations.size() == ordered.size()) continue;
+      if (are_determined(model, scheme)) all.push_back(std::move(scheme));
+    }
+  }
+  return all;
+}
+
 }  // namespace
+
+std::string Scheme::stabilization(std::size_t group) const {
+  const auto found = stabilizations.find(group);
+  return found == stabilizations.end() ? "" : found->second;
+}
+
+std::string Scheme::all_stabilizations() const {
+  std::vector<std::string> names;
+  for (const auto& [group, name] : stabilizations)
+    if (std::ranges::count(names, name) == 0) names.push_back(name);
+  std::ranges::sort(names);
+  return joined(names, ", ");
+}
 
 std::string Scheme::name() const {
   std::string text = is_jacobi ? "jacobi-" : "";
   for (std::size_t g = 0; g < groups.size(); ++g) text += (g > 0 ? "-" : "") + joined(groups[g], "_");
-  if (!stabilization.empty()) text += "=" + stabilization;
+  if (!stabilizations.empty()) text += "=" + word_of(all_stabilizations());
   if (!acceleration.empty()) text += "=" + word_of(acceleration);
   return text;
 }
@@ -111,7 +179,7 @@ std::string Scheme::split() const {
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (g > 0) text += is_jacobi ? " ‖ " : " → ";
     text += joined(groups[g], " ");
-    if (!stabilization.empty() && g == stabilized) text += " (" + stabilization + ")";
+    if (stabilizations.contains(g)) text += " (" + stabilization(g) + ")";
   }
   return text;
 }
@@ -120,7 +188,7 @@ std::string Scheme::schedule(double until, int at_most, const std::vector<std::s
   std::string solves;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     solves += (g > 0 ? ", {solve: [" : "{solve: [") + joined(groups[g], ", ") + "]";
-    if (!stabilization.empty() && g == stabilized) solves += ", stabilize: " + stabilization;
+    if (stabilizations.contains(g)) solves += ", stabilize: " + stabilization(g);
     solves += "}";
   }
   if (!is_monolithic())
@@ -132,11 +200,8 @@ std::string Scheme::schedule(double until, int at_most, const std::vector<std::s
 }
 
 std::vector<Scheme> sensible_schemes(const Model& model, const std::vector<std::string>& accelerations) {
-  std::vector<std::vector<Group>> partitions;
-  std::vector<Group> begin;
-  partition(atoms(model), 0, begin, partitions);
   std::vector<Scheme> splits, all;
-  for (const std::vector<Group>& groups : partitions) {
+  for (const std::vector<Group>& groups : partitions(atoms(model, Apart::as_they_are))) {
     if (groups.size() == 1) {
       all.emplace_back().groups = groups;
       continue;
@@ -150,6 +215,11 @@ std::vector<Scheme> sensible_schemes(const Model& model, const std::vector<std::
       const std::vector<Scheme> more = stabilized(model, scheme);
       splits.insert(splits.end(), more.begin(), more.end());
     }
+  }
+  for (const Scheme& scheme : with_responses(model)) {
+    splits.push_back(scheme);
+    const std::vector<Scheme> more = stabilized(model, scheme);
+    splits.insert(splits.end(), more.begin(), more.end());
   }
   for (const Scheme& split : splits)
     for (const std::string& acceleration : accelerations) {

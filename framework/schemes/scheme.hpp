@@ -1,6 +1,7 @@
 // Coupling schemes of a scene: which components are solved together, in which order, with which help.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,23 +14,26 @@ using Group = std::vector<std::string>;
 
 /// One way to solve for all components of a scene.
 struct Scheme {
-  std::vector<Group> groups;   ///< in the order in which they are solved; one is the monolithic scheme
-  bool is_jacobi = false;      ///< each group takes the others from the pass before
-  std::string stabilization;   ///< "" for none
-  std::size_t stabilized = 0;  ///< the group that it is for
-  std::string acceleration;    ///< "anderson: 5", "iqn_ils: {}"; "" for none
+  std::vector<Group> groups;  ///< in the order in which they are solved; one is the monolithic scheme
+  bool is_jacobi = false;     ///< each group takes the others from the pass before
+  std::map<std::size_t, std::string> stabilizations;  ///< by the group that they are for
+  std::string acceleration;                           ///< "anderson: 5", "iqn_ils: {}"; "" for none
 
   bool is_monolithic() const { return groups.size() == 1; }
-  std::string name() const;   ///< of a folder: "a_b-c_d=STABILIZATION=anderson_5"
-  std::string split() const;  ///< "a b (STABILIZATION) → c d"
+  std::string stabilization(std::size_t group) const;  ///< "" for none
+  std::string all_stabilizations() const;              ///< "fixed_stress, response"; "" for none
+  std::string name() const;                            ///< of a folder: "a_b-c_d=STABILIZATION=anderson_5"
+  std::string split() const;                           ///< "a b (STABILIZATION) → c d"
   /// The value of `schedule:` as YAML on one line. `until`: of the coupled residual; `behind`: steps that follow.
   std::string schedule(double until, int at_most, const std::vector<std::string>& behind) const;
 };
 
 /// All sensible schemes of a scene, the monolithic one first. Components that cannot be solved apart stay together
-/// (Part::dependences). Both orders of two groups; of more groups, those that are not rotations of one another, since
-/// an iteration that goes round and round has no beginning; each also with all groups at once (Jacobi). Each without
-/// stabilization, and with those that a coupler offers between groups. Each with every acceleration.
+/// (Part::dependences); apart from those that can with the Schur complement of waiting unknowns. Both orders of two
+/// groups; of more groups, those that are not rotations of one another, since an iteration that goes round and round
+/// has no beginning; each also with all groups at once (Jacobi). Each without stabilization, and with those that a
+/// coupler offers between groups; the first two also with `response` for all groups that have unknowns on interfaces
+/// alone, where there are some. Each with every acceleration.
 std::vector<Scheme> sensible_schemes(const Model& model, const std::vector<std::string>& accelerations);
 
 }  // namespace sprekk

@@ -37,15 +37,15 @@ std::string arrow(double x1, double y1, double x2, double y2) {
 std::string scheme_svg(const Scheme& scheme) {
   std::size_t most = 0;
   for (const Group& group : scheme.groups) most = std::max(most, group.size());
-  const double height = static_cast<double>(most) * line + 2 * margin + (scheme.stabilization.empty() ? 0 : line);
+  const double height = static_cast<double>(most) * line + 2 * margin + (scheme.stabilizations.empty() ? 0 : line);
   const double top = margin, bottom = top + height;
   std::string text;
   double x = margin;
   std::vector<std::pair<double, double>> boxes;
   for (std::size_t g = 0; g < scheme.groups.size(); ++g) {
     std::vector<std::string> words = scheme.groups[g];
-    const bool is_stabilized = !scheme.stabilization.empty() && g == scheme.stabilized;
-    std::size_t letters = is_stabilized ? scheme.stabilization.size() + 2 : 0;
+    const std::string stabilization = scheme.stabilization(g);
+    std::size_t letters = stabilization.empty() ? 0 : stabilization.size() + 2;
     for (const std::string& word : words) letters = std::max(letters, word.size());
     const double width = letter * static_cast<double>(letters) + 2 * box_margin;
     text += fmt::format(
@@ -57,7 +57,7 @@ std::string scheme_svg(const Scheme& scheme) {
       text += text_at(x + box_margin, y + 4, word);
       y += line;
     }
-    if (is_stabilized) text += text_at(x + box_margin, y + 4, "+ " + scheme.stabilization, "fill=\"#b04000\"");
+    if (!stabilization.empty()) text += text_at(x + box_margin, y + 4, "+ " + stabilization, "fill=\"#b04000\"");
     boxes.emplace_back(x, x + width);
     x += width + gap;
   }

@@ -96,7 +96,8 @@ void record_end(RunState& state, int code, const fs::path& run_folder, const fs:
   const json record = read_json(run_folder / "run.json");
   const bool is_whole = record.is_object() && record.contains("exit") && record.contains("program");
   const int own = is_whole ? record["exit"].value("code", -1) : -1;
-  // What a run says of its end counts more than what has started it: a connection may be lost after the last step.
+  // The end that a run has recorded counts more than the exit code of its launcher: the connection may be lost after
+  // the last step.
   if (launched && own == static_cast<int>(ExitCode::done)) code = own;
   state.is_lost = launched && code != own && code != static_cast<int>(ExitCode::wrong_input);
   state.exit_code = code;

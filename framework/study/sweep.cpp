@@ -154,7 +154,7 @@ void Sweep::start(std::size_t i) {
 std::size_t Sweep::next_launcher(std::size_t run) const {
   std::vector<std::size_t> load(launchers_.size());
   for (const Working& working : working_) ++load[working.launcher];
-  // Any number of runs is less than having lost this one once.
+  // A launcher that has lost this run comes after all that have not, whatever their number of runs.
   for (const std::size_t launcher : lost_by_[run]) load[launcher] += study_.runs.size();
   return static_cast<std::size_t>(std::ranges::min_element(load) - load.begin());
 }

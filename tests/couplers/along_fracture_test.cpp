@@ -136,7 +136,7 @@ Mesh crossing() {
 }
 const Point where_they_cross(0.5, 0.5);
 
-/// The sectors between the fractures, as the angle around the crossing says.
+/// The sector between the fractures, by the angle around the crossing.
 int sector(const Mesh& mesh, const Point& x) {
   const auto angle = [](const Point& y) {
     const double a = std::atan2(y[1] - 0.5, y[0] - 0.5);

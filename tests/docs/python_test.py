@@ -34,12 +34,15 @@ class Python(unittest.TestCase):
     def test_means_and_vectors(self):
         """Of a rectangle in two triangles of unequal values: the mean is by area, a vector has two columns."""
         grid = sprekk.Grid(POINTS, np.array([[0, 1, 2], [0, 2, 3]]), {"a.p[Pa]": np.array([1.0, 4.0]),
-                           "a.u[m]": np.array([[1.0, 2, 0], [3, 4, 0]]), "a.s_xx_yy_xy[Pa]": np.array([[1.0, 2, 3], [4, 5, 6]]), "region": np.zeros(2)})
+                           "a.u[m]": np.array([[1.0, 2, 0], [3, 4, 0]]), "a.s[Pa]": np.array([[1.0, 2, 3], [4, 5, 6]]), "region": np.zeros(2)},
+                           component_names={"a.u[m]": ["x", "y", "z"], "a.s[Pa]": ["xx", "yy", "xy"]})
         fields = sprekk.Fields(7.0, grid)
         self.assertAlmostEqual(fields.mean("a.p"), 2.5)
         self.assertEqual(fields["a.u"].shape, (2, 2))
-        self.assertEqual(fields["a.s_xx_yy_xy[Pa]"].shape, (2, 3))
-        self.assertEqual(fields.names, {"a.p": "Pa", "a.u": "m", "a.s_xx_yy_xy": "Pa"})
+        self.assertEqual(fields["a.s[Pa]"].shape, (2, 3))
+        np.testing.assert_array_equal(fields["a.s.yy"], [2, 5])
+        np.testing.assert_array_equal(fields["a.u.x"], [1, 3])
+        self.assertEqual(fields.names, {"a.p": "Pa", "a.u": "m", "a.s": "Pa"})
         np.testing.assert_allclose(fields.centres, [[4 / 3, 1 / 3], [2 / 3, 2 / 3]])
         with self.assertRaisesRegex(KeyError, "did you mean 'a.u'"):
             fields["a.v"]  # pylint: disable=pointless-statement

@@ -54,6 +54,27 @@ TEST(Explain, TellsUnitRangeAndSource) {
     EXPECT_THAT(explained.out, HasSubstr(text));
 }
 
+TEST(Fractures, ATableOfARandomSetMakesTheSameMesh) {
+  const Folder folder;
+  const std::string scene = (fs::path(SPREKK_SOURCE_DIR) / "tests/input/base/fractured.yaml").string();
+  const auto with = [&](const std::string& command, const std::string& joints) {
+    const Outcome answer =
+        sprekk_command({command, scene, "--set", "geometry.fractures.joints=" + joints}, folder.path());
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    return answer.out;
+  };
+  const std::string drawn = with("fractures", "{random: {number: 5, length: {value: 0.2 m}, seed: 4}}");
+  const std::vector<std::string> rows = lines_of(drawn);
+  ASSERT_EQ(rows.size(), 7U);
+  EXPECT_EQ(rows[0], "name,x1[m],y1[m],x2[m],y2[m]");
+  EXPECT_EQ(rows[1].rfind("crack,0.3,0.5,0.7,0.5", 0), 0U);
+  std::ofstream(folder.path() / "joints.csv")
+      << rows[0] + "\n" + rows[2] + "\n" + rows[3] + "\n" + rows[4] + "\n" + rows[5] + "\n" + rows[6];
+  const std::string table = "{table: " + (folder.path() / "joints.csv").string() + "}";
+  EXPECT_EQ(with("fractures", table), drawn);
+  EXPECT_EQ(with("check", table), with("check", "{random: {number: 5, length: {value: 0.2 m}, seed: 4}}"));
+}
+
 TEST(Schema, IsJsonWithAllSectionsAndTypes) {
   const Folder folder;
   const Outcome answer = sprekk_command({"schema"}, folder.path());

@@ -74,8 +74,8 @@ void expect_same_bits_in_parts(const std::vector<std::string>& settings) {
   EXPECT_EQ(text_of(folder / "parts/history.csv"), text_of(folder / "whole/history.csv"));
 }
 
-// Between an increment and the next the run knows how fast loads have risen, and that the onset of a tip is over. A run
-// that forgets one of them takes other steps from there on: so this one is interrupted after every step or two.
+// Between two increments the state contains how fast loads have risen, and that the onset of a tip is over. A restart
+// that loses one of them takes other steps from there on: so this run is interrupted after every step or two.
 TEST(RunWithGrowth, InterruptedAgainAndAgainHasTheSameBits) {
   const Folder folder;
   const auto growing = [&](const std::vector<std::string>& more) {

@@ -1,4 +1,4 @@
-// What a run or a check tells beside its answer: each note with a scene that deserves it and one that does not.
+// The notes of runs and checks: each with a scene that has the note, and one that has not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -242,6 +242,27 @@ TEST(Notes, APressureBeyondEveryLoadIsTold) {
   EXPECT_TRUE(run_of("flow.yaml", {}).note("beyond every load").is_null());
 }
 
+TEST(Notes, WallsThatOverlapByMoreThanTheApertureAreTold) {
+  const auto note = [](const char* factor) {
+    return run_of("fractured.yaml", {"components.conduit.initial_aperture=0.01 mm", "materials.permeability=1e-12 m^2",
+                                     "components.contact={type: contact/penalty, friction: 0.5, stiffness_factor: " +
+                                         std::string(factor) + "}"})
+        .note("aperture below zero");
+  };
+  EXPECT_FALSE(note("1e-3").is_null());
+  EXPECT_TRUE(note("100").is_null());
+}
+
+TEST(Notes, TrianglesOfFirstOrderInIncompressibleRockAreTold) {
+  const auto notes = [](const std::string& order, const std::string& poisson) {
+    return notes_of_check("rock.yaml", {"components.rock.type=poromechanics/fem", "components.rock.order=" + order,
+                                        "components.rock.poisson_ratio=" + poisson, "mesh={size: 0.3 m}"});
+  };
+  EXPECT_THAT(notes("first", "0.46"), HasSubstr("nearly incompressible"));
+  EXPECT_THAT(notes("first", "0.44"), Not(HasSubstr("nearly incompressible")));
+  EXPECT_THAT(notes("second", "0.499"), Not(HasSubstr("nearly incompressible")));
+}
+
 /// Rock that conducts 10,000 times better at 30 degrees to the x axis than across; `mirrored`: at -30 degrees.
 std::string anisotropic(bool mirrored = false) {
   return std::string("components.pore.permeability={xx: 7.50025e-14 m^2, yy: 2.50075e-14 m^2, xy: ") +
@@ -303,6 +324,36 @@ TEST(Notes, ASmallAngleOfTheMeshIsTold) {
     EXPECT_LE(std::stod(text.substr(before.size())), 3) << text;
   }
   EXPECT_TRUE(note("30 deg").is_null());
+}
+
+TEST(Notes, FracturesThatMeetAtASmallAngleAreNamed) {
+  const auto note = [](const std::string& angle) {
+    return run_of("fractured.yaml",
+                  {"geometry.fractures.other={center: [0.5 m, 0.5 m], length: 0.3 m, angle: " + angle + "}"})
+        .note("small angle between fractures");
+  };
+  for (const char* angle : {"3 deg", "-3 deg"}) {
+    const Json told = note(angle);
+    ASSERT_FALSE(told.is_null()) << angle;
+    EXPECT_THAT(told["text"].get<std::string>(), HasSubstr("'crack', 'other' meet at 3 degrees at (0.5, 0.5)"));
+  }
+  EXPECT_TRUE(note("6 deg").is_null());
+}
+
+TEST(Notes, APocketOfFewCellsIsTold) {
+  const auto note = [](const std::string& size) {
+    return run_of("fractured.yaml", {"geometry.fractures={crack: {points: [[0.3 m, 0.4 m], [0.7 m, 0.4 m]]}, "
+                                     "b: {points: [[0.4 m, 0.35 m], [0.55 m, 0.65 m]]}, "
+                                     "c: {points: [[0.62 m, 0.35 m], [0.47 m, 0.65 m]]}}",
+                                     "components.conduit.injection.well.at=[0.5 m, 0.4 m]",
+                                     "mesh={size: 0.2 m, fracture_size: " + size + "}"})
+        .note("small pocket between fractures");
+  };
+  const Json told = note("0.1 m");
+  ASSERT_FALSE(told.is_null());
+  EXPECT_THAT(told["text"].get<std::string>(),
+              ::testing::AllOf(HasSubstr("fractures 'crack', 'b', 'c' enclose 0.0"), HasSubstr("fracture_size")));
+  EXPECT_TRUE(note("0.02 m").is_null());
 }
 
 TEST(Notes, APorePressureOfTwiceTheLoadsIsTold) {

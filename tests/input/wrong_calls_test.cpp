@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 const std::string flow = std::string(SPREKK_SOURCE_DIR) + "/tests/input/base/flow.yaml";
 
-/// The program refuses, says all the texts, and leaves the folder as it was.
+/// The program refuses with all of these texts, and leaves the folder as it was.
 void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& texts,
                     const Folder& folder) {
   const auto count = [&] { return std::distance(fs::recursive_directory_iterator(folder.path()), {}); };

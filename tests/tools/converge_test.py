@@ -34,6 +34,19 @@ class Converge(unittest.TestCase):
             if name in ("terzaghi", "mandel"):  # in the others the error happens to pass zero, or meshes make noise
                 self.assertLess(verdict.times_too_large, 5, name)
 
+    def test_the_coarsest_level_scales_the_error_and_the_stated_one(self):
+        # Backward Euler is of first order, and the step makes most of the error: levels that are half as coarse halve it.
+        problem, true = EVERY["terzaghi"], {}
+        for coarsest in (1, 2, 4):
+            found = converge(SPREKK, problem, self.folder / str(coarsest), "--set", "time.step=0.01 s", "--coarsest",
+                             str(coarsest))["quantities"][0]
+            true[coarsest] = abs(found["value"] - problem.answer)
+            self.assertLess(true[coarsest], found["error"], coarsest)
+            self.assertLess(found["error"], 5 * true[coarsest], coarsest)
+        for coarsest in (2, 4):
+            self.assertGreater(true[coarsest] / true[coarsest / 2], 1.4)
+            self.assertLess(true[coarsest] / true[coarsest / 2], 2.2)
+
     def test_a_wanted_error_is_reached_and_runs_are_kept(self):
         problem = EVERY["terzaghi"]
         arguments = ("--set", "time.step=0.0025 s", "--to", "0.5%")

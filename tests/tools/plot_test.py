@@ -9,6 +9,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_QUAD, VTK_TRIANGLE, vtkUnstructuredGrid
@@ -147,6 +148,38 @@ class Results(unittest.TestCase):
         wrong = plot("a.presure")
         self.assertEqual(wrong.returncode, 1)
         self.assertIn("fractures have no field a.presure (they have: a.pressure", wrong.stderr)
+
+    def film(self, *fields):
+        return subprocess.run([ROOT / "tools/plot", self.folder, "--film", *fields], capture_output=True, text=True)
+
+    def test_films_have_a_frame_for_each_time_in_the_same_colours(self):
+        done = self.film("a.pressure", "a.displacement length")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("film_a_pressure", "film_a_displacement_length"):
+            with Image.open(self.folder / f"plots/{name}.gif") as film:
+                self.assertGreaterEqual(film.n_frames, 2)
+                frames = []
+                for i in range(film.n_frames):
+                    film.seek(i)
+                    frames.append(np.asarray(film.convert("RGB")).astype(int))
+                self.assertLess(film.n_frames, 40)
+            # Values grow by as much as the range: the frames differ, and the bar at the right does not.
+            self.assertGreater(abs(frames[0] - frames[-1]).max(), 50)
+            right = frames[0].shape[1] * 9 // 10
+            self.assertLess(abs(frames[0][:, right:] - frames[-1][:, right:]).max(), 40, name)
+        self.assertFalse((self.folder / "plots/mesh.png").exists())
+        wrong = self.film("a.presure")
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("there is no field a.presure (there are: a.displacement length, a.jump length", wrong.stderr)
+
+    def test_names_of_fractures_are_drawn(self):
+        def drawn():
+            subprocess.run([ROOT / "tools/plot", self.folder, "--on-map", "a.pressure"], capture_output=True, check=True)
+            return (self.folder / "plots/on_map_a_pressure.png").read_bytes()
+
+        without = drawn()
+        (self.folder / "run.json").write_text('{"scene": {"fractures": ["fault"]}}')
+        self.assertNotEqual(drawn(), without)
 
     def test_a_folder_without_results_is_refused(self):
         done = subprocess.run([ROOT / "tools/plot", ROOT / "tools"], capture_output=True, text=True)

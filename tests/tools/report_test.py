@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """report_test.py SPREKK: the report of a run, opened in a browser without a screen, draws and complains about nothing."""
 
+import csv
 import html.parser
 import re
 import shutil
@@ -85,7 +86,7 @@ class Report(unittest.TestCase):
         # The block fills the frame: all pixels of it have a colour.
         width, height = int(page.canvas["width"]) - 120 - 230, int(page.canvas["height"]) - 20 - 80
         self.assertGreater(int(page.canvas["data-pixels"]), 0.995 * width * height)
-        self.assertEqual(page.small, 4)
+        self.assertEqual(page.small, 5)  # the start, and four times
         text = file.read_text(encoding="utf-8")
         for expected in ("first_scene", "done", "MPa", "mesh.fracture_size", "linear: factorization", "crack"):
             self.assertIn(expected, text)
@@ -97,7 +98,7 @@ class Report(unittest.TestCase):
             document.getElementById(id).value = value;
             document.getElementById(id).dispatchEvent(new Event(event));
           };
-          set('map-field', 2, 'change');
+          set('map-field', 4, 'change');
           set('map-time', 0, 'input');
           set('map-scale', 'one', 'change');
           for (const id of ['map-lines', 'map-in', 'map-out', 'map-out']) document.getElementById(id).click();
@@ -111,8 +112,34 @@ class Report(unittest.TestCase):
         used.write_text(file.read_text(encoding="utf-8").replace("</body>", use), encoding="utf-8")
         page = self.opened(used)
         self.assertEqual(page.canvas["data-field"], "rock.displacement, x")
-        self.assertEqual(page.body["data-time"], "12 h")
+        self.assertEqual(page.body["data-time"], "0 s")
         self.assertRegex(page.body["data-value"], r"^x = [-0-9.]+ m, y = [-0-9.]+ m: rock\.displacement, x = [-0-9.]+ mm$")
+
+    def test_fractures_are_coloured_and_named_on_the_map(self):
+        file = self.report("tutorial/first_scene.yaml", "mesh={size: 1 m, fracture_size: 0.3 m}")
+        use = """<script>
+          const choice = document.getElementById('map-line-field');
+          choice.value = [...choice.options].find((option) => option.text === 'contact.jump.tangential').value;
+          choice.dispatchEvent(new Event('change'));
+          document.getElementById('map-lines').click();
+          const box = document.getElementById('map').getBoundingClientRect(), canvas = document.getElementById('map');
+          // The middle of the frame, which is that of the fracture.
+          const [x, y] = [120 + (canvas.width - 120 - 460) / 2, 20 + (canvas.height - 100) / 2];
+          canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + x * box.width / canvas.width,
+                                                                clientY: box.top + y * box.height / canvas.height}));
+          document.body.dataset.value = document.getElementById('map-value').textContent;
+        </script></body>"""
+        used = self.folder / "used.html"
+        used.write_text(file.read_text(encoding="utf-8").replace("</body>", use), encoding="utf-8")
+        page = self.opened(used)
+        self.assertEqual(page.canvas["data-line-field"], "contact.jump.tangential")
+        # What history.csv has of the middle of the fracture in the last step, which is shown.
+        with open(self.folder / "results/history.csv", newline="", encoding="utf-8") as table:
+            slip = float(list(csv.DictReader(table))[-1]["slip.t[m]"])
+        shown = re.search(r"; fracture crack: contact\.jump\.tangential = (\S+) (\S+)$", page.body["data-value"])
+        self.assertIsNotNone(shown, page.body["data-value"])
+        self.assertEqual(shown[2], "mm")
+        self.assertAlmostEqual(float(shown[1]) * 1e-3 / slip, 1, delta=0.1)  # cells beside the one of the probe
 
     def test_run_without_fractures_or_probes(self):
         page = self.opened(self.report("verification/terzaghi.yaml", "output.probes=~"))

@@ -78,6 +78,32 @@ class Schemes(unittest.TestCase):
                                  ("pore-rock=fixed_stress", held), ("rock-pore=fixed_stress", held), ("jacobi-pore-rock=fixed_stress", both)):
                 self.assertAlmostEqual(schemes[name]["predicted"] / factor, 1, delta=0.02, msg=f"{case} {name}")
 
+    def test_until_and_at_most_end_the_passes(self):
+        # A pass leaves 0.8 of an error, and behind a residual r of the terms p is off by r/1.8: a hundredth of `until` takes ln(100)/ln(1/0.8)
+        # passes more, and one pass less than those is not enough.
+        factor, settings = 0.8, (*TIGHT, "components.pore.storage=0.625 1/Pa")
+        plain = ("--accelerate", "none", "--only", "pore-rock")
+
+        def runs(*words):
+            self.folder = self.folder.with_name("atlas" + "_".join(words))
+            found, _ = self.atlas(TERZAGHI, *plain, *words, settings=settings)
+            return {one["name"]: one for one in found["schemes"]}
+
+        passes = {}
+        for until in (1e-4, 1e-6):
+            one = runs("--steps", "1", "--at-most", "300", "--until", str(until))["pore-rock"]
+            self.assertTrue(one["converged"], one)
+            self.assertLess(one["difference"], 1.02 * until / (1 + factor))
+            passes[until] = one["passes"][0]
+        self.assertAlmostEqual(passes[1e-6] - passes[1e-4], math.log(100) / math.log(1 / factor), delta=1)
+        for at_most, converges in ((passes[1e-4], True), (passes[1e-4] - 1, False)):
+            one = runs("--steps", "1", "--at-most", str(at_most), "--until", "1e-4")["pore-rock"]
+            self.assertEqual(one["converged"], converges, one)
+        # By itself an atlas asks for 1e-8 within 60 passes, in three steps.
+        usual = runs()
+        self.assertIn("60 passes", usual["pore-rock"]["reason"])
+        self.assertEqual(len(usual["pore-rock=fixed_stress"]["passes"]), 3)
+
     def test_divergence_is_a_result(self):
         found, _ = self.atlas(TERZAGHI, "--accelerate", "iqn_ils: {}", "--only", "pore-rock", "--steps", "1",
                               settings=(*TIGHT, "components.pore.storage=0.2 1/Pa"))

@@ -13,8 +13,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools/python")]
 import sprekk  # noqa: E402
-from stress_suite import (check_balance, check_contact, check_finite, check_growing, check_pressure, compare,  # noqa: E402
-                          fractures, growing, physics, ranges, scene, summary, twisted_mesh, written)
+from stress_suite import (check_balance, check_contact, check_finite, check_growing, check_heat, check_pressure, check_wells,  # noqa: E402
+                          compare, fractures, growing, heat, limited_wells, physics, ranges, scene, summary, swaps, twisted_mesh, written)
 
 P = {"young": 2.5e9, "poisson": 0.25, "alpha": 0.0, "permeability": 1e-15, "viscosity": 1e-3, "storage": 1e-10,
      "compressibility": 1e-9, "friction": 0.5, "dilation": 10.0, "aperture": 1e-3, "width": 4.0, "height": 4.0,
@@ -41,7 +41,7 @@ def at_rest():
     cells = len(matrix.cells)
     x, y = physics.stresses(P, 1.0)
     matrix.cell_data = {"pore.pressure[Pa]": np.full(cells, P["initial"]),
-                        "rock.stress_xx_yy_xy[Pa]": np.tile([x, y, 0.0], (cells, 1)),
+                        "rock.stress[Pa]": np.tile([x, y, 0.0], (cells, 1)),
                         "rock.displacement[m]": np.zeros((cells, 3))}
     slip = np.array([0.0, 1e-5, 1e-5, 0.0])
     opening = slip * np.tan(np.radians(P["dilation"]))
@@ -88,7 +88,7 @@ class Checks(unittest.TestCase):
             self.found(check_contact.failures(P, change("fractures", name, cell, value)), text)
 
     def test_balances(self):
-        self.found(check_balance.momentum(P, change("matrix", "rock.stress_xx_yy_xy[Pa]", 5, 1e5)), "momentum")
+        self.found(check_balance.momentum(P, change("matrix", "rock.stress[Pa]", 5, 1e5)), "momentum")
         self.found(check_balance.fracture_mass(P, change("fractures", "conduit.aperture[m]", 0, 1e-9), 0), "fracture 0")
         self.found(check_balance.matrix_mass(P, change("matrix", "pore.pressure[Pa]", 7, 1e3)), "the matrix")
 
@@ -115,7 +115,7 @@ class Checks(unittest.TestCase):
         instant = at_rest()
         now = physics.end(p) / 8  # the horizontal load is 0, and half as far it is as large as at any time
         instant.time = now
-        instant.matrix.cell_data["rock.stress_xx_yy_xy[Pa]"][:] = [*physics.stresses(p, now), 0.0]
+        instant.matrix.cell_data["rock.stress[Pa]"][:] = [*physics.stresses(p, now), 0.0]
         instant.fractures.cell_data["contact.jump.normal[m]"][:] = 0
         drop = -factor * np.mean(physics.stresses(p, 0.0))  # the load that has been, and rest
         for part, times, count in ((0.99, [0.0, now], 0), (0.99, [now], 1), (1.1, [0.0, now], 1)):
@@ -244,6 +244,126 @@ class Growing(unittest.TestCase):
             for name in names:
                 others = [p["lines"][other] for other in names if other != name]
                 self.assertTrue(growing.are_apart(p["lines"][name], others, 0.7 * p["fracture_size"]), p["number"])
+
+
+class Heat(unittest.TestCase):
+    """The state at rest, warmed from 300 K to 310 K in all of the rock and to 320 K in the fracture, by fluid of 400 K."""
+    P = {**P, "family": "heat", "conduction": "tpfa", "conductivity": 2.0, "heat_capacity": 2e6, "fluid_heat_capacity": 4e6,
+         "fracture_conductivity": 0.6, "expansion": 1e-5, "temperature": 300.0, "fracture_temperature": None, "viscosity_law": "none", "decay": 0.0,
+         "side_temperatures": {"left": 350.0, "right": 250.0}, "injected_temperature": 400.0, "heat_sides": "none", "well": "inject",
+         "order": "together", "clock": "flow"}
+
+    def state(self):
+        instant = at_rest()
+        instant.matrix.cell_data["heat.temperature[K]"] = np.full(len(instant.matrix.cells), 310.0)
+        instant.fractures.cell_data["water.temperature[K]"] = np.full(4, 320.0)
+        return instant
+
+    def history(self):
+        # C (T - T_0) of 16 m^2 of rock and of 2 m of fracture, and what fluid has brought: c m T.
+        fluid_rock = P["storage"] * 16 * (self.state().cell("pore.pressure[Pa]")[0] - P["initial"])
+        opening = 0.5 * 2 * 1e-5 * np.tan(np.radians(10))
+        stored = 2e6 * 16 * 10 + 4e6 * 1e-3 * 2 * 20 + 4e6 * fluid_rock * 310 + 4e6 * opening * 320
+        injected = physics.rate(self.P) * 0.5 * physics.end(self.P) * 4e6 * 400
+        return {"time[s]": np.array([physics.end(self.P)]), "step[s]": np.array([physics.end(self.P)]), "heat_stored[J/m]": np.array([stored]),
+                "heat_injected[J/m]": np.array([injected]), "heat_outflow[J/m]": np.array([injected - stored]), "heat_balance_error[J/m]": np.array([0.0])}
+
+    def test_nothing_is_found_where_all_is_well(self):
+        self.assertEqual(check_heat.failures(self.P, [self.state()], self.history()), [])
+
+    def test_what_is_planted_is_found(self):
+        for place, name, value in (("matrix", "heat.temperature[K]", 299.99), ("matrix", "heat.temperature[K]", 400.01), ("fractures", "water.temperature[K]", 400.01)):
+            instant = self.state()
+            getattr(instant, place).cell_data[name][2] = value
+            failures = check_heat.bounds(self.P, [instant])
+            self.assertTrue(any("temperature" in failure for failure in failures), failures)
+        for column, part, text in (("stored", 1e-5, "are said to be stored"), ("injected", 1e-5, "were injected"), ("balance_error", 1e-5, "the balance")):
+            history = self.history()
+            history[f"heat_{column}[J/m]"] = history[f"heat_{column}[J/m]"] + part * abs(history["heat_stored[J/m]"])
+            failures = check_heat.balances(self.P, [self.state()], history)
+            self.assertTrue(any(text in failure for failure in failures), (column, failures))
+
+    def test_conduction_by_mpfa_may_miss_a_bound_by_a_part_of_what_is_around(self):
+        for conduction, count in (("mpfa", 0), ("tpfa", 1)):
+            instant = self.state()
+            instant.matrix.cell_data["heat.temperature[K]"][2] = 299.6  # of 20 K between rock and fracture, 10 K in the rock
+            self.assertEqual(len(check_heat.bounds({**self.P, "conduction": conduction}, [instant])), count)
+
+    def test_the_least_viscosity(self):
+        """Of water at 400 K: 0.218 mPa s (IAPWS 2008), within 3 % by the law."""
+        self.assertAlmostEqual(heat.least_viscosity({**self.P, "viscosity_law": "water"}), 0.218e-3, delta=0.03 * 0.218e-3)
+
+
+class Wells(unittest.TestCase):
+    """A well in the fracture that its limit of 3 MPa binds, and one in the rock with an index that brings its rate."""
+    WELL = {"kind": "inject", "in_fracture": True, "at": (0.5, 0.5), "rate": 1.0, "above": 2e6, "below": 1e6, "is_limited": True,
+            "pressure": 1e6, "index": None, "radius": 1e-3}
+    P = {**P, "family": "wells", "angle": 0.0, "place": "inside", "fractures": "one", "cells": 4, "coarse": 8, "discretization": "mpfa", "mesh": "gmsh",
+         "wells": {"feed": WELL, "plant": {**WELL, "kind": "extract", "in_fracture": False, "at": (0.1, 0.1), "index": 2.0}}}
+
+    def at_rest(self):
+        instant = at_rest()
+        instant.fractures.cell_data["conduit.pressure[Pa]"] = np.full(4, 3e6)
+        instant.fractures.cell_data["rock.wall_traction.normal[Pa]"] = instant.fractures.cell_data["contact.traction.normal[Pa]"] - 3e6
+        return instant
+
+    def history(self):
+        size = physics.length(self.P) * self.P["aperture"] / physics.end(self.P)
+        around = self.at_rest().cell("pore.pressure[Pa]")[0]
+        drop = size / (2 * self.P["permeability"] / self.P["viscosity"])
+        step, rate = physics.end(self.P), 0.3 * size
+        plant = self.P["wells"]["plant"]
+        plant["below"] = 1.5 * drop
+        return {"time[s]": np.array([step]), "step[s]": np.array([step]), "wells.feed.rate[m^2/s]": np.array([rate]),
+                "wells.feed.pressure[Pa]": np.array([3e6]), "wells.plant.rate[m^2/s]": np.array([-size]),
+                "wells.plant.pressure[Pa]": np.array([around - drop]), "fluid_injected[m^2]": np.array([(rate - size) * step])}
+
+    def test_nothing_is_found_where_all_is_well(self):
+        self.assertEqual(check_wells.failures(self.P, [self.at_rest()], self.history()), [])
+
+    def test_what_is_planted_is_found(self):
+        size = physics.length(self.P) * self.P["aperture"] / physics.end(self.P)
+        for column, change_of, text in (("feed.pressure[Pa]", -1e4, "within its limit"), ("feed.pressure[Pa]", 1e4, "beyond its limit"),
+                                        ("feed.rate[m^2/s]", 0.8 * size, "more than"), ("feed.rate[m^2/s]", -0.4 * size, "more than 0"),
+                                        ("plant.rate[m^2/s]", 0.1 * size, "within its limit"), ("plant.pressure[Pa]", 1e4, "by its index"),
+                                        ("feed.pressure[Pa]", 1e4, "beside")):
+            history = self.history()
+            history["wells." + column] = history["wells." + column] + change_of
+            failures = check_wells.failures(self.P, [self.at_rest()], history)
+            self.assertTrue(any(text in failure for failure in failures), (column, change_of, failures))
+        history = self.history()
+        history["fluid_injected[m^2]"] = history["fluid_injected[m^2]"] * (1 + 1e-6)
+        self.assertEqual(len(check_wells.amount(self.P, [self.at_rest()], history)), 1)
+
+    def test_a_shut_well_may_have_more_than_its_limit(self):
+        history = self.history()
+        history["wells.feed.rate[m^2/s]"][:], history["wells.feed.pressure[Pa]"][:] = 0, 3.1e6
+        self.assertEqual(check_wells.conditions(self.P, [self.at_rest()], history), [])
+
+    def test_what_wells_bring_is_counted_for_their_fracture(self):
+        history, instant = self.history(), self.at_rest()
+        brought = check_wells.sources(self.P, history, instant)
+        step = physics.end(self.P)
+        self.assertAlmostEqual(brought(0, step, np.ones(4, bool)) / (history["wells.feed.rate[m^2/s]"][0] * step), 1)
+        self.assertEqual(brought(0, step, np.array([True, False, False, True])), 0)
+
+    def test_scenes_have_what_the_family_promises(self):
+        drawn = [ranges.draw(1, number, "wells") for number in range(200)]
+        kinds = [(well["kind"], well["in_fracture"]) for p in drawn for well in p["wells"].values()]
+        self.assertEqual(set(kinds), {(kind, place) for kind in ("inject", "extract", "cycle", "pressure") for place in (True, False)})
+        self.assertTrue(any(limited_wells.index(p, well) is None and not well["in_fracture"] for p in drawn for well in p["wells"].values()))
+
+
+class Swapped(unittest.TestCase):
+    def test_a_scene_stays_as_it_is_but_for_its_components(self):
+        for number in range(20):
+            plain, swapped = ranges.draw(1, number), ranges.draw(1, number, swapped=True)
+            self.assertEqual({k: v for k, v in plain.items() if k != "discretization"},
+                             {k: v for k, v in swapped.items() if k not in ("discretization", "rock", "contact", "swapped")})
+
+    def test_all_combinations_are_drawn(self):
+        drawn = {tuple(swaps.draw(1, number, "separate").values()) for number in range(300)}
+        self.assertEqual(len(drawn), len(swaps.FLOWS) * len(swaps.ROCKS) * len(swaps.CONTACTS))
 
 
 class Processes(unittest.TestCase):

@@ -1,5 +1,4 @@
-// A state that goes over to another mesh under tips that grow: nothing but the discretization tells that there was a
-// change.
+// The state on a new mesh around tips that grow differs from that before by no more than the discretization error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,7 +100,7 @@ double bend(const Mesh& mesh, const std::vector<PathExtension>& paths) {
   return largest;
 }
 
-/// What other cells around tips at rest, with a second in which all is free, do to the state.
+/// How the state changes when tips at rest get other cells around them, and one second is solved with everything free.
 struct Kick {
   double bend;  ///< of what has parted, over the length of the last cell; 0 where no cell is divided
   double load, slip, pressure;

@@ -126,7 +126,7 @@ TEST(ClosedCrack, FollowsTheClosedFormOnMeshesInAnyDirection) {
   }
 }
 
-// What `sprekk check` tells of tips in rock that is anisotropic, here by a millionth.
+// The note of `sprekk check` on tips in rock that is anisotropic, here by a millionth.
 TEST(ClosedCrack, WithoutFieldsAtItsTipsSlipsByAsMuchTooFarAsTheNoteSays) {
   const auto slip = [](int cells) {
     Crack crack{triangles(cells), 30, 0};

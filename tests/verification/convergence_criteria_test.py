@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """convergence_criteria_test.py SPREKK: conditions of `until:` compose as they say (all: the latest, any: the first, at least n passes), a
-bound of the change bounds the error by what theory says, `order: jacobi` has the square root of the factor of Gauss and Seidel's order,
+bound of the change, or of the residual, bounds the error by what theory says, `order: jacobi` has the square root of the factor of Gauss and Seidel's order,
 and contradictions are refused."""
 
 import csv
@@ -69,6 +69,16 @@ class ConvergenceCriteria(unittest.TestCase):
             self.assertGreater(abs(found - truth), 0.98 * FACTOR ** 2 / (1 + FACTOR) * bound)
         self.assertEqual(self.passes("all: [{change_of: pore.pressure, absolute: 2e-3 Pa}]"),
                          self.passes("all: [{change_of: pore.pressure, absolute: 2e-9 MPa}]"))
+
+    def test_a_residual_bounds_the_error(self):
+        # Undrained, what storage takes up for p is what the strain displaces. With an error e of p the residual is e + 0.8 e of it, so behind
+        # a residual r, of the terms, p is off by r/1.8 of itself, and by 1/0.8 times as much in the pass before, which was not accepted.
+        truth = self.run_scene()["p_closed"][-1]
+        for bound in (1e-2, 1e-4, 1e-6):
+            found = self.run_scene(iterated(f"at_most: 300, relative: {bound}"))["p_closed"][-1]
+            error = abs(found / truth - 1)
+            self.assertLess(error, 1.02 * bound / (1 + FACTOR))
+            self.assertGreater(error, 0.98 * FACTOR * bound / (1 + FACTOR))
 
     def test_the_factor_of_jacobi_is_the_square_root(self):
         factors = {}

@@ -56,7 +56,7 @@ TEST(PropertiesInTime, WholeSystemAndSplitSchemeGiveTheSameAnswer) {
   expect_same_fields(run, split, 1e-8);
 }
 
-/// What is kept of another attempt does not show.
+/// Another attempt in between changes no bit.
 TEST(PropertiesInTime, RepeatedStepHasTheSameBits) {
   SceneRun run("paper/onset_coarse.yaml", in_time()), again("paper/onset_coarse.yaml", in_time());
   const StepTime step{0, hour, hour}, shorter{0, 600, 600};

@@ -55,9 +55,9 @@ double worst(const SceneRun& run, const std::vector<std::string>& tips, double K
 const std::vector<std::string> tips_of_cross{"a_first", "a_last", "b_first", "b_last"};
 const std::vector<std::string> tips_of_star{"a_last", "b_last", "c_last"};
 
-// The smallest square takes what it has along its outline from cells that grow with the distance from the fractures,
-// as linear over each: there that is what factors miss, so that it takes slower growth, and smaller cells with it. 0.14
-// % of the error is that of the box, which is 40 half-lengths wide.
+// Displacements along the outline of a square are linear over each coarse cell, and cells grow with the distance from
+// the fractures. This is the largest error of the factors for the smallest square, which therefore has slower growth,
+// and smaller cells. 0.14 % of the error is that of the box, which is 40 half-lengths wide.
 TEST(CrossingTips, HaveTheClosedFormWhateverTheSquareHasInIt) {
   struct Case {
     const char *size, *cells;

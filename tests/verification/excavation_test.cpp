@@ -104,7 +104,7 @@ time: {{end: {11}, step: 1 s}}
 
 Vector stress_of(SceneRun& run) {
   for (const OutputField& field : run.model().output())
-    if (field.name == "rock.stress_xx_yy_xy") return field.values;
+    if (field.name == "rock.stress") return field.values;
   throw std::logic_error("no stress");
 }
 

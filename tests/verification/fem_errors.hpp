@@ -53,7 +53,7 @@ inline Vector stress_of_cells(SceneRun& run) {
   std::vector<OutputField> fields;
   for (const auto& component : run.model().components()) component->output(fields);
   for (const OutputField& field : fields)
-    if (field.name == "rock.stress_xx_yy_xy") return field.values;
+    if (field.name == "rock.stress") return field.values;
   return {};
 }
 

@@ -1,5 +1,5 @@
-// Walls without friction that open as they slip, and fluid that cannot follow: nothing tells Newton's method which way
-// they are about to slide but the load.
+// Walls without friction that open as they slip, and fluid that cannot follow: only the load determines in which
+// direction they are about to slide.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ SceneRun cross(const Twin& twin) {
 
 class FrictionlessCross : public ::testing::TestWithParam<Twin> {};
 
-// Once round-off was taken for the direction of friction, and cells for such as slide back, steps were cut without end.
+// If round-off gave the direction of friction, and cells were taken to slide back, steps would be cut without end.
 TEST_P(FrictionlessCross, TakesItsStepsWithoutCut) {
   SceneRun run = cross(GetParam());
   const double tangent = std::tan(2 * M_PI / 180);

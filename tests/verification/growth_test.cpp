@@ -120,8 +120,8 @@ TEST(WingCracks, FluidIsConservedAndPressureStaysPhysicalAcrossGrowth) {
     if (!run.step()) return;
     const double injected = run.quantity("fluid_injected");
     EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-9 * injected);
-    // Nothing pumps below the loading's pressure or above that in the fracture. Undrained, the stress ahead of an
-    // opening tip may lower the pressure there.
+    // Pressures lie between that of the loading and the highest one in the fracture. Only ahead of an opening tip the
+    // undrained stress may lower the pressure further.
     const Vector& matrix = run.field("pore.pressure");
     highest = std::max(highest, run.field("conduit.pressure").maxCoeff());
     const double margin = 0.01 * (highest - 6.9 * mega);
@@ -289,7 +289,7 @@ TEST(WingCracks, APathIsKeptUntilTheMeshHasTakenItOver) {
 
 TEST(WingCracks, ARepeatedStepSeesTheGrownMesh) {
   // The step is repeated on the mesh that has grown until nothing grows. Both ways lead to the same wings, to well
-  // below the 10 mm at which the coarse level is told of them.
+  // below the 10 mm at which they are handed over to the coarse level.
   SceneRun after = wings(), repeated = wings("schedule.1.update", "repeat_step");
   after.run_until(1.5 * hour);
   repeated.run_until(1.5 * hour);

@@ -319,7 +319,7 @@ TEST(Heat, DoubletCoolsTheRock) {
   EXPECT_LT(balance_error(run), 1e-9);
 }
 
-/// What a scene may not ask for, and the words of the answer.
+/// Scenes that are refused, and the messages.
 TEST(Heat, MistakesAreRefused) {
   const auto message = [](const std::string& scene) -> std::string {
     try {

@@ -196,8 +196,8 @@ Errors errors_of(const Inclusion& inclusion, double distance, double size, const
 
 const char* const meshes[] = {"", ", shape: quadrilaterals"};
 
-/// In the same place on all meshes: two cells off on the coarsest of them. Two cells off on each of them, the largest
-/// error does not fall: at a corner the stress goes like a logarithm, which looks alike on all scales.
+/// At the same distance on all meshes: two cells of the coarsest one. At two cells of each mesh the largest error does
+/// not fall: at a corner the stress goes like a logarithm, which looks alike on all scales.
 void expect_first_order(const Inclusion& inclusion, const std::string& label) {
   for (const char* mesh : meshes) {
     const double coarsest = 0.08;

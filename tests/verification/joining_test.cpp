@@ -86,8 +86,8 @@ TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
   EXPECT_NEAR(run.quantity("tips.main_last.length"), 0.065, 0.002);
   EXPECT_EQ(run.quantity("tips.wall_last.stopped"), 0);
 
-  // Nothing rubs, and the rock is elastic: the way to a state does not matter. The new cells are bonded until the next
-  // step, which is made here without further growth.
+  // Without friction, and in elastic rock, a state does not depend on the way to it. The new cells are bonded until the
+  // next step, which is made here without further growth.
   SceneRun without_growth = SceneRun::from_text(pressurized({}, "", "", ""));
   const Scene& scene = without_growth.model().scene();
   Model goes_on(scene, run.mesh()), fresh(scene, run.mesh());

@@ -102,8 +102,8 @@ TEST(JunctionWalls, PartFourBlocksThatMoveAway) {
 }
 
 TEST(JunctionWalls, SlideOnAFractureThatOthersTouch) {
-  // The upper half slides on a, on whose friction the uniform traction just is; b and c, which end on a from both sides
-  // at one point, hold.
+  // The upper half slides on a, where the uniform traction just reaches the friction bound; b and c, which end on a
+  // from both sides at one point, stick.
   const std::string lines =
       "{a: {points: [[-1, 0], [1, 0]]}, b: {points: [[0.1, 0], [0.3, 0.9]]}, c: {points: [[0.1, 0], [0.2, -0.8]]}}";
   const double slip =

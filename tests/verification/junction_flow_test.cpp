@@ -192,9 +192,8 @@ const std::string sharp =
     "{a: {points: [[-1, 0], [1, 0]]}, b: {points: [[-1, -0.35], [1, 0.38]]}, c: {points: [[0, 1], [0, 0]]}}";
 
 TEST(Junctions, PassALinearPressureUnchanged) {
-  // Walls that hold nothing back, and transmissivities of no account to it: fractures along which it falls evenly carry
-  // their part straight on, so through-going ones cross at 20 degrees, with any transmissivity; one that ends in the
-  // junction has none.
+  // Walls without resistance. Along a straight fracture a linear pressure drives a constant flux, so fractures that
+  // cross, here at 20 degrees, may have any transmissivity; the one that ends in the junction has none.
   for (const char* shape : {"triangles", "quadrilaterals"}) {
     SceneRun run = SceneRun::from_text(in_rock(
         sharp,

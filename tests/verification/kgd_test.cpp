@@ -38,7 +38,7 @@ TEST(Kgd, LengthPressureAndOpeningFollowTheClosedForm) {
   });
   EXPECT_GT(run.mesh_changes(), 4);
   EXPECT_NEAR(first / 64.34, 1, 0.03);
-  // Straight ahead, though nothing tells it to.
+  // The path is straight, although nothing prescribes its direction.
   for (const FractureCell& cell : run.mesh().fracture_cells)
     EXPECT_NEAR(cell.center[1], 0, cell.grown ? 0.01 * (cell.center[0] - start) : 1e-12);
 }

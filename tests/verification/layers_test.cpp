@@ -88,7 +88,7 @@ Vector stress_of_cells(const SceneRun& run) {
   std::vector<OutputField> fields;
   for (const auto& component : const_cast<SceneRun&>(run).model().components()) component->output(fields);
   for (const OutputField& field : fields)
-    if (field.name == "rock.stress_xx_yy_xy") return field.values;
+    if (field.name == "rock.stress") return field.values;
   return {};
 }
 

@@ -21,7 +21,7 @@ const std::vector<Override> coarse = {{"mesh", "{size: 0.5 m, fracture_size: 25 
                                       {"components.tips.mesh_ratio", "1"},
                                       {"time.step", "1 min"}};
 
-/// Everything that an assembly knows, by name.
+/// All contents of an assembly, by name.
 using Terms = std::map<std::string, std::vector<double>>;
 
 void append(std::vector<double>& to, const Vector& values) { to.insert(to.end(), values.begin(), values.end()); }

@@ -78,8 +78,8 @@ TEST(Balance, EveryCellBalancesFluidAndForces) {
   }
 }
 
-/// How far cells differ from the mean of their neighbours (root mean square), over the range of the pressure: what
-/// alternates from cell to cell does not fall with the mesh size, what is smooth does.
+/// The difference of cells from the mean of their neighbours (root mean square), over the range of the pressure. It
+/// falls with the mesh size for a smooth pressure, and not for one that alternates from cell to cell.
 double roughness(const SceneRun& run) {
   const Mesh& mesh = run.mesh();
   const Vector& p = run.field("pore.pressure");

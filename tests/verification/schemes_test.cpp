@@ -124,7 +124,7 @@ TEST(Steps, RepeatedAfterRewindGivesTheSameBits) {
     ASSERT_TRUE(run.model().attempt(step).converged);
     for (const auto& field : run.model().fields().all()) first.push_back(field->now());
     run.model().rewind();
-    ASSERT_TRUE(run.model().attempt({8 * 3600, 60, 8 * 3600 + 60}).converged);  // something else in between
+    ASSERT_TRUE(run.model().attempt({8 * 3600, 60, 8 * 3600 + 60}).converged);  // another step in between
     run.model().rewind();
     ASSERT_TRUE(run.model().attempt(step).converged);
     std::size_t i = 0;

@@ -81,7 +81,7 @@ time: {end: 4 day, step: 1 day}
 
 Vector stress_of(SceneRun& run) {
   for (const OutputField& field : run.model().output())
-    if (field.name == "rock.stress_xx_yy_xy") return field.values;
+    if (field.name == "rock.stress") return field.values;
   throw std::logic_error("no stress");
 }
 

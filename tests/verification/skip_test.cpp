@@ -1,4 +1,4 @@
-// Nothing is computed that a scene does not need.
+// What a scene does not need is not computed.
 #include <gtest/gtest.h>
 
 #include <cmath>

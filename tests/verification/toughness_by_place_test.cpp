@@ -1,5 +1,5 @@
-// A toughness that differs from place to place, on the KGD fracture in the toughness regime: the volume of the fluid
-// tells K_I of every length, and so where the tip is.
+// A toughness that differs from place to place, on the KGD fracture in the toughness regime: K_I of each length follows
+// from the volume of the fluid, and with it the place of the tip.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -32,9 +32,9 @@ class Unloading : public ::testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Angles, Unloading, ::testing::Values(0, 20, 45, 110),
                          [](const auto& info) { return fmt::format("{:.0f}", info.param); });
 
-// Friction holds what has slipped: no cell moves when the fluid presses less, however fine the crack is divided. With
-// the slip of 12 MPa the walls hold a shear stress of 1.5 MPa, and more of pressure below 12 MPa is friction that is
-// not needed.
+// Friction holds what has slipped: no cell moves when the pressure falls, however fine the crack is divided. The slip
+// under 12 MPa leaves the walls a shear stress of 1.5 MPa, and every pressure below 12 MPa gives them more friction
+// than that.
 TEST_P(Unloading, SticksAtOnce) {
   for (const int cells : {10, 40})
     for (const double dilation : {0.0, 2.0}) {

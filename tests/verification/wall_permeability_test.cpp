@@ -13,7 +13,7 @@ namespace sprekk::testing {
 namespace {
 
 /// Layers of 0.4 m and 0.6 m on the left and on the right of a fracture that goes up through a box of 1 m, between the
-/// pressures 1 and 0; `walls` says what the fracture's walls are.
+/// pressures 1 and 0; `walls`: the permeabilities of the fracture's walls.
 SceneRun layers(const std::string& flow, const std::string& walls, double degrees, const std::string& points) {
   SceneRun drawn = SceneRun::from_text(
       "{geometry: {box: {x: [0 m, 1 m], y: [0 m, 1 m]}, fractures: {seal: {points: " + points +

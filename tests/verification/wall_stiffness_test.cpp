@@ -24,7 +24,7 @@ struct ScaledOptions : contact::Options {
   }
 };
 
-/// FrictionalContact's contact with the stiffness of walls times a factor. It keeps what it was given.
+/// Contact with the stiffness of walls times a factor. It keeps the stiffness that it was given.
 class ScaledContact : public contact::FrictionalContact {
  public:
   ScaledContact(const ComponentContext& context, const ScaledOptions& options)

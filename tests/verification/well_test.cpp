@@ -11,7 +11,7 @@
 namespace sprekk::testing {
 namespace {
 
-/// Rock on the left and a tight lens in the middle, told apart by regions or by an expression.
+/// Rock on the left and a tight lens in the middle, given by regions or by an expression.
 std::string scene(const std::string& permeability) {
   return R"(
 geometry:

@@ -211,7 +211,7 @@ struct Pair {
   std::function<Vector()> general, minimal;
 };
 
-/// Both in turn, so that both see the same machine; says how far their answers are apart.
+/// Measures both in turn, under the same load of the machine; prints the difference of their answers.
 void compare(const Pair& pair, int repeats, bool last) {
   std::vector<double> ratios, general, minimal;
   double difference = 0;

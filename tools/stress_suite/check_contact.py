@@ -2,20 +2,39 @@
 
 Newton's method ends when its next update would be below 1e-8 of the fields of one unit: that is what the conditions may
 miss. Lengths are held to more, 1e-8 of the jumps.
+
+By contact/penalty walls overlap by traction over stiffness, and slip elastically as much before friction gives way. The
+stiffness is `stiffness_factor` times that of the rock against a jump of one cell, along the walls against one of the fracture:
+G over the length of either, or far less where only a sliver of rock separates two fractures. It is one for each cell: overlap and traction are in proportion.
 """
 
 import numpy as np
 
-from . import physics
+from . import physics, swaps
 
 PRECISION = 1e-8
+SOFTER = 100  # than G over the length
+
+
+def lengths(instant):
+    ends = instant.fractures.points[instant.fractures.cells]
+    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+
+
+def proportional(normal, gap, in_pa, in_m, stiffness, expect):
+    """Overlaps are in proportion to tractions. Returns the largest stiffness of each cell until now (Pa/m), where it is known."""
+    known = (-normal > 1e4 * in_pa) & (-gap > 1e4 * in_m)  # to 1e-4
+    found = np.where(known, normal / np.where(known, gap, 1), np.nan)
+    if stiffness is None:
+        return found
+    both = np.isfinite(found) & np.isfinite(stiffness)
+    expect("overlap is not in proportion to traction", np.where(both, np.abs(found / stiffness - 1), 0), 1e-3)
+    return np.where(np.isfinite(found), found, stiffness)
 
 
 def scales(p, instant, traction, jump):
     """What lengths and tractions are small against: the largest there are, and what tractions make of lengths."""
-    ends = instant.fractures.points[instant.fractures.cells]
-    sizes = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    length = max(sizes)
+    length = max(lengths(instant))
     stiffness = physics.shear_modulus(p) / length
     largest_traction = np.abs(traction).max()
     pressures = max(np.abs(instant.cell("pore.pressure[Pa]")).max(),
@@ -26,7 +45,8 @@ def scales(p, instant, traction, jump):
 def failures(p, instants):
     found = []
     friction, dilation = p["friction"], np.tan(np.radians(p["dilation"]))
-    old = None
+    old = old_shear = stiffness = None
+    is_soft = swaps.contact(p) == "penalty"
     for instant in instants:
         traction, jump = instant.on_fractures("contact.traction", "Pa"), instant.on_fractures("contact.jump", "m")
         in_m, in_pa = scales(p, instant, traction, jump)
@@ -41,13 +61,20 @@ def failures(p, instants):
                              f"at t = {instant.time:.6g} s")
 
         expect("walls pull", normal, in_pa)
-        expect("walls overlap", -gap, in_m)
+        overlap, elastic = 0.0, 0.0
+        if is_soft:
+            sizes = lengths(instant)
+            soft = SOFTER / (swaps.STIFFNESS_FACTOR * physics.shear_modulus(p))
+            overlap = soft * sizes * np.abs(normal)
+            elastic = soft * sizes.sum() * np.abs(shear - (0 if old_shear is None else old_shear))
+            stiffness = proportional(normal, gap, in_pa, in_m, stiffness, expect)
+        expect("walls overlap", -gap - overlap, in_m)
         expect("an open wall carries load", np.minimum(-normal / in_pa, gap / in_m), 1.0)
         expect("more than friction", np.abs(shear) + friction * np.minimum(normal, 0), (1 + friction) * in_pa)
         before = np.zeros_like(jump) if old is None and instant.follows else old if instant.follows else None
         if before is not None:
             slip = jump[:, 1] - before[:, 1]
-            slips = (np.abs(slip) > in_m) & (gap <= in_m)
+            slips = (np.abs(slip) > in_m + elastic) & (gap <= in_m)
             missing = np.where(slips, np.abs(shear - np.sign(slip) * friction * np.abs(np.minimum(normal, 0))), 0)
             expect("slip without its friction", missing, (1 + friction) * in_pa)
         load = instant.on_fractures("rock.wall_traction", "Pa")
@@ -55,5 +82,5 @@ def failures(p, instants):
         total = max(np.abs(load).max(), np.abs(pressure).max(), in_pa / PRECISION)
         expect("Eq. 4, normal", np.abs(load[:, 0] - (normal - pressure)), PRECISION * total)
         expect("Eq. 4, tangential", np.abs(load[:, 1] - shear), PRECISION * total)
-        old = jump
+        old, old_shear = jump, shear
     return found

@@ -9,6 +9,9 @@ Bounds: a pressure lies between those that were given, widened by what loads and
 - Injection of a volume V: at most V over the compressibility of the fluid in the fracture, or what opens the fracture
   by V, whichever is less (a crack of length L under the net pressure q opens by pi L^2 q/(2 E')); twice that for the
   sides of the box.
+- Walls that overlap (contact/penalty) press on the fluid as a fracture that closes, and let go of it.
+- Heat: what expands counts as a load, 3 K alpha_T times the range of temperatures.
+- Wells with limits: these, where their rates drive pressures to them, and given ones.
 - A fracture that has opened, and closes: at most the stress that closes it.
 - Opening by slip, and extraction, lower the pressure without a bound of their own where the rock gives no fluid.
 Alternating: a cell is a peak (a trough) when its pressure is above (below) that of all its neighbours by more than 2 %
@@ -21,7 +24,7 @@ import math
 
 import numpy as np
 
-from . import physics
+from . import heat, limited_wells, physics, swaps
 
 MISSED = 0.05  # of the differences
 PEAK = 0.02
@@ -92,7 +95,7 @@ class Stresses:
         self.least = self.most = self.largest = 0.0
 
     def see(self, instant):
-        stress = instant.cell("rock.stress_xx_yy_xy[Pa]")[:, :2]
+        stress = instant.cell("rock.stress[Pa]")[:, :2]
         means = [stress.mean(1).min(), stress.mean(1).max()]
         if self.p["sides"] == "stress":
             means += [np.mean(physics.stresses(self.p, t)) for t in self.times[self.times <= instant.time]]
@@ -101,10 +104,11 @@ class Stresses:
 
 
 def bounds(p, instant, stresses, has_opened):
-    given = [p["initial"]] + ([p["boundary_pressure"]] if p["boundary"] == "across" else [])
+    given = [p["initial"]] + ([p["boundary_pressure"]] if p["boundary"] == "across" else []) + limited_wells.pressures(p)
     mean = 0.0
     if p["alpha"] > 0:
-        mean = p["alpha"] * (stresses.most - stresses.least) / (p["alpha"] ** 2 + p["storage"] * physics.in_plane_modulus(p))
+        heated = 3 * physics.bulk_modulus(p) * p["expansion"] * (max(heat.given(p)) - min(heat.given(p))) if p["family"] == "heat" else 0.0
+        mean = p["alpha"] * (stresses.most - stresses.least + heated) / (p["alpha"] ** 2 + p["storage"] * physics.in_plane_modulus(p))
     volume, length = abs(p["volume"] * physics.length(p) * p["aperture"]), physics.length(p)
     lowest, highest = min(given) - mean, max(given) + mean
     if has_opened:
@@ -114,6 +118,8 @@ def bounds(p, instant, stresses, has_opened):
         opening = 2 * physics.plane_strain_modulus(p) * volume / (math.pi * length**2)
         loads = 2 * max(map(abs, physics.stresses(p, instant.time))) + stresses.largest
         highest += 2 * min(compress, opening + loads)
+    if limited_wells.are_without_limit(p, "inject"):
+        highest = math.inf
     return lowest, highest
 
 
@@ -144,13 +150,13 @@ def failures(p, instants, history=None):
         stresses.see(instant)
         pressure = instant.cell("pore.pressure[Pa]")
         fracture = instant.on_fractures("conduit.pressure", "Pa")
-        has_opened = has_opened or instant.on_fractures("contact.jump", "m")[:, 0].max() > 0
+        has_opened = has_opened or swaps.contact(p) == "penalty" or instant.on_fractures("contact.jump", "m")[:, 0].max() > 0
         low, high = bounds(p, instant, stresses, has_opened)
         size = max(abs(low), abs(high), p["initial"], stresses.largest)  # Newton judges all pressures and stresses together
         # MPFA is no M-matrix: it may miss a bound by a part of the differences in the rock, and beside fractures of those
         # between their fluid and the rock, too.
         in_rock = pressure.max() - pressure.min()
-        may_fall = p["well"] in ("extract", "inject_extract") or has_opened
+        may_fall = p["well"] in ("extract", "inject_extract") or has_opened or limited_wells.are_without_limit(p, "extract")
         for values, around in zip((pressure, fracture), differences_around(instant, pressure, fracture)):
             slack = 1e-8 * size + MISSED * np.maximum(around, in_rock)
             for side, over in ((f"above {high:.6g}", values - high - slack), (f"below {low:.6g}", low - slack - values)):
@@ -167,6 +173,6 @@ def failures(p, instants, history=None):
         for number in np.unique(numbers):
             own = fracture[numbers == number]
             margin = max(SCATTER * np.abs(own - p["initial"]).max(), 1e-8 * size)
-            if alternating_along(own, margin) > IN_A_ROW:
+            if alternating_along(own, margin) > IN_A_ROW and not swaps.may_lock(p):
                 found.append(f"alternating: along fracture {number} at t = {instant.time:.6g} s")
     return found

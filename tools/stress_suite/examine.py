@@ -2,13 +2,14 @@
 
 import shutil
 
-from . import check_balance, check_contact, check_end, check_finite, check_growing, check_pressure, growing, physics, ranges, run, scene, written
+from . import check_balance, check_contact, check_end, check_finite, check_growing, check_heat, check_pressure, check_wells, growing, physics, ranges, run, scene, swaps, written
 
 
 def describe(p):
     if p["family"] == "growing":
         return growing.describe(p)
-    return (f"dt = {p['relative_step']:.0e} of diffusion, k = {p['permeability']:.0e}, alpha = {p['alpha']:.2f}, "
+    more = scene.MORE[p["family"]].describe(p) if p["family"] in scene.MORE else ""
+    return (f"{swaps.describe(p)}{more}dt = {p['relative_step']:.0e} of diffusion, k = {p['permeability']:.0e}, alpha = {p['alpha']:.2f}, "
             f"S = {p['storage']:.0e}, nu = {p['poisson']:.4f}, friction = {p['friction']:.2f}, "
             f"dilation = {p['dilation']:.0f} deg, a = {p['aperture']:.0e} m, {p['history']}, {p['well']}, {p['mesh']}, "
             f"{p['fractures']}, {p['place']}")
@@ -28,13 +29,16 @@ def check_fields(p, folder):
     found = check_finite.failures(instants, history)
     if found or not instants:
         return found
-    return (check_contact.failures(p, instants) + check_balance.failures(p, instants, history, main=0) +
-            check_pressure.failures(p, instants, history))
+    brought = check_wells.sources(p, history, instants[0]) if p["family"] == "wells" else None
+    found = (check_contact.failures(p, instants) + check_balance.failures(p, instants, history, main=0, brought=brought) +
+             check_pressure.failures(p, instants, history))
+    more = {"heat": check_heat, "wells": check_wells}.get(p["family"])
+    return found + (more.failures(p, instants, history) if more else [])
 
 
 def examine(program, chosen, number, folder, keep=False):
     """{number, outcome, failures, iterations, accepted, rejected, seconds}; the folder is removed unless it is kept."""
-    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme)
+    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme, chosen.swapped)
     shutil.rmtree(folder, ignore_errors=True)
     ended = run.run(program, scene.write(p, folder), folder / "results", chosen.limit)
     report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0,

@@ -21,7 +21,9 @@ def plane_strain_modulus(p):
 
 
 def diffusion_time(p):
-    """Of the box: width^2 over the diffusivity of uniaxial strain. Without any storage there is none; then an hour."""
+    """Of the box: width^2 over the diffusivity of uniaxial strain, or that of heat. Without any storage there is none; then an hour."""
+    if p.get("clock") == "heat":
+        return p["width"] ** 2 * p["heat_capacity"] / p["conductivity"]
     modulus = bulk_modulus(p) + 4 / 3 * shear_modulus(p)
     storage = p["storage"] + p["alpha"] ** 2 / modulus
     if storage == 0:
@@ -77,4 +79,5 @@ def family_option(p):
     family = "" if p["family"] == "separate" else f" --family {p['family']}"
     update = "" if p.get("update", "after_step") == "after_step" else f" --update {p['update']}"
     scheme = p.get("solved", p.get("scheme", "monolithic"))
-    return family + update + ("" if scheme == "monolithic" or p["family"] == "growing" else f" --scheme {scheme}")
+    swapped = " --swapped" if p.get("swapped") else ""
+    return family + swapped + update + ("" if scheme == "monolithic" or p["family"] == "growing" else f" --scheme {scheme}")

@@ -1,23 +1,9 @@
 """Draws the parameters of a scene. A family, a seed and a number give the same parameters on every machine."""
 
-import math
 import random
 
-from . import growing, schemes
-
-
-def log_uniform(rng, low, high):
-    return 10 ** rng.uniform(math.log10(low), math.log10(high))
-
-
-def sometimes(rng, special, share, usual):
-    """The special value in a share of the scenes, for limits that a continuous range would never meet."""
-    draw = usual()
-    return special if rng.random() < share else draw
-
-
-def choose(rng, **weights):
-    return rng.choices(list(weights), list(weights.values()))[0]
+from . import growing, heat, limited_wells, schemes, swaps
+from .draws import choose, log_uniform, sometimes
 
 
 def material(rng):
@@ -96,13 +82,16 @@ def meeting(rng):
     }
 
 
-FAMILIES = ("separate", "meeting", "growing")
+FAMILIES = ("separate", "meeting", "growing", "heat", "wells")
+MORE = {"meeting": meeting, "heat": heat.draw, "wells": limited_wells.draw}  # what families draw besides
 
 
-def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=schemes.MONOLITHIC):
+def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=schemes.MONOLITHIC, swapped=False):
     rng = random.Random(f"{seed}:{number}" if family == "separate" else f"{family}:{seed}:{number}")
     if family == "growing":
         return {"seed": seed, "number": number, "family": family, "update": update, **growing.draw(rng)}
     p = {"seed": seed, "number": number, "family": family, "solved": scheme, **material(rng), **geometry(rng), **loading(rng), **fluid(rng),
          **time(rng)}
-    return p if family == "separate" else {**p, **meeting(rng)}
+    if swapped:
+        p.update(swaps.draw(seed, number, family), swapped=True)
+    return {**p, **MORE[family](rng)} if family in MORE else p

@@ -2,7 +2,7 @@
 
 import math
 
-from . import fractures, growing, physics, schemes, twisted_mesh
+from . import fractures, growing, heat, limited_wells, physics, schemes, swaps, twisted_mesh
 
 
 def box_and_mesh(p):
@@ -47,6 +47,9 @@ def wells(p):
     return lines
 
 
+MORE = {"heat": heat, "wells": limited_wells}  # components and couplers of families
+
+
 def write(p, folder):
     """folder/scene.yaml; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -57,7 +60,7 @@ def write(p, folder):
         shape = "geometry: {file: mesh.msh}"
     else:
         _, shape = box_and_mesh(p)
-    step = physics.time_step(p)
+    step, more = physics.time_step(p), MORE.get(p["family"])
     lines = [f"# tools/stress{physics.family_option(p)} --seed {p['seed']} --only {p['number']}", f"name: stress_{p['number']}", "", shape, "",
              "materials:", f"  young_modulus: {p['young']!r} Pa", f"  poisson_ratio: {p['poisson']!r}",
              f"  biot_coefficient: {p['alpha']!r}", f"  permeability: {p['permeability']!r} m^2",
@@ -65,14 +68,14 @@ def write(p, folder):
              f"  friction: {p['friction']!r}", f"  dilation_angle: {math.radians(p['dilation'])!r} rad", "",
              "components:", "  pore:", f"    type: matrix_flow/{p['discretization']}", f"    storage: {p['storage']!r} 1/Pa",
              f"    initial_pressure: {p['initial']!r} Pa", *flow_sides(p),
-             "  rock:", "    type: poromechanics/mpsa", "    boundary:", *rock_sides(p),
+             "  rock:", *swaps.rock(p), "    boundary:", *rock_sides(p),
              "  conduit:", "    type: fracture_flow/tpfa", f"    initial_aperture: {p['aperture']!r} m",
              f"    initial_pressure: {p['initial']!r} Pa", *wells(p),
-             "  contact: {type: contact/coulomb}", "",
+             f"  contact: {{type: contact/{swaps.contact(p)}}}", *(more.components(p) if more else []), "",
              "couplers:", "  - {type: biot, between: [pore, rock]}", "  - {type: wall_exchange, between: [pore, conduit]}",
              "  - {type: wall_traction, between: [rock, contact, conduit]}",
-             "  - {type: aperture, between: [contact, conduit]}", "",
-             schemes.schedule(p["solved"]), "",
+             "  - {type: aperture, between: [contact, conduit]}", *(more.couplers(p) if more else []), "",
+             heat.schedule(p) if more is heat else schemes.schedule(p["solved"], ", wells" if more else ""), "",
              f"time: {{end: {physics.end(p)!r} s, step: {step!r} s}}", f"output: {{every: {step!r} s}}", ""]
     path = folder / "scene.yaml"
     path.write_text("\n".join(lines))

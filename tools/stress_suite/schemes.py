@@ -7,9 +7,10 @@ RESPONSE = "response"  # fractures apart from rock, with the Schur complement of
 SCHEMES = (MONOLITHIC, *ITERATED, RESPONSE)
 
 
-def schedule(scheme):
+def schedule(scheme, with_flow=""):
+    """`with_flow`: names of components that are solved with the flow, after a comma."""
     if scheme == MONOLITHIC:
-        return "schedule: [{solve: [pore, rock, conduit, contact]}]"
+        return f"schedule: [{{solve: [pore, rock, conduit, contact{with_flow}]}}]"
     steps = ("{solve: pore, stabilize: fixed_stress}, {solve: rock}, {solve: [conduit, contact], stabilize: response}" if scheme == RESPONSE else
-             "{solve: [pore, conduit], stabilize: fixed_stress}, {solve: [rock, contact]}")
+             f"{{solve: [pore, conduit{with_flow}], stabilize: fixed_stress}}, {{solve: [rock, contact]}}")
     return f"schedule: [{{iterate: {{until: {{relative: {UNTIL:g}, at_most: 100}}, {ITERATED.get(scheme, '')}steps: [{steps}]}}}}]"

@@ -4,12 +4,12 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double least_effect = 1e-6;  ///< of the largest one: no unknown is without any
-constexpr double least_fresh = 0.1;    ///< of a move: what is left of it across earlier ones, to learn from
+constexpr double least_effect = 1e-6;  ///< of the largest effect: the effect of an unknown counts as at least this
+constexpr double least_fresh = 0.1;    ///< of a move: with a smaller part normal to earlier moves these are forgotten
 
 }  // namespace
 
-/// Of each unknown, the effect of one unit on the residual, so that each has its part in what a move has missed.
+/// The effect of one unit of each unknown on the residual: in these units updates treat all unknowns alike.
 Eigen::VectorXd Broyden::effects() const {
   const Eigen::VectorXd norms = jacobian.colwise().norm().transpose();
   return norms.cwiseMax(least_effect * norms.maxCoeff());

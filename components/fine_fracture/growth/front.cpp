@@ -16,22 +16,23 @@ namespace {
 
 constexpr double first_slope = -0.3;          ///< of ln K_eq over one increment, as long as none is known
 constexpr double shared_slope = -0.2;         ///< the same by the growth of another tip
-constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one tells no slope between two meshes
+constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one gives no slope from two meshes
 constexpr double first_part = 0.25;           ///< of an increment: the first trial of a tip without a known speed
 constexpr double gain = 0.5;                  ///< of the norm of the best trial: what counts as progress
 constexpr int patience = 8;                   ///< trials without progress
 constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
 constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
 constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
-constexpr double of_difference = 30;          ///< that of what tells advances apart: slopes of -0.3 over H's of 0.01
-constexpr double largest_turn = 0.3;          ///< rad, between two trials
-constexpr double quarter_turn = 1.5;          ///< rad: a move that turns further has learnt no slope of K_II
-constexpr double largest_factor = 3;          ///< between lengths of a new segment in two trials
-constexpr double largest_advance = 0.6;       ///< of an increment, between two trials
-constexpr double at_limit = 1e-9;             ///< of a length that is at its limit, but for rounding
-constexpr double equal_advances = 1e-9;       ///< of an increment: what is left of differences of equal advances
-constexpr double of_differences = 0.1;        ///< of the tolerance of loads: that of what tells advances apart
-constexpr double alike = 0.01;        ///< of ln K over one increment: a tip unloads another as itself, but for this
+constexpr double of_difference = 30;  ///< that of differences of advances: slopes of loads, 0.3, over those of H, 0.01
+constexpr double largest_turn = 0.3;  ///< rad, between two trials
+constexpr double quarter_turn = 1.5;  ///< rad: for a move that turns further the slope of K_II is wrong
+constexpr double largest_factor = 3;  ///< between lengths of a new segment in two trials
+constexpr double largest_advance = 0.6;  ///< of an increment, between two trials
+constexpr double at_limit = 1e-9;        ///< of a length that is at its limit, but for rounding
+constexpr double equal_advances = 1e-9;  ///< of an increment: differences below this are round-off
+constexpr double of_differences = 0.1;   ///< the tolerance of differences of advances over that of loads
+constexpr double alike = 0.01;  ///< of ln K over one increment: if growth of another tip unloads a tip as its own does,
+                                ///< but for this, both are the same
 constexpr double no_motion = 1e-300;  ///< no division by zero
 
 double excess(const FrontState& state) {
@@ -156,8 +157,8 @@ void Front::make_jacobian() {
   }
 }
 
-/// Where a tip lies changes K, and an angle moves the tip across by the length of its segment; K_II follows the
-/// direction as at a kink.
+/// An angle changes K by moving the tip sideways, in proportion to the length of its segment, and K_II by the
+/// direction, as at a kink.
 void Front::scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const {
   for (int j = 0; j < count(); ++j) {
     if (!(length_[j] > 0)) continue;
@@ -249,7 +250,7 @@ void Front::learn(const std::vector<FrontState>& states) {
   step(from);
 }
 
-/// Drops what earlier trials and searches have told of the slopes.
+/// Drops the slopes from earlier trials and searches.
 void Front::forget() {
   make_jacobian();
   for (int i = 0; i < count(); ++i)
@@ -344,8 +345,8 @@ double Front::load_at_rest(int tip, const Eigen::VectorXd& residual) const {
   return load_of_front_at_rest(all, options_.mesh_error);
 }
 
-/// Lets tips at rest grow that have to. Whether one of them was not in the last trial: then a trial with the new set
-/// comes before anything is concluded.
+/// Lets tips at rest grow that have to. True if one of them did not grow in the last trial: then a trial with the new
+/// set comes before anything is concluded.
 bool Front::free_tips(const Eigen::VectorXd& residual) {
   std::vector<int> freed;
   for (int i = 0; i < count(); ++i)
@@ -365,8 +366,8 @@ bool Front::free_tips(const Eigen::VectorXd& residual) {
   return false;
 }
 
-/// A tip that is below its toughness, but within the error of the mesh, begins without an advance. Where the growth of
-/// another unloads both alike, this holds for its own, too.
+/// A tip that is below its toughness, but within the error of the mesh, begins without an advance. If growth of another
+/// tip unloads both alike, its own growth does so, too.
 void Front::begin_beside_front(int tip) {
   length_[tip] = tips_[tip].covered;
   angle_[tip] = tips_[tip].angle;
@@ -378,8 +379,8 @@ void Front::begin_beside_front(int tip) {
   if (std::abs(own - shared) < alike) slopes_.jacobian.col(2 * tip) = slopes_.jacobian.col(2 * leader);
 }
 
-/// With Broyden's matrix, for which the equations of the front are solved as they are: only loads and directions are
-/// taken to be linear. Where this has no solution, these equations are linear, too.
+/// The step with Broyden's matrix. Loads and directions are linear, while the equations of the front are solved as they
+/// are; these are linearized, too, if there is no solution.
 Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) {
   if (const auto move = step_to_linear_front(free, residual)) return *move;
   const std::vector<int> tips = front_tips();
@@ -405,7 +406,7 @@ Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::Ve
   return matrix.fullPivLu().solve(-count_loads(residual, front)(free));
 }
 
-/// Whether a tip would turn so far that its direction has been found not to matter for K_II.
+/// Whether a tip would turn further than any turn for which the slopes of K_II hold.
 bool Front::turns_far(const Eigen::VectorXd& move) {
   for (Eigen::Index a = 1; a < move.size(); a += 2)
     if (std::abs(move[a]) > quarter_turn) return true;
@@ -499,7 +500,7 @@ void Front::step(const Eigen::VectorXd& residual) {
       if (!is_new(i))
         angle_[i] = tips_[i].angle;
       else if (tips_[i].least > 0)
-        angle_[i] = tips_[i].first_angle;  // of what has parted
+        angle_[i] = tips_[i].first_angle;  // the direction of the part that exists already
       grows_[i] = is_unstable;
       best_.reset();
     } else {

@@ -236,7 +236,7 @@ void IncrementSearch::settle_for_less(double k_eq) {
 }
 
 void IncrementSearch::correct_direction(const Sifs& end) {
-  // Beyond this angle the tip is closed, and K_II does not tell the direction of growth.
+  // Beyond this angle the tip is closed, and the direction of growth does not follow from K_II.
   constexpr double closed = 0.75 * std::numbers::pi;
   const bool may_shorten = options_.seeks_arrest();
   if (may_shorten && std::abs(directions_.back().phi) >= closed) {

@@ -16,9 +16,9 @@ constexpr double largest_turn = 0.3;        ///< rad, between two trials
 constexpr double close_enough = 1e-3;       ///< |ln(K_eq/K_IC)| of the leading tip where a jump ends
 constexpr int most_closings = 6;            ///< trials of regula falsi
 constexpr double least_part = 0.1;          ///< of the last part that regula falsi leaves
-constexpr double shortest_retreat = 1e-2;   ///< of an increment: what cannot be solved is not made shorter than that
-constexpr double at_limit = 1e-9;           ///< of a length that is at its limit, but for rounding
-constexpr double least_load = 1e-3;         ///< for the logarithm
+constexpr double shortest_retreat = 1e-2;  ///< of an increment: a trial that cannot be solved is shortened down to this
+constexpr double at_limit = 1e-9;          ///< of a length that is at its limit, but for rounding
+constexpr double least_load = 1e-3;        ///< for the logarithm
 
 double log_load(double load) { return std::log(std::max(least_load, load)); }
 

@@ -14,7 +14,7 @@ constexpr double round_off = 1e-13;      ///< of F: found
 constexpr double nearly = 100;           ///< round-offs: found where no step makes F smaller
 constexpr int most_steps = 60;           ///< of Newton's method
 constexpr double shortest_part = 1e-4;   ///< of a step of Newton's method
-constexpr int most_relaxations = 20000;  ///< with slopes of H of 1e-3 beside loads' of 1: twenty times what it takes
+constexpr int most_relaxations = 20000;  ///< twenty times what slopes of H of 1e-3 beside slopes of loads of 1 need
 constexpr double longest = 10;           ///< increments: further away there is no front
 
 /// F where a tip may still move, 0 where it rests as it has to.

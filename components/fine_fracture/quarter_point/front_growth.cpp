@@ -28,7 +28,7 @@ constexpr double least_advance = 0.05;      ///< of an increment: a step in whic
 constexpr double least_first_part = 0.2;    ///< of an increment: what stays of a first segment behind a kink
 constexpr double largest_first_part = 0.8;  ///< of a first segment: the same
 constexpr double longest_advance = 1.5;     ///< of an increment, in one step
-constexpr double on_the_way = 0.2;          ///< of an increment: of nearer places only one counts, for their direction
+constexpr double on_the_way = 0.2;          ///< of an increment: of nearer places only one gives a direction
 constexpr double wanted_advance = 0.85;     ///< of an increment, of the fastest tip in one step
 constexpr double shorter_step = 0.5;        ///< the next attempt at a step that is too long
 
@@ -133,7 +133,7 @@ double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const 
   const std::vector<PlaceOnWay>& way = tip.now.way;
   const double increment = tips_.options_.growth.increment;
   if (way.empty()) return 0;
-  // Other cells are no matter of a step that ends as it began.
+  // A step in which the tip hardly advances keeps its cells: dividing one would change K by more than the advance does.
   const bool is_short = start.speed > 0 && start.speed * dt_ < least_advance * increment;
   if (is_short && start.covered < longest_segment * increment) return 0;
   if (!tip.now.segment_start)
@@ -200,7 +200,7 @@ void TipsFront::add(Tips::Tip& tip) {
   states_.push_back(state);
 }
 
-/// What is left of the rock between a blocked tip and another fracture parts at once.
+/// The rock that is left between a blocked tip and another fracture breaks at once.
 void TipsFront::find_joinings() {
   std::vector<std::pair<int, int>> joined;
   for (std::size_t i = 0; i < tips_.tips_.size(); ++i) {

@@ -16,7 +16,7 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
   const bool has_grown = outcome.increments > 0;
   // Twice and three times the tolerances: the length and the direction of the last increment may be off by that, and by
   // a rest that is shorter than the shortest increment.
-  constexpr double excess_in_tolerances = 2, shear_in_tolerances = 3;  // from where on a user is told
+  constexpr double excess_in_tolerances = 2, shear_in_tolerances = 3;  // from where on there is a note
   const double most_excess = excess_in_tolerances * growth.arrest_tolerance,
                most_shear = shear_in_tolerances * growth.direction_tolerance;
   // A tip that has met another fracture ends there, whatever its load.

@@ -46,8 +46,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   if (tip.pattern && !has_room(tip.pattern->outline, position(tip, paths[index]), mesh.tip_size)) tip.pattern.reset();
   FineDomain domain = fine_domain(mesh_, paths_with(paths), tip.end, center, options_.size, tip.coarse_size, walls,
                                   tip.pattern ? &tip.pattern->outline : nullptr);
-  const LameParameters lame = surroundings_->stiffness(center);
-  const Elasticity rock{lame.lambda, lame.shear};
+  const FineRock rock = rock_around(center);
   if (!tip.model || !(tip.model->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
     tip.kept_factors.reset();
     tip.offsets = nullptr;
@@ -84,6 +83,15 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) {
   if (!tip.offsets) tip.offsets = surroundings_->stress_offsets(tip.model->offset_places());
   loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
   return keep_factors(tip, tip.model->solve(loads));
+}
+
+FineRock Tips::rock_around(const Point& center) const {
+  const auto at = [this](const Point& x) {
+    const LameParameters lame = surroundings_->stiffness(x);
+    return Elasticity{lame.lambda, lame.shear};
+  };
+  const std::uint64_t version = surroundings_->stiffness_by_place();
+  return version == 0 ? FineRock(at(center)) : FineRock(at, version);
 }
 
 Sifs Tips::keep_factors(Tip& tip, const FineSolution& solution) const {

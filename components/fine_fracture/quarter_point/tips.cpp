@@ -25,6 +25,7 @@ Sifs times(const Sifs& sifs, double factor) {
 Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     : Component(context.name), mesh_(context.mesh), origin_(context.origin), options_(options) {
   check_increment();
+  check_longest();
   for (const TipEnd& end : all_ends(mesh_)) {
     if (kind_of(mesh_, end) == FracturePoint::Kind::junction) joints_.push_back({end, name_of(mesh_, end)});
     if (kind_of(mesh_, end) != FracturePoint::Kind::tip) continue;
@@ -33,6 +34,7 @@ Tips::Tips(const ComponentContext& context, const TipsOptions& options)
     tip.name = name_of(mesh_, end);
     tip.coarse_size = original_size(mesh_, end);
     check_size(tip);
+    check_shortest(tip);
     tips_.push_back(std::move(tip));
   }
 }
@@ -63,6 +65,31 @@ void Tips::check_increment() const {
       fmt::format("'growth.increment' of {} is {:.4g} m, and 'size' is {:.4g} m", name(), increment, options_.size),
       fmt::format("an increment has to end in the square around its tip, which reaches {:.4g} m", half),
       "choose a shorter increment, or a larger 'size'");
+}
+
+/// Within steps each increment is a cell or two of the coarse level, in the held procedure an edge or two of the fine
+/// one.
+void Tips::check_shortest(const Tip& tip) const {
+  constexpr double shortest = 0.01;  // of the cell at the tip
+  const double least = shortest * tip.coarse_size;
+  if (!options_.toughness || options_.growth.increment >= least) return;
+  throw InputError(origin_,
+                   fmt::format("'growth.increment' of {} is {:.4g} m, and the mesh at the tip {} has edges of {:.4g} m",
+                               name(), options_.growth.increment, tip.name, tip.coarse_size),
+                   fmt::format("segments of a path that are shorter than a hundredth of an edge ({:.4g} m) make a run "
+                               "longer and no answer better: the edges limit it",
+                               least),
+                   "choose a longer increment, of half an edge for example, or a smaller mesh.fracture_size");
+}
+
+void Tips::check_longest() const {
+  const GrowthOptions& growth = options_.growth;
+  if (!options_.toughness || !growth.longest || *growth.longest >= growth.smallest_length()) return;
+  throw InputError(origin_,
+                   fmt::format("'growth.longest' of {} is {:.4g} m, and its shortest increment is {:.4g} m", name(),
+                               *growth.longest, growth.smallest_length()),
+                   "a tip grows by no less than 'smallest' times 'increment' at once: it could never grow",
+                   "choose a larger 'longest', or leave it out: there is no limit then");
 }
 
 const FractureCell& Tips::last_cell(const TipEnd& end) const { return end_cell(mesh_, end); }
@@ -215,7 +242,7 @@ bool Tips::is_long_enough(const Tip& tip, const TipPath& path) const {
   return length_of(position(tip, {}), path) >= nearly * threshold(tip);
 }
 
-/// What has parted stays where it is: a path with the state held begins at the tip.
+/// The last segment stays where it is: a path that grows with the state held begins at the tip.
 void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
   tip.now.speed = (length_of(position(tip, {}), path) - length_of(position(tip, {}), tip.now.path)) / step_.dt;
   tip.now.is_extendable = false;
@@ -233,7 +260,7 @@ void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
 
 Growing::Growth Tips::grow(const StepTime&) {
   std::vector<GrowingTip> growing;
-  std::vector<double> at_start;  // Pa m^0.5, K_IC of each tip; all depends on K over K_IC, so the search knows this one
+  std::vector<double> at_start;  // Pa m^0.5, K_IC of each tip; the search gets K scaled to this toughness
   const auto over_start = [&](int tip, const TipPath& path) {
     return toughness(tips_[tip].end, position(tips_[tip], path)) / at_start[tip];
   };
@@ -364,7 +391,7 @@ void Tips::rewound() {
     tip.now = tip.accepted;
     tip.evaluated_for = 0;
     tip.kept_factors.reset();
-    // A step that is repeated does not know of the trials of the one that was refused.
+    // A repeated step starts without the trials of the refused one.
     tip.pattern.reset();
   }
   notes_.clear();

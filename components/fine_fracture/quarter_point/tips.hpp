@@ -141,8 +141,10 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
                   std::vector<Quantity>& quantities) const;
   /// Where a step is examined for the first time, also by the models of its trials and repetitions.
   void note_start(const StepTime& step);
-  void check_size(const Tip& tip) const;  ///< throws InputError where the square is too small for the coarse mesh
-  void check_increment() const;           ///< throws InputError where an increment would leave the square
+  void check_size(const Tip& tip) const;      ///< throws InputError where the square is too small for the coarse mesh
+  void check_shortest(const Tip& tip) const;  ///< throws InputError where increments are far below the mesh
+  void check_longest() const;                 ///< throws InputError where a tip could not grow at all
+  void check_increment() const;               ///< throws InputError where an increment would leave the square
   const FractureCell& last_cell(const TipEnd& end) const;
   Point position(const Tip& tip, const TipPath& path) const;
   Point direction(const Tip& tip) const;  ///< of the last cell
@@ -152,6 +154,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
       const Tip& tip) const;  ///< m, where the fine level has an arc in its place
   std::vector<FracturePath> paths_with(const std::vector<TipPath>& added) const;
   std::vector<TipPath> paths_now() const;
+  FineRock rock_around(const Point& center) const;
   Sifs evaluate(std::size_t tip, const std::vector<TipPath>& paths);
   FineLoads loads_of(const Tip& tip) const;
   /// The factors of this tip in a solution. Sets their estimated error.

@@ -273,6 +273,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
 }
 
 void FractureFlow::constrain(Assembly& assembly) const {
+  count_let_in(assembly);
   for (const Prescribed& p : prescribed_) assembly.fix(pressure_, p.cell, p.pressure, p.scale);
 }
 
@@ -327,6 +328,7 @@ void FractureFlow::report(std::vector<Quantity>& quantities) const {
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     if (law_->at(aperture_.now()[i]).by_aperture == 0) ++floored;
   quantities.push_back({name() + ".cells_at_aperture_floor", "1", static_cast<double>(floored)});
+  report_rates(quantities);
   if (!empty_) return;
   double volume = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) volume += mesh_.fracture_cells[i].measure * empty_->now()[i];

@@ -93,6 +93,9 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
     double boundary_pressure = 0;  ///< Pa, of an open end
     double gravity = 0;            ///< rho g·(x_first − x_second), Pa
   };
+  void count_let_in(const Assembly& assembly) const;
+  /// The rates at named places, and the outflow at sides with a pressure, at the end of the step.
+  void report_rates(std::vector<Quantity>& quantities) const;
   Conductance conductance(const Link& link) const;
   /// The conductance by the cubic law, from the apertures of the half cells.
   Conductance conductance_by_opening(const Link& link) const;
@@ -161,7 +164,9 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
     double pressure, scale;
   };
   std::vector<Prescribed> prescribed_;
-  std::vector<char> is_prescribed_;  ///< of each cell
+  mutable std::vector<double> let_in_;  ///< m^2/s, at each of prescribed_; found when their rows are replaced
+  double step_length_ = 0;              ///< s
+  std::vector<char> is_prescribed_;     ///< of each cell
 };
 
 }  // namespace sprekk::fracture_flow

@@ -67,6 +67,15 @@ void FractureFlow::note_step(Notes& notes, const StepTime&) const {
               fmt::format("{} reaches {:.3g} Pa at {} (no rock bears 10 GPa) look at transmissivity and rates there",
                           pressure_.name(), pressure_.now()[largest], to_text(mesh_.fracture_cells[largest].center)),
               most);
+  Eigen::Index least = 0;
+  if (const double narrowest = aperture_.now().minCoeff(&least); narrowest < 0)
+    notes.add(
+        aperture_.name() + " below zero",
+        fmt::format("{} is {:.3g} m at {}, so that there is less than no fluid (its walls overlap by more than the "
+                    "initial aperture) raise initial_aperture, or let walls in contact approach each other less: "
+                    "the 'closure' of the contact, or the 'stiffness_factor' of contact/penalty",
+                    aperture_.name(), narrowest, to_text(mesh_.fracture_cells[least].center)),
+        -narrowest);
   if (!empty_) return;
   constexpr double rounding = 1e-6;
   Eigen::Index worst = 0;

@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
+#include "framework/field/ownership.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/mesh/point_location.hpp"
+#include "framework/parallel/parallel.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -97,6 +99,8 @@ void FractureFlow::prescribe(const StepTime& step) {
     sources_.push_back(std::move(source));
   }
   prescribed_.clear();
+  let_in_.clear();
+  step_length_ = step.dt;
   is_prescribed_.assign(mesh_.fracture_cell_count(), 0);
   for (const auto& [name, given] : options_.prescribed)
     for (const int cell : cells_at(mesh_, given.where)) {
@@ -111,6 +115,52 @@ void FractureFlow::prescribe(const StepTime& step) {
   // The balance of a cell with a prescribed pressure is not solved: what is injected there has no effect.
   for (FluidSource& source : sources_)
     std::erase_if(source.rates, [&](const auto& rate) { return is_prescribed_[rate.first] != 0; });
+}
+
+/// What the balance of a prescribed cell lacks before its row is replaced has entered there.
+void FractureFlow::count_let_in(const Assembly& assembly) const {
+  const std::vector<const Field*>& unknowns = assembly.unknowns();
+  const auto found = std::ranges::find(unknowns, &pressure_);
+  if (found == unknowns.end()) return;
+  const Vector& lacks = assembly.residual(static_cast<int>(found - unknowns.begin()));
+  let_in_.resize(prescribed_.size());
+  for (std::size_t k = 0; k < prescribed_.size(); ++k) {
+    const int cell = prescribed_[k].cell;
+    let_in_[k] = lacks[cell] / step_length_ + source_[cell];  // an injection there has no effect
+  }
+}
+
+void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
+  for (const auto& [place_name, injection] : options_.injections) {
+    double rate = 0;
+    for (const FluidSource& source : sources_)
+      if (source.name == place_name)
+        for (const auto& [cell, part] : source.rates) rate += part;
+    quantities.push_back({name() + "." + place_name + ".rate", "m^2/s", rate});
+  }
+  if (options_.prescribed.empty() && options_.boundary.empty()) return;
+  Vector rates = Vector::Zero(static_cast<Eigen::Index>(options_.prescribed.size()));
+  std::size_t k = 0;
+  Eigen::Index place = 0;
+  for (const auto& [place_name, given] : options_.prescribed) {
+    const std::size_t count = cells_at(mesh_, given.where).size();
+    for (std::size_t i = 0; i < count && k < let_in_.size(); ++i, ++k)
+      if (is_owned(mesh_, Location::fracture_cell, prescribed_[k].cell)) rates[place] += let_in_[k];
+    ++place;
+  }
+  parallel::sum(rates);
+  place = 0;
+  for (const auto& [place_name, given] : options_.prescribed)
+    quantities.push_back({name() + "." + place_name + ".rate", "m^2/s", rates[place++]});
+  for (const auto& [side, pressure] : options_.boundary) {
+    double outflow = 0;  // fluxes are whole on every process
+    for (const Link& link : links_) {
+      const int of_link = mesh_.fracture_points[link.point].side;
+      if (link.second == none && of_link != none && mesh_.side_names[of_link] == side)
+        outflow += flux_.now()[link.point];
+    }
+    quantities.push_back({name() + "." + side + ".outflow", "m^2/s", outflow});
+  }
 }
 
 std::vector<FluidReservoir> FractureFlow::fluid_reservoirs() const {

@@ -10,11 +10,12 @@ namespace sprekk::matrix_flow {
 namespace {
 
 constexpr double round_off = 1e-12;
-/// Of the largest singular value: less is no bend of pressures but round-off.
+/// Of the largest singular value: smaller ones are round-off, not kinks of the pressure.
 constexpr double bends = 1e-9;
 /// Continuity points on faces, from their middle to the node, in the order of their errors.
 constexpr std::array other_points = {0.15, 0.0, 1.0 / 3, 0.5};
-/// Factors of what is not linear, and shares of the symmetric method, from the least change to the largest.
+/// Factors on the part of the pressures that is not linear, and shares of the symmetric method, from the least change
+/// to the largest.
 constexpr std::array dampings = {1.0, 2.0, 4.0, 8.0, 16.0};
 constexpr std::array shares = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0};
 

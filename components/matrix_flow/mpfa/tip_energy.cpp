@@ -14,7 +14,7 @@ namespace {
 constexpr double round_off = 1e-11;
 /// For the root of an entry without any power.
 constexpr double above_zero = 1e-300;
-/// What is tried of the tip's part of the fluxes: the most that gains no energy is taken.
+/// Shares of the tip's part of the fluxes, tried in this order: the first that gains no energy is taken.
 constexpr std::array parts = {1.0, 0.75, 0.5, 0.25};
 
 /// The power that is lost in all regions of a tip, as a form of the pressures of cells and of what flows through walls.

@@ -12,8 +12,8 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-/// The part of what two fluxes have in common that is not limited. With all of it, the rest changes its sign in more
-/// places, where it is lost: half of it is more accurate, and as bounded.
+/// The share of the common part of two fluxes that is not limited. With all of it the rest changes its sign at more
+/// faces, and is lost there; with half of it the flux is more accurate, and the bounds hold as well.
 constexpr double taken_as_it_is = 0.5;
 
 /// Rows of matrices for one quantity of each face.

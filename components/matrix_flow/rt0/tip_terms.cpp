@@ -85,7 +85,8 @@ class Power {
     Eigen::MatrixXd amounts = Eigen::MatrixXd::Zero(2, size());
     for (std::size_t i = 0; i < flow_.cells().size(); ++i)
       amounts.col(cells_.at(flow_.cells()[i])) = flow_.share().col(i);
-    // A flux that is prescribed has no modes, a drop that is a difference of unknowns neither: no square of amounts.
+    // A prescribed flux has no modes, and a drop that is a difference of unknowns has none, so there is no square of
+    // amounts.
     added_ += drops.transpose() * modes_of_fluxes * amounts + fluxes.transpose() * modes_of_drops * amounts;
   }
 

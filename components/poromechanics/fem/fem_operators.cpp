@@ -20,7 +20,7 @@ void put(std::vector<Triplet>& entries, int row, int column, const Tensor& block
       if (block(i, j) != 0) entries.emplace_back(row + i, column + j, block(i, j));
 }
 
-/// The stiffness of all coefficients, and that of each face alone.
+/// The stiffness for all coefficients, and for each face alone.
 struct RawStiffness {
   SparseMatrix matrix;
   std::vector<Tensor> of_face;            ///< N/m per m
@@ -96,7 +96,7 @@ SparseMatrix jump_of(const RawDisplacement& raw, const std::vector<int>& tips) {
   return made(dimension * mesh.fracture_cell_count(), raw.size(), entries);
 }
 
-/// The forces of T on all coefficients: what T does in a jump is work.
+/// The forces of T on all coefficients, from the work of T in a jump.
 SparseMatrix forces_of_traction(const Mesh& mesh, const SparseMatrix& jump) {
   Vector lengths(jump.rows());
   for (int i = 0; i < mesh.fracture_cell_count(); ++i)

@@ -1,11 +1,15 @@
 #include "components/poromechanics/fem/fem_rock.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "components/poromechanics/check_conditions.hpp"
 #include "components/poromechanics/notes.hpp"
+#include "components/poromechanics/principal_stress.hpp"
+#include "components/poromechanics/stress_without_displacement.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -257,6 +261,10 @@ Tensor FemRock::mean_gradient(const Vector& coefficients, int cell) const {
 }
 
 Vector FemRock::mean_stress() const {
+  const std::vector<Field*> fields = unknowns();
+  const bool is_at_rest = std::ranges::all_of(fields, [](const Field* field) { return field->now().isZero(0); });
+  if (discretizations_ == 0 || (!settled_ && is_at_rest))
+    return stress_without_displacement(mesh_, options_, pore_stress());
   const Vector all = coefficients();
   Vector stress(symmetric_components * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
@@ -311,10 +319,7 @@ SymmetricTensor FemRock::initial_stress(int cell, const Point& x) const {
   return options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
 }
 
-void FemRock::output(std::vector<OutputField>& fields) const {
-  if (discretizations_ == 0) return;
-  fields.push_back({name() + ".stress_xx_yy_xy", "Pa", Location::cell, symmetric_components, mean_stress()});
-}
+void FemRock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
 
 std::vector<double> FemRock::switch_times() const {
   std::vector<const Data*> data = stiffness_.data(), loads = options_.loads();
@@ -322,7 +327,23 @@ std::vector<double> FemRock::switch_times() const {
   return merged_switch_times(data);
 }
 
-void FemRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
+void FemRock::note_input(Notes& notes) const {
+  note_conditions(notes, options_, mesh_, name(), origin_);
+  constexpr double locks = 11;  // (lambda + 2 G)/G where nu = 0.45
+  if (order_ == ElementOrder::second) return;
+  double stiffest = 0;
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const Stiffness& cell = stiffness_.of_cells()[c];
+    if (mesh_.cell_nodes[c].size() == dimension + 1) stiffest = std::max(stiffest, cell(0, 0) / cell(2, 2));
+  }
+  if (stiffest < locks) return;
+  notes.add(
+      name() + " may lock",
+      fmt::format("'{}' is nearly incompressible: lambda + 2 G is {:.3g} times G (triangles of first order cannot keep "
+                  "their volume and bend: they are too stiff, and fluid that cannot leave alternates from cell to "
+                  "cell) write 'order: second', or take poromechanics/mpsa",
+                  name(), stiffest));
+}
 
 void FemRock::note_step(Notes& notes, const StepTime&) const {
   const Vector all = coefficients();

@@ -6,6 +6,7 @@
 
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
+#include "components/capabilities/rock_stress.hpp"
 #include "components/poromechanics/fem/fem_operators.hpp"
 #include "components/poromechanics/fem/given_loads.hpp"
 #include "components/poromechanics/options.hpp"
@@ -28,7 +29,12 @@ struct FemOptions : Options {
 ///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
 /// with C and alpha at the end of the step and p one value a cell. Each row balances the work of these stresses in the
 /// displacement of one function with that of the loads (N/m), or holds a prescribed displacement.
-class FemRock : public Component, public PoroelasticRock, public RockWalls, public RockState, public CountsFromHere {
+class FemRock : public Component,
+                public PoroelasticRock,
+                public RockWalls,
+                public RockState,
+                public RockStress,
+                public CountsFromHere {
  public:
   /// Throws InputError as Rock does.
   FemRock(const ComponentContext& context, const FemOptions& options);
@@ -67,8 +73,7 @@ class FemRock : public Component, public PoroelasticRock, public RockWalls, publ
 
   /// All coefficients of the displacement (RawDisplacement), m; on every process. To be called after begin_step.
   Vector coefficients() const;
-  /// The mean total stress of each cell, Pa, (xx, yy, xy). To be called after begin_step.
-  Vector mean_stress() const;
+  Vector mean_stress() const override;
 
  private:
   /// A quantity, and what it is as a linear function of fields. Terms of pressures are the last ones.

@@ -10,7 +10,7 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-/// A direction that is held, longer where more of the boundary holds it.
+/// A direction that is held; its length is the measure of the boundary that holds it.
 struct Direction {
   int side, axis;  ///< of the boundary, and the direction of its condition
   Point vector;

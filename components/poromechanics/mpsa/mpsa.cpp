@@ -153,8 +153,8 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
       const int face = region.faces[f];
       force.find_slots(face, node);
       for (int c = 0; c < 2; ++c) {
-        // What is prescribed holds to the last digit, whatever the local problem makes of it; along other axes the
-        // local problem has seen to it.
+        // Prescribed values hold to the last digit, without the round-off of the local problem; along other axes the
+        // local problem has them already.
         if (conditions[face][c] == MechanicalCondition::traction && conditions[face].axes == ConditionAxes::of_space)
           force.add_boundary(face, c, valued_index, 0.5);
         else

@@ -85,10 +85,10 @@ struct MumpsSolver::Instance {
   }
 };
 
-/// The instances of solvers that are no more, for those who have the same pattern.
+/// Instances of solvers that were destroyed, for new solvers with the same pattern.
 struct MumpsSolver::Orderings {
-  static constexpr std::size_t most = 3;         ///< the newest: of a state that is settled, and of a step
-  static constexpr int largest_system = 10'000;  ///< rows; the factors are kept, too, and their memory
+  static constexpr std::size_t most = 3;         ///< the newest ones: of settling, and of a step
+  static constexpr int largest_system = 10'000;  ///< rows: an instance keeps the memory of its factors
   int scopes = 0;                                ///< objects of KeptOrderings
   std::deque<std::unique_ptr<Instance>> kept;
 

@@ -40,8 +40,8 @@ void remove_from(Vector& v, const std::vector<Vector>& known) {
 }
 
 /// The products of the sums of balances with vectors, over the sizes of their terms, a row for each sum: 0 where the
-/// terms cancel, up to 1 where they do not. Only columns in which a vector is clearly not zero count: round-off of
-/// others may exceed the entries of a sum.
+/// terms cancel, up to 1 where they do not. Only columns in which a vector is clearly not zero count, since round-off
+/// of the others may exceed the entries of a sum.
 Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
   constexpr double doubtful = 1e-8;
   const int sums = static_cast<int>(system.sums.size()), count = static_cast<int>(vectors.size());

@@ -91,9 +91,9 @@ LinearReport UmfpackSolver::order() {
   int status = UMFPACK_OK;
   std::array<double, UMFPACK_CONTROL> control = control_;
   if (given.empty()) {
-    // METIS takes ten times as long as the factorization, and leaves no less fill than COLAMD, where most entries are
-    // in a dense block, as in condensed systems; and rows that UMFPACK holds for dense, and sets aside, cost it two to
-    // five times as much as if it did not.
+    // Where most entries are in a dense block, as in condensed systems, METIS takes ten times as long as the
+    // factorization and gives no less fill than COLAMD. Treating rows as dense makes UMFPACK two to five times slower
+    // there.
     constexpr int mostly_dense = 50, small = 1000;
     if (n < small || a.nonZeros() / mostly_dense > n) {
       control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;

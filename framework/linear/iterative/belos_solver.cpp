@@ -88,8 +88,8 @@ LinearReport BelosSolver::factor(const LinearSystem& system) {
   return last_report_;
 }
 
-// Of every block with a row here or elsewhere, ||r|| / || |A| |y| + |b| ||, and the smallest of the denominators: a
-// residual norm over all unknowns would let GMRES neglect a block whose numbers are small beside others'.
+// ||r|| / || |A| |y| + |b| || of every block that has rows on any process, and the smallest of the denominators. With
+// one norm over all unknowns GMRES would neglect a block whose values are small beside those of others.
 BelosSolver::BlockResidual BelosSolver::measure(const Vector& whole_y, const Vector& b, const Vector& r) const {
   const SparseMatrix& a = data_->scaled.matrix;
   const int blocks = static_cast<int>(data_->block_ends.size());

@@ -41,10 +41,10 @@ class Parts {
     SPREKK_EXPECT(static_cast<int>(preferred.size()) == block_.entities, preferred.size(), block_.entities);
     std::vector<int> chosen;
     for (const Part& part : parts_) {
-      constexpr double resists = 1e-8;        // a resistance of half of the digits counts
-      constexpr double hardly_moves = 1e-6;   // of the largest motion of a mode counts as none
+      constexpr double resists = 1e-8;        // over the terms of the balances: half of the digits
+      constexpr double hardly_moves = 1e-6;   // motion that counts as none, over the largest one
       constexpr double much_preferred = 1e3;  // larger than ratios of motions by the shapes of parts
-      constexpr double is_fixed = 0.1;        // of the motion that an entity fixes best
+      constexpr double is_fixed = 0.1;        // of the largest singular value of an entity's motions
       const Eigen::JacobiSVD<Modes> svd(part.triangle, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const int held = static_cast<int>((svd.singularValues().array() > resists).count());
       Modes left = svd.matrixV().rightCols(part.modes - held);

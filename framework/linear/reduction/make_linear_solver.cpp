@@ -14,9 +14,9 @@ namespace {
 
 constexpr int largest_for_direct = 600'000;
 
-/// Chooses a solver for the first system, and again when the number of unknowns crosses a limit. A direct solver
-/// answers to rounding error, and in two dimensions is quicker up to some hundred thousand unknowns; above, its memory
-/// decides.
+/// Chooses a solver for the first system, and again when the number of unknowns crosses a limit. A direct solver is
+/// accurate to rounding error, and in two dimensions faster up to some hundred thousand unknowns; above, its memory is
+/// the limit.
 class AutomaticSolver final : public LinearSolver {
  public:
   explicit AutomaticSolver(const LinearOptions& options) : options_(options) {}

@@ -115,7 +115,7 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
         return std::abs(column.value * rows.coeff(at, row) / rows.coeff(at, at));
       };
       const bool joins = column.entries == 2;
-      // An exchange that depends on other exchanges only, or on nothing, does not join contents.
+      // A flux that depends on other fluxes only, or on nothing, does not connect two balances.
       if (joins && conductance(column.first) == 0 && conductance(column.second) == 0) continue;
       for (const int row : {column.first, column.second}) {
         if (row < 0 || std::isnan(conductance(row))) continue;

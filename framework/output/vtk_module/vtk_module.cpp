@@ -37,12 +37,14 @@ std::vector<GridData::Array> arrays_of(vtkFieldData& data) {
     for (vtkIdType k = 0; k < array->GetNumberOfTuples(); ++k)
       for (int c = 0; c < read.components; ++c) read.values.push_back(array->GetComponent(k, c));
     read.is_integer = array->GetDataType() == VTK_INT;
+    for (int c = 0; c < read.components && array->HasAComponentName(); ++c)
+      read.component_names.emplace_back(array->GetComponentName(c) ? array->GetComponentName(c) : "");
     arrays.push_back(std::move(read));
   }
   return arrays;
 }
 
-/// The numbers themselves, for as long as they live.
+/// An array of VTK on the given memory, valid as long as this exists.
 vtkSmartPointer<vtkDoubleArray> view_of(const std::vector<double>& values, int components) {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
   constexpr int keep = 1;  // VTK shall not free them, nor does it change them
@@ -64,6 +66,8 @@ void add_arrays(vtkFieldData& data, const std::vector<GridData::Array>& arrays) 
       added = view_of(array.values, array.components);
     }
     added->SetName(array.name.c_str());
+    for (std::size_t c = 0; c < array.component_names.size(); ++c)
+      added->SetComponentName(static_cast<vtkIdType>(c), array.component_names[c].c_str());
     data.AddArray(added);
   }
 }

@@ -14,8 +14,9 @@ struct GridData {
   struct Array {
     std::string name;
     int components;
-    std::vector<double> values;  ///< the components of an entity stand together
-    bool is_integer = false;     ///< the file has them as integers of 32 bits
+    std::vector<double> values;                     ///< the components of an entity stand together
+    bool is_integer = false;                        ///< the file has them as integers of 32 bits
+    std::vector<std::string> component_names = {};  ///< one for each component, or none
   };
   std::vector<double> points;             ///< x, y, z of each
   std::vector<std::int64_t> cell_points;  ///< numbers of points, of one cell after the other

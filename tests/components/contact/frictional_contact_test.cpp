@@ -87,13 +87,14 @@ TEST_P(InState, GivesTheSameBitsTwice) {
   contact.law().set_wall_stiffness(Vector::Ones(2 * cells));
   const Values at(GetParam(), cells);
   contact.law().jump().set_both(at.jump_before);
-  // What Newton's method tries on the way: the states, and the cells that slide back somewhere else.
+  // Newton's method may assemble these states before, and states in which other cells slide back.
   for (const double scale : {1.0, -1.0, 1.0, 0.5, 1.0}) {
     contact.set(scale * at.traction, at.jump);
     contact.follow();
     const Eigen::MatrixXd first = contact.jacobian();
     const Vector residual = contact.residual(Assembly::Request::residual_and_derivatives);
-    // Nor does it matter what else has been assembled meanwhile: the slip the wrong way, where it slides back.
+    // The result does not depend on what was assembled before either: here slip in the wrong direction, from which it
+    // slides back.
     contact.set(-at.traction, at.jump_before + 2 * (at.jump_before - at.jump));
     contact.jacobian();
     contact.set(scale * at.traction, at.jump);
@@ -150,7 +151,7 @@ class NothingHolds : public ::testing::TestWithParam<Law> {
     for (int i = 0; i < cells(); ++i) jump.segment<2>(2 * i) << 0.1 * slip, slip;
     return jump;
   }
-  /// Under a normal traction that leaves no friction, or for lack of friction under any.
+  /// Without friction: the normal traction is zero, or the coefficient of friction is.
   Vector held_by(double along) const {
     Vector traction(2 * cells());
     for (int i = 0; i < cells(); ++i) traction.segment<2>(2 * i) << (GetParam().friction > 1e-3 ? -1e-13 : -10), along;
@@ -194,7 +195,7 @@ TEST_P(NothingHolds, RoundOffDoesNotSayWhereACellSlides) {
   }
 }
 
-// Nor is it a state of its own, nor one to keep: friction that is not there could hold nothing.
+// Without friction the direction of slip is no discrete state, and there is no sticking state to keep.
 TEST(WithoutFriction, DirectionsAreNoStates) {
   const Mesh mesh = crossing();
   Contact contact(mesh, {0, 0.1});

@@ -68,8 +68,8 @@ TEST(Arrest, of_a_crack_opened_by_point_forces) {
 }
 
 TEST(Arrest, is_found_sooner_after_another_one) {
-  // As above, but the force rises by 3 % again and again: the tip is told what it learnt from its last increment, and
-  // what one of another place has learnt may mislead it, but finds the same length.
+  // As above, but the force rises by 3 % again and again. The warm start of the last increment helps, one of another
+  // place misleads the search, and the length found is the same.
   GrowthOptions options = options_with(0.05);
   GrowingTip knowing = tip_at(0.02), forgetful = knowing, misled = knowing;
   long with = 0, without = 0;
@@ -276,8 +276,8 @@ TEST(GrowTips, growth_shorter_than_the_shortest_increment_waits) {
 }
 
 TEST(GrowTips, waits_for_half_of_the_shortest_increment_up_to_twice_the_tolerance) {
-  // 0.1 mm is right, and the shortest increment 0.2 mm, above 1.02 of the toughness a tenth of it. Between 1.02 and
-  // exp(0.02) as well, where a note says that the tip is off its toughness.
+  // The exact length is 0.1 mm, and the shortest increment 0.2 mm, or a tenth of it above 1.02 of the toughness.
+  // Between 1.02 and exp(0.02) a note says that the tip is off its toughness.
   for (const double ratio : {1.0199, 1.0201, 1.0203}) {
     SCOPED_TRACE(ratio);
     const auto k_eq = [&](double added) { return 0.7e6 * (ratio - (ratio - 1) * added / 1e-4); };

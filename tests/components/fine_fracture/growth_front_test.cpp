@@ -93,7 +93,7 @@ TEST(Front, FindsTipsThatShareTheirFluid) {
   EXPECT_NEAR(front.length(1) - 0.008, (0.33 - form.shared * sum) / form.own, 2e-8);
 }
 
-/// K of both falls with the growth of either, by the same: the error of a mesh in it must not choose a leader.
+/// Growth of either tip lowers K of both by the same: an error of the mesh in K must not decide which tip advances.
 TEST(Front, TipsThatAreNotToldFromOneAnotherShareTheAdvance) {
   for (const double noise : {0.0, 1e-12, 1e-6, 1e-4, 1e-3}) {
     ClosedForm form{{0.3 + noise, 0.3 - 0.5 * noise}, {tip(0.4), tip(-2.0)}};
@@ -118,8 +118,8 @@ TEST(Front, ATipThatIsHardlyLessLoadedGrowsToo) {
   }
 }
 
-/// A difference beyond the error of a mesh counts: in stronger rock a tip rests, however little the advances differ in
-/// what they do.
+/// A difference beyond the error of a mesh counts: in tougher rock a tip rests, however little the effects of the two
+/// advances differ.
 TEST(Front, ATipThatIsClearlyLessLoadedRests) {
   ClosedForm form{{0.3, 0.25}, {tip(0.4), tip(-2.0)}};
   form.own = 0;
@@ -176,8 +176,8 @@ TEST(Front, TipsAreNearlyAtTheirToughness) {
   }
 }
 
-/// The step from rest to growth, of both or of one of two tips, leaves no load for which nothing is found, and the
-/// front depends on the load continuously. Steps of 1e-5 in the load move a front by less than the least slope allows.
+/// Growth of both or of one of two tips begins without a load for which no front is found, and the front depends on the
+/// load continuously. Steps of 1e-5 in the load move a front by less than the least slope allows.
 TEST(Front, BeginsContinuously) {
   for (const double difference : {0.0005, 0.0019, 0.0021, 0.005, 0.02}) {
     for (const double own : {0.0, 20.0}) {
@@ -213,7 +213,7 @@ TEST(Front, LetsATipRestThatTheOtherUnloads) {
   EXPECT_EQ(front.angle(1), -2.0);
 }
 
-/// Tips at the speed of their last step, with what the search of that step has learnt.
+/// Tips at the speed of their last step, with the slopes from the search of that step.
 TEST(Front, NeedsFewTrialsAfterASimilarStep) {
   const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
   const Front first = form.solved(exact());
@@ -274,7 +274,8 @@ TEST(Front, NeedsFewTrialsAfterASegmentWasDivided) {
   EXPECT_LE(front.trials(), 4);
 }
 
-/// Nothing is learnt of the turns of a tip that rests: after some steps in which it does, it needs no more trials.
+/// The search learns no slopes for the turns of a tip at rest: after some steps at rest it needs no more trials than
+/// before.
 TEST(Front, NeedsFewTrialsAfterStepsAtRest) {
   CurvedPath path{0.12, 0.4, tip(0.4)};
   const Front before = path.solved();
@@ -297,7 +298,7 @@ TEST(Front, NeedsFewTrialsAfterStepsAtRest) {
   EXPECT_LE(front.trials(), 6);
 }
 
-/// What was learnt of other loads may be of no use: here more length would mean more load.
+/// Slopes that were learnt under other loads may be of no use: by those given here K would rise with the length.
 TEST(Front, ForgetsExperienceThatMisleads) {
   const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
   const Front front = form.solved(exact(), -form.solved(exact()).slopes());
@@ -364,8 +365,8 @@ TEST(Front, TellsAdvanceThatIsTooFar) {
   EXPECT_EQ((ClosedForm{{3}, {tip(0.4)}}.solved(options()).verdict()), Front::Verdict::too_far);
 }
 
-/// What has parted in earlier steps neither heals nor turns: a new segment that does not grow is done, although K_II
-/// does not vanish at its end.
+/// The part of earlier steps neither heals nor turns: a new segment that does not grow is finished, although K_II does
+/// not vanish at its end.
 TEST(Front, ANewSegmentRestsWhereItHasParted) {
   FrontTip start = tip(0.1);
   start.covered = 0;

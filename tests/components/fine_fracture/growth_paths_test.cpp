@@ -78,7 +78,7 @@ TEST(ExplicitDirection, zigzags_as_published) {
 }
 
 TEST(ExplicitDirection, is_stable_below_the_limit_only) {
-  // Of a crack so long that its growth does not change K_I: whether the swings of 60 increments end smaller.
+  // For a crack so long that its growth does not change K_I: whether the swings become smaller over 60 increments.
   const CurvedCrack long_crack{1000, 0.7e6 / std::sqrt(std::numbers::pi * 1000), -10e6};
   const auto late_over_early = [&](double increment) {
     GrowingTip tip{.tip = Point(1000, 0), .direction = Point(1, 0), .toughness = 1e3, .youngs_prime = 4e10, .path = {}};
@@ -150,6 +150,30 @@ TEST(ImplicitDirection, finds_the_large_kink_of_a_tip_in_shear) {
     // C_22 = 0 where cos(angle) = 1/3; the tolerance on K_II over dK_II/d(angle).
     EXPECT_NEAR(degrees(tip.tip, outcome.path)[0], -std::copysign(std::acos(1.0 / 3) / degree, k2), 0.02);
     EXPECT_LE(outcome.evaluations, 1 + 4);
+  }
+}
+
+// K_II/K_I is half the tangent of what the turn is off by, so this is at most twice the tolerance. A looser search
+// takes fewer evaluations, and does not happen to be as near as a tighter one.
+TEST(ImplicitDirection, is_found_to_its_tolerance) {
+  const GrowingTip tip{
+      .tip = Point(0, 0), .direction = Point(1, 0), .toughness = 0.7e6, .youngs_prime = 4e10, .path = {}};
+  for (const double root : {0.35, -0.35, 0.9, -0.9}) {
+    const auto sifs = [&](int, const std::vector<TipPath>& paths) {
+      const Point end = paths[0].added.empty() ? Point(1, 0) : paths[0].added.back();
+      return Sifs{1e6, 0.5e6 * std::tan(std::atan2(end[1], end[0]) - root)};
+    };
+    long evaluations = 0;
+    for (const auto& [tolerance, tighter] : {std::pair(1e-1, 1e-3), {1e-3, 1e-6}, {1e-8, 0.0}}) {
+      GrowthOptions options = whole_increments("implicit", 0.01, 1);
+      options.direction_tolerance = tolerance;
+      const TipOutcome outcome = grow_tips({tip}, options, sifs, unlimited)[0];
+      const double off = std::abs(degrees(tip.tip, outcome.path)[0] * degree - root);
+      EXPECT_LE(off, 2 * tolerance) << root;
+      EXPECT_GT(off, 2 * tighter) << root << ", " << tolerance;
+      EXPECT_GT(outcome.evaluations, evaluations) << root << ", " << tolerance;
+      evaluations = outcome.evaluations;
+    }
   }
 }
 

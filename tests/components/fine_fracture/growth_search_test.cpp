@@ -87,8 +87,8 @@ TEST(IncrementSearch, FindsTheArrestOfTipsThatAreClosedInMostDirections) {
     ++grown;
     EXPECT_LE(std::abs(outcome.end.k2), 0.0101 * outcome.end.k1) << i;
     EXPECT_GE(equivalent_sif(outcome.end), 0.99 * toughness) << i;
-    // It ends at the toughness, or goes on with the next increment: that is rare here, but where a whole one is too
-    // short.
+    // It ends at the toughness, or goes on with the next increment: this is rare here, except where a whole increment
+    // is too short.
     const bool goes_on = equivalent_sif(outcome.end) > 1.01 * toughness;
     if (goes_on && outcome.length < options.increment) ++going_on;
     EXPECT_EQ(goes_on, outcome.reason.find("largest number of increments") != std::string::npos) << outcome.reason;

@@ -56,8 +56,8 @@ TEST(MostEqualFront, DerivativesAreThose) {
   }
 }
 
-/// Two tips of which one leads by d: the loads at which this is a front differ by 2e + 2e d/(d + 0.2), and the energy
-/// tells their level.
+/// Two tips of which one leads by d: the loads at which this is a front differ by 2e + 2e d/(d + 0.2), and their level
+/// follows from the energy.
 TEST(MostEqualFront, APairOfUnequalAdvances) {
   for (const double other : {0.0, 0.1, 0.29}) {
     const double ahead = 0.3 - other, apart = 2 * error + 2 * error * ahead / (ahead + 0.2);

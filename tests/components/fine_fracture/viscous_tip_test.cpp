@@ -59,7 +59,7 @@ TEST(ViscousTip, speed_is_the_inverse_and_rests_below_the_toughness) {
     for (const double h : {0.01, 0.5}) {
       const double factor = tip.apparent_toughness(h, v);
       EXPECT_GT(factor, 1);
-      // The opening knows the speed as well as its digits allow.
+      // The speed that follows from the opening is as accurate as round-off of the opening allows.
       EXPECT_NEAR(tip.speed(tip.mean_opening(h, v), h) / v, 1, 1e-13 / (factor - 1) + 1e-9) << v << " " << h;
     }
   EXPECT_EQ(tip.speed(tip.mean_opening(0.5, 0), 0.5), 0);

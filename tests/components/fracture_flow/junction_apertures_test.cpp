@@ -129,7 +129,7 @@ TEST(JunctionApertures, LetFluidIntoArmsThatAreClosedAndLeaveTheOthersAlone) {
     EXPECT_EQ(arms[1].value, initial + 1e-4);
     EXPECT_DOUBLE_EQ(arms[2].value, initial + 1e-5);
     EXPECT_DOUBLE_EQ(arms[3].value, initial + 1e-5);
-    // Where nothing is open nothing is widened.
+    // If all arms are closed none is widened.
     for (const ArmAperture& arm : junction_apertures({cell(0), cell(0), cell(0)}, {1, 0, -1}))
       EXPECT_EQ(arm.value, initial);
   }

@@ -15,7 +15,7 @@ Junction junction_of(int cells) {
   return junction;
 }
 
-/// Fluxes from i to j, i < j, in the order of the points, as rows of parts and conductances make them.
+/// Fluxes from i to j, i < j, in the order of the points, by the rows of parts and conductances.
 std::vector<double> fluxes(const JunctionFluxes& at, const std::vector<double>& potentials) {
   const int count = static_cast<int>(potentials.size());
   std::vector<double> known(count * (count - 1) / 2);

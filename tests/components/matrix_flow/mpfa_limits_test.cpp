@@ -1,9 +1,9 @@
-// Goal: what the discretization of the flux takes for near the end of a fracture, and for a good fit there, may be
-// otherwise, by factors of two and more, and adds no larger errors than those of the mesh. Reference: flow around a
-// fracture of half length 1, p = Re(w), w = amount sqrt(z^2 - 1), with constant pressure along it (real amount) or
-// without flow through it (imaginary). The same pressure solves the equation where the mobility is any function of the
-// stream function Im(w), since its gradient then is at right angles to that of the pressure: rock that changes around
-// the ends.
+// Goal: the limits by which the discretization of the flux decides what is near the end of a fracture, and which fit
+// there is good, may be changed by factors of two and more without errors larger than those of the mesh. Reference:
+// flow around a fracture of half length 1, p = Re(w), w = amount sqrt(z^2 - 1), with constant pressure along it (real
+// amount) or without flow through it (imaginary). The same pressure solves the equation where the mobility is any
+// function of the stream function Im(w), since its gradient then is at right angles to that of the pressure: rock that
+// changes around the ends.
 #include "components/matrix_flow/mpfa/limits.hpp"
 
 #include <gtest/gtest.h>
@@ -113,8 +113,8 @@ TEST(MpfaLimits, PressuresAtAFractureHardlyDependOnThem) {
   struct Setting {
     double angle, size, bound;
   };
-  // No change adds more than the mesh has by itself. With few cells the surroundings of both ends meet within some
-  // edges.
+  // No change adds more than the error of the mesh itself. With few cells the surroundings of both ends meet within
+  // some edges.
   for (const auto& [angle, size, bound] : {Setting{0.3, 0.5, 0.04}, Setting{1.2, 0.5, 0.04}, Setting{0.3, 0.2, 0.012},
                                            Setting{1.2, 0.2, 0.012}, Setting{0.3, 0.07, 0.006}})
     for (const Complex& amount : {Complex(1, 0), Complex(0, 1)}) {
@@ -131,7 +131,7 @@ TEST(MpfaLimits, PressuresAtAFractureHardlyDependOnThem) {
     }
 }
 
-// How different the rock around an end may be for the flow there to be taken for that in even rock. Measured: with more
+// How much rock around an end may vary if the flow there is to be corrected as in homogeneous rock. Measured: with more
 // errors are the same or smaller, down to 0.22 times; with less the flow at some ends is not corrected, and they are up
 // to 7.3 times as large, but no larger than without any correction.
 TEST(MpfaLimits, RockThatChangesAroundEndsMayBeTakenForEvenOrNot) {

@@ -21,9 +21,9 @@ std::vector<Mesh> meshes() {
   return all;
 }
 
-/// With an exact solution, both one-sided fluxes, their mean and all traces are exact, but for at most `exceptions`
-/// faces that are said to be not. Changes of prescribed pressures
-/// along faces are those of a linear pressure.
+/// With an exact solution, both one-sided fluxes, their mean and all traces are exact, except at no more than
+/// `exceptions` faces, which the discretization has to name. Changes of prescribed pressures along faces are those of a
+/// linear pressure.
 void expect_exact(const Mesh& mesh, const std::vector<Tensor>& mobility,
                   const std::function<double(const Point&)>& pressure, const std::function<double(int)>& flux,
                   double tolerance, int exceptions) {

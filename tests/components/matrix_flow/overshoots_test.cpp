@@ -1,4 +1,4 @@
-// Where pressures leave the bounds of their surroundings, and that they are not said to where they do not.
+// Pressures that leave the bounds of their surroundings are found, and no others are.
 #include "components/matrix_flow/overshoots.hpp"
 
 #include <gtest/gtest.h>

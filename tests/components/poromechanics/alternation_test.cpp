@@ -169,7 +169,8 @@ TEST(Alternation, PressuresDoNotKnowLeftFromRight) {
   }
 }
 
-/// E of every node: leaves out slopes, takes back no more than there is, and gains nothing, at any contrast.
+/// E of every node leaves slopes as they are, removes no more than the error itself, and gains no volume, at any
+/// contrast.
 TEST(Alternation, ExchangedVolumesAreSymmetricAndBounded) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> exponent(-5, 5);

@@ -163,7 +163,7 @@ TEST(MpsaInclinedLayers, AnyContrastIsExact) {
           const Layers layers(angle, isotropic_stiffness(1.4, 0.8), contrast * c, load);
           for (const MeshOptions& options : {test::unstructured(0.25, 0.3), test::mixed(0.25, 0.2)}) {
             const Comparison errors = layers.compare_on(layers.mesh(options));
-            // Against what the stress along the layers is made of.
+            // Relative to the terms of the stress along the layers.
             const double softest = std::max(1.0, 1 / contrast), stiffest = std::max(1.0, contrast);
             EXPECT_LT(errors.force, 1e-12 * stiffest) << "angle " << angle << ", contrast " << contrast;
             EXPECT_LT(errors.trace, 1e-12 * softest) << "angle " << angle << ", contrast " << contrast;

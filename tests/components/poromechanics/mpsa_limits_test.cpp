@@ -1,6 +1,7 @@
-// Goal: what the discretization of the stress takes for near or strong may be otherwise, by factors of two and more,
-// and adds no larger errors than those of the mesh. References: a crack in an infinite plate, and a rigid disc in one,
-// by Muskhelishvili's potentials. Where crack and disc are turned, meshes are others.
+// Goal: the limits by which the discretization of the stress decides what is near a tip, and how strongly rotations are
+// coupled, may be changed by factors of two and more without errors larger than those of the mesh. References: a crack
+// in an infinite plate, and a rigid disc in one, by Muskhelishvili's potentials. Turned cracks and discs have other
+// meshes.
 #include "components/poromechanics/mpsa/limits.hpp"
 
 #include <gtest/gtest.h>
@@ -88,8 +89,8 @@ TEST(MpsaLimits, WallsOfACrackHardlyDependOnThem) {
       {"loose rotations", [](MpsaLimits& l) { l.rotation_strength /= 2; }},
       {"stiff rotations", [](MpsaLimits& l) { l.rotation_strength *= 2; }},
   };
-  // No change adds more than the mesh has by itself. Few cells, where the zones of both ends meet within some edges,
-  // and many, where zones are narrower than long.
+  // No change adds more than the error of the mesh itself. Few cells, where the zones of both ends meet within some
+  // edges, and many, where zones are narrower than long.
   struct Setting {
     double angle, size, bound;
   };
@@ -146,7 +147,7 @@ Point volume_of_crack(const Mesh& mesh, const Vector& walls) {
   return sums;
 }
 
-// How different the rock around a tip may be for the field there to be taken for that in even rock. Reference: a mesh
+// How much rock around a tip may vary if the field there is to be corrected as in homogeneous rock. Reference: a mesh
 // with cells of a fifth. Measured: with more errors are the same or smaller, down to 0.17 times; with less the field at
 // a tip is not corrected, and they are up to 5.5 times as large, but no larger than without any correction.
 TEST(MpsaLimits, RockThatChangesAroundTipsMayBeTakenForEvenOrNot) {

@@ -94,7 +94,7 @@ TEST(Mpsa, AQuadrilateralAloneAtACornerOfARollerAndACurvedLoadedSide) {
   EXPECT_LT(finest, 0.2 * fine);
 }
 
-/// What counts as a force that tells something may be half or nearly twice as much.
+/// The limits for forces that determine a stress may be half or nearly twice as large.
 TEST(Mpsa, ACornerHardlyDependsOnWhatIsVague) {
   const Ring ring;
   // With three cells along a quarter, chords are 15 degrees off the right angle, and with four 11: that is vague by

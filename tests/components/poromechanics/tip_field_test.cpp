@@ -90,7 +90,7 @@ TipCase at_end_of(const std::vector<Point>& points) {
 
 TipCase slanted() { return at_end_of({Point(0.3, 0.35), Point(0.65, 0.55)}); }
 
-/// What the local problem of a node makes of displacements.
+/// The forces and displacements of walls that the local problem of a node returns for displacements.
 struct LocalAnswer {
   Vector force, trace, volume;
 

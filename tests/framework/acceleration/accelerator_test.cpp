@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The accelerator that `accelerate: {yaml}` says, given as keys and numbers.
+/// The accelerator of `accelerate: {name: {…}}`, given as keys and numbers.
 std::unique_ptr<Accelerator> make(const std::string& name,
                                   const std::vector<std::pair<std::string, std::string>>& set) {
   Node inner;
@@ -76,7 +76,7 @@ TEST(Accelerators, QuasiNewtonMethodsSolveALinearProblemInOnePassMoreThanItsUnkn
 }
 
 TEST(Accelerators, AntisymmetricScalesChangeNoIterateOfALinearProblem) {
-  // What is least depends on scales, but not where nothing is left of the residual.
+  // The combination with the least residual depends on the scales, except where the residual becomes zero.
   const int size = 4;
   const Affine map = random_map(size, 7, 1.2);
   Vector scale(size);
@@ -173,7 +173,7 @@ TEST(Accelerators, AMatrixOfSmallRankConvergesAsWell) {
 }
 
 TEST(Accelerators, FiltersLeaveOutWhatIsNoNews) {
-  // The map knows one direction only, so that all differences after the first are round-off of it.
+  // The map has one direction only, so that all differences after the first are its round-off.
   for (const char* filter : {"qr1", "qr2", "none"}) {
     const auto accelerator = make("iqn_ils", {{"filter", filter}});
     Affine map{Eigen::MatrixXd::Constant(5, 5, -0.4), Vector::LinSpaced(5, 1, 2)};

@@ -1,4 +1,4 @@
-// What one call says of balances, against the same amounts added up by hand.
+// Balances that one call declares, against the same amounts added up by hand.
 #include "framework/assembly/balance_rows.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST_F(TwoBalances, OfOneQuantityAreOne) {
 }
 
 TEST_F(TwoBalances, CountWhatOthersAdd) {
-  assembly.add(one, vector(1, 1, 1));  // before the owner has said that these are balances
+  assembly.add(one, vector(1, 1, 1));  // before the owner has declared these rows to be balances
   BalanceRows(assembly, one, "fluid");
   BalanceRows(assembly, one).store(vector(0, 3, 0));
   BalanceRows(assembly, one).add_throughput(vector(-2, 0, 0));

@@ -65,7 +65,7 @@ struct Ring : testing::Test {
     if (is_fixed) assembly->fix(content, 3, 1, 1);
     return assembly;
   }
-  /// What is given in one cell and, but for a small rest, taken in another.
+  /// A source in one cell, and a sink in another that takes all but a small rest of it.
   Vector source() const {
     Vector source = Vector::Zero(n);
     source[1] = 1;

@@ -1,4 +1,4 @@
-// A system is put together again when something of it has changed, and says so by its numbers.
+// A system is assembled anew when one of its terms has changed, and has a new number then.
 #include "framework/assembly/block_system.hpp"
 
 #include <gtest/gtest.h>

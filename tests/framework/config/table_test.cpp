@@ -1,6 +1,7 @@
 #include "framework/config/table.hpp"
 #include "framework/config/yaml/parse_yaml.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -84,6 +85,44 @@ TEST_F(ReadTable, may_depend_on_a_coordinate) {
   EXPECT_DOUBLE_EQ(p.at({{3, -500}, 0, 0}), 2.5);
   EXPECT_TRUE(p.depends_on_space());
   EXPECT_DOUBLE_EQ(read("of: x").at({{-500, 9}, 0, 0}), 2.5);
+}
+
+TEST_F(ReadTable, of_several_variables_is_linear_along_each) {
+  // A product of linear functions, on coordinates that are not even, in rows without an order.
+  const auto f = [](double x, double y, double t) { return (1 + 2 * x) * (3 - y) * (5 + t); };
+  std::string rows = "q,t[h],y,p[kPa],x[cm]\n";
+  for (const double t : {2.0, 0.0, 1.0})
+    for (const double x : {0.0, 4.0, 1.0, 1.5})
+      for (const double y : {-1.0, 3.0})
+        rows += fmt::format("9,{},{},{},{}\n", t, y, f(x, y, t * 3600) / 1000, x * 100);
+  write(rows);
+  const Data p = read("column: p, of: [x, t, y]");
+  for (const double x : {0.0, 0.3, 1.2, 1.5, 3.9, 4.0})
+    for (const double y : {-1.0, 0.7, 3.0})
+      for (const double t : {0.0, 1000.0, 3600.0, 7000.0})
+        EXPECT_NEAR(p.at({{x, y}, 0, t}), f(x, y, t), 1e-9 * std::abs(f(x, y, t)) + 1e-9);
+  EXPECT_NEAR(p.at({{-5, -9}, 0, 1e9}), f(0, -1, 7200), 1e-6);
+  EXPECT_TRUE(p.depends_on_time());
+  EXPECT_TRUE(p.depends_on_space());
+  about_.in_time = false;
+  EXPECT_THAT(error("column: p, of: [x, t, y]"), HasSubstr("depends on time"));
+}
+
+TEST_F(ReadTable, of_several_variables_is_a_complete_grid) {
+  write("x,t,p\n0,0,1\n0,1,2\n3,1,4\n3,0,3\n");
+  EXPECT_DOUBLE_EQ(read("of: [x, t]").at({{1.5, 0}, 0, 0.5}), 2.5);
+  write("x,t,p\n0,0,1\n0,1,2\n3,1,4\n");
+  EXPECT_EQ(error("of: [x, t]"),
+            "s.yaml:1:4: the table 'p.csv' is no complete grid (1 of 4 combinations of x, t have no row, the first one "
+            "x = 3 m, t = 0 s) give each combination a row");
+  write("x,t,p\n0,0,1\n0,1,2\n3,1,4\n0,1,7\n3,0,3\n");
+  EXPECT_EQ(error("of: [x, t]"), "p.csv:5: x = 0 m, t = 1 s stands twice (line 3 has it, too) remove one of the rows");
+  write("x,s,p\n0,0,1\n0,1,2\n");
+  EXPECT_THAT(error("of: [x, t]"), HasSubstr("unknown variable of the table 'p.csv': 't'"));
+  EXPECT_THAT(error("of: [x, x]"), HasSubstr("names x twice"));
+  EXPECT_THAT(error("of: []"), HasSubstr("'of' is an empty list"));
+  write("x,t,p,q\n0,0,1,1\n0,1,2,2\n");
+  EXPECT_THAT(error("of: [x, t]"), HasSubstr("'column' is missing"));
 }
 
 TEST_F(ReadTable, names_the_wrong_line) {

@@ -1,4 +1,4 @@
-// What a field has to say of itself.
+// What the declaration of a field must contain.
 #include "framework/field/field.hpp"
 
 #include <gtest/gtest.h>

@@ -47,14 +47,14 @@ TEST_P(Condensed, SolvesFracturedBiot) {
   EXPECT_EQ(solver.name(), std::string("condensed ") + GetParam());
 }
 
-// What contact asks of walls that stick: jumps of zero, which are differences of displacements that are not zero.
+// The conditions of walls that stick: jumps of zero, which are differences of displacements that are not zero.
 TEST_P(Condensed, TakesRoundOffOfJumpsThatAreZeroForNoMistake) {
   LinearSystem system = biot.build();
   std::vector<Triplet> entries;
   for (int row = 0; row < biot.unknowns(); ++row) {
     const int along = row - biot.traction(0, 0), tractions = 2 * biot.columns();
     if (along >= tractions && along < 2 * tractions) {
-      // In the pattern of walls that slide; the balance of the walls determines the jump then.
+      // The pattern is that of walls that slide, where the balance of the walls determines the jump.
       const int other = along % 2 == 0 ? row + 1 : row - 1;
       for (const auto& [column, value] :
            {std::pair{row, -1.0}, {other, 0.3}, {row - tractions, 0}, {other - tractions, 0}})
@@ -152,7 +152,8 @@ LinearSystem with_local_unknowns(int n, int count) {
   return test::make_system(n * n + count, entries, blocks);
 }
 
-// As a step after another one: what held the bulk by itself is gone, and comes back. Bits do not depend on the path.
+// Like one time step after another: the bulk loses what holds it, and gets it back. Bits do not depend on the systems
+// before.
 TEST_P(Condensed, AnswersAlikeWhateverFloatedBefore) {
   LinearSystem held = with_local_unknowns(9, 3), floating = held;
   for (int i = 0; i < 81; ++i) {
@@ -175,9 +176,9 @@ TEST_P(Condensed, AnswersAlikeWhateverFloatedBefore) {
   }
 }
 
-// A bulk that is regular by less and less, as the shift of its matrix comes near to an eigenvalue, -Laplace's of a mode
-// that no sum of rows tells, while local unknowns keep the whole system regular. Reference: the definition of the
-// backward error.
+// A bulk that comes nearer and nearer to a singular one, as the shift of its matrix approaches an eigenvalue of
+// -Laplace, of a mode whose sum over rows vanishes, while local unknowns keep the whole system regular. Reference: the
+// definition of the backward error.
 TEST_P(Condensed, AcceptsABulkWhoseFirstSolutionOneRefinementMakesAccurate) {
   constexpr int n = 20;
   const double angle = std::numbers::pi / (n + 1), eigenvalue = 4 - 2 * std::cos(2 * angle) - 2 * std::cos(3 * angle);
@@ -205,7 +206,7 @@ TEST_P(Condensed, AcceptsABulkWhoseFirstSolutionOneRefinementMakesAccurate) {
     ASSERT_TRUE(fresh.solve(b - system.local * x, more).solved);
     EXPECT_LT(error(x + more), 1e-9) << shift;
   }
-  // What is left of the bulk's digits squares in the refinement: about half of them are enough.
+  // A refinement squares the relative error, so half of the digits are enough in the solution with the bulk.
   EXPECT_GE(condensed, 6);
   EXPECT_LE(condensed, 12);
 }

@@ -81,7 +81,8 @@ TEST(EntityGraph, TheSolverThatOrdersByEntitiesHasTheSolution) {
   EXPECT_EQ(solver.counts().orderings, 1);
 }
 
-/// The system with more: what lies within the radius of the middle depends on the places next to the middle, too.
+/// The same system with further entries: places within the radius of the middle depend on those next to the middle,
+/// too.
 LinearSystem felt_from_afar(int width, double radius) {
   LinearSystem system = two_fields(width);
   const std::vector<Point>& places = system.blocks[0].coordinates;

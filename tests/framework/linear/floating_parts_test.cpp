@@ -131,7 +131,7 @@ TEST(FloatingLevels, LoseOneCell) {
   }
 }
 
-// The row of a sum has lost the balance that stood there: its cell is the one.
+// The row of a sum replaces the balance of one cell: this is the cell that is fixed.
 TEST(FloatingLevels, AreFixedWhereASumStands) {
   LinearSystem closed = test::poisson(9, true);
   closed.sums = {17};

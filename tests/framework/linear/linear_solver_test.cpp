@@ -159,6 +159,47 @@ TEST_P(EveryLinearSolver, NeverCallsAFloatingProblemSolved) {
 INSTANTIATE_TEST_SUITE_P(Types, EveryLinearSolver, testing::Values("umfpack", "mumps", "belos", "auto"),
                          [](const auto& info) { return std::string(info.param); });
 
+// GMRES ends at the tolerance, and not far below it: a step of it gains about a digit. The load is an eigenvector, so
+// the error is at most that of the residual by the smallest eigenvalue.
+TEST(IterativeSolver, EndsAtItsTolerance) {
+  constexpr int n = 40;
+  const LinearSystem system = test::poisson(n);
+  const double h = std::numbers::pi / (n + 1), smallest = 8 * std::pow(std::sin(h / 2), 2);
+  const Vector exact = test::random_vector(n * n, 21), b = system.local * exact;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+    LinearOptions options;
+    options.type = "belos";
+    options.tolerance = tolerance;
+    const Vector x = solve(*make_linear_solver(options), system, b);
+    const double residual = (b - system.local * x).norm() / b.norm();
+    EXPECT_LE(residual, tolerance);
+    EXPECT_GT(residual, 0.005 * tolerance);
+    EXPECT_LE((x - exact).norm(), 1.01 * residual * b.norm() / smallest);
+  }
+}
+
+// A constant that a storage s alone determines, beside exchanges of 1: round-off of A x, some 1e-16, is 1e-16/s of the
+// load. It is accepted where it exceeds the tolerance, but not where it leaves less than three digits. As s is the
+// smallest eigenvalue, the error is at most the residual, both relative.
+TEST(IterativeSolver, AcceptsResidualsThatAreRoundOffAsLongAsThreeDigitsAreLeft) {
+  constexpr int n = 20;
+  const Vector exact = Vector::Ones(n * n);
+  for (const auto& [digits, is_accepted] : {std::pair(20, true), {30, true}, {36, true}, {46, false}, {49, false}}) {
+    LinearSystem system = test::poisson(n, true);
+    const double storage = std::exp2(-digits);  // exact beside 4
+    for (int i = 0; i < n * n; ++i) system.local.coeffRef(i, i) += storage;
+    LinearOptions options;
+    options.type = "belos";
+    const std::unique_ptr<LinearSolver> solver = make_linear_solver(options);
+    ASSERT_TRUE(solver->factor(system).solved);
+    Vector x;
+    const LinearReport report = solver->solve(storage * exact, x);
+    EXPECT_EQ(report.solved, is_accepted) << digits << ": " << report.reason;
+    EXPECT_GT(report.relative_residual, options.tolerance) << digits;
+    EXPECT_LE((x - exact).norm(), 1.01 * report.relative_residual * exact.norm()) << digits;
+  }
+}
+
 TEST_P(EveryDirectSolver, KeepsTheOrderingOfAPattern) {
   const auto solver = make();
   LinearSystem system = test::poisson(20);

@@ -81,7 +81,7 @@ TEST(SeparatedSolver, PassesOnePartOn) {
   EXPECT_EQ(solver->counts().factorizations, 3);
 }
 
-/// A number stands for all entries: where it is new, the entries are looked at, and where not, they need not be.
+/// Systems with the same number have the same entries: these are compared only where the number is new.
 TEST(SeparatedSolver, BelievesTheNumbersOfSystems) {
   LinearSystem first = two_problems(1), second = two_problems(3);
   first.pattern_number = second.pattern_number = new_system_number();

@@ -55,8 +55,8 @@ TEST(ExchangingRows, AreThoseThatStoreLittle) {
   EXPECT_THAT(exchanging_rows(strong.local, strong.blocks), testing::IsEmpty());
 }
 
-// Contents that store much less than they exchange are, turned round, fluxes that resist little: they are no contents,
-// and which of them resist little changes with each iteration.
+// The same matrix is that of fluxes with little resistance, which are no balances. Which fluxes have little resistance
+// changes with each iteration.
 TEST(ExchangingRows, AreNoneOfWhatIsKnownToBeNoBalance) {
   LinearSystem chain = test::Exchange{6, 1e-12, 1e4}.build();
   for (int flux = 6; flux < 11; ++flux) chain.local.coeffRef(flux, flux) = flux % 2 ? 1e-4 : 1e9;
@@ -96,7 +96,7 @@ TEST(ExchangingRows, DoNotLeadOut) {
   EXPECT_THAT(exchanging_rows(open.local, open.blocks), testing::IsEmpty());
 }
 
-// Where three meet, two exchanges depend on contents and the third one on the other two.
+// Where three cells meet, two fluxes depend on stored amounts, and the third one on these two fluxes.
 TEST(ExchangingRows, AreJoinedByWhatAnswersToContents) {
   LinearSystem three = test::Exchange{3, 1e-12, 1}.build();
   std::vector<Triplet> entries = {{1, 5, -3e7}, {2, 5, 3e7}, {5, 5, 1}, {5, 3, 0.5}, {5, 4, 0.5}};

@@ -68,6 +68,39 @@ TEST_F(FractureTables, HaveFurtherColumnsForData) {
   EXPECT_EQ(line[0].values[0].value, 0.4);
 }
 
+TEST_F(FractureTables, AreWrittenToTheLastBit) {
+  const auto same = [&](const std::string& content) {
+    const auto fractures = read(content);
+    const std::string text = fracture_table(fractures);
+    const auto again = read(text);
+    EXPECT_EQ(fracture_table(again), text);
+    ASSERT_EQ(again.size(), fractures.size());
+    for (std::size_t i = 0; i < again.size(); ++i) {
+      EXPECT_EQ(again[i].name, fractures[i].name);
+      EXPECT_EQ(again[i].points, fractures[i].points);
+      EXPECT_EQ(again[i].size, fractures[i].size);
+      ASSERT_EQ(again[i].values.size(), fractures[i].values.size());
+      for (std::size_t k = 0; k < again[i].values.size(); ++k) {
+        EXPECT_EQ(again[i].values[k].column, fractures[i].values[k].column);
+        EXPECT_EQ(again[i].values[k].unit, fractures[i].values[k].unit);
+        EXPECT_EQ(again[i].values[k].value, fractures[i].values[k].value);
+      }
+    }
+  };
+  same("x1, y1[mm], x2, y2, size[cm], friction, aperture[mm]\n0.1,0.3,1e-17,3e20,0.7,0.6,2\n1,2,3,4,5,6,7\n");
+  same("name,x,y,size\na,0,1,2\na,2,1,2\na,3,4,2\nb c,9,9,1\nb c,8,9,1\n");
+}
+
+TEST_F(FractureTables, AreNotWrittenWithNamesThatTheyCannotHold) {
+  auto fractures = read("x1,y1,x2,y2\n1,2,3,4\n");
+  EXPECT_NO_THROW(fracture_table(fractures));
+  fractures[0].name = "a,b";
+  EXPECT_THROW(fracture_table(fractures), InputError);
+  fractures[0].name = "#1";
+  EXPECT_THROW(fracture_table(fractures), InputError);
+  EXPECT_THROW(fracture_table({}), InputError);
+}
+
 TEST_F(FractureTables, TellWhatIsWrongAndWhere) {
   using ::testing::AllOf;
   using ::testing::HasSubstr;

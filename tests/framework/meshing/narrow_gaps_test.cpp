@@ -188,7 +188,7 @@ TEST(NarrowGaps, GapSizeIsTheShortest) {
   const SizeField large(geometry, {.size = 2 * size, .gap_size = 3 * size});
   EXPECT_DOUBLE_EQ(large.at({2, 1.1}), 2 * size);
   const SizeField usual(geometry, {.size = 2 * size, .fracture_size = size});
-  EXPECT_DOUBLE_EQ(usual.at({2, 1.1}), size / 500);  // as the reference of gap_size says
+  EXPECT_DOUBLE_EQ(usual.at({2, 1.1}), size / 500);  // the default of gap_size
 }
 
 // Half an edge across a gap: edges of a five-hundredth fit a gap of a thousandth. A wider one gets its own edges, and

@@ -339,7 +339,7 @@ TEST(ReadMsh, ReadsPartitions) {
   EXPECT_NEAR(total_area(mesh), 2, 1e-15);
 }
 
-/// Area times distance from the origin squared, summed over cells: tells meshes of one rectangle apart.
+/// Area times distance from the origin squared, summed over cells: differs between meshes of the same rectangle.
 double moment(const Mesh& mesh) {
   double sum = 0;
   for (int c = 0; c < mesh.cell_count(); ++c) sum += mesh.cell_measure[c] * mesh.cell_center[c].squaredNorm();

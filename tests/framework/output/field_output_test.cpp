@@ -51,7 +51,7 @@ TEST_F(FieldOutputTest, LinesBeyondTheMeshHaveFilesFromTheFirstOneOn) {
   EXPECT_EQ(lines.on_cells[0].name, "fracture");
   EXPECT_EQ(lines.on_cells[0].values, (std::vector<double>{0, 0, 1}));
   EXPECT_EQ(module<VtkModule>("vtk").read(folder / "paths_000006.vtu").cell_count(), 0);
-  // Before the first one, a run that goes on is as one that has not had any.
+  // A run that continues from before the first written time has no entries yet.
   FieldOutput::continued(folder, 0.5).write(1, 4, mesh, {});
   EXPECT_FALSE(has("paths_000004.vtu"));
 }

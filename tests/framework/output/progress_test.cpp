@@ -76,7 +76,7 @@ TEST_F(ProgressTest, LongPartsAreToldWithTheirTime) {
   progress.part("the mesh");
   now += 9;
   progress.tick();
-  EXPECT_EQ(out.str(), "");  // nobody wants to know
+  EXPECT_EQ(out.str(), "");  // short activities get no line
   now += 2;
   progress.tick();
   progress.tick();

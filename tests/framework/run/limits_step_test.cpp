@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "framework/config/yaml/load_scene.hpp"
@@ -19,11 +20,13 @@ namespace {
 struct DecayOptions {
   double rate = 1, part = 0.5;
   double from = -1;
+  double largest_change = 10;
   Spec spec() {
     Spec spec("test/decay", "Decays with a rate, explicitly in time.");
     spec.ignore("type");
     spec.quantity("rate", rate, {.unit = "1/s", .doc = "The rate."});
     spec.quantity("part", part, {.doc = "Longest step over the time of decay."});
+    spec.quantity("largest_change", largest_change, {.doc = "Of y in a step that is accepted."});
     spec.quantity("from", from, {.unit = "s", .doc = "When steps are limited."});
     return spec;
   }
@@ -53,6 +56,11 @@ class Decay : public Component, public LimitsStep {
   }
   double longest_step(double start) const override {
     return start < options_.from ? std::numeric_limits<double>::infinity() : options_.part / options_.rate;
+  }
+  std::optional<StepTooLong> too_long(const StepTime& step) const override {
+    const double change = std::abs(y_.now()[0] - y_.accepted()[0]);
+    if (change <= options_.largest_change) return std::nullopt;
+    return StepTooLong{0.5 * step.dt, "y has changed by too much"};
   }
   void report(std::vector<Quantity>& quantities) const override { quantities.push_back({"y", "1", y_.now()[0]}); }
 
@@ -123,6 +131,22 @@ TEST(LimitsStep, TheLimitMayChangeInTime) {
 
 TEST(LimitsStep, ALimitBelowTheSmallestStepEndsTheRun) {
   const Result run = run_of(", part: 0.1", "step: 1 s, smallest: 0.02 s");
+  EXPECT_NE(run.code, ExitCode::done);
+  EXPECT_EQ(run.steps, 0);
+}
+
+TEST(LimitsStep, AStepThatHasConvergedMayBeTooLong) {
+  // 0.05 s would change y from 1 by 0.5; half of it changes it by 0.25, and by less in all steps after it.
+  const Result run = run_of(", largest_change: 0.3", "step: 1 s");
+  EXPECT_EQ(run.code, ExitCode::done);
+  EXPECT_EQ(run.last_time, 1);
+  EXPECT_GT(run.steps, 20);
+  EXPECT_LT(run.longest, 0.05 + 1e-12);
+  EXPECT_GT(run.y, std::pow(0.5, 20) * 1.1);  // (1 - 0.25)^2 > 0.5
+}
+
+TEST(LimitsStep, AStepThatIsTooLongHoweverShortEndsTheRun) {
+  const Result run = run_of(", largest_change: 0.01", "step: 1 s, smallest: 0.02 s");
   EXPECT_NE(run.code, ExitCode::done);
   EXPECT_EQ(run.steps, 0);
 }

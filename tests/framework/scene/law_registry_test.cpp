@@ -1,4 +1,4 @@
-// Laws that are registered by name: their parameters, and what is told of wrong ones.
+// Laws that are registered by name: their parameters, and messages for wrong ones.
 #include "framework/scene/law_registry.hpp"
 
 #include <gmock/gmock.h>

@@ -23,7 +23,7 @@ class Still : public Part {
   void assemble(Assembly&, const StepTime&) const override {}
 };
 
-/// Tips of which the test says what they do.
+/// Tips whose behaviour the test sets.
 class Tips : public Still, public Growing {
  public:
   Load examine(const StepTime&) override { return load; }
@@ -107,7 +107,7 @@ TEST(GrowStep, HandsOnWhatHasGrown) {
   EXPECT_EQ(run.step().extensions()[0].fracture, 3);
   EXPECT_EQ(run.step().extensions()[0].points[0], Point(0.1, 0.2));
   EXPECT_EQ(run.step().cavity().radius, 0.3);
-  // They are those of the last run alone.
+  // The extensions are those of the last run only.
   run.tips.load.now = run.tips.load.onset = 0.5;
   EXPECT_TRUE(run.schedule->run({standard, standard, 2 * standard}).converged);
   EXPECT_TRUE(run.step().extensions().empty());
@@ -148,7 +148,7 @@ TEST(GrowStep, TheRepeatedStepReachesTheLoadAndIsTaken) {
   EXPECT_EQ(run.tips.grown, 1);
 }
 
-// A load that rises with the root of time, as where fluid diffuses: two refusals tell the root.
+// A load that rises with the root of time, as where fluid diffuses: the root follows from two refusals.
 TEST(GrowStep, RefusalsInARowTellHowTheLoadRises) {
   Schedule run(usual);
   double dt = standard;

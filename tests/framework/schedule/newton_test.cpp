@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "framework/mesh/partition.hpp"
@@ -106,6 +107,52 @@ TEST(Newton, GoesOnUntilTheNextUpdateIsSmall) {
   for (const double x : equation.x.now()) EXPECT_NEAR(x, std::sqrt(2), 1e-6);
 }
 
+/// Newton's iterates for x^2 = 2 from 10, which are Heron's: x -> (x + 2/x)/2.
+double heron(int iteration) {
+  double x = 10;
+  for (int i = 0; i < iteration; ++i) x = (x + 2 / x) / 2;
+  return x;
+}
+
+/// x and the number of iterations with which HiddenRoot is accepted, from 10.
+std::pair<double, int> accepted(const NewtonOptions& options) {
+  Equation equation;
+  HiddenRoot part(equation.x);
+  const StepStatus status = Newton(equation.mesh, {&equation.x}, {&part}, {}, options, "solve", {}).solve({0, 1, 1});
+  EXPECT_TRUE(status.converged) << status.reason;
+  return {equation.x.now()[0], status.iterations};
+}
+
+// The residual of an iterate x is 1e-8 (x^2 - 2) against terms of about 1: the first one below the tolerance is taken.
+TEST(Newton, TakesTheFirstIterateWithinTheResidual) {
+  NewtonOptions options;
+  options.update = 1e9;
+  for (const int iteration : {3, 4, 5}) {
+    const double residual = 1e-8 * (std::pow(heron(iteration), 2) - 2);
+    for (const auto& [factor, last] : {std::pair(1.01, iteration), {0.99, iteration + 1}}) {
+      options.residual = factor * residual;
+      const auto [x, iterations] = accepted(options);
+      EXPECT_EQ(iterations, last) << factor;
+      EXPECT_NEAR(x, heron(last), 1e-6) << factor;  // round-off of 1e-16 over 1e-8
+    }
+  }
+}
+
+// The next update with the derivative of the last one is (x^2 - 2)/(2 x_before), measured against the 10 of the start.
+TEST(Newton, TakesTheFirstIterateWhoseNextUpdateIsSmall) {
+  NewtonOptions options;
+  options.residual = 1e-7;  // holds from the second iterate on
+  for (const int iteration : {3, 4, 5}) {
+    const double update = (std::pow(heron(iteration), 2) - 2) / (2 * heron(iteration - 1)) / 10;
+    for (const auto& [factor, last] : {std::pair(1.01, iteration), {0.99, iteration + 1}}) {
+      options.update = factor * update;
+      const auto [x, iterations] = accepted(options);
+      EXPECT_EQ(iterations, last) << factor;
+      EXPECT_NEAR(x, heron(last), 1e-6) << factor;
+    }
+  }
+}
+
 /// Cells that store c x each and exchange very much more with one another, into which a source flows.
 class Exchange : public Part {
  public:
@@ -128,7 +175,7 @@ class Exchange : public Part {
     }
     assembly.diagonal(x_, x_, Vector::Constant(2, capacity));
     assembly.linear(x_, exchange_, x_);
-    // What flows in a circle, say: it does not change, and is no part of any sum.
+    // Stands for a circulating flow, which does not change, and cancels in every sum.
     assembly.compare_with(x_, 1e12);
   }
   static constexpr double capacity = 2;
@@ -155,7 +202,47 @@ TEST(Newton, BalancesHoldAgainstWhatIsStoredAndBroughtIn) {
   }
 }
 
-// Nothing is asked for where nothing has been told: the test above would notice.
+/// Cells that store x^2 each, into which 91 flows; the equation is compared with something much larger.
+class Filling : public Part {
+ public:
+  explicit Filling(const Field& x) : x_(x) {}
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly& assembly, const StepTime&) const override {
+    const Eigen::ArrayXd x = x_.now().array(), before = x_.accepted().array();
+    BalanceRows rows(assembly, x_, "quantity");
+    rows.store((x * x - before * before).matrix());
+    rows.supply(Vector::Constant(x.size(), 91));
+    assembly.diagonal(x_, x_, (2 * x).matrix());
+    assembly.compare_with(x_, 1e12);
+  }
+
+ private:
+  const Field& x_;
+};
+
+// From 3, x^2 = 100 is approached by x -> (x + 100/x)/2. The error of a balance, |x^2 - 100| of each cell, is accepted
+// up to a hundred times the tolerance of the throughput, x^2 - 9 + 91.
+TEST(Newton, BalancesMayBeAHundredTimesLooserThanResiduals) {
+  double x = 3;
+  for (int iteration = 1; iteration <= 4; ++iteration) {
+    x = (x + 100 / x) / 2;
+    const double error = (x * x - 100) / (x * x + 82);
+    for (const auto& [factor, last] : {std::pair(1.01, iteration), {0.99, iteration + 1}}) {
+      Equation equation;
+      equation.x.set_both(Vector::Constant(2, 3));
+      Filling part(equation.x);
+      NewtonOptions options;
+      options.update = 1e9;
+      options.residual = factor * error / 100;
+      const StepStatus status =
+          Newton(equation.mesh, {&equation.x}, {&part}, {}, options, "solve", {}).solve({0, 1, 1});
+      EXPECT_TRUE(status.converged) << status.reason;
+      EXPECT_EQ(status.iterations, last) << factor;
+    }
+  }
+}
+
+// Without a throughput balances are not checked apart: the test above would notice.
 TEST(Newton, WithoutThroughputBalancesAreEquationsAsOthers) {
   Equation equation;
   equation.x.set_both(Vector::Constant(2, 3));

@@ -188,7 +188,7 @@ TEST(StepController, AHoldIsExpectedWhereTheLevelComesToOne) {
   EXPECT_NEAR(controller.next().dt, 0.8, 1e-12);
   controller.accepted(controller.next(), 1);
   EXPECT_NEAR(controller.time(), 1.2, 1e-12);
-  controller.hold(0.01, 1.5);  // past 1 it says nothing about the rate
+  controller.hold(0.01, 1.5);  // beyond 1 it gives no rate
   controller.release(0.3);
   EXPECT_EQ(controller.next().dt, 1);
   controller.accepted(controller.next(), 1);
@@ -205,7 +205,7 @@ TEST(StepController, AHoldIsExpectedWhereTheLevelComesToOne) {
   EXPECT_NEAR(controller.next().dt, 0.6, 1e-12);
 }
 
-// A level is known to about 1 %, the tolerance of an arrest: a smaller rise in the last pause tells no rate, and the
+// A level is known to about 1 %, the tolerance of an arrest: a smaller rise in the last pause gives no rate, and the
 // pause is repeated. With a larger one the level, twice as far below 1, takes twice the time.
 TEST(StepController, ARiseWithinTheToleranceOfLevelsTellsNoRate) {
   for (const auto& [rise, expected] : {std::pair{0.009, 0.4}, {0.011, 0.8}}) {

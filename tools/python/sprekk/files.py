@@ -20,6 +20,7 @@ class Grid:
     cells: np.ndarray
     cell_data: dict = field(default_factory=dict)
     point_data: dict = field(default_factory=dict)
+    component_names: dict = field(default_factory=dict)  # {array: [name of each component]}, of vectors and tensors
 
     def triangles(self):
         """Triangles (k, 3) that cover the cells, and the cell of each: a quadrilateral is two of them."""
@@ -76,7 +77,9 @@ def read_vtu(path):
     places = (ends - lengths)[:, None] + np.minimum(np.arange(lengths.max(initial=2)), lengths[:, None] - 1)
     connectivity = cells["connectivity"][places] if count else np.zeros((0, 2), int)
     points = values(piece.find("Points/DataArray")).reshape(-1, 3)
-    return Grid(points, connectivity, named("CellData"), named("PointData"))
+    names = {array.get("Name"): [array.get(f"ComponentName{i}") for i in range(int(array.get("NumberOfComponents")))]
+             for section in ("CellData", "PointData") for array in piece.find(section) if array.get("ComponentName0")}
+    return Grid(points, connectivity, named("CellData"), named("PointData"), names)
 
 
 def read_pvd(path):

@@ -29,7 +29,8 @@ def found(data, name, what):
 class Fields:
     """The fields of a run on one mesh at a written time; fields["pore.pressure"] are values of cells (or of points).
 
-    Of vectors, x and y are the two columns. On fractures, components along and across them are fields of their own."""
+    Of vectors, x and y are the two columns, and of stresses xx, yy, xy the three; fields["rock.stress.xy"] is one of them. On
+    fractures, components along and across them are fields of their own."""
 
     def __init__(self, time, grid):
         self.time = time  # s
@@ -62,10 +63,15 @@ class Fields:
                 for key in data if "[" in key}
 
     def __getitem__(self, name):
-        values = found({**self.grid.point_data, **self.grid.cell_data}, name, "field")
-        # Vectors have a third component, 0, for ParaView; tensors (xx, yy, xy) do not.
-        is_vector = values.ndim == 2 and values.shape[1] == 3 and not without_unit(name).endswith("_xx_yy_xy")
-        return values[:, :2] if is_vector else values
+        data = {**self.grid.point_data, **self.grid.cell_data}
+        for key, names in self.grid.component_names.items():
+            whole, _, component = without_unit(name).rpartition(".")
+            if whole == without_unit(key) and component in names:
+                return data[key][:, names.index(component)]
+        values = found(data, name, "field")
+        # Vectors have a third component, 0, for ParaView; tensors do not.
+        names = next((names for key, names in self.grid.component_names.items() if name in (key, without_unit(key))), [])
+        return values[:, :2] if names[:1] == ["x"] else values
 
     def mean(self, name):
         """The mean over the area, or over the length of fractures."""

@@ -48,7 +48,7 @@ class WantedSizes {
 
 }  // namespace
 
-Adapted adapt(const FineGeometry& geometry, const FineMeshOptions& options, const Elasticity& rock,
+Adapted adapt(const FineGeometry& geometry, const FineMeshOptions& options, const FineRock& rock,
               const FineLoads& loads, const AdaptOptions& adapt_options, const std::shared_ptr<Profile>& profile) {
   FineMeshOptions sizes = options;
   for (int meshes = 1;; ++meshes) {

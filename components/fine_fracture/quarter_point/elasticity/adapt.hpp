@@ -24,7 +24,7 @@ struct Adapted {
 
 /// Meshes and solves repeatedly, with sizes that distribute the allowed error evenly among the elements, until the
 /// estimate keeps the tolerance. Sizes only decrease: no mesh is coarser than the options say.
-Adapted adapt(const FineGeometry& geometry, const FineMeshOptions& options, const Elasticity& rock,
+Adapted adapt(const FineGeometry& geometry, const FineMeshOptions& options, const FineRock& rock,
               const FineLoads& loads, const AdaptOptions& adapt_options,
               const std::shared_ptr<Profile>& profile = std::make_shared<Profile>());
 

@@ -62,8 +62,9 @@ class Recovery {
     frame << t.direction.x(), -t.direction.y(), t.direction.y(), t.direction.x();
     const Point local = frame.transpose() * (x - t.position);
     const double r = local.norm(), theta = std::atan2(local.y(), local.x());
-    const Tensor stress = t.K.x() * auxiliary_point(Auxiliary::opening, solution_.rock, r, theta).stress +
-                          t.K.y() * auxiliary_point(Auxiliary::sliding, solution_.rock, r, theta).stress;
+    const Elasticity rock = solution_.rock.at(t.position);
+    const Tensor stress = t.K.x() * auxiliary_point(Auxiliary::opening, rock, r, theta).stress +
+                          t.K.y() * auxiliary_point(Auxiliary::sliding, rock, r, theta).stress;
     return components(frame * stress * frame.transpose());
   }
 
@@ -136,7 +137,7 @@ ErrorEstimate estimate_error(const FineModel& model, const FineSolution& solutio
       const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
       const Tensor here = solution.elastic_stress_at({static_cast<int>(e), place.xi, place.eta});
       const Tensor difference = symmetric(recovery.stress(element, place, p.x)) - here;
-      squared += place.weight * p.jacobian * difference.cwiseProduct(solution.rock.strain(difference)).sum();
+      squared += place.weight * p.jacobian * difference.cwiseProduct(solution.rock.at(p.x).strain(difference)).sum();
     }
     SPREKK_ASSERT(squared >= 0, e, squared);
     estimate.elements.push_back(std::sqrt(squared));

@@ -1,6 +1,7 @@
 #include "components/fine_fracture/quarter_point/elasticity/forces.hpp"
 
 #include "components/fine_fracture/quarter_point/domain/outline.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/cut_elements.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
@@ -55,10 +56,12 @@ Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const
   return f;
 }
 
-OffsetForces::OffsetForces(const FineMesh& mesh) {
+OffsetForces::OffsetForces(const FineMesh& mesh, const FineRock& rock) {
   constexpr int degree = 4, along_rays = 3, across = 4;
   for (const FineMesh::Element& element : mesh.elements) {
-    for (const TrianglePoint& place : element.tip == none ? triangle_rule(degree) : polar_rule(along_rays, across)) {
+    const int of_element = is_cut(mesh, element, rock) ? degree_of_cut : degree;
+    for (const TrianglePoint& place :
+         element.tip == none ? triangle_rule(of_element) : polar_rule(along_rays, across)) {
       const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
       SPREKK_ASSERT(p.jacobian > 0, p.jacobian, place.xi, place.eta);
       places_.push_back(p.x);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
 
 namespace sprekk::fine_fracture {
@@ -13,7 +14,7 @@ Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const
 /// is computed once.
 class OffsetForces {
  public:
-  explicit OffsetForces(const FineMesh& mesh);
+  OffsetForces(const FineMesh& mesh, const FineRock& rock);
   const std::vector<Point>& places() const { return places_; }
   /// Subtracts the nodal forces; `offsets`: (xx, yy, xy) in Pa, a column for each of places().
   void subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const;

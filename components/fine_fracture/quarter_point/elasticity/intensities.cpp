@@ -42,10 +42,10 @@ double domain_radius(const TipRoom& room, const IntegralLimits& limits) {
 
 }  // namespace
 
-TipEvaluation::TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip,
+TipEvaluation::TipEvaluation(const FineMesh& mesh, const FineRock& rock, const FineMesh::Tip& tip,
                              const IntegralLimits& limits)
     : tip_(tip),
-      rock_(rock),
+      rock_(rock.at(tip.room.position)),
       domain_radius_(domain_radius(tip.room, limits)),
       has_jump_(has_jump_at(mesh, tip)),
       integrals_(mesh, rock, tip, {domain_radius_, 0.5 * (domain_radius_ + tip.room.radius)}) {}

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/interaction_integral.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
 
@@ -49,7 +49,7 @@ struct IntegralLimits {
 class TipEvaluation {
  public:
   /// Keeps references to the mesh and to its tip.
-  TipEvaluation(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip,
+  TipEvaluation(const FineMesh& mesh, const FineRock& rock, const FineMesh::Tip& tip,
                 const IntegralLimits& limits = {});
   /// The places at which the stress offset is needed.
   const std::vector<Point>& offset_places() const { return integrals_.offset_places(); }
@@ -60,7 +60,7 @@ class TipEvaluation {
 
  private:
   const FineMesh::Tip& tip_;
-  Elasticity rock_;
+  Elasticity rock_;  ///< at the tip
   double domain_radius_;
   bool has_jump_;  ///< prescribed up to the tip
   InteractionIntegrals integrals_;

@@ -43,10 +43,11 @@ struct InteractionIntegrals::State {
   Tensor offset(int column) const { return offsets.cols() > 0 ? symmetric(offsets.col(column)) : Tensor::Zero(); }
 };
 
-InteractionIntegrals::InteractionIntegrals(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip,
+InteractionIntegrals::InteractionIntegrals(const FineMesh& mesh, const FineRock& rock, const FineMesh::Tip& tip,
                                            const std::array<double, 2>& radii)
     : mesh_(mesh),
-      rock_(rock),
+      rock_by_place_(rock),
+      rock_(rock.at(tip.room.position)),
       tip_(tip),
       radii_(radii),
       offset_places_{tip.room.position},
@@ -89,6 +90,7 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
     const Eigen::Matrix<double, 6, 2> along_frame = p.gradient * frame_;
     const double factor = place.weight * p.jacobian;
     const std::array<AuxiliaryPoint, fields> auxiliary = auxiliary_points(rock_, x);
+    const Elasticity here = rock_by_place_.at(p.x), more{here.lambda - rock_.lambda, here.shear - rock_.shear};
     Rows<3> of_offset;
     for (int d = 0; d < domains; ++d) {
       const double q_here = is_rosette ? 1 : q[d][0] + place.xi * (q[d][1] - q[d][0]) + place.eta * (q[d][2] - q[d][0]);
@@ -101,6 +103,11 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
         const Tensor by_offset =
             frame_ * (factor * (0.5 * (work + work.transpose()) + q_here * a.strain_along)) * frame_.transpose();
         of_offset.row(row) << by_offset(0, 0), by_offset(1, 1), by_offset(0, 1) + by_offset(1, 0);
+        if (!(here == rock_)) {
+          const Tensor by_stiffness = more.stress(by_offset);
+          for (int k = 0; k < 6; ++k)
+            of_displacement_.row(row).segment<2>(2 * element.nodes[k]) += p.gradient.row(k) * by_stiffness;
+        }
         if (is_rosette) continue;
         Tensor by_gradient = rock_.stress(work) - dq[d].x() * a.stress;
         by_gradient.col(0) += a.stress * dq[d];
@@ -194,7 +201,8 @@ Point InteractionIntegrals::traction(const State& state, const WallPoint& point)
   for (int side = 0; side < 2; ++side) {
     const FineMesh::Element& element = mesh_.elements[edge.elements[side]];
     const auto [xi, eta] = place_on_edge(element, edge.nodes[side], point.t);
-    stress += 0.5 * rock_.stress(gradient(element, shape_point(mesh_, element, xi, eta), state.displacement));
+    stress += 0.5 * rock_by_place_.at(point.x).stress(
+                        gradient(element, shape_point(mesh_, element, xi, eta), state.displacement));
   }
   return frame_.transpose() * stress * edge.normal;
 }

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 
@@ -24,6 +24,7 @@ struct InteractionResult {
 /// which is the usual domain form (Li, Shih and Needleman 1985; Yau, Wang and Corten 1980) after the body force div s
 /// has been integrated by parts: only values of s occur. Before, the constant state that the walls' traction and s have
 /// at the tip is subtracted, so that integrals converge at the tip. K = E' I / 2, sigma_11 = E' I for a unit force.
+/// Where the stiffness C(x) is not that at the tip, C, the stress is C eps + s with (C(x) - C) eps as a part of s.
 /// Exact for walls that are straight within the radius. On walls of kind jump, t is the mean of both elements'
 /// stress, in the rosette a line fitted to it from behind.
 ///
@@ -32,7 +33,7 @@ struct InteractionResult {
 class InteractionIntegrals {
  public:
   /// Keeps references to the mesh and to its tip.
-  InteractionIntegrals(const FineMesh& mesh, const Elasticity& rock, const FineMesh::Tip& tip,
+  InteractionIntegrals(const FineMesh& mesh, const FineRock& rock, const FineMesh::Tip& tip,
                        const std::array<double, 2>& radii);
   /// The places at which the stress offset is needed.
   const std::vector<Point>& offset_places() const { return offset_places_; }
@@ -75,7 +76,8 @@ class InteractionIntegrals {
   Point traction(const State& state, const WallPoint& point) const;
 
   const FineMesh& mesh_;
-  Elasticity rock_;
+  FineRock rock_by_place_;
+  Elasticity rock_;  ///< at the tip
   const FineMesh::Tip& tip_;
   std::array<double, domains> radii_;
   Tensor frame_;                                  ///< columns x1, x2

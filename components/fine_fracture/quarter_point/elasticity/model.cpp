@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "components/fine_fracture/quarter_point/elasticity/cut_elements.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/sliding_walls.hpp"
@@ -12,14 +13,15 @@ namespace {
 
 using ElementVector = Eigen::Matrix<double, 12, 1>;
 
-ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& element, const Elasticity& rock) {
-  const double lambda = rock.lambda, shear = rock.shear;
+ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& element, const FineRock& rock) {
   ElementMatrix stiffness = ElementMatrix::Zero();
   // Exact for straight elements. In quarter-point elements the usual rule misses a little of the energy, which makes
   // them less stiff and their stress-intensity factors better than exact integration (2 x 3 polar points) does.
-  for (const TrianglePoint& place : triangle_rule(element.tip == none ? 2 : 5)) {
+  const int degree = element.tip != none ? 5 : is_cut(mesh, element, rock) ? degree_of_cut : 2;
+  for (const TrianglePoint& place : triangle_rule(degree)) {
     const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
     const double factor = place.weight * p.jacobian;
+    const auto [lambda, shear] = rock.at(p.x);
     for (int a = 0; a < 6; ++a) {
       const double ax = factor * p.gradient(a, 0), ay = factor * p.gradient(a, 1);
       for (int b = 0; b < 6; ++b) {
@@ -35,7 +37,7 @@ ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& e
   return stiffness;
 }
 
-std::vector<ElementMatrix> stiffness_by_element(const FineMesh& mesh, const Elasticity& rock) {
+std::vector<ElementMatrix> stiffness_by_element(const FineMesh& mesh, const FineRock& rock) {
   std::vector<ElementMatrix> stiffness;
   stiffness.reserve(mesh.elements.size());
   for (const auto& element : mesh.elements) stiffness.push_back(element_stiffness(mesh, element, rock));
@@ -55,18 +57,18 @@ ElementVector gather(const FineMesh::Element& element, const Vector& values) {
 
 }  // namespace
 
-FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
+FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, FineRock rock,
                      const std::optional<TipPlace>& wanted, std::shared_ptr<Profile> profile,
                      TriangulationKeeper* keeper)
     : profile_(std::move(profile)),
       geometry_(std::move(geometry)),
-      rock_(rock),
+      rock_(std::move(rock)),
       mesh_(timed(*profile_, "mesh",
                   [&] { return std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options, keeper)); })),
       unknowns_(geometry_, *mesh_),
       stiffness_(timed(*profile_, "assembly", [&] { return stiffness_by_element(*mesh_, rock_); })),
       factors_(*mesh_, unknowns_, stiffness_, *profile_),
-      offset_forces_(timed(*profile_, "loads", [&] { return OffsetForces(*mesh_); })) {
+      offset_forces_(timed(*profile_, "loads", [&] { return OffsetForces(*mesh_, rock_); })) {
   for (const char* name : {"ordering", "factorization", "back-solves"}) profile_->at(name).is_solver = true;
   const ScopedTimer timer(*profile_, "factors");
   offset_places_ = offset_forces_.places();

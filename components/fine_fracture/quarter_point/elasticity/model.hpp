@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/forces.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/solution.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/stiffness_factors.hpp"
@@ -22,13 +23,13 @@ class FineModel {
   /// Solutions will have the factors of all tips, or of the `wanted` one. Times in `profile`: mesh, assembly, ordering,
   /// factorization, loads, back-solves, factors. `keeper` as for make_fine_mesh. Throws as make_fine_mesh does, and
   /// std::runtime_error when the matrix is singular.
-  FineModel(FineGeometry geometry, const FineMeshOptions& options, const Elasticity& rock,
+  FineModel(FineGeometry geometry, const FineMeshOptions& options, FineRock rock,
             const std::optional<TipPlace>& wanted = {}, std::shared_ptr<Profile> profile = std::make_shared<Profile>(),
             TriangulationKeeper* keeper = nullptr);
 
   const FineGeometry& geometry() const { return geometry_; }
   const FineMesh& mesh() const { return *mesh_; }
-  const Elasticity& rock() const { return rock_; }
+  const FineRock& rock() const { return rock_; }
 
   /// The places at which each solve needs the stress offset.
   const std::vector<Point>& offset_places() const { return offset_places_; }
@@ -47,7 +48,7 @@ class FineModel {
 
   std::shared_ptr<Profile> profile_;
   FineGeometry geometry_;
-  Elasticity rock_;
+  FineRock rock_;
   std::shared_ptr<const FineMesh> mesh_;
   Unknowns unknowns_;
   std::vector<ElementMatrix> stiffness_;

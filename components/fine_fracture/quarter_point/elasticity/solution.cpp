@@ -24,4 +24,9 @@ Tensor FineSolution::gradient_at(const ElementPlace& place) const {
   return g;
 }
 
+Tensor FineSolution::elastic_stress_at(const ElementPlace& place) const {
+  const Point x = shape_point(*mesh, mesh->elements[place.element], place.xi, place.eta).x;
+  return rock.at(x).stress(0.5 * (gradient_at(place) + gradient_at(place).transpose()));
+}
+
 }  // namespace sprekk::fine_fracture

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/fine_fracture/quarter_point/elasticity/element_locator.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/intensities.hpp"
 
 namespace sprekk::fine_fracture {
@@ -12,7 +13,7 @@ namespace sprekk::fine_fracture {
 /// A solution of the fine level.
 struct FineSolution {
   std::shared_ptr<const FineMesh> mesh;
-  Elasticity rock;
+  FineRock rock;
   Vector displacement;               ///< (x, y) per node, m
   std::vector<TipIntensities> tips;  ///< in the order of FineMesh::tips, or the wanted tip alone
 
@@ -21,9 +22,7 @@ struct FineSolution {
   /// du_i/dx_j.
   Tensor gradient_at(const ElementPlace& place) const;
   /// The stress C eps(u), Pa, without the offset; infinite at a tip.
-  Tensor elastic_stress_at(const ElementPlace& place) const {
-    return rock.stress(0.5 * (gradient_at(place) + gradient_at(place).transpose()));
-  }
+  Tensor elastic_stress_at(const ElementPlace& place) const;
 };
 
 }  // namespace sprekk::fine_fracture

@@ -9,8 +9,8 @@
 namespace sprekk::test {
 namespace {
 
-/// Both ways are exact, so they differ by rounding: of what the field is at this distance, as parts of it vanish at the
-/// walls.
+/// Both ways are exact, so they differ by round-off of the size of the field at this distance; parts of the field
+/// vanish at the walls.
 TEST(AuxiliaryField, TogetherIsAsOneByOne) {
   constexpr std::array fields = {Auxiliary::opening, Auxiliary::sliding, Auxiliary::force};
   constexpr double rounding = 1e-14;

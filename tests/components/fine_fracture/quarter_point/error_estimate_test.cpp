@@ -17,7 +17,7 @@ double true_error(const FineSolution& solution, const Griffith& exact) {
       const ShapePoint p = shape_point(*solution.mesh, element, place.xi, place.eta);
       const Tensor difference =
           solution.elastic_stress_at({static_cast<int>(e), place.xi, place.eta}) - exact.stress(p.x);
-      squared += place.weight * p.jacobian * difference.cwiseProduct(solution.rock.strain(difference)).sum();
+      squared += place.weight * p.jacobian * difference.cwiseProduct(solution.rock.at(p.x).strain(difference)).sum();
     }
   }
   return std::sqrt(squared);

@@ -272,7 +272,7 @@ TEST(FineDomain, KeepsItsOutlineAwayFromTipsAndKinks) {
       EXPECT_LT(width(domain), 0.4 + 2 * (2 * gap + 0.02 * 0.4));
     }
   }
-  // With room there is no need.
+  // With enough room the square is not made larger.
   for (const double away : {-0.011, 0.011}) {
     const Mesh mesh = rock_with({{Point(0.8 - away, 0.5), Point(1, 0.5)}});
     const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
@@ -294,7 +294,7 @@ TEST(FineDomain, KeepsItsOutlineAwayFromFracturesThatRunAlongIt) {
       EXPECT_GE(is_upright ? std::abs(x - low[0]) : std::abs(y - low[1]), gap);
     }
   }
-  // A crack that crosses a side, or leaves through a corner of the square, is no reason.
+  // A crack that crosses a side, or leaves through a corner of the square, is no reason for a larger one.
   const Mesh diagonal = rock_with({{Point(0.6, 0.1), Point(1, 0.5)}});
   EXPECT_NEAR(width(fine_domain(diagonal, paths_of(diagonal), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction)),
               0.4, rounding);

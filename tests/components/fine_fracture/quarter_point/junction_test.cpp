@@ -1,4 +1,4 @@
-// Cracks that touch and cross: factors of their tips, and what goes on where they meet.
+// Cracks that touch and cross: factors of their tips, and jumps and stresses where they meet.
 #include <functional>
 #include <random>
 

@@ -1,5 +1,5 @@
-// What tips ask of the coarse level: pressures of their own ends on walls that have grown, and whether they can be
-// ruled out without a fine level.
+// What tips take from the coarse level: the pressures at their own ends on walls that have grown, and jumps by which
+// they are ruled out without a fine level.
 #include "components/fine_fracture/quarter_point/tips.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "framework/assembly/notes.hpp"
 #include "framework/field/field.hpp"
@@ -75,7 +76,7 @@ struct Setting {
     options.growth.increment = 0.1;
     return options;
   }
-  /// Both tips go straight on by so much that the coarse level does not know of, at these ends.
+  /// Lets the path grow straight on by this length, which the coarse level does not have, at these ends.
   void grow(double length, bool first, bool last) {
     const auto state = [&](bool has_grown, double sign) {
       Vector values = Vector::Zero(has_grown ? 21 : 19);
@@ -158,6 +159,90 @@ TEST(Tips, HandOverPathsOfHalfAnEdge) {
     }
 }
 
+/// Fluid in what has grown from the last end of the first fracture alone.
+class FluidInTheFirst : public Fluid {
+ public:
+  double fluid_pressure(int fracture, bool at_end) const override { return fracture == 0 && at_end ? 1e8 : 0; }
+};
+
+/// Two fractures of length 2 on one line. The last tip of the first one has grown by 0.1 m, and is at this distance (m)
+/// from the first tip of the other one, whose toughness is given.
+struct TwoFractures {
+  TwoFractures(double distance, double angle, double other_toughness)
+      : along(std::cos(angle), std::sin(angle)),
+        half_gap((distance + grown) / 2),
+        mesh(make_mesh()),
+        tips({"tips", mesh, fields, 0, {}}, options(other_toughness)) {
+    tips.accept_surroundings(fluid);
+    Vector rest = Vector::Zero(19), path = Vector::Zero(21);
+    rest[7] = path[7] = 1;
+    path.tail<2>() = (grown - half_gap) * along;
+    tips.restore(
+        {{"tips.left_first", rest}, {"tips.left_last", path}, {"tips.right_first", rest}, {"tips.right_last", rest}});
+    tips.examine({});
+  }
+  Mesh make_mesh() const {
+    Geometry geometry;
+    geometry.box.low = Point(-half_box, -half_box);
+    geometry.box.high = Point(half_box, half_box);
+    for (const auto& [name, from, to] :
+         {std::tuple("left", -half_gap - 2, -half_gap), std::tuple("right", half_gap, half_gap + 2)}) {
+      FractureGeometry fracture;
+      fracture.name = name;
+      fracture.points = {from * along, to * along};
+      geometry.fractures.push_back(fracture);
+    }
+    MeshOptions options;
+    options.size = 8;
+    options.fracture_size = 0.25;
+    return generate_mesh(geometry, options);
+  }
+  static TipsOptions options(double other_toughness) {
+    TipsOptions options = Setting::options();
+    options.toughness =
+        Data([=](const Place& place) { return place.fracture == 1 ? other_toughness : toughness; }, false, true);
+    options.growth.length = "fixed";
+    options.growth.at_most = 1;
+    return options;
+  }
+  double quantity(const std::string& name) const {
+    std::vector<Quantity> quantities;
+    tips.report(quantities);
+    for (const Quantity& quantity : quantities)
+      if (quantity.name == "tips." + name) return quantity.value;
+    ADD_FAILURE() << "no quantity " << name;
+    return 0;
+  }
+
+  static constexpr double grown = 0.1;
+  Point along;
+  double half_gap;
+  Mesh mesh;
+  FieldStore fields;
+  FluidInTheFirst fluid;
+  Tips tips;
+};
+
+// The increment of 0.1 m brings the other tip above its toughness. Up to ten increments away it grows at once, beyond
+// that in the next step, with the same K.
+TEST(Tips, GrowByIncrementsOfOthersAtOnceUpToADistanceOfTen) {
+  constexpr double between = 1.1e6;
+  for (const double angle : {0.0, 0.6, 0.6 + 1e-9})
+    for (const double distance : {0.99, 1.01}) {
+      TwoFractures setting(distance, angle, between);
+      EXPECT_LT(setting.quantity("right_first.K_eq"), 0.6 * between);
+      setting.tips.grow({});
+      EXPECT_NEAR(setting.quantity("left_last.length"), 0.2, 1e-12);
+      EXPECT_EQ(setting.quantity("right_first.length") > 0, distance < 1) << angle;
+      if (distance < 1) continue;
+      setting.fluid.state = 2;
+      setting.tips.examine({});
+      EXPECT_GT(setting.quantity("right_first.K_eq"), 1.5 * between);
+      setting.tips.grow({});
+      EXPECT_GT(setting.quantity("right_first.length"), 0) << angle;
+    }
+}
+
 TEST(Tips, AskForEdgesThatGrowAsTheSceneSays) {
   EXPECT_EQ(Setting(0.3).tips.cavity().growth, 0.3);
   TipsOptions options = Setting::options();
@@ -188,7 +273,7 @@ TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
 }
 
 TEST(Tips, WithAPathOfTheirOwnAreNeverRuledOut) {
-  // The jump beside the coarse tip says nothing about what has grown from it.
+  // The jump beside the coarse tip is no measure for the path that has grown from it.
   Setting setting(0.3);
   setting.fluid.jump[0] = setting.fluid.jump[1] = 0;
   setting.fluid.pressure[1] = 3e6;
@@ -201,8 +286,7 @@ TEST(Tips, WithAPathOfTheirOwnAreNeverRuledOut) {
 }
 
 TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
-  // What has grown from the tip, and the coarse level does not know of, turns by 100 degrees: when it is long enough to
-  // be handed over the mesh refuses it.
+  // The path of the fine level turns by 100 degrees: the mesh refuses it when it is long enough to be handed over.
   Setting setting(0.3);
   setting.fluid.jump[0] = 0;
   setting.fluid.pressure[1] = 30e6;
@@ -226,7 +310,7 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
     return note.text.find("main_last") != std::string::npos && note.text.find("turns back") != std::string::npos;
   };
   EXPECT_EQ(std::count_if(notes.all().begin(), notes.all().end(), is_said), 1);
-  // The next step has no more of it.
+  // The next step starts without that path.
   setting.tips.accepted();
   setting.fluid.state = 2;
   setting.tips.examine({});

@@ -1,4 +1,4 @@
-#include "framework/compare/cell_sampler.hpp"
+#include "framework/results/cell_sampler.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace sprekk {
 namespace {
 
-constexpr double on_the_edge = 1e-9;  // of a triangle, as a share of its corners
-constexpr double in_line = 1e-6;      // of the singular values of the directions to neighbours
+constexpr double on_the_edge = 1e-9;  // barycentric coordinate of a point on an edge
+constexpr double in_line = 1e-6;      // ratio of singular values where all neighbours lie on one line
 
 using Edge = std::pair<Position, Position>;
 
@@ -27,6 +27,7 @@ bool is_whole(const std::vector<double>& values) {
 }
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t index_of(int i) { return static_cast<std::size_t>(i); }  // where `at` is a member
 
 }  // namespace
 
@@ -201,42 +202,48 @@ std::vector<double> CellSampler::values(const Grid::Values& array, int component
 
 std::vector<double> CellSampler::values_at(const Grid::Values& array, int component,
                                            const std::vector<Position>& places, const std::vector<int>& parts) const {
-  std::vector<double> sampled;
-  if (array.place == Grid::Place::point) {
-    for (std::size_t i = 0; i < places.size(); ++i)
-      sampled.push_back(from_points(array, component, parts[i], places[i]));
-    return sampled;
+  const SampledArray sampled(*this, array, component);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < places.size(); ++i) values.push_back(sampled.at(places[i], parts[i]));
+  return values;
+}
+
+SampledArray::SampledArray(const CellSampler& cells, const Grid::Values& array, int component)
+    : cells_(cells), array_(array), component_(component) {
+  if (array.place == Grid::Place::point) return;
+  own_ = cells.values(array, component);
+  has_steps_ = is_whole(own_);
+}
+
+Position SampledArray::gradient(int cell) const {
+  const auto [found, is_new] = gradients_.try_emplace(cell, Position{});
+  if (!is_new) return found->second;
+  const std::vector<int>& beside = cells_.cells_[index_of(cell)].beside;
+  const auto count = static_cast<Eigen::Index>(beside.size());
+  Eigen::MatrixXd directions(count, 2);
+  Eigen::VectorXd changes(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int other = beside[static_cast<std::size_t>(k)];
+    const Eigen::Vector2d step(cells_.centre(other)[0] - cells_.centre(cell)[0],
+                               cells_.centre(other)[1] - cells_.centre(cell)[1]);
+    directions.row(k) = step / step.norm();
+    changes[k] = (own_[index_of(other)] - own_[index_of(cell)]) / step.norm();
   }
-  const std::vector<double> own = values(array, component);
-  const bool has_steps = is_whole(own);
-  std::map<int, Eigen::Vector2d> gradients;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const int number = grid_.sources[at(parts[i])];
-    const Cell& cell = cells_[at(number)];
-    if (has_steps || cell.beside.empty()) {
-      sampled.push_back(own[at(number)]);
-      continue;
-    }
-    auto [gradient, is_new] = gradients.try_emplace(number, Eigen::Vector2d::Zero());
-    if (is_new) {
-      const auto count = static_cast<Eigen::Index>(cell.beside.size());
-      Eigen::MatrixXd directions(count, 2);
-      Eigen::VectorXd changes(count);
-      for (Eigen::Index k = 0; k < count; ++k) {
-        const int other = cell.beside[static_cast<std::size_t>(k)];
-        const Eigen::Vector2d step(centre(other)[0] - cell.centre[0], centre(other)[1] - cell.centre[1]);
-        directions.row(k) = step / step.norm();
-        changes[k] = (own[at(other)] - own[at(number)]) / step.norm();
-      }
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit;
-      fit.setThreshold(in_line);
-      gradient->second = fit.compute(directions).solve(changes);
-    }
-    const Position place = grid_.points_per_cell == 2 ? nearest_of_line(parts[i], places[i]) : places[i];
-    sampled.push_back(own[at(number)] +
-                      gradient->second.dot(Eigen::Vector2d(place[0] - cell.centre[0], place[1] - cell.centre[1])));
-  }
-  return sampled;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit;
+  fit.setThreshold(in_line);
+  const Eigen::Vector2d solved = fit.compute(directions).solve(changes);
+  found->second = {solved[0], solved[1]};
+  return found->second;
+}
+
+double SampledArray::at(const Position& place, int part) const {
+  if (array_.place == Grid::Place::point) return cells_.from_points(array_, component_, part, place);
+  const int cell = cells_.grid_.sources[index_of(part)];
+  if (has_steps_ || cells_.cells_[index_of(cell)].beside.empty()) return own_[index_of(cell)];
+  const Position here = cells_.grid_.points_per_cell == 2 ? cells_.nearest_of_line(part, place) : place;
+  const Position slope = gradient(cell), centre = cells_.centre(cell);
+  return own_[index_of(cell)] +
+         Eigen::Vector2d(slope[0], slope[1]).dot(Eigen::Vector2d(here[0] - centre[0], here[1] - centre[1]));
 }
 
 }  // namespace sprekk

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,15 +27,14 @@ class CellSampler {
   /// Part of the grid (a triangle or a line) at a place: for triangles the one that holds it, for lines the nearest one
   /// of the same group. Nothing outside of the grid.
   std::optional<int> part_at(const Position& place, int group) const;
-  /// A component of an array at a place of `part`. Values of cells are continued linearly from the centre with the
-  /// gradient that fits the cells beside best (least squares; not across walls or into another group), unless all are
-  /// whole numbers. Values of points are linear between them.
+  /// A component of an array at places of `parts`, see SampledArray.
   std::vector<double> values_at(const Grid::Values& array, int component, const std::vector<Position>& places,
                                 const std::vector<int>& parts) const;
   /// A component of an array at the centres of its own cells.
   std::vector<double> values(const Grid::Values& array, int component) const;
 
  private:
+  friend class SampledArray;
   struct Cell {
     Position centre{};
     double size = 0;
@@ -57,6 +57,25 @@ class CellSampler {
   double box_ = 1;
   int columns_ = 0, rows_ = 0;
   std::vector<std::vector<int>> in_box_;
+};
+
+/// A component of an array at any place of its grid. Values of cells are continued linearly from the centre with the
+/// gradient that fits the cells beside best (least squares; not across walls or into another group), unless all are
+/// whole numbers. Values of points are linear between them. Grid and array must outlive this object.
+class SampledArray {
+ public:
+  SampledArray(const CellSampler& cells, const Grid::Values& array, int component);
+  double at(const Position& place, int part) const;
+
+ private:
+  Position gradient(int cell) const;
+
+  const CellSampler& cells_;
+  const Grid::Values& array_;
+  int component_;
+  std::vector<double> own_;  ///< of each cell, at its centre
+  bool has_steps_ = false;
+  mutable std::map<int, Position> gradients_;
 };
 
 }  // namespace sprekk

@@ -1,0 +1,73 @@
+// Walls whose friction depends on slip rate and state.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "components/contact/laws/rate_and_state.hpp"
+#include "components/contact/laws/rate_and_state_options.hpp"
+#include "components/contact/slip_events.hpp"
+#include "framework/assembly/property.hpp"
+#include "framework/scene/component.hpp"
+#include "framework/schedule/limits_step.hpp"
+
+namespace sprekk::contact {
+
+/// Keeps the state theta and the slip rate V of every fracture cell, bounds steps by their slip, and records events.
+/// Both follow from the traction and the jump of the step, by RateAndStateLaw.
+class RateAndStateWalls {
+ public:
+  /// Throws InputError where a friction f_0 is zero.
+  RateAndStateWalls(const ComponentContext& context, const RateAndStateOptions& options, const Property& friction);
+
+  /// Throws DataError where a friction f_0 is zero.
+  void evaluate_data(const Property& friction) const;
+  void begin_step(const StepTime& step) { step_ = step; }
+  /// Whether a step has begun: before, there is no slip rate to solve for.
+  bool has_step() const { return step_.dt > 0; }
+
+  /// What a cell holds under this trial traction and pressure, Pa, with the stiffness c, Pa/m.
+  RateAndStateLaw::Returned returned(int cell, double friction, double trial, double pressure, double stiffness) const;
+  /// Takes the slip rates, m/s, `dimension` − 1 of each cell, and lets states age.
+  void set_slip_rates(Vector rates);
+  double slip_rate(int cell) const;  ///< m/s, without its direction
+  /// Whether a cell slips faster than V_0.
+  bool slips(int cell) const { return slip_rate(cell) > options_.reference_rate; }
+
+  /// Of the rock beside each fracture cell, Pa.
+  void set_shear_modulus(const Vector& modulus) { shear_modulus_ = modulus; }
+
+  /// s, for LimitsStep.
+  double longest_step() const;
+  /// Whether the step, whose slips (m) are given, was too long for the rates or slips at its end, for LimitsStep.
+  std::optional<StepTooLong> too_long(const Vector& slip, const StepTime& step) const;
+
+  void accepted(const Vector& slip);
+  void report(const std::string& name, const Vector& slip, std::vector<Quantity>& quantities) const;
+  void output(std::vector<OutputField>& fields) const;
+  void note_input(const std::string& name, Notes& notes) const;
+  /// `traction`: Pa, (normal, tangential) of each cell.
+  void note_step(const std::string& name, const Vector& traction, const Vector& slip, Notes& notes) const;
+  void save(const std::string& name, std::map<std::string, Vector>& state) const;
+  void restore(const std::string& name, const std::map<std::string, Vector>& state);
+  void carry_over(const RateAndStateWalls& before) { events_.carry_over(before.events_); }
+
+ private:
+  RateAndStateLaw law(int cell, double friction) const;
+  Vector rates_of_cells() const;
+  SlipEvents::Step step_of_events(const Vector& slip) const;
+  double shear_modulus(int cell) const { return shear_modulus_.size() > 0 ? shear_modulus_[cell] : 0.0; }
+
+  const Mesh& mesh_;
+  RateAndStateOptions options_;
+  Vector a_, b_, distance_;  ///< of each cell; L in m
+  Field& state_;             ///< theta, s
+  Field& slip_rate_;         ///< V, m/s, along the tangents
+  SlipEvents events_;
+  StepTime step_;
+  Vector shear_modulus_;  ///< Pa; empty before it is known
+};
+
+}  // namespace sprekk::contact

@@ -1,0 +1,24 @@
+// Principal values and directions of stress, for output.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/field/output_field.hpp"
+
+namespace sprekk::poromechanics {
+
+/// The principal values of a stress (tension positive) and the direction of its largest compression.
+struct PrincipalStress {
+  double most_compressive, least_compressive;  ///< Pa, the smallest and the largest eigenvalue
+  Point direction;                             ///< unit, of the most compressive one; its first component is >= 0
+};
+
+/// Of the components (xx, yy, xy). Where all directions are alike, the direction is that of y.
+PrincipalStress principal_stress(const SymmetricTensor& stress);
+
+/// Appends OWNER.stress, its principal values OWNER.principal_stress.most_compressive and .least_compressive, and
+/// OWNER.most_compressive_direction. `stress`: of each cell, Pa.
+void output_stress(const std::string& owner, Vector stress, std::vector<OutputField>& fields);
+
+}  // namespace sprekk::poromechanics
