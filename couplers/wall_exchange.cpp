@@ -40,7 +40,8 @@ class WallExchange : public Coupler {
         fluid_(context.find<MatrixFluid>()),
         fracture_(context.the<FractureFluid>()),
         exchanged_(context.fields.add(
-            mesh_, counted_field(context, "exchanged", walls_.wall_flux(), "Fluid that the matrix has received"))),
+            mesh_, counted_field(context, "exchanged", walls_.wall_flux(),
+                                 "Fluid that the matrix has received, with what was not counted before the step"))),
         counted_(context.fields.add(
             mesh_, counted_field(context, "counted", fracture_.pressure(), "Of it, what the fracture has counted"))) {
     context.determine(walls_.wall_flux());
@@ -133,6 +134,13 @@ class WallExchange : public Coupler {
       exchanged_.set(std::move(exchanged));
     }
     if (has(fracture_.pressure())) counted_.set(exchanged_.now());
+  }
+
+  /// Only the difference matters. Sums since the start would have the round-off of all that has passed, which may be
+  /// any multiple of what passes now.
+  void accepted() override {
+    exchanged_.set_both(exchanged_.accepted() - counted_.accepted());
+    counted_.set_both(Vector::Zero(counted_.size()));
   }
 
   /// The amount that the matrix has received and the fracture has not counted yet is stored in both: it is subtracted.

@@ -88,9 +88,12 @@ class IterateStep::Changes {
   }
   /// Whether they are small and fall no more.
   bool are_round_off() const {
-    return sizes_.size() > watched && *std::max_element(sizes_.end() - watched, sizes_.end()) < smallest &&
+    return sizes_.size() > begin_ + watched && *std::max_element(sizes_.end() - watched, sizes_.end()) < smallest &&
            sizes_.back() > hardly_less * sizes_[sizes_.size() - 1 - watched];
   }
+  /// From here on passes are others, with or without acceleration: those until now do not tell that they fall no more.
+  void begin_again() { begin_ = sizes_.size(); }
+  bool have_a_factor() const { return sizes_.size() > last && sizes_.back() > 0; }
   /// The mean factor by which changes grow from pass to pass, over the last passes, in which the fastest growing part
   /// dominates.
   double factor() const { return std::pow(sizes_.back() / sizes_[sizes_.size() - 1 - last], 1.0 / last); }
@@ -101,6 +104,7 @@ class IterateStep::Changes {
   static constexpr double smallest = 1e-8, hardly_less = 0.9;
   static constexpr int last = 3;  // passes, of the factor
   std::vector<double> sizes_;
+  std::size_t begin_ = 0;
 };
 
 std::string IterateStep::most_changed(const Vector& change) const {
@@ -200,6 +204,26 @@ ResidualCheck IterateStep::check_changes(const std::vector<Vector>& before) cons
 
 namespace {
 
+/// Whether the least of the last 25 is hardly less than that of all before: residuals that fall by a hundredth in a
+/// pass and scatter by as much again fall by a fifth meanwhile.
+bool hardly_fall(const std::vector<double>& residuals) {
+  constexpr std::size_t watched = 25;
+  constexpr double hardly_less = 0.9;
+  if (residuals.size() <= watched) return false;
+  const auto last = residuals.end() - watched;
+  return *std::min_element(last, residuals.end()) > hardly_less * *std::min_element(residuals.begin(), last);
+}
+
+/// What may be asked for where this residual is all that passes reach.
+std::string looser(double residual) {
+  constexpr double sensible = 1e-5;
+  if (residual > sensible) return "";
+  return fmt::format(", or ask for {:.0e} in 'until'", std::pow(10, std::floor(std::log10(residual)) + 1));
+}
+
+/// "pore" of "pore.pressure".
+std::string owner_of(const std::string& field) { return field.substr(0, field.find('.')); }
+
 /// Whether the error that passes leave is below a bound, from what the last two of them have changed.
 bool is_error_below(double bound, double change, double change_before) {
   constexpr double far_below = 1e-2;  // of the bound: changes so small may be round-off, and fall no more
@@ -228,6 +252,8 @@ StepStatus IterateStep::run(const StepTime& step) {
   bool is_cycling = false;
   int of_newton = 0;
   double change_before = 0;
+  Vector last_change;
+  std::vector<double> residuals;  // after each pass but the first
   for (int pass = 1; pass <= options_.until.at_most; ++pass) {
     *pass_ = pass;
     const Vector before = pass > 1 ? scaled_values() : Vector();
@@ -264,8 +290,19 @@ StepStatus IterateStep::run(const StepTime& step) {
       continue;
     }
     changes.add(change);
+    last_change = change;
     // If passes change no more than round-off, the imbalance that is left is round-off of the fields.
     if (check.rows_hold && changes.are_round_off()) return converged(step, {true, "", pass, 0, of_newton});
+    residuals.push_back(check.largest);
+    if (changes.are_round_off() && !options_.has_substeps && hardly_fall(residuals))
+      return {
+          false,
+          fmt::format("the iteration stagnates after {} passes: the residual of {} stays at {:.2g} of its terms, and "
+                      "passes change {} most, by round-off, {:.3g} times as much as the one before (the fields have "
+                      "no more digits in this split) solve '{}' with what it is coupled to in one 'solve'{}",
+                      pass, check.equation, check.largest, most_changed(change), changes.factor(),
+                      owner_of(check.equation), looser(check.largest)),
+          pass};
     if (changes.only_grow())
       return {false,
               fmt::format("the iteration diverges: each pass changes {} {:.3g} times as much as the one before (the "
@@ -301,16 +338,19 @@ StepStatus IterateStep::run(const StepTime& step) {
       continue;
     }
     accelerator_->forget();
+    if (!was_plain || !is_plain) changes.begin_again();
     if (next == StalledAcceleration::Next::back)
       set_scaled_values(unaccelerated);
     else if (!was_plain)
       unaccelerated = scaled_values();
   }
-  return {false,
-          fmt::format("no convergence in {} passes ({} of {} is {:.2g} of its {})", options_.until.at_most,
-                      options_.has_substeps ? "the last change" : "the residual", check.equation, check.largest,
-                      options_.has_substeps ? "largest value" : "terms"),
-          options_.until.at_most};
+  std::string reason = fmt::format("no convergence in {} passes ({} of {} is {:.2g} of its {}", options_.until.at_most,
+                                   options_.has_substeps ? "the last change" : "the residual", check.equation,
+                                   check.largest, options_.has_substeps ? "largest value" : "terms");
+  if (last_change.size() > 0 && changes.have_a_factor())
+    reason += fmt::format("; a pass changes {} most, {:.3g} times as much as the one before", most_changed(last_change),
+                          changes.factor());
+  return {false, reason + ")", options_.until.at_most};
 }
 
 }  // namespace sprekk

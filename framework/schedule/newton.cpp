@@ -57,7 +57,12 @@ std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
     for (const ResponseTerm& response : responses_->terms) {
       if (!assembly->has_row(*response.row)) continue;
       SPREKK_EXPECT(response.matrix.cols() == response.column->size(), response.column->name());
-      assembly->add(*response.row, response.matrix * (response.column->now() - start_.at(response.column)));
+      const Vector &now = response.column->now(), &start = start_.at(response.column);
+      assembly->add(*response.row, response.matrix * (now - start));
+      const bool is_copy = !response.row->is_solved();  // by a part: it follows from differences of larger numbers
+      if (is_copy && now.size() > 0)
+        assembly->compare_round_off(
+            *response.row, (response.matrix.cwiseAbs() * now.cwiseAbs().cwiseMax(start.cwiseAbs())).maxCoeff());
       assembly->derivative(*response.row, *response.column, response.matrix);
     }
   }

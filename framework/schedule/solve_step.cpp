@@ -120,9 +120,15 @@ SolveStep::SolveStep(const SolveOptions& options, const ScheduleContext& context
       parts_(context.parts),
       fields_(context.solved_fields(options.components)),
       mesh_(context.mesh),
-      newton_(context.mesh, fields_, context.parts, options.linear, options.newton, describe(), context.log) {
+      store_(context.fields),
+      log_(context.log),
+      newton_(newton_for(fields_)) {
   require_offered(options, context.parts);
   require_together(options, context.parts);
+}
+
+std::unique_ptr<Newton> SolveStep::newton_for(const std::vector<Field*>& unknowns) const {
+  return std::make_unique<Newton>(mesh_, unknowns, parts_, options_.linear, options_.newton, describe(), log_);
 }
 
 std::string SolveStep::describe() const {
@@ -139,8 +145,9 @@ std::vector<const Field*> SolveStep::waiting() const {
 }
 
 ResponseOptions SolveStep::wanted_responses() const {
+  constexpr double settled = 0.1;  // what waiting unknowns leave may act on those of the solve many times enlarged
   return {followers(options_.stabilization, parts_, fields_), options_.stabilization == response,
-          options_.newton.residual};
+          settled * options_.newton.residual};
 }
 
 const Responses& SolveStep::responses(const StepTime& step) {
@@ -149,8 +156,15 @@ const Responses& SolveStep::responses(const StepTime& step) {
     is_response_made_ = true;
     ResponseOptions wanted = wanted_responses();
     const std::vector<const Field*> waits = waiting();
-    if (!wanted.pairs.empty() && !waits.empty())
+    if (!wanted.pairs.empty() && !waits.empty()) {
       response_ = std::make_unique<WaitingResponse>(mesh_, waits, parts_, std::move(wanted), options_.linear);
+      std::vector<Field*> unknowns = fields_;
+      for (const auto& copy : response_->copies(step)) unknowns.push_back(copy.get());
+      if (unknowns.size() > fields_.size()) {
+        newton_ = newton_for(unknowns);
+        newton_->iterate_at_least_once();
+      }
+    }
   }
   return response_ ? response_->update(step) : none;
 }
@@ -197,18 +211,25 @@ StepStatus SolveStep::run(const StepTime& step) {
       offer->stabilize_preconditioner(preconditioning);
     if (options_.stabilization != "none") part->stabilize(options_.stabilization, stabilization);
   }
-  newton_.set_preconditioner_stabilization(preconditioning);
-  StepStatus status = newton_.solve(step, stabilization, responses(step));
+  const Responses& of_waiting = responses(step);
+  newton_->set_preconditioner_stabilization(preconditioning);
+  StepStatus status = newton_->solve(step, stabilization, of_waiting);
   if (!status.converged && response_ && !response_->is_determined())
     status.reason +=
         " (the unknowns that wait are not determined while those of this step are held, so they have no response)";
-  if (status.converged)
-    for (Part* part : parts_) part->after_solve(fields_, step);
+  if (!status.converged) return status;
+  std::vector<Field*> solved = fields_;
+  if (response_)
+    for (std::size_t k = 0; k < response_->copied().size(); ++k) {
+      solved.push_back(&store_.at(response_->copied()[k]->name()));
+      solved.back()->set(response_->copies(step)[k]->now());
+    }
+  for (Part* part : parts_) part->after_solve(solved, step);
   return status;
 }
 
 void SolveStep::add_counts(LinearCounts& counts) const {
-  counts += newton_.counts();
+  counts += newton_->counts();
   if (response_) counts += response_->counts();
 }
 

@@ -31,7 +31,7 @@ class SolveStep : public ScheduleStep {
   int systems_in_turn(const StepTime&) const override { return fields_.empty() ? 0 : 1; }
   void iterate_with(const std::vector<const Field*>& unknowns) override {
     iterated_ = unknowns;
-    newton_.iterate_at_least_once();
+    newton_->iterate_at_least_once();
   }
   /// Throws InputError for a stabilization that has no effect.
   void check() const override;
@@ -44,12 +44,15 @@ class SolveStep : public ScheduleStep {
   ResponseOptions wanted_responses() const;
   std::vector<const Field*> waiting() const;
   const Responses& responses(const StepTime& step);
+  std::unique_ptr<Newton> newton_for(const std::vector<Field*>& unknowns) const;
 
   SolveOptions options_;
   std::vector<Part*> parts_;
   std::vector<Field*> fields_;
   const Mesh& mesh_;
-  Newton newton_;
+  FieldStore& store_;
+  IterationLog log_;
+  std::unique_ptr<Newton> newton_;
   std::vector<const Field*> iterated_;         ///< in the iteration around the step
   std::unique_ptr<WaitingResponse> response_;  ///< of a stabilization that contains one; made when data are known
   bool is_response_made_ = false;

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "framework/assembly/assemble_all.hpp"
+#include "framework/assembly/balance_sums.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/residual_check.hpp"
@@ -28,10 +30,35 @@ WaitingResponse::WaitingResponse(const Mesh& mesh, std::vector<const Field*> wai
     }
 }
 
+const std::vector<std::unique_ptr<Field>>& WaitingResponse::copies(const StepTime& step) {
+  if (std::exchange(has_looked_for_copies_, true) || !options_.has_pending) return copies_;
+  const std::unique_ptr<Assembly> all = assemble_with_solved(step);
+  for (std::size_t w = 0; w < waiting_.size(); ++w) {
+    if (is_bulk(waiting_[w]->spec().role.kind())) continue;
+    const bool stands_in_rows = std::ranges::any_of(all->blocks(), [&](const Assembly::Block& block) {
+      return block.column == static_cast<int>(w) && block.row >= static_cast<int>(waiting_.size()) &&
+             all->balances().are_rows_of(block.row) && block.matrix->nonZeros() > 0;
+    });
+    if (!parallel::any(stands_in_rows)) continue;
+    copied_.push_back(waiting_[w]);
+    copies_.push_back(std::make_unique<Field>(waiting_[w]->spec(), waiting_[w]->entities()));
+  }
+  return copies_;
+}
+
+int WaitingResponse::copy_of(int waiting) const {
+  const auto found = std::ranges::find(copied_, waiting_[waiting]);
+  return found == copied_.end() ? -1 : static_cast<int>(found - copied_.begin());
+}
+
 const Responses& WaitingResponse::update(const StepTime& step) {
   SPREKK_EXPECT(step.dt > 0, step.dt);
   products_.forget_unused();
   responses_.pending.clear();
+  for (std::size_t k = 0; k < copies_.size(); ++k) {
+    copies_[k]->set_both(copied_[k]->accepted());
+    copies_[k]->set(copied_[k]->now());
+  }
   Assembly assembly(waiting_, Assembly::Request::residual_and_derivatives, &products_);
   assemble_all(assembly, parts_, step);
   const LinearSystem& system = system_.matrix(assembly);
@@ -46,7 +73,10 @@ const Responses& WaitingResponse::update(const StepTime& step) {
   }
   const std::unique_ptr<Assembly> all = assemble_with_solved(step);
   const std::map<const Field*, SparseMatrix> answers = answering(*all);
-  if (is_new) respond(*all, answers);
+  if (is_new) {
+    respond(*all, answers);
+    if (is_determined_) add_copies(*all);
+  }
   if (!is_determined_ || !options_.has_pending) return responses_;
   const ResidualCheck check = check_residual(assembly, system_, options_.settled);
   if (!check.finite || check.rows_hold) return responses_;
@@ -60,7 +90,11 @@ const Responses& WaitingResponse::update(const StepTime& step) {
   }
   if (!linear_->solve(load, change).solved) return responses_;
   if (parallel::max(is_finite(change) ? 0.0 : 1.0) > 0) return responses_;
+  for (const WaitingBalance& balance : balances(*all)) hold(balance, balance.residual, change);
   for (const auto& [row, answer] : answers) responses_.pending[row] = answer * change;
+  for (std::size_t w = 0; w < waiting_.size(); ++w)
+    if (const int k = copy_of(static_cast<int>(w)); k >= 0)
+      responses_.pending[copies_[k].get()] = -change.segment(system_.first(static_cast<int>(w)), waiting_[w]->size());
   return responses_;
 }
 
@@ -114,7 +148,7 @@ std::map<const Field*, SparseMatrix> WaitingResponse::answering(const Assembly& 
     const int row = place_in_all(*pair.row);
     std::vector<Triplet> entries;
     for (const Assembly::Block& block : assembly.blocks()) {
-      if (block.row != row || block.column >= static_cast<int>(waiting_.size())) continue;
+      if (block.row != row || block.column >= static_cast<int>(waiting_.size()) || copy_of(block.column) >= 0) continue;
       const int first = system_.first(block.column);
       each_entry(block, [&](int r, int column, double value) { entries.emplace_back(r, first + column, value); });
     }
@@ -149,14 +183,15 @@ void WaitingResponse::respond(const Assembly& assembly, const std::map<const Fie
   for (const Following& pair : options_.pairs)
     if (std::ranges::count(columns, pair.column) == 0) columns.push_back(pair.column);
   const std::vector<int>& rows = system_.rows();
+  const std::vector<WaitingBalance> sums = balances(assembly);
   for (const Field* column : columns) {
     std::vector<const Field*> followers;
     for (const Following& pair : options_.pairs)
       if (pair.column == column && parallel::sum(static_cast<double>(answers.at(pair.row).nonZeros())) > 0)
         followers.push_back(pair.row);
-    if (followers.empty()) continue;
+    if (followers.empty() && copies_.empty()) continue;
     const SparseMatrix drives = driving(assembly, *column);
-    std::vector<std::vector<Triplet>> response(followers.size());
+    std::vector<std::vector<Triplet>> response(followers.size()), of_copies(copies_.size());
     for (int c = 0; c < column->size(); ++c) {
       Vector load = Vector::Zero(static_cast<Eigen::Index>(rows.size())), follows;
       for (SparseMatrix::InnerIterator entry(drives, c); entry; ++entry) {
@@ -169,12 +204,24 @@ void WaitingResponse::respond(const Assembly& assembly, const std::map<const Fie
         responses_.terms.clear();
         return;
       }
+      for (const WaitingBalance& balance : sums) hold(balance, balance.of_columns.at(column)[c], follows);
       for (std::size_t f = 0; f < followers.size(); ++f) {
         const Vector answer = answers.at(followers[f]) * follows;
         const double least = negligible * (answer.size() > 0 ? answer.lpNorm<Eigen::Infinity>() : 0);
         for (int r = 0; r < answer.size(); ++r)
           if (std::abs(answer[r]) > least) response[f].emplace_back(r, c, answer[r]);
       }
+      for (std::size_t k = 0; k < copies_.size(); ++k) {
+        const auto w = std::ranges::find(waiting_, copied_[k]) - waiting_.begin();
+        const int first = system_.first(static_cast<int>(w));
+        for (int r = 0; r < copied_[k]->size(); ++r)
+          if (follows[first + r] != 0) of_copies[k].emplace_back(r, c, -follows[first + r]);
+      }
+    }
+    for (std::size_t k = 0; k < copies_.size(); ++k) {
+      SparseMatrix matrix(copied_[k]->size(), column->size());
+      matrix.setFromTriplets(of_copies[k].begin(), of_copies[k].end());
+      responses_.terms.push_back({copies_[k].get(), column, std::move(matrix)});
     }
     for (std::size_t f = 0; f < followers.size(); ++f) {
       if (parallel::sum(static_cast<double>(response[f].size())) == 0) continue;
@@ -182,6 +229,80 @@ void WaitingResponse::respond(const Assembly& assembly, const std::map<const Fie
       matrix.setFromTriplets(response[f].begin(), response[f].end());
       responses_.terms.push_back({followers[f], column, std::move(matrix)});
     }
+  }
+}
+
+std::vector<WaitingResponse::WaitingBalance> WaitingResponse::balances(const Assembly& assembly) const {
+  std::vector<WaitingBalance> found;
+  if (copies_.empty()) return found;
+  const int waiting = static_cast<int>(waiting_.size());
+  for (const Balances::Quantity& quantity : assembly.balances().quantities()) {
+    const auto is_in = [&](int row) { return row < waiting && quantity.has(row); };
+    if (std::ranges::any_of(assembly.fixed(), [&](const Assembly::Fixed& fixed) { return is_in(fixed.unknown); }))
+      continue;
+    WaitingBalance sum;
+    sum.of_waiting = Vector::Zero(system_.size());
+    for (const Following& pair : options_.pairs) sum.of_columns[pair.column] = Vector::Zero(pair.column->size());
+    for (const Assembly::Block& block : assembly.blocks()) {
+      if (!is_in(block.row)) continue;
+      const auto column = sum.of_columns.find(all_[block.column]);
+      if (block.column >= waiting && column == sum.of_columns.end()) continue;
+      const std::vector<char>& owned = system_.owned(block.row);
+      for (int r = 0; r < block.in_sum->outerSize(); ++r) {
+        if (!owned[r]) continue;
+        const double scale = block.weights ? block.factor * (*block.weights)[r] : block.factor;
+        for (SparseMatrix::InnerIterator entry(*block.in_sum, r); entry; ++entry) {
+          if (block.column < waiting)
+            sum.of_waiting[system_.first(block.column) + entry.col()] += scale * entry.value();
+          else
+            column->second[entry.col()] += scale * entry.value();
+        }
+      }
+    }
+    for (const int u : quantity.unknowns)
+      if (is_in(u)) sum.residual += sum_of_residuals(assembly, u, system_.owned(u));
+    parallel::sum(sum.of_waiting);
+    for (auto& [field, values] : sum.of_columns) parallel::sum(values);
+    for (int w = 0; w < waiting; ++w)
+      if (copy_of(w) >= 0) sum.of_copies += sum.of_waiting.segment(system_.first(w), waiting_[w]->size()).squaredNorm();
+    if (sum.of_copies > 0) found.push_back(std::move(sum));
+  }
+  return found;
+}
+
+void WaitingResponse::hold(const WaitingBalance& balance, double rest, Vector& solution) const {
+  // Of what is stored and what passes, the smaller one has the smaller round-off.
+  double passing = 0;
+  for (std::size_t w = 0; w < waiting_.size(); ++w) {
+    if (copy_of(static_cast<int>(w)) < 0) continue;
+    const int first = system_.first(static_cast<int>(w)), size = waiting_[w]->size();
+    passing += balance.of_waiting.segment(first, size).cwiseProduct(solution.segment(first, size)).lpNorm<1>();
+  }
+  const double stored = balance.of_waiting.cwiseProduct(solution).lpNorm<1>() - passing + std::abs(rest);
+  if (stored >= passing) return;
+  const double wrong = balance.of_waiting.dot(solution) + rest;
+  for (std::size_t w = 0; w < waiting_.size(); ++w) {
+    if (copy_of(static_cast<int>(w)) < 0) continue;
+    const int first = system_.first(static_cast<int>(w)), size = waiting_[w]->size();
+    solution.segment(first, size) -= wrong / balance.of_copies * balance.of_waiting.segment(first, size);
+  }
+}
+
+void WaitingResponse::add_copies(const Assembly& assembly) {
+  for (std::size_t k = 0; k < copies_.size(); ++k) {
+    SparseMatrix one(copies_[k]->size(), copies_[k]->size());
+    one.setIdentity();
+    responses_.terms.push_back({copies_[k].get(), copies_[k].get(), std::move(one)});
+  }
+  for (const Assembly::Block& block : assembly.blocks()) {
+    const int waiting = static_cast<int>(waiting_.size());
+    const int k = block.column < waiting && block.row >= waiting ? copy_of(block.column) : -1;
+    if (k < 0) continue;
+    std::vector<Triplet> entries;
+    each_entry(block, [&](int r, int c, double value) { entries.emplace_back(r, c, value); });
+    SparseMatrix matrix(all_[block.row]->size(), copies_[k]->size());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    responses_.terms.push_back({all_[block.row], copies_[k].get(), std::move(matrix)});
   }
 }
 

@@ -40,12 +40,21 @@ struct ResponseOptions {
 /// changes no answer.
 /// Where more than two systems are solved in turn, W is not zero at the start of a solve: the waiting unknowns will
 /// change by −(dW/dw)^-1 W as well. This is the pending part, which vanishes with convergence, too.
+/// Some of w are fluxes q on interfaces in balances R, which follow from potentials on either side. A change dc of a
+/// potential has the round-off of c, and with a large dq/dc that of the flux would be more than a balance may miss. So
+/// the solve has unknowns q' for these, with the equation q' = q + (dq/dc) dc + pending, and R contains q' with all of
+/// its digits; what it finds is the new q.
 class WaitingResponse {
  public:
   /// `waiting`: the unknowns of the iteration that the solve does not solve for.
   WaitingResponse(const Mesh& mesh, std::vector<const Field*> waiting, std::vector<Part*> parts,
                   ResponseOptions options, const LinearOptions& linear);
 
+  /// Copies of the waiting unknowns that the solve has to find as well, with pending terms only. The first call makes
+  /// them, at the values of the fields then. Collective.
+  const std::vector<std::unique_ptr<Field>>& copies(const StepTime& step);
+  /// What copies() are of, in its order.
+  const std::vector<const Field*>& copied() const { return copied_; }
   /// The terms at the present values of the fields; none for what has no response, or where waiting unknowns are not
   /// determined. Terms are kept as long as the derivatives hardly change. Collective.
   const Responses& update(const StepTime& step);
@@ -57,8 +66,24 @@ class WaitingResponse {
   bool has_changed(const LinearSystem& system);
   /// The derivatives of all equations at hand; the waiting unknowns come first.
   std::unique_ptr<Assembly> assemble_with_solved(const StepTime& step);
-  /// d row / d waiting, for each row field.
+  /// d row / d waiting, for each row field, without those that have copies.
   std::map<const Field*, SparseMatrix> answering(const Assembly& assembly) const;
+  /// d row / d copied, a term for each row that has one.
+  void add_copies(const Assembly& assembly);
+  /// The place among the copies of a waiting unknown, or -1.
+  int copy_of(int waiting) const;
+  /// The sum of the rows of a quantity's balances among W, without exchanges.
+  struct WaitingBalance {
+    Vector of_waiting;                          ///< its derivative by all waiting unknowns
+    std::map<const Field*, Vector> of_columns;  ///< by the columns of pairs
+    double residual = 0;
+    double of_copies = 0;  ///< the sum of the squares of its derivatives by copied unknowns
+  };
+  std::vector<WaitingBalance> balances(const Assembly& assembly) const;
+  /// Changes the copied unknowns of a solution so that the sum of balances holds to all digits, as the rows alone do
+  /// not where they exchange any multiple of what they store. `rest`: of the sum, besides what the solution makes of
+  /// it.
+  void hold(const WaitingBalance& balance, double rest, Vector& solution) const;
   /// d waiting / d column, transposed: a row for each value of the column field.
   SparseMatrix driving(const Assembly& assembly, const Field& column) const;
   void respond(const Assembly& assembly, const std::map<const Field*, SparseMatrix>& answers);
@@ -72,6 +97,9 @@ class WaitingResponse {
   BlockSystem system_;
   std::unique_ptr<LinearSolver> linear_;
   Products products_;
+  bool has_looked_for_copies_ = false;
+  std::vector<const Field*> copied_;
+  std::vector<std::unique_ptr<Field>> copies_;
   Vector known_;  ///< entries of the matrix that the terms were found with
   double known_dt_ = 0;
   bool is_determined_ = false;

@@ -117,17 +117,33 @@ class Schemes(unittest.TestCase):
         self.assertLess(quick["difference"], 1e-6)
 
     def test_partitions_of_four_components(self):
-        # Contact stays with rock: {pore, conduit, rock + contact} in one group, in two (3), in three (1).
+        # Without response contact stays with rock: {pore, conduit, rock + contact} in one group, in two (3), in three (1).
         found, _ = self.atlas(FRICTION, "--accelerate", "none", "--steps", "1", "--at-most", "25",
                               settings=("mesh={size: 1.5 m, fracture_size: 0.5 m}",))
-        groups = {tuple(sorted("+".join(sorted(group)) for group in one["groups"])) for one in found["schemes"]}
+        plain = [one for one in found["schemes"] if "response" not in one["stabilization"]]
+        groups = {tuple(sorted("+".join(sorted(group)) for group in one["groups"])) for one in plain}
         expected = [["conduit+contact+pore+rock"], ["conduit+pore", "contact+rock"], ["conduit", "contact+pore+rock"],
                     ["conduit+contact+rock", "pore"], ["conduit", "contact+rock", "pore"]]
         self.assertEqual(groups, {tuple(sorted(partition)) for partition in expected})
-        three = [one for one in found["schemes"] if len(one["groups"]) == 3 and not one["stabilization"]]
+        three = [one for one in plain if len(one["groups"]) == 3 and not one["stabilization"]]
         self.assertEqual(sorted(one["order"] for one in three), ["gauss_seidel", "gauss_seidel", "jacobi"])
-        together = [one for one in found["schemes"] if one["stabilization"] and any({"pore", "rock"} <= set(group) for group in one["groups"])]
+        together = [one for one in plain if one["stabilization"] and any({"pore", "rock"} <= set(group) for group in one["groups"])]
         self.assertEqual(together, [])
+        # With it: contact, fracture flow, both together or each for itself, beside pore + rock (4 partitions in 2 orders); beside pore and rock
+        # apart, with what is left in either (4 of three groups in 2 orders, 1 of four in 6), each also with fixed stress.
+        response = [one for one in found["schemes"] if "response" in one["stabilization"]]
+        self.assertEqual(len(response), 8 + 2 * (4 * 2 + 6))
+        for one in response:
+            self.assertTrue(any(set(group) <= {"conduit", "contact"} for group in one["groups"]), one["groups"])
+            self.assertTrue(one["order"] == "gauss_seidel" and all("rock" in g or "contact" not in g or set(g) <= {"conduit", "contact"} for g in one["groups"]))
+        # One waiting group: a pass is a step of Newton's method, and nothing is left of small errors.
+        two = [one for one in response if len(one["groups"]) == 2]
+        self.assertEqual(len(two), 6)
+        for one in two:
+            self.assertTrue(one["converged"], one)
+            self.assertLessEqual(max(one["passes"]), 4, one)
+            self.assertLess(one["predicted"], 1e-3, one)
+            self.assertLess(one["difference"], 1e-6, one)
 
     def test_maps_and_files(self):
         found, _ = self.atlas(NETWORK, "--accelerate", "iqn_imvj: {rank: 20}", "--only", "iqn", "--only", "jacobi", "--over",
@@ -158,7 +174,7 @@ class Schemes(unittest.TestCase):
                                    (TERZAGHI, ("--over", "time.step"), "gives no value"),
                                    (TERZAGHI, ("--over", "time.step=1s,"), "value is missing"),
                                    (TERZAGHI, ("--over", "a=1", "--over", "b=1", "--over", "c=1"), "two axes"),
-                                   (ROOT / "configs/verification/frictional_crack.yaml", (), "one scheme only")):
+                                   (ROOT / "configs/swaps/anisotropic_front_ntpfa.yaml", (), "one scheme only")):
             done = self.call(scene, *words)
             self.assertEqual(done.returncode, 2, (words, done.stderr))
             self.assertIn(said, done.stderr, words)
