@@ -73,7 +73,6 @@ EXEMPT_ONES = (
     ("components/fine_fracture/growth/grow_tips.cpp", "1e3", "m to mm in a text"),
     ("components/fine_fracture/growth/mixed_mode.cpp", "1.5", "the stress field at a tip"),
     ("components/fine_fracture/growth/mixed_mode.cpp", "8.0", "the direction of its largest tension in closed form"),
-    ("components/fine_fracture/boundary_element/crack_elements.cpp", "4.0", "a term of the potentials"),
     ("components/fine_fracture/boundary_element/density_integrals.cpp", "4.0", "a derivative"),
     ("components/fine_fracture/boundary_element/density_integrals.cpp", "whole", "exponents"),
     ("components/fine_fracture/boundary_element/density_integrals.cpp", "half", "exponents"),

@@ -257,13 +257,12 @@ Pair ElementField::stress(int node, Complex along) const {
   const Complex square = -integrals_.slope[node], cube = 0.5 * integrals_.curvature[node];
   const Complex back = std::conj(element_.direction), turn = back * back * back;
   const double factor = rock_.shear / (std::numbers::pi * (rock_.kolosov() + 1) * element_.length);
-  const auto by = [&](Complex jump) {
-    const Complex c = element_.sign * factor * unit * jump;
-    const Complex phi = -back * c * square;
-    const Complex rest = turn * c * (square - 4.0 * unit * height_ * cube) - back * std::conj(c) * square;
-    return 2 * phi.real() + along * along * rest;
-  };
-  return pair(by(1), by(unit));
+  // N + i S of the jump 1. That of the jump i follows: what goes with the jump is multiplied by i, what goes with its
+  // conjugate by −i.
+  const Complex c = element_.sign * factor * unit, forward = along * along;
+  const Complex phi = -back * c * square, with = forward * turn * c * (square - 2.0 * unit * (2 * height_) * cube),
+                without = -forward * back * std::conj(c) * square;
+  return pair(2 * phi.real() + with + without, -2 * phi.imag() + unit * with - unit * without);
 }
 
 Eigen::RowVector2d ElementField::trace(int node) const {

@@ -106,7 +106,12 @@ DensityIntegrals by_quadrature(Density density, Complex w) {
   const Rule& rule = density == Density::polynomial ? polynomial : density == Density::root ? root : corner;
   DensityIntegrals result{};
   for (const Rule::Place& place : rule.places) {
-    const Complex kernel = 1.0 / (w - place.t), square = -kernel * kernel, cube = -2.0 * square * kernel;
+    // By hand: operators of complex numbers look for infinities.
+    const double x = w.real() - place.t, y = w.imag(), norm = 1 / (x * x + y * y);
+    const Complex kernel(x * norm, -y * norm),
+        square(y * y * norm * norm - x * x * norm * norm, 2 * x * y * norm * norm),
+        cube(-2 * (square.real() * kernel.real() - square.imag() * kernel.imag()),
+             -2 * (square.real() * kernel.imag() + square.imag() * kernel.real()));
     for (int j = 0; j < n; ++j) {
       result.value[j] += place.weights[j] * kernel;
       result.slope[j] += place.weights[j] * square;
