@@ -9,6 +9,7 @@ import numpy as np
 
 import kgd_leak_off
 import near_tip
+import rate_and_state
 import sealed_wings
 from kgd_self_similar import Kgd
 
@@ -205,6 +206,53 @@ class NearTip(unittest.TestCase):
                 self.assertAlmostEqual(mean / quadrature, 1, delta=1e-6)
                 self.assertAlmostEqual(near_tip.speed(h, mean, toughness) / viscosity, 1, delta=1e-6)
         self.assertEqual(near_tip.speed(0.7, 0.1, 1.0), 0)
+
+
+class RateAndState(unittest.TestCase):
+    def test_integrator_is_of_its_order(self):
+        errors = []
+        for tolerance in (1e-6, 1e-9):
+            for now, y in rate_and_state.integrate(lambda t, y: -2 * t * y, np.array((1.0,)), 0.0, 2.0, lambda e, t=tolerance: abs(e[0]) / t):
+                pass
+            errors.append(abs(y[0] - math.exp(-4)))
+            self.assertEqual(now, 2.0)
+            self.assertLess(errors[-1], 20 * tolerance)
+        self.assertLess(errors[1], 1e-2 * errors[0])
+
+    def test_slip_of_a_crack(self):
+        # A uniform drop of stress over 2 c: slip 2 (1 - nu)/G drop sqrt(c^2 - x^2).
+        errors = []
+        for cells in (50, 100):
+            fault = rate_and_state.Fault(cells, rate_and_state.Friction(**rate_and_state.NUCLEATION), 0.0)
+            slip = np.linalg.solve(fault.stress, np.full(cells, -1e6)) * fault.friction.distance
+            half = rate_and_state.FAULT_LENGTH / 2
+            exact = 2e6 / rate_and_state.SHEAR_OVER * np.sqrt(half**2 - fault.x**2)
+            errors.append(np.abs(slip - exact)[cells // 4:-cells // 4].max() / exact.max())
+        self.assertLess(errors[1], 0.012)
+        self.assertAlmostEqual(math.log2(errors[0] / errors[1]), 1, delta=0.2)
+
+    def test_steady_slip_stays_and_stiffness_decides(self):
+        # Steady slip is stable above k = N (b - a)/L, and not below it (Ruina 1983).
+        friction = rate_and_state.Friction(**rate_and_state.FAULT)
+        critical = friction.normal * (friction.b - friction.a) / friction.distance
+        theta = friction.distance / 1e-6
+        start = float(friction.traction(1e-6, theta))
+        for share, grows in ((1.1, False), (0.9, True)):
+            block = rate_and_state.Slider(friction, share * critical, start * (1 + 1e-6), lambda t: 1e-6 * t)
+            away = np.abs(np.log(block.run(theta, 3e3)[:, 3] / 1e-6))
+            third = len(away) // 3
+            self.assertEqual(away[-third:].max() > away[third:2 * third].max(), grows)
+
+    def test_tables(self):
+        found = rate_and_state.events(rate_and_state.slider(tolerance=1e-6, end=1.1e7), 1e-3)
+        for event, row in zip(found, table("rate_and_state.csv")):
+            self.assertAlmostEqual(event[0] / row["begin_s"], 1, delta=1e-6)
+            self.assertAlmostEqual(event[1] / row["peak_slip_rate_m_s"], 1, delta=1e-3)
+        for row in table("velocity_step.csv"):
+            self.assertLess(abs(row["traction_change"]), 1e-9)
+        last = table("fault_nucleation.csv")[-1]["extrapolated_s"]
+        coarse = [rate_and_state.events(rate_and_state.nucleation(cells, 1e-6)[0], 1e-3)[0, 0] for cells in (50, 100)]
+        self.assertAlmostEqual((2 * coarse[1] - coarse[0]) / last, 1, delta=1e-4)
 
 
 if __name__ == "__main__":
