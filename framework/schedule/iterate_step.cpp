@@ -207,10 +207,10 @@ namespace {
 /// Whether the least of the last 25 is hardly less than that of all before: residuals that fall by a hundredth in a
 /// pass and scatter by as much again fall by a fifth meanwhile.
 bool hardly_fall(const std::vector<double>& residuals) {
-  constexpr std::size_t watched = 25;
+  constexpr std::size_t without_progress = 25;
   constexpr double hardly_less = 0.9;
-  if (residuals.size() <= watched) return false;
-  const auto last = residuals.end() - watched;
+  if (residuals.size() <= without_progress) return false;
+  const auto last = residuals.end() - without_progress;
   return *std::min_element(last, residuals.end()) > hardly_less * *std::min_element(residuals.begin(), last);
 }
 
