@@ -14,7 +14,7 @@ SPREKK = Path(sys.argv.pop(1)).resolve()
 # With the Schur complement of waiting unknowns none does, nor do scenes that fixed stress does not end, or ends with many cuts.
 SCENES = (("fixed_stress", 7, 19, "answer: "), ("fixed_stress", 7, 34, "answer: 0 cuts"), ("accelerated", 7, 19, "answer: 0 cuts"),
           ("response", 7, 19, "answer: 0 cuts"), ("response", 9, 18, "answer: 0 cuts"), ("response", 11, 45, "answer: 0 cuts"),
-          ("response", 11, 49, "answer: 0 cuts"))
+          ("response", 11, 49, "answer: 0 cuts"), ("response", 21, 3, "answer: 0 cuts"), ("response", 21, 36, "answer: 0 cuts"))
 
 
 class StressInTurn(unittest.TestCase):
