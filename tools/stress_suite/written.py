@@ -52,10 +52,14 @@ def instants(folder):
     matrix = sprekk.read_pvd(folder / "matrix.pvd")
     fractures = sprekk.read_pvd(folder / "fractures.pvd")
     table = history(folder)
+    if not table:  # no step was accepted
+        return []
     ends = np.asarray(table["time[s]"])
     begins = ends - np.asarray(table["step[s]"])
     found, last = [], 0.0
     for (t, file), (_, other) in zip(matrix, fractures):
+        if t < ends[0]:  # the start, which no equation has been solved for
+            continue
         row = int(np.argmin(abs(ends - t)))
         follows = abs(begins[row] - last) <= 1e-9 * ends[-1]
         found.append(Instant(t, sprekk.read_vtu(file), sprekk.read_vtu(other), follows))
