@@ -104,8 +104,6 @@ class Rock : public Component,
   void use_excavation();
   /// The mean stress of each cell from forces on all faces, and their moments about the centres of the faces, Pa.
   Vector stress_of(const Vector& forces, const Vector& moments) const;
-  /// The mean total stress of each cell, Pa, (xx, yy, xy).
-  Vector mean_stress() const;
 
   const Mesh& mesh_;
   Options options_;
