@@ -44,7 +44,7 @@ components:
   conduit:
     type: fracture_flow/tpfa
     initial_aperture: 0.1 mm
-    boundary: {right: 1 MPa}
+    boundary: {right: {pressure: 1 MPa}}
     injection: {well: {fracture: long, at: [0.5 m, 0.37 m], rate: 3e-5 m^2/s}}
     prescribed:
       low: {fracture: short, at: [1.19 m, 0.22 m], pressure: 0.1 MPa}
