@@ -131,6 +131,22 @@ std::vector<Override> with_wells() {
       {"schedule", "[{solve: [pore, rock, conduit, contact, wells]}, {grow: tips, settle: [rock, contact]}]"}};
 }
 
+/// The scene with a second flow in the rock, and with a pressure and a temperature that are given.
+std::vector<Override> with_other_flows() {
+  return {{"components.blocks",
+           "{type: matrix_flow/tpfa, permeability: 1e-21 m^2, storage: 1e-11 1/Pa, initial_pressure: 1 MPa}"},
+          {"components.given", "{type: matrix_flow/prescribed, pressure: (1e6 + 1e3*x*t) Pa}"},
+          {"components.warm", "{type: matrix_heat/prescribed, temperature: (350 + 0.01*t) K}"},
+          {"couplers",
+           "[{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}, {type: "
+           "wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, {type: "
+           "two_level, between: [rock, conduit, tips, contact]}, {type: matrix_exchange, between: [pore, blocks], "
+           "exchange: "
+           "1e-14 1/(Pa*s)}, {type: biot, between: [given, rock]}, {type: thermal_stress, between: [warm, rock], "
+           "expansion: 1e-5 1/K}]"},
+          {"schedule", "[{solve: [pore, blocks, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"}};
+}
+
 const std::vector<std::vector<Override>> scenes = {
     {},
     {{"components.pore.type", "matrix_flow/tpfa"}},
@@ -143,17 +159,27 @@ const std::vector<std::vector<Override>> scenes = {
     {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}},
     with_heat("mpfa"),
     with_heat("tpfa"),
-    with_wells()};
+    with_wells(),
+    with_other_flows(),
+    {{"components.tips.sectors", ""},
+     {"components.tips.mesh_ratio", ""},
+     {"components.tips.type", "fine_fracture/boundary_element"}},
+    {{"components.contact.rate_and_state",
+      "{a: 0.01, b: 0.015, distance: 10 um, reference_rate: 1 um/s, initial_slip_rate: 1e-9 m/s}"}}};
 INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa",       "poromechanics/fem", "matrix_flow/rt0",
-                                 "matrix_flow/ntpfa",      "contact/penalty",   "contact/augmented_lagrangian",
-                                 "fine_fracture/jump_fit", "matrix_heat/mpfa",  "matrix_heat/tpfa",
-                                 "fracture_heat/tpfa",     "heat_advection",    "heat_exchange",
-                                 "thermal_stress",         "thermal_viscosity", "wells/limited",
-                                 "well_exchange"},
+  std::set<std::string> types = {"matrix_flow/tpfa",       "poromechanics/fem",
+                                 "matrix_flow/rt0",        "matrix_flow/ntpfa",
+                                 "contact/penalty",        "contact/augmented_lagrangian",
+                                 "fine_fracture/jump_fit", "matrix_heat/mpfa",
+                                 "matrix_heat/tpfa",       "fracture_heat/tpfa",
+                                 "heat_advection",         "heat_exchange",
+                                 "thermal_stress",         "thermal_viscosity",
+                                 "wells/limited",          "well_exchange",
+                                 "matrix_exchange",        "matrix_flow/prescribed",
+                                 "matrix_heat/prescribed", "fine_fracture/boundary_element"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {
