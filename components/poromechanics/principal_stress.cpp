@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace sprekk::poromechanics {
+namespace {
+
+constexpr double alike = 1e-11;      // radius of Mohr's circle, of the mean stress: a direction would be round-off
+constexpr double first_axis = 1e-6;  // two components that differ by less count as equal
+
+}  // namespace
 
 PrincipalStress principal_stress(const SymmetricTensor& stress) {
   static_assert(dimension == 2);
@@ -12,7 +18,9 @@ PrincipalStress principal_stress(const SymmetricTensor& stress) {
   // The largest eigenvalue has the direction at half the angle; the smallest one is at a right angle to it.
   const double angle = 0.5 * std::atan2(stress[2], half);
   Point direction(-std::sin(angle), std::cos(angle));
-  if (direction.x() < 0) direction = -direction;
+  if (radius <= alike * std::abs(mean)) direction.setZero();
+  const int larger = std::abs(direction.y()) * (1 - first_axis) > std::abs(direction.x()) ? 1 : 0;
+  if (direction[larger] < 0) direction = -direction;
   return {mean - radius, mean + radius, direction};
 }
 

@@ -11,10 +11,12 @@ namespace sprekk::poromechanics {
 /// The principal values of a stress (tension positive) and the direction of its largest compression.
 struct PrincipalStress {
   double most_compressive, least_compressive;  ///< Pa, the smallest and the largest eigenvalue
-  Point direction;                             ///< unit, of the most compressive one; its first component is >= 0
+  /// Unit, of the most compressive one; the larger of its components is positive, the first one if they are equal. So
+  /// its sign does not hang on round-off where it lies along an axis. Zero where all directions are alike.
+  Point direction;
 };
 
-/// Of the components (xx, yy, xy). Where all directions are alike, the direction is that of y.
+/// Of the components (xx, yy, xy).
 PrincipalStress principal_stress(const SymmetricTensor& stress);
 
 /// Appends OWNER.stress, its principal values OWNER.principal_stress.most_compressive and .least_compressive, and

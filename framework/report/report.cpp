@@ -11,7 +11,7 @@ namespace {
 
 const SectionTitles sections = {{"summary", "Summary"},
                                 {"history", "Against time"},
-                                {"tips", "Tips"},
+                                {"tips", "By tip, well and side"},
                                 {"maps", "Fields"},
                                 {"fractures", "Along the fractures"},
                                 {"convergence", "Convergence"},

@@ -77,7 +77,7 @@ class Report(unittest.TestCase):
         file = self.report("tutorial/first_scene.yaml", "mesh={size: 1 m, fracture_size: 0.3 m}")
         page = self.opened(file)
         self.assert_loads_nothing(page, file)
-        self.assertEqual(page.sections, ["summary", "history", "maps", "fractures", "convergence", "effort", "parameters"])
+        self.assertEqual(page.sections, ["summary", "history", "tips", "maps", "fractures", "convergence", "effort", "parameters"])
         self.assertIn("injection_pressure", page.pictures["history"])
         for name in ("conduit.aperture", "contact.traction.normal", "contact.traction.tangential", "contact.jump.tangential"):
             self.assertIn(name, page.pictures["fractures"])
