@@ -16,7 +16,6 @@ constexpr double largest_turn = 0.3;        ///< rad, between two trials
 constexpr double close_enough = 1e-3;       ///< |ln(K_eq/K_IC)| of the leading tip where a jump ends
 constexpr int most_closings = 6;            ///< trials of regula falsi
 constexpr double least_part = 0.1;          ///< of the last part that regula falsi leaves
-constexpr double part_of_kink = 0.5;        ///< of a part that begins without a length, and cannot be tried there
 constexpr double shortest_retreat = 1e-2;  ///< of an increment: a trial that cannot be solved is shortened down to this
 constexpr double at_limit = 1e-9;          ///< of a length that is at its limit, but for rounding
 constexpr double least_load = 1e-3;        ///< for the logarithm
@@ -54,9 +53,6 @@ FrontJump::FrontJump(std::vector<FrontTip> tips, const std::vector<FrontState>& 
   }
   from_ = now_;
   advance(without_growth);
-  // What the held state has made too long becomes shorter again, but for what has parted before the step.
-  for (int i = 0; i < count(); ++i)
-    if (tips_[i].first_length > 0) from_.length[i] = std::min(from_.length[i], tips_[i].least);
 }
 
 void FrontJump::stop(int tip) {
@@ -95,10 +91,8 @@ void FrontJump::advance(const std::vector<FrontState>& states) {
 
 /// The next trial between one above the toughness and one below it.
 void FrontJump::interpolate() {
-  double part =
+  const double part =
       std::clamp(from_.excess / (from_.excess - to_.excess), closings_ > 1 ? least_part : 0.0, 1 - least_part);
-  for (int i = 0; i < count(); ++i)
-    if (is_laid_[i] && !(from_.length[i] + part * (to_.length[i] - from_.length[i]) > 0)) part = part_of_kink;
   for (int i = 0; i < count(); ++i) {
     now_.length[i] = from_.length[i] + part * (to_.length[i] - from_.length[i]);
     now_.angle[i] = from_.angle[i] + part * (to_.angle[i] - from_.angle[i]);

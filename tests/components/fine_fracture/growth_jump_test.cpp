@@ -83,39 +83,6 @@ TEST(FrontJump, ACrackWithAFixedVolumeIsStable) {
   EXPECT_NEAR(jump.record(0).surplus, surplus, 0.05 * surplus);
 }
 
-/// A kink that the held state has made too long, in the step in which it begins: it ends where its load is the
-/// toughness.
-TEST(FrontJump, AKinkThatIsTooLongBecomesShorter) {
-  for (const double parted : {0.0, 0.001}) {
-    FrontTip tip;
-    tip.angle = tip.first_angle = 0.4;
-    tip.toughness = toughness;
-    tip.first_length = 0.03;
-    tip.longest = 0.045;
-    tip.least = parted;
-    const auto states = [](double length) {
-      FrontState state;
-      state.load = 1.1 * std::pow(start / (start + length), 1.5);
-      state.sifs = {toughness * state.load, 0, -1e6};
-      return std::vector{state};
-    };
-    FrontState held;
-    held.load = 1.02;
-    held.sifs = {toughness * held.load, 0, -1e6};
-    FrontOptions options;
-    options.increment = increment;
-    options.shortest = 1e-4;
-    FrontJump jump({tip}, {held}, options);
-    for (int k = 0; k < 30 && jump.verdict() == Front::Verdict::again; ++k) {
-      EXPECT_GT(jump.length(0), 0);
-      EXPECT_GE(jump.length(0), parted);
-      jump.learn(states(jump.length(0)));
-    }
-    ASSERT_EQ(jump.verdict(), Front::Verdict::found);
-    EXPECT_NEAR(std::log(states(jump.length(0))[0].load), 0, 1e-3) << parted;
-  }
-}
-
 /// Through a weak layer: the load rises over 6 mm, and falls behind.
 TEST(FrontJump, ComesToRestBehindAWeakLayer) {
   const double top = start + 0.006, rise = 0.1, fall = 40;
