@@ -21,7 +21,7 @@ struct Scheme {
 
   bool is_monolithic() const { return groups.size() == 1; }
   std::string stabilization(std::size_t group) const;  ///< "" for none
-  std::string all_stabilizations() const;              ///< "fixed_stress, response"; "" for none
+  std::string all_stabilizations() const;              ///< joined by commas; "" for none
   std::string name() const;                            ///< of a folder: "a_b-c_d=STABILIZATION=anderson_5"
   std::string split() const;                           ///< "a b (STABILIZATION) → c d"
   /// The value of `schedule:` as YAML on one line. `until`: of the coupled residual; `behind`: steps that follow.
