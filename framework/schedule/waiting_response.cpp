@@ -238,8 +238,9 @@ std::vector<WaitingResponse::WaitingBalance> WaitingResponse::balances(const Ass
   const int waiting = static_cast<int>(waiting_.size());
   for (const Balances::Quantity& quantity : assembly.balances().quantities()) {
     const auto is_in = [&](int row) { return row < waiting && quantity.has(row); };
-    if (std::ranges::any_of(assembly.fixed(), [&](const Assembly::Fixed& fixed) { return is_in(fixed.unknown); }))
-      continue;
+    const bool is_fixed =
+        std::ranges::any_of(assembly.fixed(), [&](const Assembly::Fixed& row) { return is_in(row.unknown); });
+    if (parallel::any(is_fixed)) continue;
     WaitingBalance sum;
     sum.of_waiting = Vector::Zero(system_.size());
     for (const Following& pair : options_.pairs) sum.of_columns[pair.column] = Vector::Zero(pair.column->size());
@@ -262,7 +263,9 @@ std::vector<WaitingResponse::WaitingBalance> WaitingResponse::balances(const Ass
     for (const int u : quantity.unknowns)
       if (is_in(u)) sum.residual += sum_of_residuals(assembly, u, system_.owned(u));
     parallel::sum(sum.of_waiting);
-    for (auto& [field, values] : sum.of_columns) parallel::sum(values);
+    // In the order of `all_`: that of the map is by address, and processes differ in it.
+    for (const Field* field : all_)
+      if (const auto column = sum.of_columns.find(field); column != sum.of_columns.end()) parallel::sum(column->second);
     for (int w = 0; w < waiting; ++w)
       if (copy_of(w) >= 0) sum.of_copies += sum.of_waiting.segment(system_.first(w), waiting_[w]->size()).squaredNorm();
     if (sum.of_copies > 0) found.push_back(std::move(sum));
