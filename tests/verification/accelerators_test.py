@@ -3,19 +3,10 @@
 quasi-Newton methods need no more passes than Anderson's, and fewer with what earlier steps have taught; a restarted run goes on to the bit;
 two processes take the same passes; mistakes are refused."""
 
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
-
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402  pylint: disable=wrong-import-position
+from scene_runs import ROOT, SceneRuns, on_two_processes
 
 CONFIGS = ROOT / "configs"
 MANDEL, NETWORK = CONFIGS / "verification/mandel.yaml", CONFIGS / "verification/regular_network.yaml"
@@ -31,24 +22,7 @@ def iterated(accelerator, steps, relative=1e-9, at_most=100):
     return f"schedule=[{{iterate: {{until: {{relative: {relative}, at_most: {at_most}}}, accelerate: {{{accelerator}}}, steps: {steps}}}}}]"
 
 
-class Accelerators(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        self.runs = 0
-
-    def call(self, command, scene, *settings, before=()):
-        return subprocess.run([*before, SPREKK, *command, scene, *(word for setting in settings for word in ("--set", setting))],
-                              capture_output=True, text=True, timeout=100)
-
-    def run_scene(self, scene, *settings, restart=None, before=()):
-        self.runs += 1
-        folder = restart or self.folder / str(self.runs)
-        run = self.call(["run", "-q", *(("--restart", folder / "checkpoint.h5") if restart else ("-o", folder))], scene, *settings, before=before)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return sprekk.Results(folder)
-
+class Accelerators(SceneRuns):
     def difference(self, ours, right):
         """The largest of all fields, over the largest value of all components of the field."""
         largest = 0
@@ -113,22 +87,19 @@ class Accelerators(unittest.TestCase):
             whole = self.run_scene(MANDEL, schedule, "time.end=8632 s")
             parts = self.run_scene(MANDEL, schedule, "time.end=4316 s")
             parts = self.run_scene(MANDEL, schedule, "time.end=8632 s", restart=parts.folder)
-            self.assertEqual(len(parts.times), len(whole.times))
-            for column, values in whole.history.items():
-                if "seconds" not in column:
-                    self.assertTrue(np.array_equal(values, parts.history[column]), (accelerator, column))
+            self.assert_same_bits(parts, whole)
             # What was learned counts: without it the run differs.
             alone = self.run_scene(MANDEL, iterated("iqn_ils: {}", DRAINED, 1e-6), "time.end=8632 s")
             self.assertFalse(np.array_equal(self.passes(alone), self.passes(whole)))
 
-    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    @on_two_processes
     def test_two_processes_take_the_same_passes(self):
         for scene, steps, settings, accelerators in ((MANDEL, DRAINED, ("time.end=2158 s", "mesh.size=0.25 m"), (*ACCELERATORS[:6], OF_INTERFACE)),
                                                      (FRICTION, FIXED_STRESS, ("time.end=8 h", "mesh.size=1 m"), ACCELERATORS[2:6:3])):
             for accelerator in accelerators:
                 with self.subTest(scene=scene.stem, accelerator=accelerator):
-                    one, two = (self.run_scene(scene, *settings, iterated(accelerator, steps), before=before)
-                                for before in ((), ("mpirun", "-n", "2", "--oversubscribe")))
+                    one, two = (self.run_scene(scene, *settings, iterated(accelerator, steps), processes=processes)
+                                for processes in (1, 2))
                     self.assertEqual(self.passes(one), self.passes(two))
                     for column, values in one.history.items():
                         if "seconds" not in column and "error" not in column:
@@ -143,7 +114,7 @@ class Accelerators(unittest.TestCase):
                                    ("iqn_imvj: {rank: 0}", ("rank",)),
                                    ("constant: {}", ("factor",)),
                                    ("constant: {factor: 2}", ("factor",))):
-            answer = self.call(["check"], MANDEL, iterated(accelerator, DRAINED))
+            answer = self.call("check", MANDEL, iterated(accelerator, DRAINED))
             self.assertEqual(answer.returncode, 2, accelerator)
             for word in words:
                 self.assertIn(word, answer.stderr, accelerator)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """boundary_element_test.py SPREKK MPIEXEC: tips with fine levels of boundary elements (fine_fracture/boundary_element) in whole scenes.
 
 Against closed forms: a straight crack of half-length a under remote stress has K_I = s_n sqrt(pi a), K_II = t sqrt(pi a) and
@@ -6,18 +6,11 @@ T = s_t − s_n; the dry straight wings of a closed crack of half-length c that 
 K_I = 0.13885 s_1 sqrt(pi c); a crack through the square of a tip; twins of each scene; sections 5.1 and 5.2 of the paper beside
 fine_fracture/quarter_point; and rock for which it is not made is refused."""
 
-import csv
 import math
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-MPIEXEC = sys.argv.pop(2)
-SPREKK = Path(sys.argv.pop(1)).resolve()
-A = 0.05  # m, half-length
+from cracks import A, CrackScenes, crack, in_metres, remote, wings
+from scene_runs import ROOT, SceneRuns
 
 SCENE = """
 geometry:
@@ -51,52 +44,11 @@ time: {{end: 1 s, step: 1 s}}
 
 def scene(points, size="20 mm", xx=0.0, yy=2e6, tips="boundary_element", square="0.4 m", friction=0.5, young="40 GPa", initial="",
           regions="", reconstruction=""):
-    return SCENE.format(points=", ".join(f"[{x!r} m, {y!r} m]" for x, y in points), size=size, xx=xx, yy=yy, tips=tips, square=square,
+    return SCENE.format(points=in_metres(points), size=size, xx=xx, yy=yy, tips=tips, square=square,
                         friction=friction, young=young, initial=initial, regions=regions, reconstruction=reconstruction)
 
 
-def crack(degrees, half=A, x=0.013, y=-0.007):
-    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return [(x - half * c, y - half * s), (x + half * c, y + half * s)]
-
-
-def remote(degrees, xx, yy):
-    """The normal and the shear stress on a crack, in its frame."""
-    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return xx * s * s + yy * c * c, (yy - xx) * s * c
-
-
-def wings(mirror=1):
-    q = A * math.sqrt(0.5)
-    return [(x, mirror * y) for x, y in ((-q - A, -q), (-q, -q), (q, q), (q + A, q))]
-
-
-def rows(text, processes=1, more=(), command="run"):
-    with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "scene.yaml").write_text(text)
-        program = [SPREKK, command, Path(folder) / "scene.yaml", *more]
-        if command == "run":
-            program += ["-q", "-o", Path(folder) / "run"]
-        if processes > 1:
-            program = [MPIEXEC, "-n", str(processes)] + program
-        done = subprocess.run(program, capture_output=True, text=True, timeout=200)
-        if done.returncode:
-            return done.returncode, done.stderr
-        with open(Path(folder) / "run/history.csv") as file:
-            return [{key.split("[")[0]: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
-
-
-def factors(text, processes=1):
-    row = rows(text, processes)[-1]
-    return [(row[f"tips.main_{end}.K_I"], row[f"tips.main_{end}.K_II"]) for end in ("first", "last")]
-
-
-class BoundaryElement(unittest.TestCase):
-    def compare(self, found, expected, bound):
-        scale = math.hypot(*expected)
-        for k1, k2 in found:
-            self.assertLess(math.hypot(k1 - expected[0], k2 - expected[1]), bound * scale, (found, expected))
-
+class BoundaryElement(CrackScenes):
     def test_open_crack_at_any_angle(self):
         # What is left is the error of the coarse level: 5, 10 and 20 cells.
         root = math.sqrt(math.pi * A)
@@ -104,29 +56,29 @@ class BoundaryElement(unittest.TestCase):
             normal, shear = remote(degrees, xx, yy)
             for size, bound in (("20 mm", 2e-3), ("10 mm", 1e-3), ("5 mm", 1e-3)):
                 with self.subTest(degrees=degrees, size=size):
-                    self.compare(factors(scene(crack(degrees), size, xx, yy)), (normal * root, shear * root), bound)
+                    self.expect_factors(self.factors(scene(crack(degrees), size, xx, yy)), (normal * root, shear * root), bound)
 
     def test_crack_that_leaves_the_square(self):
         # The half-length is 0.3 m, and the square 0.2 m wide.
         normal, shear = remote(27, 0.0, 2e6)
         root = math.sqrt(math.pi * 0.3)
-        found = factors(scene(crack(27, 0.3), "20 mm", 0.0, 2e6, square="0.2 m"))
+        found = self.factors(scene(crack(27, 0.3), "20 mm", 0.0, 2e6, square="0.2 m"))
         finite = 1 + 0.5 * (0.3 / 2) ** 2  # of the box, about
-        self.compare(found, (finite * normal * root, finite * shear * root), 0.015)
+        self.expect_factors(found, (finite * normal * root, finite * shear * root), 0.015)
 
     def test_wings(self):
         k1 = 0.13885 * 20e6 * math.sqrt(math.pi * A)
         for mirror in (1, -1):
             for size, bound in (("20 mm", 0.01), ("10 mm", 0.01), ("5 mm", 0.01)):
-                for tip in factors(scene(wings(mirror), size, -20e6, 0.0, friction=0.3)):
+                for tip in self.factors(scene(wings(mirror), size, -20e6, 0.0, friction=0.3)):
                     self.assertLess(abs(tip[0] / k1 - 1), bound, (mirror, size))
 
     def test_twins(self):
-        plain = factors(scene(crack(27)))
+        plain = self.factors(scene(crack(27)))
         scale = math.hypot(*plain[0])
-        moved = factors(scene(crack(27), yy=2e6 * (1 + 1e-9)))
-        two = factors(scene(crack(27)), 2)
-        self.compare(moved, plain[0], 1e-2)
+        moved = self.factors(scene(crack(27), yy=2e6 * (1 + 1e-9)))
+        two = self.factors(scene(crack(27)), 2)
+        self.expect_factors(moved, plain[0], 1e-2)
         for end in range(2):
             for k in range(2):
                 self.assertAlmostEqual(moved[end][k] / scale, plain[end][k] / scale, delta=3e-9)
@@ -139,27 +91,26 @@ class BoundaryElement(unittest.TestCase):
         held = held.replace("right: {normal_stress: 0.0 Pa}", "right: {displacement_x: 0 m}").replace(
             "top: {normal_stress: 2000000.0 Pa}", "top: {displacement_y: 0 m}")
         normal, shear = remote(27, 0.0, 2e6)
-        self.compare(factors(held), (normal * root, shear * root), 2e-3)
+        self.expect_factors(self.factors(held), (normal * root, shear * root), 2e-3)
 
     def test_rock_for_which_it_is_not_made(self):
         soft = "regions: {soft: {polygon: [[0.15 m, -2 m], [2 m, -2 m], [2 m, 2 m], [0.15 m, 2 m]]}}"
         layered = scene(crack(27), young="{regions: {soft: 10 GPa, default: 40 GPa}}", regions=soft)
-        self.assertEqual(rows(layered)[0], 2, rows(layered))
-        self.assertIn("boundary elements take rock of one stiffness", rows(layered)[1])
         held = scene(crack(27), reconstruction=", reconstruction: wall_jump")
-        self.assertEqual(rows(held, command="check")[0], 2, rows(held))
-        self.assertIn("cannot take displacement jumps of walls", rows(held)[1])
         bent = scene(crack(27), initial="initial_stress: {xx: (1e6*y^2) Pa, yy: 2 MPa, xy: 0 MPa}")
-        self.assertEqual(rows(bent)[0], 2, rows(bent))
-        self.assertIn("the initial stress is not linear", rows(bent)[1])
+        for text, words, message in ((layered, ["run", "-q", "-o", "layered"], "boundary elements take rock of one stiffness"),
+                                     (held, "check", "cannot take displacement jumps of walls"),
+                                     (bent, ["run", "-q", "-o", "bent"], "the initial stress is not linear")):
+            answer = self.call(words, self.write(text))
+            self.assertEqual(answer.returncode, 2, answer.stderr)
+            self.assertIn(message, answer.stderr)
 
 
-class Boundary(unittest.TestCase):
+class Boundary(SceneRuns):
     def test_fracture_that_ends_on_the_boundary(self):
         # K_I = p sqrt(pi l) of the half of a fracture under a uniform pressure, before and after it has grown.
-        text = (ROOT / "configs/verification/kgd.yaml").read_text()
-        swapped = text.replace("fine_fracture/quarter_point", "fine_fracture/boundary_element")
-        found = [row for row in rows(swapped, more=("--set", "time.end=40 s")) if not math.isnan(row["tips.main_last.K_eq"])]
+        scene, swap = ROOT / "configs/verification/kgd.yaml", "components.tips.type=fine_fracture/boundary_element"
+        found = [row for row in self.run_scene(scene, swap, "time.end=40 s").rows if not math.isnan(row["tips.main_last.K_eq"])]
         self.assertGreater(found[-1]["tips.main_last.length"], 0.2)
         for row in found:
             closed = row["pressure"] * math.sqrt(math.pi * row["tips.main_last.x"])
@@ -167,12 +118,11 @@ class Boundary(unittest.TestCase):
             self.assertLess(abs(row["tips.main_last.K_eq"] / closed - 1), 0.03, row)
 
 
-class Paper(unittest.TestCase):
+class Paper(SceneRuns):
     def test_section_5_1(self):
-        text = (ROOT / "configs/paper/onset.yaml").read_text()
-        swapped = text.replace("fine_fracture/quarter_point", "fine_fracture/boundary_element")
-        self.assertNotEqual(text, swapped)
-        for mine, other in zip(rows(swapped), rows(text)):
+        runs = [self.run_scene(ROOT / "configs/paper/onset.yaml", f"components.tips.type=fine_fracture/{tips}").rows
+                for tips in ("boundary_element", "quarter_point")]
+        for mine, other in zip(*runs):
             self.assertLess(abs(mine["p_C"] / other["p_C"] - 1), 1e-3)
             for end in ("first", "last"):
                 k2 = other[f"tips.main_{end}.K_II"]
@@ -180,16 +130,16 @@ class Paper(unittest.TestCase):
                 self.assertLess(abs(mine[f"tips.main_{end}.K_I"] - other[f"tips.main_{end}.K_I"]), 3e-3 * k2)
 
     def test_section_5_2_to_three_hours(self):
-        text = (ROOT / "configs/paper/wing_cracks.yaml").read_text()
+        scene, swap = ROOT / "configs/paper/wing_cracks.yaml", "components.tips.type=fine_fracture/boundary_element"
         for update in ("after_step", "within_step"):
-            scenes = [text.replace("update: within_step", "update: " + update).replace("fine_fracture/quarter_point", tips)
-                      for tips in ("fine_fracture/boundary_element", "fine_fracture/quarter_point")]
-            mine, other = (rows(scene, more=("--set", "time.end=3 h"))[-1] for scene in scenes)
+            settings = [f"schedule.1.update={update}", "time.end=3 h"]
+            mine, other = (self.run_scene(scene, *settings, *more).rows[-1] for more in ([swap], []))
             self.assertLess(abs(mine["p_C"] / other["p_C"] - 1), 1e-3, update)
             self.assertGreater(mine["tips.main_last.length"], 0.01)
             if update == "within_step":
-                more = ("--set", "time.end=1 h", "--set", "components.conduit.injection.well.rate.value=5.000000005e-9 m^2/s")
-                plain, moved = rows(scenes[0], more=more[:2])[-1], rows(scenes[0], more=more)[-1]
+                settings = (swap, "time.end=1 h")
+                plain = self.run_scene(scene, *settings).rows[-1]
+                moved = self.run_scene(scene, *settings, "components.conduit.injection.well.rate.value=5.000000005e-9 m^2/s").rows[-1]
                 self.assertLess(abs(moved["tips.main_last.length"] / plain["tips.main_last.length"] - 1), 1e-7)
             for end in ("first", "last"):
                 # An increment of 10 mm, found to 1 % of K_IC, is a part of the length with the state held.
@@ -199,4 +149,5 @@ class Paper(unittest.TestCase):
                     self.assertLess(abs(mine[f"tips.main_{end}.y"] - other[f"tips.main_{end}.y"]), 3e-4)
 
 
-unittest.main()
+if __name__ == "__main__":
+    unittest.main()

@@ -3,19 +3,10 @@
 Grown walls then have the friction of their fracture, and the factors of the whole crack are those of the closed form."""
 
 import math
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
-
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import SceneRuns
 
 FRICTION, ANGLE, TOUGHNESS = 0.3, math.radians(40), 0.7e6
 SHEARED = 6900  # s, before growth goes on
@@ -76,19 +67,13 @@ output:
 TIPS = ("tips.main_first.", "tips.main_last.")
 
 
-class ClosedWings(unittest.TestCase):
+class ClosedWings(SceneRuns):
     @classmethod
     def setUpClass(cls):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            (folder / "scene.yaml").write_text(SCENE)
-            run = subprocess.run([SPREKK, "run", "-q", folder / "scene.yaml", "-o", folder / "out"],
-                                 capture_output=True, text=True, timeout=200)
-            if run.returncode:
-                raise RuntimeError(run.stderr)
-            results = sprekk.Results(folder / "out")
-            cls.rows, cls.notes = results.rows, results.record["notes"]
-            cls.written = {time: results.fractures(time).grid for time in results.written("fractures")}
+        super().setUpClass()
+        results = cls.run_scene(cls.write(SCENE))
+        cls.rows, cls.notes = results.rows, results.record["notes"]
+        cls.written = {time: results.fractures(time).grid for time in results.written("fractures")}
         cls.sheared = next(row for row in cls.rows if row["time"] == SHEARED)
 
     def test_walls_that_touch_have_no_opening_mode(self):
@@ -122,7 +107,7 @@ class ClosedWings(unittest.TestCase):
         self.assertTrue(any("closed and sheared" in note["topic"] and "is not modelled" in note["text"] for note in self.notes))
 
 
-class WithinSteps(unittest.TestCase):
+class WithinSteps(SceneRuns):
     def test_a_sheared_wing_at_rest_leaves_what_has_parted_where_it_is(self):
         changes = """
 components: {conduit: {injection: {well: {rate: [{value: 1.5e-9 m^2/s, from: 0 s, to: 985 s}, {value: -8.0e-10 m^2/s, from: 985 s, to: 4000 s}]}}},
@@ -132,14 +117,7 @@ couplers: [{type: wall_traction, between: [rock, contact, conduit]}, {type: aper
 schedule: [{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: within_step}]
 time: {step: 300 s}
 """
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            (folder / "scene.yaml").write_text(SCENE)
-            (folder / "within.yaml").write_text(changes)
-            run = subprocess.run([SPREKK, "run", "-q", folder / "scene.yaml", folder / "within.yaml", "-o", folder / "out"],
-                                 capture_output=True, text=True, timeout=100)
-            self.assertEqual(run.returncode, 0, run.stderr)
-            rows = sprekk.Results(folder / "out").rows
+        rows = self.run_scene([self.write(SCENE), self.write(changes, "within.yaml")]).rows
         last, tip = rows[-1], TIPS[1]  # the one that has grown before
         before = next(row for row in rows if row["time"] == 5400)
         self.assertGreater(before[tip + "length"], 0.005)

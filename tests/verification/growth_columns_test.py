@@ -3,33 +3,12 @@
 are those of the lines that are drawn, tips are at their ends, and advance by speed times step."""
 
 import math
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import SceneRuns, sprekk
+from wings import SCENE, WITHIN_STEPS
 
-SCENE = ROOT / "configs/paper/wing_cracks.yaml"
 FRACTURE = 0.1  # m, before growth
-WITHIN = """
-couplers:
-  - {type: biot,          between: [pore, rock]}
-  - {type: wall_exchange, between: [pore, conduit]}
-  - {type: wall_traction, between: [rock, contact, conduit]}
-  - {type: aperture,      between: [contact, conduit]}
-  - {type: two_level,     between: [rock, conduit, tips], propagation_threshold: 0.25}
-schedule:
-  - solve: [pore, rock, conduit, contact]
-  - grow: tips
-    settle: [rock, contact]
-    update: within_step
-"""
 TIPS = ("tips.main_first", "tips.main_last")
 
 
@@ -38,29 +17,16 @@ def segments(grid):
     return [[tuple(grid.points[point][:2]) for point in cell] for cell in grid.cells]
 
 
-class GrowthColumns(unittest.TestCase):
-    def results_of(self, folder, overlay, *settings):
-        scenes = [SCENE]
-        if overlay:
-            (folder / "overlay.yaml").write_text(overlay)
-            scenes.append(folder / "overlay.yaml")
-        settings = [word for setting in ("time.end=2.5h", "output.every=15min", *settings) for word in ("--set", setting)]
-        run = subprocess.run([SPREKK, "run", "-q", *scenes, "-o", folder / "out", *settings],
-                             capture_output=True, text=True, timeout=200)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        results = sprekk.Results(folder / "out")
+class GrowthColumns(SceneRuns):
+    def check(self, overlay, *settings):
+        scenes = [SCENE, self.write(overlay, "overlay.yaml")] if overlay else [SCENE]
+        results = self.run_scene(scenes, "time.end=2.5h", "output.every=15min", *settings)
         for column, unit in (("x", "m"), ("y", "m"), ("speed", "m/s"), ("grows", "1")):
             for tip in TIPS:
                 self.assertIn(f"{tip}.{column}[{unit}]", results.history)
-        return results.rows
-
-    def check(self, overlay, *settings):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            rows = self.results_of(folder, overlay, *settings)
-            for tip in TIPS:
-                self.advance_is_speed_times_step(rows, tip)
-            return self.lengths_are_those_of_lines(folder / "out", rows)
+        for tip in TIPS:
+            self.advance_is_speed_times_step(results.rows, tip)
+        return self.lengths_are_those_of_lines(results.folder, results.rows)
 
     def advance_is_speed_times_step(self, rows, tip):
         sign = 1 if tip.endswith("last") else -1
@@ -107,7 +73,7 @@ class GrowthColumns(unittest.TestCase):
         self.assertGreater(taken_over, 0)
 
     def test_within_steps(self):
-        beyond, taken_over = self.check(WITHIN)
+        beyond, taken_over = self.check(WITHIN_STEPS)
         self.assertGreater(beyond, 1)
         self.assertGreater(taken_over, 3)
 

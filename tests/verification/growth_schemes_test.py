@@ -2,29 +2,13 @@
 """growth_schemes_test.py SPREKK: growth within steps in every scheme: an iterated scheme finds the advance of the monolithic one, and
 substeps tend to the same answer with the step, and a step in which a `when` leaves `grow` out has no growth."""
 
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import SceneRuns
+from wings import COUPLERS, SCENE
 
-SCENE = ROOT / "configs/paper/wing_cracks.yaml"
 HOUR = 3600
 SWITCH, END = 4400, 6400  # s: both wings have grown within steps before, and the step in between is not cut
-COUPLERS = """
-couplers:
-  - {type: biot,          between: [pore, rock]}
-  - {type: wall_exchange, between: [pore, conduit]}
-  - {type: wall_traction, between: [rock, contact, conduit]}
-  - {type: aperture,      between: [contact, conduit]}
-  - {type: two_level,     between: [rock, conduit, tips], propagation_threshold: 0.25}
-"""
 TOGETHER = "[{solve: [pore, rock, conduit, contact]}]"
 FIXED_STRESS = """[{iterate: {until: {relative: 1e-8}, accelerate: {anderson: 5}, steps: [{solve: [pore, conduit], stabilize: fixed_stress},
   {solve: [rock, contact]}]}}]"""
@@ -38,9 +22,10 @@ def then(first, second):
     return f"{{when: 't < {SWITCH}', steps: {first}}}, {{when: 't >= {SWITCH}', steps: {second}}}"
 
 
-class GrowthSchemes(unittest.TestCase):
+class GrowthSchemes(SceneRuns):
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.together = cls.rows(f"{then(TOGETHER, TOGETHER)}, {GROW}")
         cls.first = next(i for i, row in enumerate(cls.together) if row["time"] > SWITCH)
 
@@ -48,15 +33,8 @@ class GrowthSchemes(unittest.TestCase):
     def rows(cls, schedule, end=END, at=()):
         """history.csv of a run with this schedule; steps end `at` these times (s), too."""
         times = ", ".join(f"{time} s" for time in (SWITCH, *at))
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            (folder / "scheme.yaml").write_text(f"{COUPLERS}schedule: [{schedule}]\ntime: {{end: {end} s}}\n"
-                                                f"output: {{fields: false, times: [{times}]}}\n")
-            run = subprocess.run([SPREKK, "run", "-q", SCENE, folder / "scheme.yaml", "-o", folder / "out"],
-                                 capture_output=True, text=True, timeout=200)
-            if run.returncode:
-                raise RuntimeError(run.stderr)
-            return sprekk.Results(folder / "out").rows
+        scheme = f"{COUPLERS}schedule: [{schedule}]\ntime: {{end: {end} s}}\noutput: {{fields: false, times: [{times}]}}\n"
+        return cls.run_scene([SCENE, cls.write(scheme, "scheme.yaml")]).rows
 
     def test_an_iterated_scheme_finds_the_advance_of_the_monolithic_one(self):
         together, first = self.together, self.first
@@ -110,13 +88,12 @@ class GrowthSchemes(unittest.TestCase):
                 self.assertEqual((row[tip + "grows"], row[tip + "speed"]), (0, 0))
 
 
-class RulesOfTheHeldProcedure(unittest.TestCase):
+class RulesOfTheHeldProcedure(SceneRuns):
     def test_they_are_refused(self):
         for update, option, is_refused in (("within_step", "length=fixed", True), ("within_step", "direction=explicit", True),
                                            ("after_step", "length=fixed", False), ("within_step", "length=arrest", False)):
             schedule = f"schedule=[{{solve: [pore, rock, conduit, contact]}}, {{grow: tips, settle: [rock, contact], update: {update}}}]"
-            check = subprocess.run([SPREKK, "check", SCENE, "--set", schedule, "--set", f"components.tips.growth.{option}"],
-                                   capture_output=True, text=True, timeout=60)
+            check = self.call("check", SCENE, schedule, f"components.tips.growth.{option}")
             name, _, value = option.partition("=")
             self.assertEqual(f"'growth.{name}: {value}' has no meaning" in check.stderr, is_refused, check.stderr)
             self.assertEqual(check.returncode != 0, is_refused)

@@ -4,56 +4,20 @@ step, with the fluid that is there, and a run that is interrupted and goes on ha
 
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import SceneRuns, sprekk
+from wings import SCENE, TAKEN_OVER, WITHIN_STEPS
 
 TOUGHNESS = 0.7e6  # Pa m^0.5, of the scene
-TAKEN_OVER = 0.25 * 20e-3  # m: from here on the mesh follows the wings
-OVERLAY = """
-couplers:
-  - {type: biot,          between: [pore, rock]}
-  - {type: wall_exchange, between: [pore, conduit]}
-  - {type: wall_traction, between: [rock, contact, conduit]}
-  - {type: aperture,      between: [contact, conduit]}
-  - {type: two_level,     between: [rock, conduit, tips], propagation_threshold: 0.25}
-schedule:
-  - solve: [pore, rock, conduit, contact]
-  - grow: tips
-    settle: [rock, contact]
-    update: within_step
-time: {end: 4 h}
-"""
 
 
-class GrowthWithinSteps(unittest.TestCase):
-    def setUp(self):
-        self.holder = tempfile.TemporaryDirectory()
-        self.folder = Path(self.holder.name)
-        (self.folder / "within.yaml").write_text(OVERLAY)
-
-    def tearDown(self):
-        self.holder.cleanup()
-
-    def command(self, output, *more):
-        return [SPREKK, "run", ROOT / "configs/paper/wing_cracks.yaml", self.folder / "within.yaml", "-q",
-                *(("-o", self.folder / output) if not more else more)]
-
-    def table(self, output):
-        return sprekk.Results(self.folder / output).rows
-
+class GrowthWithinSteps(SceneRuns):
     def test_tips_rest_at_their_toughness(self):
-        run = subprocess.run(self.command("run"), capture_output=True, text=True, timeout=200)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        rows = self.table("run")
+        scenes, end = [SCENE, self.write(WITHIN_STEPS, "within.yaml")], "time.end=4 h"
+        results = self.run_scene(scenes, end)
+        rows = results.rows
         followed = [row for row in rows if min(row["tips.main_first.length"], row["tips.main_last.length"]) > TAKEN_OVER]
         self.assertGreater(len(followed), 4)
         tips = ("tips.main_first.", "tips.main_last.")
@@ -74,10 +38,8 @@ class GrowthWithinSteps(unittest.TestCase):
         self.assertTrue(all(after > before for before, after in zip(pressures, pressures[1:])), pressures)
         for row in rows:
             self.assertLess(abs(row["fluid_balance_error"]), 1e-9 * row["fluid_injected"])
-        self.interrupted_runs_have_the_same_bits()
-
-    def interrupted_runs_have_the_same_bits(self):
-        run = subprocess.Popen(self.command("again"), stderr=subprocess.DEVNULL)
+        # An interrupted run that goes on has the same bits.
+        run = subprocess.Popen(self.command(["run", "-q", "-o", self.folder / "again"], scenes, end), stderr=subprocess.DEVNULL)
         history = self.folder / "again/history.csv"
         for _ in range(2000):
             if run.poll() is not None or (history.exists() and len(history.read_text().splitlines()) > 14):
@@ -85,10 +47,9 @@ class GrowthWithinSteps(unittest.TestCase):
             time.sleep(0.05)
         run.send_signal(signal.SIGINT)
         run.wait(timeout=100)
-        more = subprocess.run(self.command("again", "--restart", self.folder / "again/checkpoint.h5"),
-                              capture_output=True, text=True, timeout=200)
-        self.assertEqual(more.returncode, 0, more.stderr)
-        self.assertEqual(history.read_text(), (self.folder / "run/history.csv").read_text())
+        self.assertLess(len(sprekk.Results(self.folder / "again").times), len(rows))
+        self.run_scene(scenes, end, restart=self.folder / "again")
+        self.assertEqual(history.read_text(), (results.folder / "history.csv").read_text())
 
 
 if __name__ == "__main__":

@@ -1,19 +1,14 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """one_way_test.py SPREKK MPIEXEC: Biot's coupling one way. A column of 1 m that cannot move sideways drains from 1 Pa at one end, which
 is free: the pressure is that of rigid rock, pure diffusion with the storage S that is given, and the end settles by
 alpha/(lambda + 2 G) times the integral of p_0 - p. Exact series of backward Euler; both directions, two kinds of rock, solved
 together and in turn, and on two processes."""
 
-import csv
 import math
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-MPIEXEC = sys.argv.pop(2)
-SPREKK = Path(sys.argv.pop(1)).resolve()
+from scene_runs import SceneRuns
+
 STORAGE, STIFFNESS, ALPHA, DT, STEPS, CELLS = 0.5, 2.0, 0.8, 0.01, 10, 40
 ONE_WAY, TOGETHER, IN_TURN = ", one_way: true", "{solve: [pore, rock]}", "{solve: pore}, {solve: rock}"
 
@@ -60,20 +55,6 @@ def column(along_x=False, biot=ONE_WAY, schedule=TOGETHER, rock="mpsa", young=5 
                          for i, y in enumerate(places)))
 
 
-def run(text, processes=1, command="run"):
-    with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "scene.yaml").write_text(text)
-        program = [MPIEXEC, "-n", str(processes)] if processes > 1 else []
-        program += [SPREKK, command, Path(folder) / "scene.yaml"] + (["-o", Path(folder) / "run"] if command == "run" else [])
-        done = subprocess.run(program, capture_output=True, text=True, timeout=100)
-        if command != "run":
-            return done.returncode, done.stdout + done.stderr
-        assert done.returncode == 0, done.stderr
-        with open(Path(folder) / "run/history.csv") as file:
-            row = list(csv.DictReader(file))[-1]
-    return {key.split("[")[0]: float(value or "nan") for key, value in row.items()}
-
-
 def diffused(y):
     """The pressure after all steps at y, and its integral."""
     pressure = integral = 0
@@ -85,13 +66,16 @@ def diffused(y):
     return pressure, integral
 
 
-class OneWay(unittest.TestCase):
+class OneWay(SceneRuns):
+    def last_row(self, text, processes=1):
+        return self.run_scene(self.write(text), processes=processes).rows[-1]
+
     def test_pressure_diffuses_and_the_end_settles(self):
         for along_x in (False, True):
             for rock in ("mpsa", "fem"):
                 for schedule in (TOGETHER, IN_TURN):
                     with self.subTest(along_x=along_x, rock=rock, schedule=schedule):
-                        row = run(column(along_x, ONE_WAY, schedule, rock))
+                        row = self.last_row(column(along_x, ONE_WAY, schedule, rock))
                         pressures = [row[f"p{i}"] for i in range(CELLS)]
                         for i, pressure in enumerate(pressures):
                             self.assertAlmostEqual(pressure, diffused((i + 0.5) / CELLS)[0], delta=5e-4)
@@ -107,34 +91,34 @@ class OneWay(unittest.TestCase):
     def test_order(self):
         exact = ALPHA / STIFFNESS * (1 - diffused(0)[1])
         for rock in ("mpsa", "fem"):
-            coarse, fine = (abs(run(column(rock=rock, cells=cells))["end.y"] - exact) for cells in (20, 40))
+            coarse, fine = (abs(self.last_row(column(rock=rock, cells=cells))["end.y"] - exact) for cells in (20, 40))
             self.assertGreater(math.log2(coarse / fine), 1.9)
 
     def test_the_rock_does_not_move_the_fluid(self):
-        rigid, soft, both = (run(column(biot=biot, young=young)) for biot, young in ((ONE_WAY, 5e6), (ONE_WAY, 5 / 3), ("", 5 / 3)))
+        rigid, soft, both = (self.last_row(column(biot=biot, young=young)) for biot, young in ((ONE_WAY, 5e6), (ONE_WAY, 5 / 3), ("", 5 / 3)))
         for i in range(CELLS):
             self.assertAlmostEqual(rigid[f"p{i}"], soft[f"p{i}"], delta=1e-11)
         # Both ways the storage is S + alpha^2/(lambda + 2 G): the pressure is another one.
         self.assertGreater(both[f"p{CELLS - 1}"], 1.1 * soft[f"p{CELLS - 1}"])
-        stored = run(column().replace("storage: 0.5 1/Pa", f"storage: {STORAGE + ALPHA**2 / STIFFNESS!r} 1/Pa"))
+        stored = self.last_row(column().replace("storage: 0.5 1/Pa", f"storage: {STORAGE + ALPHA**2 / STIFFNESS!r} 1/Pa"))
         for i in range(CELLS):
             self.assertAlmostEqual(stored[f"p{i}"], both[f"p{i}"], delta=1e-3)
 
     def test_two_processes(self):
-        one, two = run(column()), run(column(), processes=2)
+        one, two = self.last_row(column()), self.last_row(column(), processes=2)
         for name in [f"p{i}" for i in range(CELLS)] + ["end.y"]:
             self.assertAlmostEqual(one[name], two[name], delta=1e-9)
 
     def test_it_is_told_and_needs_no_stabilization(self):
-        code, text = run(column(), command="check")
-        self.assertEqual(code, 0, text)
-        self.assertIn("misses alpha times the change of the rock's volume", text)
+        answer = self.call("check", self.write(column()))
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        self.assertIn("misses alpha times the change of the rock's volume", answer.stdout + answer.stderr)
         split = "{iterate: {until: {relative: 1e-8, at_most: 20}, steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}"
-        code, text = run(column(schedule=split), command="check")
-        self.assertEqual(code, 2, text)
-        self.assertIn("fixed_stress", text)
-        code, text = run(column(schedule=split, biot=""), command="check")
-        self.assertEqual(code, 0, text)
+        answer = self.call("check", self.write(column(schedule=split)))
+        self.assertEqual(answer.returncode, 2, answer.stderr)
+        self.assertIn("fixed_stress", answer.stderr)
+        answer = self.call("check", self.write(column(schedule=split, biot="")))
+        self.assertEqual(answer.returncode, 0, answer.stderr)
 
 
 if __name__ == "__main__":

@@ -5,24 +5,18 @@ mirrored, perturbed, on two processes, by other types and schedules, and after a
 
 import csv
 import math
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
+from scene_runs import ROOT, SPREKK, SceneRuns, on_two_processes
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.path[:0] = [str(ROOT / "tools/python"), str(ROOT / "tests/verification/references")]
+sys.path.insert(0, str(ROOT / "tests/verification/references"))
 import rate_and_state as reference  # noqa: E402  pylint: disable=wrong-import-position
-import sprekk  # noqa: E402  pylint: disable=wrong-import-position
 
 SLIDER, FAULT = (ROOT / f"configs/verification/{name}.yaml" for name in ("spring_slider", "fault_nucleation"))
 LAW, ROCK = "components.contact.rate_and_state", "components.rock"
-MPI = ("mpirun", "-n", "2", "--oversubscribe")
 
 
 def table(name):
@@ -41,24 +35,8 @@ STEADY = (f"{LAW}.initial_slip_rate=1e-6 m/s", f"{LAW}.distance=1 mm", f"{ROCK}.
 PROBE = "output.probes={f: {of: contact.traction, at: [2.5 m, 0 m]}}"
 
 
-class RateAndState(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        self.runs = 0
-
-    def call(self, command, scenes, *settings, before=()):
-        scenes = scenes if isinstance(scenes, (list, tuple)) else [scenes]
-        return subprocess.run([*before, SPREKK, *command, *scenes, *(word for setting in settings for word in ("--set", setting))],
-                              capture_output=True, text=True, timeout=300)
-
-    def run_scene(self, scene, *settings, restart=None, before=()):
-        self.runs += 1
-        folder = restart or self.folder / str(self.runs)
-        run = self.call(["run", "-q", *(("--restart", folder / "checkpoint.h5") if restart else ("-o", folder))], scene, *settings, before=before)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return sprekk.Results(folder)
+class RateAndState(SceneRuns):
+    timeout = 300
 
     def events(self, run):
         """(begin, greatest slip rate) of each."""
@@ -192,10 +170,10 @@ couplers: [{type: wall_traction, between: [rock, contact, conduit]}]
         moved = [f'{ROCK}.boundary.{side}.displacement_tangential="(-0.5e-9*t) m"' for side in ("top", "bottom")]
         self.assert_same(self.run_scene([scene, turned], *moved, "time.end=7e6 s"), self.run_scene(SLIDER, "time.end=7e6 s"), 1e-5)
 
-    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    @on_two_processes
     def test_on_two_processes(self):
         settings = ("mesh.fracture_size=8 m", "time.step=8e4 s", f"{LAW}.state_change=0.4")
-        one, two = (self.run_scene(FAULT, *settings, before=before) for before in ((), MPI))
+        one, two = (self.run_scene(FAULT, *settings, processes=processes) for processes in (1, 2))
         self.assert_same(two, one, 1e-6)
 
     def test_a_restart_goes_on_to_the_bit(self):
@@ -207,9 +185,7 @@ couplers: [{type: wall_traction, between: [rock, contact, conduit]}]
         self.assertEqual(parts["contact.events[1]"][-1], 1)
         parts = self.run_scene(SLIDER, begins, "time.end=11e6 s", f"output.times=[{middle} s]", restart=parts.folder)
         self.assertEqual(parts["contact.events[1]"][-1], 2)
-        for column, values in whole.history.items():
-            if "seconds" not in column:
-                self.assertTrue(np.array_equal(values, parts.history[column]), column)
+        self.assert_same_bits(parts, whole)
 
     def test_what_has_no_meaning_is_refused(self):
         for setting, message in ((f"{LAW}.a=0", "a"), (f"{LAW}.a=-0.01", "a"), (f"{LAW}.b=-0.01", "b"), (f"{LAW}.distance=0 m", "distance"),
@@ -220,18 +196,18 @@ couplers: [{type: wall_traction, between: [rock, contact, conduit]}]
                                  ("components.contact.weakening={distance: 1 mm, friction: 0.1}", "exclude each other"),
                                  ("components.contact.type=contact/penalty", "contact/penalty has no 'rate_and_state'"),
                                  (f"{LAW}.state_change=2", "state_change"), (f"{LAW}.radiation_damping.wave_speed=0 m/s", "wave_speed")):
-            answer = self.call(["check"], SLIDER, setting)
+            answer = self.call("check", SLIDER, setting)
             self.assertEqual(answer.returncode, 2, setting)
             self.assertIn(message, answer.stderr, setting)
         scene = self.folder / "without.yaml"
         for line, message in (("      initial_slip_rate: 1e-9 m/s\n", "the state at the start is missing"), ("      distance: 0.1 mm\n", "distance"),
                               ("      a: 0.010\n", "'a'")):
             scene.write_text(SLIDER.read_text().replace(line, ""))
-            answer = self.call(["check"], scene)
+            answer = self.call("check", scene)
             self.assertEqual(answer.returncode, 2, line)
             self.assertIn(message, answer.stderr)
         scene.write_text(SLIDER.read_text().replace("      radiation_damping: {wave_speed: 3 km/s}\n", ""))
-        self.assertIn("nothing limits its rate", (answer := self.call(["check"], scene)).stdout + answer.stderr)
+        self.assertIn("nothing limits its rate", (answer := self.call("check", scene)).stdout + answer.stderr)
         self.assertEqual(answer.returncode, 0)
 
 

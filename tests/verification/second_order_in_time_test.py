@@ -4,19 +4,10 @@ properties and steps that change; it is of second order for a column, a block an
 schemes have the monolithic answer; fluid is conserved; a restart goes on to the bit; parts of first order are refused."""
 
 import math
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
-
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402  pylint: disable=wrong-import-position
+from scene_runs import ROOT, SceneRuns, on_two_processes
 
 CONFIGS = ROOT / "configs"
 TERZAGHI, MANDEL, FRACTURE = (CONFIGS / path for path in ("verification/terzaghi.yaml", "verification/mandel.yaml", "tutorial/first_scene.yaml"))
@@ -43,29 +34,7 @@ def iterated(steps, accelerate="anderson: 5", relative=1e-10):
     return f"schedule=[{{iterate: {{until: {{relative: {relative}, at_most: 100}}, accelerate: {{{accelerate}}}, steps: {steps}}}}}]"
 
 
-class SecondOrderInTime(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        self.runs = 0
-
-    def call(self, command, scene, *settings, before=()):
-        return subprocess.run([*before, SPREKK, *command, scene, *(word for setting in settings for word in ("--set", setting))],
-                              capture_output=True, text=True, timeout=200)
-
-    def run_scene(self, scene, *settings, restart=None, before=()):
-        self.runs += 1
-        folder = restart or self.folder / str(self.runs)
-        run = self.call(["run", "-q", *(("--restart", folder / "checkpoint.h5") if restart else ("-o", folder))], scene, *settings, before=before)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return sprekk.Results(folder)
-
-    def mode_scene(self):
-        scene = self.folder / "mode.yaml"
-        scene.write_text(MODE)
-        return scene
-
+class SecondOrderInTime(SceneRuns):
     def assert_order(self, expected, errors, within=0.15):
         orders = [math.log2(a / b) for a, b in zip(errors, errors[1:])]
         for order in orders:
@@ -80,7 +49,7 @@ class SecondOrderInTime(unittest.TestCase):
         h = LENGTH / CELLS
         eigenvalue = 2 * (1 - math.cos(math.pi * h / LENGTH)) / (h * h)
         start = 1e6 * math.cos(math.pi * 0.25 / LENGTH)
-        run = self.run_scene(self.mode_scene(), SDIRK2, "time.step=100 s", "time.adaptive={largest: 2000 s, grow: 1.7}")
+        run = self.run_scene(self.write(MODE), SDIRK2, "time.step=100 s", "time.adaptive={largest: 2000 s, grow: 1.7}")
         times = [0.0, *run.times]
         lengths = np.diff(times)
         self.assertGreater(max(lengths) / min(lengths), 5)
@@ -99,7 +68,7 @@ class SecondOrderInTime(unittest.TestCase):
         eigenvalue = 2 * (1 - math.cos(math.pi * h / LENGTH)) / (h * h)
         exact = 1e6 * math.cos(math.pi * 0.25 / LENGTH) * math.exp(-RATE * eigenvalue * (14400 + 14400**2 / 14400))
         for settings, order in (((), 1), ((SDIRK2,), 2)):
-            errors = [abs(self.run_scene(self.mode_scene(), f"time.step={step} s", *settings)["p[Pa]"][-1] - exact) for step in (900, 450, 225)]
+            errors = [abs(self.run_scene(self.write(MODE), f"time.step={step} s", *settings)["p[Pa]"][-1] - exact) for step in (900, 450, 225)]
             self.assert_order(order, errors)
 
     def test_a_column(self):
@@ -139,19 +108,17 @@ class SecondOrderInTime(unittest.TestCase):
         self.assertLess(np.abs(whole["fluid_balance_error[m^2]"]).max(), 1e-9 * injected)
         parts = self.run_scene(FRACTURE, *settings, "time.end=4 h")
         parts = self.run_scene(FRACTURE, *settings, "time.end=8 h", restart=parts.folder)
-        for column, values in whole.history.items():
-            if "seconds" not in column:
-                self.assertTrue(np.array_equal(values, parts.history[column]), column)
+        self.assert_same_bits(parts, whole)
 
-    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    @on_two_processes
     def test_on_two_processes(self):
         settings = (SDIRK2, "time.end=8 h", "mesh.size=1 m")
-        one, two = (self.run_scene(FRACTURE, *settings, before=before) for before in ((), ("mpirun", "-n", "2", "--oversubscribe")))
+        one, two = (self.run_scene(FRACTURE, *settings, processes=processes) for processes in (1, 2))
         for column in ("injection_pressure[Pa]", "slip.t[m]", "fluid_stored[m^2]", "fluid_outflow[m^2]"):
             self.assertLess(np.abs(one[column] - two[column]).max(), 1e-8 * np.abs(one[column]).max(), column)
 
     def test_parts_of_first_order_are_refused(self):
-        answer = self.call(["check"], CONFIGS / "paper/wing_cracks.yaml", SDIRK2)
+        answer = self.call("check", CONFIGS / "paper/wing_cracks.yaml", SDIRK2)
         self.assertEqual(answer.returncode, 2)
         self.assertIn("is of first order in time", answer.stderr)
 

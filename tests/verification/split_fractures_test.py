@@ -3,20 +3,10 @@
 Schur complement of waiting unknowns such splits reach the monolithic answer in few passes, whatever the number of cells, and count all fluid."""
 
 import math
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
-
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import ROOT, SceneRuns, on_two_processes
 
 PAPER, NETWORK = ROOT / "configs/paper/onset_coarse.yaml", ROOT / "configs/verification/regular_network.yaml"
 SPLITS = (
@@ -68,24 +58,11 @@ def iterated(steps):
     return f"schedule=[{{iterate: {{until: {{relative: 1e-10, at_most: 60}}, steps: [{steps}]}}}}]"
 
 
-class SplitFractures(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        self.runs = 0
-
-    def call(self, command, scene, *settings, before=()):
-        return subprocess.run([*before, SPREKK, *command, scene, *(word for setting in settings for word in ("--set", setting))],
-                              capture_output=True, text=True, timeout=200)
-
-    def run_scene(self, scene, *settings, before=()):
-        self.runs += 1
-        folder = self.folder / str(self.runs)
-        run = self.call(["run", "-q", "-o", folder], scene, *settings, before=before)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertNotIn("the balance of", run.stderr)
-        return sprekk.Results(folder)
+class SplitFractures(SceneRuns):
+    def run_checked(self, scene, *settings, processes=1):
+        results = self.run_scene(scene, *settings, processes=processes)
+        self.assertFalse([note for note in results.record["notes"] if "the balance of" in note["text"]])
+        return results
 
     def expect_same(self, ours, truth):
         """Fields at the end, over the largest value of any field of their unit."""
@@ -118,53 +95,52 @@ class SplitFractures(unittest.TestCase):
             settings = (f"mesh={{size: 0.3 m, fracture_size: {0.1 / cells!r} m, growth: 0.35}}", "time.end=8 h")
             for perturbed in (0, 1e-9) if cells == 20 else (0,):
                 load = (f"components.rock.boundary.right.normal_stress={-20e6 * (1 + perturbed)!r} Pa",)
-                truth = self.run_scene(PAPER, *settings, *load)
+                truth = self.run_checked(PAPER, *settings, *load)
                 self.assertGreater(truth.rows[-1]["contact.cells_slip"], cells / 2)
                 for split in splits:
                     with self.subTest(cells=cells, split=split, perturbed=perturbed):
                         print(f"\n  {cells} cells: {split}", flush=True)
-                        ours = self.run_scene(PAPER, *settings, *load, iterated(split))
+                        ours = self.run_checked(PAPER, *settings, *load, iterated(split))
                         self.expect_passes(ours, at_most)
                         self.expect_same(ours, truth)
 
     def test_a_crack_that_fluid_opens(self):
         for cells, at_most, angle in ((20, 30, 0.0), (20, 30, 0.7), (80, 45, 0.0)):
-            scene = self.folder / "crack.yaml"
             x, y = math.cos(angle), math.sin(angle)
-            scene.write_text(CRACK.format(x0=-x, y0=-y, x1=x, y1=y, size=2 / cells))
-            truth = self.run_scene(scene)
+            scene = self.write(CRACK.format(x0=-x, y0=-y, x1=x, y1=y, size=2 / cells))
+            truth = self.run_checked(scene)
             self.assertEqual(truth.rows[-1]["contact.cells_open"], cells)
             for split in SPLITS_OF_CRACK:
                 with self.subTest(cells=cells, angle=angle, split=split):
                     print(f"\n  crack, {cells} cells, {angle}: {split}", flush=True)
-                    ours = self.run_scene(scene, iterated(split))
+                    ours = self.run_checked(scene, iterated(split))
                     self.expect_passes(ours, at_most)
                     self.expect_same(ours, truth)
 
     def test_a_network(self):
-        truth = self.run_scene(NETWORK, "mesh.size=0.08 m")
+        truth = self.run_checked(NETWORK, "mesh.size=0.08 m")
         for split in ("{solve: pore}, {solve: conduit, stabilize: response}", "{solve: conduit, stabilize: response}, {solve: pore}"):
             # Everything is linear: the first pass finds the answer, the second one sees it.
-            ours = self.run_scene(NETWORK, "mesh.size=0.08 m", iterated(split))
+            ours = self.run_checked(NETWORK, "mesh.size=0.08 m", iterated(split))
             self.expect_passes(ours, 3)
             self.expect_same(ours, truth)
 
-    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    @on_two_processes
     def test_on_two_processes(self):
         settings = ("mesh={size: 0.3 m, fracture_size: 0.01 m, growth: 0.35}", "time.end=8 h", iterated(SPLITS[5]))
-        one, two = self.run_scene(PAPER, *settings), self.run_scene(PAPER, *settings, before=("mpirun", "-n", "2", "--oversubscribe"))
+        one, two = self.run_checked(PAPER, *settings), self.run_checked(PAPER, *settings, processes=2)
         self.expect_same(two, one)
 
     def test_what_has_no_effect_is_refused(self):
         for steps, said in (("{solve: [pore, conduit]}, {solve: rock}, {solve: contact}", "'stabilize: response'"),
                             ("{solve: [rock, contact]}, {solve: [pore, conduit], stabilize: respond}", "response"),
                             ("{solve: [pore, rock, conduit, contact], stabilize: response}", "none waits")):
-            run = self.call(["check"], PAPER, iterated(steps))
+            run = self.call("check", PAPER, iterated(steps))
             self.assertEqual(run.returncode, 2, steps)
             self.assertIn(said, run.stderr)
         apart = "schedule=[{iterate: {steps: [{solve: [pore, conduit]}, {solve: contact, stabilize: response}]}}, {solve: rock}]"
-        self.assertIn("let the same 'iterate' solve for both", self.call(["check"], PAPER, apart).stderr)
-        run = self.call(["check"], NETWORK, "schedule=[{solve: pore}, {solve: conduit, stabilize: response}]")
+        self.assertIn("let the same 'iterate' solve for both", self.call("check", PAPER, apart).stderr)
+        run = self.call("check", NETWORK, "schedule=[{solve: pore}, {solve: conduit, stabilize: response}]")
         self.assertIn("'stabilize' stands outside of an 'iterate'", run.stderr)
 
 

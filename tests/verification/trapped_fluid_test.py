@@ -4,18 +4,9 @@ hardly resists (its compressibility), so a pass would answer an error by hundred
 first pass finds the pressure of Sneddon's crack, and the iteration that of the monolithic scheme."""
 
 import math
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import SceneRuns, on_two_processes
 
 TOGETHER = "[{{solve: [{all}]}}]"
 IN_TURN = ("[{{iterate: {{until: {{relative: {until}, at_most: 60}}, accelerate: {{anderson: {anderson}}}, steps: "
@@ -104,27 +95,16 @@ output:
 """
 
 
-class TrappedFluid(unittest.TestCase):
-    def results(self, text, before=()):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            (folder / "scene.yaml").write_text(text)
-            run = subprocess.run([*before, SPREKK, "run", "-q", folder / "scene.yaml", "-o", folder / "out"],
-                                 capture_output=True, text=True, timeout=120)
-            results = sprekk.Results(folder / "out") if (folder / "out/history.csv").exists() else None
-            rows = results.rows if results else []
-            return run, rows
-
+class TrappedFluid(SceneRuns):
     def crack(self, schedule, size, angle=0.0, steps=3):
         x, y = LENGTH * math.cos(angle), LENGTH * math.sin(angle)
-        return self.results(CRACK.format(x0=-x, y0=-y, x1=x, y1=y, size=size, rate=RATE, step=STEP, end=steps * STEP, schedule=schedule))
+        return self.write(CRACK.format(x0=-x, y0=-y, x1=x, y1=y, size=size, rate=RATE, step=STEP, end=steps * STEP, schedule=schedule))
 
     def test_a_pass_finds_the_pressure_of_a_crack_that_holds_all_of_the_fluid(self):
         # V = 2 pi l^2 p/E' (Sneddon 1946), and the fluid's own compressibility: 1/2000 of that.
         for size, angle, steps in ((0.2, 0.0, 2), (0.05, 0.0, 2), (0.1, 0.5, 2)):
             split = IN_TURN.format(until=1e-9, anderson=0, flow="conduit", stabilize="fixed_stress")
-            run, rows = self.crack(split, size, angle, steps)
-            self.assertEqual(run.returncode, 0, run.stderr)
+            rows = self.run_scene(self.crack(split, size, angle, steps)).rows
             self.assertEqual(len(rows), steps)  # none was cut
             for row in rows:
                 pressure = RATE * row["time"] * MODULUS / (2 * math.pi * LENGTH**2)
@@ -132,21 +112,19 @@ class TrappedFluid(unittest.TestCase):
                 self.assertAlmostEqual(row["opening.n"] / (RATE * row["time"] / (2 * LENGTH)), 1, delta=1e-3)
                 # The crack is open from the first pass on; two more passes correct what the cubic law adds, and check it.
                 self.assertLessEqual(row["iterations"], 4)
-            together, expected = self.crack(TOGETHER.format(all="conduit, rock, contact"), size, angle, steps)
-            self.assertEqual(together.returncode, 0, together.stderr)
+            expected = self.run_scene(self.crack(TOGETHER.format(all="conduit, rock, contact"), size, angle, steps)).rows
             for row, other in zip(rows, expected):
                 self.assertAlmostEqual(row["pressure"] / other["pressure"], 1, delta=1e-7)
                 self.assertAlmostEqual(row["opening.n"] / other["opening.n"], 1, delta=1e-7)
 
     def test_without_the_response_a_pass_answers_an_error_by_a_multiple(self):
         # pi l/E' of the mean opening over c a of the fluid: 2400, so nothing converges.
-        run, _ = self.crack(IN_TURN.format(until=1e-9, anderson=0, flow="conduit", stabilize="none"), 0.2)
-        self.assertEqual(run.returncode, 1)
+        scene = self.crack(IN_TURN.format(until=1e-9, anderson=0, flow="conduit", stabilize="none"), 0.2)
+        self.assertEqual(self.call(["run", "-q", "-o", "out"], scene).returncode, 1)
 
-    def layered(self, schedule, before=(), move=0.0):
+    def layered(self, schedule, processes=1, move=0.0):
         text = LAYERED.replace("SCHEDULE", schedule).replace("1.214414", repr(1.214414 * (1 + move)))
-        run, rows = self.results(text, before)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        rows = self.run_scene(self.write(text), processes=processes).rows
         self.assertEqual(len(rows), 3)  # none was cut
         return rows
 
@@ -166,10 +144,10 @@ class TrappedFluid(unittest.TestCase):
             self.expect_same(self.layered(split), expected)
         self.expect_same(self.layered(split, move=1e-9), self.layered(together, move=1e-9))
 
-    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    @on_two_processes
     def test_on_two_processes(self):
         split = IN_TURN.format(until=1e-9, anderson=5, flow="pore, conduit", stabilize="fixed_stress")
-        self.expect_same(self.layered(split, before=("mpirun", "-n", "2", "--oversubscribe")), self.layered(split))
+        self.expect_same(self.layered(split, processes=2), self.layered(split))
 
 
 if __name__ == "__main__":

@@ -3,24 +3,16 @@
 pressure, K = p sqrt(pi a), is unstable from its onset on: the run says so, with the energy that is left over, and goes on.
 A wing that joins another fracture takes its fluid along, and no tip ends a step above its toughness."""
 
-import json
 import math
 import re
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import ROOT, SceneRuns
+from wings import TAKEN_OVER, WITHIN_STEPS
 
 TOUGHNESS = 0.7e6  # Pa m^0.5
 HALF_LENGTH, STRESS, MODULUS = 0.1, 10e6, 40e9 / (1 - 0.2**2)  # m, Pa, Pa
-INCREMENT, THRESHOLD = 10e-3, 0.25  # m; of the cells' length
+INCREMENT = 10e-3  # m
 CRACK = """
 name: pressurised_crack
 geometry:
@@ -82,49 +74,29 @@ geometry:
   fractures:
     main: {center: [1 m, 1 m], length: 0.1 m, angle: 45 deg}
     second: {points: [[1.04 m, 0.98 m], [1.14 m, 1.12 m]]}
-couplers:
-  - {type: biot,          between: [pore, rock]}
-  - {type: wall_exchange, between: [pore, conduit]}
-  - {type: wall_traction, between: [rock, contact, conduit]}
-  - {type: aperture,      between: [contact, conduit]}
-  - {type: two_level,     between: [rock, conduit, tips], propagation_threshold: 0.25}
-schedule:
-  - solve: [pore, rock, conduit, contact]
-  - grow: tips
-    settle: [rock, contact]
-    update: within_step
 time: {end: 4 h}
 output:
   every: 1 h
   probes:
     second_pressure: {of: conduit.pressure, at: [1.14 m, 1.12 m]}
     fracture_pressure: {of: conduit.pressure, at: [1 m, 1 m]}
-"""
+""" + WITHIN_STEPS
 
 
-class UnstableGrowth(unittest.TestCase):
-    def setUp(self):
-        self.holder = tempfile.TemporaryDirectory()
-        self.folder = Path(self.holder.name)
+class UnstableGrowth(SceneRuns):
+    timeout = 300
 
-    def tearDown(self):
-        self.holder.cleanup()
-
-    def run_scene(self, *scenes, out="out"):
-        run = subprocess.run([SPREKK, "run", *scenes, "-q", "-o", self.folder / out], capture_output=True, text=True,
-                             timeout=300)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        results = sprekk.Results(self.folder / out)
-        return results.rows, results.record["notes"]
+    def results_of(self, *scenes):
+        """The rows of the history, the notes, and the counters of a run."""
+        results = self.run_scene(scenes)
+        return results.rows, results.record["notes"], results.record["counters"]
 
     def test_a_crack_far_above_its_toughness(self):
         """A pressure that jumps to three times the critical one: nothing to follow continuously. Tips grow with the state
         held, and the factors are those of p sqrt(pi a), with the correction for a plate of finite width, of a crack that is
         between as long as at the start of the step and as at its end: the displacements around it are those of the start."""
-        (self.folder / "crack.yaml").write_text(CRACK.replace('"(10.9 + t/36000) MPa"', '"(10.9 + 3*(t > 1800)) MPa"'))
-        rows, notes = self.run_scene(self.folder / "crack.yaml")
+        rows, notes, counters = self.results_of(self.write(CRACK.replace('"(10.9 + t/36000) MPa"', '"(10.9 + 3*(t > 1800)) MPa"')))
         self.assertTrue(any("state held" in note["text"] for note in notes), notes)
-        counters = json.loads((self.folder / "out/run.json").read_text())["counters"]
         self.assertGreaterEqual(counters["steps with growth held"], 2)
         self.assertGreaterEqual(rows[-1]["tips.main_last.length"], 0.06)
         for before, row in zip(rows, rows[1:]):
@@ -146,21 +118,18 @@ class UnstableGrowth(unittest.TestCase):
         for load, is_held in ((1.35, False), (1.8, True)):
             net = load * TOUGHNESS / math.sqrt(math.pi * HALF_LENGTH) * 1e-6  # MPa
             scene = CRACK.replace('"(10.9 + t/36000) MPa"', f'"(10.9 + {net - 0.9}*(t > 1800)) MPa"')
-            (self.folder / "crack.yaml").write_text(scene.replace("end: 6 h", "end: 40 min"))
-            rows, notes = self.run_scene(self.folder / "crack.yaml", out=str(load))
+            rows, notes, counters = self.results_of(self.write(scene.replace("end: 6 h", "end: 40 min")))
             lengths = [row["tips.main_first.length"] for row in rows]
             first = next(length for length in lengths if length > 0)
             self.assertEqual(any("jumps" in note["topic"] for note in notes), not is_held, load)
             if is_held:
                 self.assertAlmostEqual(first, INCREMENT, delta=1e-9)
-                counters = json.loads((self.folder / str(load) / "run.json").read_text())["counters"]
                 self.assertEqual(counters["steps with growth held"], sum(a > b for a, b in zip(lengths[1:], lengths)))
             else:
                 self.assertGreater(first, 1.1 * INCREMENT)
 
     def test_a_crack_under_a_prescribed_pressure(self):
-        (self.folder / "crack.yaml").write_text(CRACK)
-        rows, notes = self.run_scene(self.folder / "crack.yaml")
+        rows, notes, _ = self.results_of(self.write(CRACK))
         tips = ("tips.main_first.", "tips.main_last.")
         grown = [row for row in rows if row[tips[0] + "length"] > 0]
         self.assertGreater(len(grown), 2)
@@ -192,18 +161,16 @@ class UnstableGrowth(unittest.TestCase):
             self.assertAlmostEqual(energy / (excess / MODULUS * advance), 1, delta=0.02)
 
     def test_a_wing_that_joins_another_fracture(self):
-        (self.folder / "joining.yaml").write_text(JOINING)
-        rows, notes = self.run_scene(ROOT / "configs/tutorial/joining_fractures.yaml", self.folder / "joining.yaml")
+        rows, notes, _ = self.results_of(ROOT / "configs/tutorial/joining_fractures.yaml", self.write(JOINING, "joining.yaml"))
         ends = [end + "." for end in ("tips.main_first", "tips.main_last", "tips.second_first", "tips.second_last")]
-        taken_over = THRESHOLD * 20e-3
-        joined = [row for row in rows if math.isnan(row[ends[1] + "K_eq"]) and row[ends[1] + "length"] > taken_over]
+        joined = [row for row in rows if math.isnan(row[ends[1] + "K_eq"]) and row[ends[1] + "length"] > TAKEN_OVER]
         self.assertGreater(len(joined), 2)
         self.assertLess(len(joined), len(rows) - 5)
         for row in rows:
             self.assertLess(abs(row["fluid_balance_error"]), 1e-9 * row["fluid_injected"])
             for end in ends:
                 # Tips on the fine level alone rest within a per cent of their toughness, others below it.
-                limit = 2e-7 if row[end + "length"] > 2 * taken_over else 0.02
+                limit = 2e-7 if row[end + "length"] > 2 * TAKEN_OVER else 0.02
                 if not math.isnan(row[end + "K_eq"]):
                     self.assertLess(row[end + "K_eq"], (1 + limit) * row[end + "apparent_toughness"])
         # What has parted does not heal; where the mesh takes a bent kink over it is straight, and shorter by a per cent.

@@ -4,18 +4,10 @@ scheme in time is kept, with fields that wait held (first) or linear in time (fi
 restart goes on to the bit; mistakes are refused."""
 
 import math
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
-
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK = Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402  pylint: disable=wrong-import-position
+from scene_runs import ROOT, SceneRuns
 
 MANDEL = ROOT / "configs/verification/mandel.yaml"
 SMOOTH = ('components.rock.boundary.top={displacement_y: "(-1e-4*sin(pi*t/20000)^2) m"}', "mesh.size=0.25 m", "time.end=8000 s")
@@ -32,31 +24,14 @@ def schedule(flow, rock, waiting, until="relative: 1e-10", flow_first=True):
     return f"schedule=[{{iterate: {{until: {{{until}, at_most: 100}}, accelerate: {{anderson: 5}}, steps: [{steps}]}}}}]"
 
 
-class WaveformIteration(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        self.runs = 0
-
-    def call(self, command, *settings):
-        return subprocess.run([SPREKK, *command, MANDEL, *(word for setting in (*SMOOTH, *settings) for word in ("--set", setting))],
-                              capture_output=True, text=True, timeout=200)
-
-    def run_scene(self, *settings, restart=None):
-        self.runs += 1
-        folder = restart or self.folder / str(self.runs)
-        run = self.call(["run", "-q", *(("--restart", folder / "checkpoint.h5") if restart else ("-o", folder))], *settings)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return sprekk.Results(folder)
-
+class WaveformIteration(SceneRuns):
     def errors(self, reference, *settings):
         truth = np.asarray(reference.fields()["pore.pressure"])
-        found = [np.asarray(self.run_scene(f"time.step={step} s", *settings).fields()["pore.pressure"]) for step in STEPS]
+        found = [np.asarray(self.run_scene(MANDEL, *SMOOTH, f"time.step={step} s", *settings).fields()["pore.pressure"]) for step in STEPS]
         return [np.abs(p - truth).max() / np.abs(truth).max() for p in found]
 
     def test_orders(self):
-        reference = self.run_scene(SDIRK2, "time.step=31.25 s")
+        reference = self.run_scene(MANDEL, *SMOOTH, SDIRK2, "time.step=31.25 s")
         for flow, rock, waiting, flow_first, settings, order in ((4, 1, "held", True, (), 1), (4, 1, "linear", True, (), 1),
                                                                  (4, 1, "linear", True, (SDIRK2,), 2), (3, 2, "linear", True, (SDIRK2,), 2),
                                                                  (2, 4, "linear", False, (SDIRK2,), 2)):
@@ -72,17 +47,15 @@ class WaveformIteration(unittest.TestCase):
 
     def test_fluid_is_conserved_and_a_restart_goes_on_to_the_bit(self):
         settings = (SDIRK2, schedule(4, 1, "linear"), "time.step=1000 s")
-        whole = self.run_scene(*settings)
+        whole = self.run_scene(MANDEL, *SMOOTH, *settings)
         self.assertLess(np.abs(whole["fluid_balance_error[m^2]"]).max(), 1e-10 * np.abs(whole["fluid_outflow[m^2]"]).max())
         self.assertLess(max(whole["iterations[1]"]), 40)
-        parts = self.run_scene(*settings, "time.end=4000 s")
-        parts = self.run_scene(*settings, restart=parts.folder)
-        for column, values in whole.history.items():
-            if "seconds" not in column:
-                self.assertTrue(np.array_equal(values, parts.history[column]), column)
+        parts = self.run_scene(MANDEL, *SMOOTH, *settings, "time.end=4000 s")
+        parts = self.run_scene(MANDEL, *SMOOTH, *settings, restart=parts.folder)
+        self.assert_same_bits(parts, whole)
 
     def test_the_error_of_the_iteration_is_below_its_bound(self):
-        found = {bound: np.asarray(self.run_scene(schedule(4, 1, "linear", f"relative: {bound}"), "time.step=2000 s").fields()["pore.pressure"])
+        found = {bound: np.asarray(self.run_scene(MANDEL, *SMOOTH, schedule(4, 1, "linear", f"relative: {bound}"), "time.step=2000 s").fields()["pore.pressure"])
                  for bound in (1e-4, 1e-6, 1e-11)}
         for bound in (1e-4, 1e-6):
             # Of four steps; errors of one are passed on to the next.
@@ -93,11 +66,11 @@ class WaveformIteration(unittest.TestCase):
                   "{solve: rock}]}}]")
         for setting, words in ((schedule(4, 1, "linear", "all: [{residual: 1e-8}]"), "there is no residual"), (nested, "stands inside of another one"),
                                (schedule(4, 1, "quadratic"), "waiting")):
-            answer = self.call(["check"], setting)
+            answer = self.call("check", MANDEL, *SMOOTH, setting)
             self.assertEqual(answer.returncode, 2, answer.stdout)
             self.assertIn(words, answer.stderr)
         # What does not converge says which field.
-        answer = self.call(["run", "-q", "-o", self.folder / "stops"], schedule(4, 1, "linear", "relative: 1e-9").replace("at_most: 100", "at_most: 3"),
+        answer = self.call(["run", "-q", "-o", self.folder / "stops"], MANDEL, *SMOOTH, schedule(4, 1, "linear", "relative: 1e-9").replace("at_most: 100", "at_most: 3"),
                            "time.smallest=900 s", "time.step=1000 s")
         self.assertEqual(answer.returncode, 1)
         self.assertIn("no convergence in 3 passes (the last change of ", answer.stderr)
