@@ -8,23 +8,12 @@
 #include <numbers>
 
 #include "framework/config/input_error.hpp"
+#include "tests/verification/balance_error.hpp"
 #include "tests/verification/derivatives.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {
 namespace {
-
-Balance heat_balance(SceneRun& run) {
-  std::map<std::string, Balance> balances;
-  for (const Part* part : run.model().parts()) part->balance(balances);
-  return balances.at("heat");
-}
-
-/// |stored + outflow − injected| over the throughput.
-double balance_error(SceneRun& run) {
-  const Balance heat = heat_balance(run);
-  return std::abs(heat.stored + heat.outflow - heat.injected) / heat.throughput;
-}
 
 double ogata_banks(double x, double t, double speed, double diffusivity) {
   const double spread = 2 * std::sqrt(diffusivity * t);
@@ -48,7 +37,7 @@ TEST(Heat, FrontInAColumnIsThatOfOgataAndBanks) {
                                                      {"time.step", fmt::format("{} s", dt)},
                                                      {"components.heat.type", type}});
       run.run();
-      EXPECT_LT(balance_error(run), 1e-12);
+      EXPECT_LT(balance_error(run, "heat"), 1e-12);
       Vector exact(cells);
       for (int c = 0; c < cells; ++c)
         exact[c] = ogata_banks(run.mesh().cell_center[c][0], run.time(), speed, diffusivity);
@@ -111,7 +100,7 @@ TEST(Heat, FlowInAFractureWarmsTheRockAsInLauwerier) {
     SceneRun run("verification/lauwerier.yaml", {{"mesh.cells", fmt::format("[{}, {}]", 40 * n, 80 * n)},
                                                  {"time.step", fmt::format("{} s", 1e4 / n)}});
     run.run();
-    EXPECT_LT(balance_error(run), 1e-12);
+    EXPECT_LT(balance_error(run, "heat"), 1e-12);
     const Mesh& mesh = run.mesh();
     Vector exact(mesh.fracture_cell_count()), in_rock(mesh.cell_count());
     for (int i = 0; i < exact.size(); ++i) exact[i] = lauwerier(mesh.fracture_cells[i].center[0], 0, run.time());
@@ -192,7 +181,7 @@ const std::string together = "[{solve: [pore, conduit, heat, water]}]";
 Vector solution(const std::string& scene, const Twin& at) {
   SceneRun run = SceneRun::from_text(scene);
   run.run();
-  EXPECT_LT(balance_error(run), 1e-12);
+  EXPECT_LT(balance_error(run, "heat"), 1e-12);
   const Mesh& mesh = run.mesh();
   // In the order of the places before they were turned.
   const auto before = [&](const Point& x) {
@@ -299,7 +288,7 @@ TEST(Heat, OfFracturesAloneIsBalanced) {
   drop("doublet: {temperature", "outlet: {temperature");
   SceneRun run = SceneRun::from_text(scene);
   run.run();
-  EXPECT_LT(balance_error(run), 1e-12);
+  EXPECT_LT(balance_error(run, "heat"), 1e-12);
 }
 
 /// The scene of the gallery, its first two years: the maximum principle, the balance, and that water which comes out is
@@ -316,7 +305,7 @@ TEST(Heat, DoubletCoolsTheRock) {
   });
   EXPECT_LT(before, 429);
   EXPECT_GT(before, 400);
-  EXPECT_LT(balance_error(run), 1e-9);
+  EXPECT_LT(balance_error(run, "heat"), 1e-9);
 }
 
 /// Scenes that are refused, and the messages.

@@ -1,0 +1,117 @@
+// Notes on meshes and discretizations: each with a scene that has the note, and one that has not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/input/notes.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(DiscretizationNotes, TrianglesOfFirstOrderInIncompressibleRockAreTold) {
+  const auto notes = [](const std::string& order, const std::string& poisson) {
+    return notes_of_check("rock.yaml", {"components.rock.type=poromechanics/fem", "components.rock.order=" + order,
+                                        "components.rock.poisson_ratio=" + poisson, "mesh={size: 0.3 m}"});
+  };
+  EXPECT_THAT(notes("first", "0.46"), HasSubstr("nearly incompressible"));
+  EXPECT_THAT(notes("first", "0.44"), Not(HasSubstr("nearly incompressible")));
+  EXPECT_THAT(notes("second", "0.499"), Not(HasSubstr("nearly incompressible")));
+}
+
+/// Rock that conducts 10,000 times better at 30 degrees to the x axis than across; `mirrored`: at -30 degrees.
+std::string anisotropic(bool mirrored = false) {
+  return std::string("components.pore.permeability={xx: 7.50025e-14 m^2, yy: 2.50075e-14 m^2, xy: ") +
+         (mirrored ? "-" : "") + "4.32969e-14 m^2}";
+}
+
+TEST(DiscretizationNotes, APressureBeyondItsSurroundingsIsTold) {
+  // Sides at 0 and a band at 1 MPa that spreads: what is not between them is wrong.
+  const Settings band = {"components.pore.boundary.left.flux=",
+                         "components.pore.boundary.left.pressure=0 MPa",
+                         "components.pore.boundary.right.pressure=0 MPa",
+                         "components.pore.initial_pressure='(abs(y - 0.4) < 0.15 ? 1 : 0) MPa'",
+                         "mesh={size: 0.12 m}",
+                         "time={step: 0.1 s, end: 0.1 s}"};
+  const auto note = [&](const std::string& flux, const Settings& rock) {
+    Settings settings = band;
+    settings.push_back("components.pore.type=matrix_flow/" + flux);
+    settings.insert(settings.end(), rock.begin(), rock.end());
+    return run_of("flow.yaml", settings).note("pressure beyond its surroundings");
+  };
+  for (const bool mirrored : {false, true}) {
+    const Json told = note("mpfa", {anisotropic(mirrored)});
+    ASSERT_FALSE(told.is_null());
+    EXPECT_THAT(told["text"].get<std::string>(), HasSubstr("cells without a source, by up to"));
+    EXPECT_TRUE(note("tpfa", {anisotropic(mirrored)}).is_null());  // which keeps bounds
+  }
+  EXPECT_TRUE(note("mpfa", {}).is_null());
+}
+
+TEST(DiscretizationNotes, FluxesThatAreNotExactAreTold) {
+  // Triangles lose energy whatever the rock is, quadrilaterals in ordinary rock.
+  const auto note = [](const std::string& shape, const Settings& rock) {
+    Settings settings = {"components.pore.type=matrix_flow/mpfa",
+                         "mesh={kind: structured, cells: [4, 4], distortion: 0.4, shape: " + shape + "}"};
+    settings.insert(settings.end(), rock.begin(), rock.end());
+    return run_of("flow.yaml", settings).note("not exact for linear pressures");
+  };
+  for (const bool mirrored : {false, true}) {
+    const Json told = note("quadrilaterals", {anisotropic(mirrored)});
+    ASSERT_FALSE(told.is_null());
+    EXPECT_THAT(told["text"].get<std::string>(), HasSubstr("use triangles"));
+    EXPECT_TRUE(note("triangles", {anisotropic(mirrored)}).is_null());
+  }
+  EXPECT_TRUE(note("quadrilaterals", {}).is_null());
+}
+
+TEST(DiscretizationNotes, ASmallAngleOfTheMeshIsTold) {
+  // Fractures that cross at an angle leave a mesh no larger one there.
+  const auto note = [](const std::string& angle) {
+    return run_of("fractured.yaml",
+                  {"geometry.fractures.other={center: [0.5 m, 0.5 m], length: 0.3 m, angle: " + angle + "}"})
+        .note("small angle of the mesh");
+  };
+  for (const char* angle : {"3 deg", "-3 deg"}) {
+    const Json told = note(angle);
+    ASSERT_FALSE(told.is_null()) << angle;
+    const std::string text = told["text"], before = "the mesh has an angle of ";
+    ASSERT_EQ(text.find(before), 0U) << text;
+    EXPECT_LE(std::stod(text.substr(before.size())), 3) << text;
+  }
+  EXPECT_TRUE(note("30 deg").is_null());
+}
+
+TEST(DiscretizationNotes, FracturesThatMeetAtASmallAngleAreNamed) {
+  const auto note = [](const std::string& angle) {
+    return run_of("fractured.yaml",
+                  {"geometry.fractures.other={center: [0.5 m, 0.5 m], length: 0.3 m, angle: " + angle + "}"})
+        .note("small angle between fractures");
+  };
+  for (const char* angle : {"3 deg", "-3 deg"}) {
+    const Json told = note(angle);
+    ASSERT_FALSE(told.is_null()) << angle;
+    EXPECT_THAT(told["text"].get<std::string>(), HasSubstr("'crack', 'other' meet at 3 degrees at (0.5, 0.5)"));
+  }
+  EXPECT_TRUE(note("6 deg").is_null());
+}
+
+TEST(DiscretizationNotes, APocketOfFewCellsIsTold) {
+  const auto note = [](const std::string& size) {
+    return run_of("fractured.yaml", {"geometry.fractures={crack: {points: [[0.3 m, 0.4 m], [0.7 m, 0.4 m]]}, "
+                                     "b: {points: [[0.4 m, 0.35 m], [0.55 m, 0.65 m]]}, "
+                                     "c: {points: [[0.62 m, 0.35 m], [0.47 m, 0.65 m]]}}",
+                                     "components.conduit.injection.well.at=[0.5 m, 0.4 m]",
+                                     "mesh={size: 0.2 m, fracture_size: " + size + "}"})
+        .note("small pocket between fractures");
+  };
+  const Json told = note("0.1 m");
+  ASSERT_FALSE(told.is_null());
+  EXPECT_THAT(told["text"].get<std::string>(),
+              ::testing::AllOf(HasSubstr("fractures 'crack', 'b', 'c' enclose 0.0"), HasSubstr("fracture_size")));
+  EXPECT_TRUE(note("0.02 m").is_null());
+}
+
+}  // namespace
+}  // namespace sprekk::testing

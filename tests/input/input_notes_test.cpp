@@ -1,0 +1,157 @@
+// Notes on input without effect: each with a scene that has the note, and one that has not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "tests/input/notes.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Input {
+  const char* scene;
+  Settings settings;
+  const char* note;  ///< "" for none
+};
+
+/// The name that ctest shows.
+void PrintTo(const Input& input, std::ostream* text) {
+  *text << input.scene;
+  for (const std::string& setting : input.settings) *text << ", " << setting;
+}
+
+const std::string all_but_aperture =
+    "{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}";
+
+Settings with_tips(const std::string& between) {
+  return {"components.tips={type: fine_fracture/quarter_point, size: 0.4 m}",
+          "couplers=[" + all_but_aperture +
+              ", {type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, "
+              "conduit]}, {type: two_level, between: " +
+              between + "}]",
+          "schedule=[{solve: [pore, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"};
+}
+
+class InputNotes : public ::testing::TestWithParam<Input> {};
+
+TEST_P(InputNotes, AreToldByCheck) {
+  const auto& [scene, settings, note] = GetParam();
+  const std::string told = notes_of_check(scene, settings);
+  if (std::string(note).empty())
+    EXPECT_EQ(told, "");
+  else
+    EXPECT_THAT(told, HasSubstr(note));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    all, InputNotes,
+    ::testing::Values(
+        Input{
+            "rock.yaml", {"components.rock.boundary.left.normal_stress=-1 MPa"}, "the x component of 'normal_stress'"},
+        Input{"rock.yaml", {"components.rock.boundary.left.normal_stress=0 MPa"}, ""},
+        Input{"rock.yaml", {"components.rock.boundary.top.displacement_x=0 m"}, ""},  // the load is along y
+        Input{"rock.yaml", {"components.rock.boundary.top.displacement_y=0 m"}, "the y component of 'normal_stress'"},
+        Input{"rock.yaml",
+              {"components.rock.boundary.right={displacement_x: 0 m, traction: [1 MPa, 0]}"},
+              "the x component of 'traction' on side 'right' has no effect"},
+        Input{"rock.yaml", {"components.rock.boundary.right={displacement_x: 0 m, traction: [0, 1 MPa]}"}, ""},
+        Input{"rock.yaml",
+              {"components.rock.boundary.right={displacement_y: 0 m, shear_stress: 1 MPa}"},
+              "the y component of 'shear_stress' on side 'right' has no effect"},
+        Input{"rock.yaml", {"components.rock.boundary.right={displacement_x: 0 m, shear_stress: 1 MPa}"}, ""},
+        Input{"rock.yaml", {"components.rock.boundary.right={displacement_normal: 0 m, shear_stress: 1 MPa}"}, ""},
+        Input{"rock.yaml", {"components.rock.gravity=[0, -9.81 m/s^2]"}, "gravity has no effect on 'rock'"},
+        Input{
+            "rock.yaml", {"components.rock.gravity=[0, -9.81 m/s^2]", "components.rock.rock_density=2500 kg/m^3"}, ""},
+        Input{"rock.yaml", {"components.rock.rock_density=2500 kg/m^3"}, "'rock_density' of 'rock' has no effect"},
+        Input{"rock.yaml", {"components.rock.bulk_modulus=1 GPa"}, "'bulk_modulus' of 'rock' has no effect"},
+        Input{"flow.yaml",
+              {"components.pore.gravity=[0, -9.81 m/s^2]", "components.pore.fluid_density=0 kg/m^3"},
+              "gravity has no effect on the flow of 'pore'"},
+        Input{"flow.yaml", {"components.pore.gravity=[0, -9.81 m/s^2]"}, ""},
+        Input{"flow.yaml", {"components.pore.porosity=0.1"}, "'porosity' of 'pore' has no effect"},
+        Input{"flow.yaml", {"time.step=2 h"}, "'step' is 7200 s (the run is 3600 s long"},
+        Input{"flow.yaml", {"time.step=1 h"}, ""}, Input{"flow.yaml", {"output.every=2 h"}, "'every' has no effect"},
+        Input{"flow.yaml", {"output.every=1 h"}, ""},
+        Input{"flow.yaml",
+              {"time.start=10 min", "output.times=[5 min, 40 min, 2 h]"},
+              "no fields are written at 300 s, 7200 s (the run begins at 600 s and ends at 3600 s)"},
+        Input{"flow.yaml", {"output.times=[10 min, 1 h]"}, ""},
+        Input{"fractured.yaml",
+              {"components.conduit.prescribed.all={pressure: 1 MPa}"},
+              "injection 'well' has no effect in 1 of its 1 fracture cells"},
+        Input{"fractured.yaml", {"components.conduit.prescribed.there={at: [0.32 m, 0.5 m], pressure: 1 MPa}"}, ""},
+        Input{"fractured.yaml",
+              {"components.conduit.boundary.right={pressure: 1 MPa}"},
+              "the pressure of 'conduit' on side 'right' has no effect (no fracture ends there)"},
+        Input{"fractured.yaml",
+              {"components.conduit.boundary.right={pressure: 1 MPa}",
+               "geometry.fractures.crack.points=[[0.3 m, 0.5 m], [1 m, 0.5 m]]"},
+              ""},
+        Input{"fractured.yaml",
+              {"couplers=[" + all_but_aperture + ", {type: wall_traction, between: [rock, contact, conduit]}]"},
+              "the aperture in conduit stays what it is at the start, however far contact opens"},
+        Input{"fractured.yaml",
+              {"couplers=[" + all_but_aperture + ", {type: wall_traction, between: [rock, contact, conduit]}]",
+               "components.conduit.transmissivity=constant", "components.conduit.transmissivity_value=1e-12 m^3"},
+              ""},
+        Input{"fractured.yaml",
+              {"couplers=[" + all_but_aperture + ", {type: wall_traction, between: [rock, contact, conduit]}]",
+               "components.conduit.prescribed.all={pressure: 1 MPa}", "components.conduit.injection="},
+              ""},
+        Input{"fractured.yaml",
+              {"couplers=[" + all_but_aperture +
+               ", {type: aperture, between: [contact, conduit]}, {type: wall_traction, between: [rock, contact]}]"},
+              "the pressure of conduit does not push the walls of fractures apart"},
+        Input{"fractured.yaml", with_tips("[rock, tips]"), "walls that grow on the fine level carry no fluid pressure"},
+        Input{"fractured.yaml", with_tips("[rock, tips, conduit]"), ""},
+        Input{"fractured.yaml",
+              {"components.conduit.transmissivity_value=1e-12 m^3"},
+              "'transmissivity_value' of 'conduit' has no effect"},
+        Input{"fractured.yaml",
+              {"components.conduit.transmissivity_value=1e-12 m^3", "components.conduit.transmissivity=constant"},
+              ""},
+        Input{"fractured.yaml",
+              {"couplers=[{type: biot, between: [pore, rock]}, {type: wall_traction, between: [rock, contact, "
+               "conduit]}, {type: aperture, between: [contact, conduit]}]"},
+              "no fluid flows between pore and conduit"},
+        Input{"fractured.yaml",
+              {"materials.young_modulus='(x < 0.3 ? 10e9 : 5e9) Pa'"},
+              "'rock' takes displacements for linear around 1 of 2 tips of fractures, the first at (0.3, 0.5) (the "
+              "stiffness around it differs by more than 20 %)"},
+        Input{"fractured.yaml", {"materials.young_modulus='(x < 0.3 ? 10e9 : 8.5e9) Pa'"}, ""},
+        Input{"fractured.yaml",
+              {"materials.permeability={xx: 1e-17 m^2, yy: 1e-18 m^2}"},
+              "'pore' takes the pressure for linear around 2 of 2 tips of fractures, the first at (0.3, 0.5) (the "
+              "permeability is anisotropic)"},
+        Input{"fractured.yaml", {"materials.permeability={xx: 1e-17 m^2, yy: 1e-17 m^2}"}, ""},
+        Input{"fractured.yaml",
+              {"materials.permeability='(x > 0.7 ? 2e-17 : 1e-17) m^2'"},
+              "'pore' takes the pressure for linear around 1 of 2 tips of fractures, the first at (0.7, 0.5) (the "
+              "permeability around it differs by more than 20 %)"},
+        // A fracture from side to side has no tip.
+        Input{"fractured.yaml",
+              {"materials.permeability={xx: 1e-17 m^2, yy: 1e-18 m^2}",
+               "geometry.fractures.crack.points=[[0 m, 0.5 m], [1 m, 0.5 m]]"},
+              ""},
+        Input{"fractured.yaml", {}, ""}));
+
+TEST(InputNotesOfARun, InjectionIntoAPrescribedPressureIsNotCounted) {
+  const Settings prescribed = {"components.conduit.prescribed.all={pressure: 1 MPa}"};
+  EXPECT_EQ(run_of("fractured.yaml", prescribed).result("fluid_injected[m^2]"), 0);
+  // 1e-9 m^2/s for an hour.
+  const double injected = run_of("fractured.yaml", {}).result("fluid_injected[m^2]");
+  EXPECT_NEAR(injected, 3.6e-6, 1e-18);
+  // Of an injection that is spread over the fracture, the share of its last cell of four is lost.
+  const Ended spread =
+      run_of("fractured.yaml", {"components.conduit.injection.well={fracture: crack, rate: 1e-9 m^2/s}",
+                                "components.conduit.injection.well.at=",
+                                "components.conduit.prescribed.end={at: [0.69 m, 0.5 m], pressure: 0}"});
+  EXPECT_NEAR(spread.result("fluid_injected[m^2]"), 3.6e-6 * 3 / 4, 1e-12);
+}
+
+}  // namespace
+}  // namespace sprekk::testing
