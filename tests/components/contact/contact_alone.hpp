@@ -1,7 +1,10 @@
 // A contact without rock: its residual and its Jacobian at given tractions and jumps.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
+#include <random>
 
 #include "components/contact/frictional_contact.hpp"
 #include "components/contact/options.hpp"
@@ -69,5 +72,43 @@ class Contact {
   FieldStore fields_;
   std::unique_ptr<FrictionalContact> contact_;
 };
+
+/// Tractions, jumps, and jumps at the start of the step with which cells stick, slip to either side, before and after
+/// the limit of dilation, and are open, with strength left and without. Begins the step, and follows other tractions
+/// before: multipliers of another iterate.
+struct Sample {
+  Vector traction, jump;
+  Sample(Contact& contact, int cells, std::mt19937& random) : traction(2 * cells), jump(2 * cells) {
+    std::uniform_real_distribution<double> any(-1, 1);
+    Vector before(2 * cells);
+    for (int i = 0; i < cells; ++i) {
+      const double bias = any(random) < 0.3 ? 3 : -3;
+      traction.segment<2>(2 * i) << bias + 3 * any(random), 4 * any(random);
+      jump.segment<2>(2 * i) << 0.3 * any(random) + (bias > 0), 1.5 * any(random);
+      before.segment<2>(2 * i) << 0, jump[2 * i + 1] + any(random);
+    }
+    contact.law().jump().set_both(before);
+    contact.law().begin_step(Contact::step);
+    contact.set(0.7 * traction, jump);
+    contact.follow();
+    contact.set(traction, jump);
+  }
+};
+
+/// Each column of the Jacobian is a difference of residuals over `change`, within `bound`.
+inline void expect_differences(Contact& contact, const Sample& at, double change, double bound) {
+  const Eigen::MatrixXd jacobian = contact.jacobian();
+  const auto n = at.traction.size();
+  for (int column = 0; column < 2 * n; ++column) {
+    const auto residual = [&](double sign) {
+      Vector f = at.traction, u = at.jump;
+      (column < n ? f[column] : u[column - n]) += sign * change;
+      contact.set(f, u);
+      return contact.residual();
+    };
+    const Vector difference = (residual(1) - residual(-1)) / (2 * change);
+    EXPECT_LT((jacobian.col(column) - difference).lpNorm<Eigen::Infinity>(), bound) << "column " << column;
+  }
+}
 
 }  // namespace sprekk::contact

@@ -57,40 +57,15 @@ TEST(Laws, HaveTheDerivativesOfTheirConditions) {
   const Mesh mesh = crossing();
   for (const Multiplier multiplier : {Multiplier::present, Multiplier::last, Multiplier::none}) {
     Contact contact(mesh, {}, all_laws(), multiplier);
-    const int n = 2 * mesh.fracture_cell_count();
-    contact.law().set_wall_stiffness(Vector::LinSpaced(n, 1, 2));
+    const int cells = mesh.fracture_cell_count();
+    contact.law().set_wall_stiffness(Vector::LinSpaced(2 * cells, 1, 2));
     std::mt19937 random(5);
     int counts[3] = {0, 0, 0};
-    for (int sample = 0; sample < 20; ++sample) {
-      // Tractions and jumps with which cells stick, slip to either side, before and after the limit of dilation, and
-      // are open, with strength left and without.
-      std::uniform_real_distribution<double> any(-1, 1);
-      Vector traction(n), jump(n), before(n);
-      for (int i = 0; i < n / 2; ++i) {
-        const double bias = any(random) < 0.3 ? 3 : -3;
-        traction.segment<2>(2 * i) << bias + 3 * any(random), 4 * any(random);
-        jump.segment<2>(2 * i) << 0.3 * any(random) + (bias > 0), 1.5 * any(random);
-        before.segment<2>(2 * i) << 0, jump[2 * i + 1] + any(random);
-      }
-      contact.law().jump().set_both(before);
-      contact.law().begin_step(Contact::step);
-      contact.set(0.7 * traction, jump);
-      contact.follow();  // multipliers of another iterate
-      contact.set(traction, jump);
-      for (int i = 0; i < n / 2; ++i) ++counts[static_cast<int>(contact.law().state(i))];
-      const Eigen::MatrixXd jacobian = contact.jacobian();
-      constexpr double change = 1e-6;
-      for (int column = 0; column < 2 * n; ++column) {
-        const auto residual = [&](double sign) {
-          Vector f = traction, u = jump;
-          (column < n ? f[column] : u[column - n]) += sign * change;
-          contact.set(f, u);
-          return contact.residual();
-        };
-        const Vector difference = (residual(1) - residual(-1)) / (2 * change);
-        EXPECT_LT((jacobian.col(column) - difference).lpNorm<Eigen::Infinity>(), 1e-7)
-            << "sample " << sample << " column " << column;
-      }
+    for (int number = 0; number < 20; ++number) {
+      SCOPED_TRACE(number);
+      const Sample sample(contact, cells, random);
+      for (int i = 0; i < cells; ++i) ++counts[static_cast<int>(contact.law().state(i))];
+      expect_differences(contact, sample, 1e-6, 1e-7);
     }
     if (multiplier == Multiplier::none) continue;  // whose states depend on jumps only
     for (const int count : counts) EXPECT_GT(count, 10);

@@ -2,79 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstddef>
-#include <numbers>
 #include <vector>
 
-#include "components/fine_fracture/growth/front.hpp"
-#include "components/fine_fracture/growth/mixed_mode.hpp"
+#include "tests/components/fine_fracture/closed_form_front.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
-
-/// Tips with K = K_IC exp(rise - own (s_i - c_i) - shared sum_j (s_j - c_j)), K² = K_I² + K_II², whose right direction
-/// turns with their length. K does not depend on the direction.
-struct ClosedForm {
-  std::vector<double> rise;
-  std::vector<FrontTip> tips;
-  double own = 20, shared = 30;  ///< 1/m
-  double turn = 8;               ///< rad/m
-
-  std::vector<FrontState> states(const std::vector<double>& lengths, const std::vector<double>& angles) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < tips.size(); ++i) sum += lengths[i] - tips[i].covered;
-    std::vector<FrontState> states;
-    for (std::size_t i = 0; i < tips.size(); ++i) {
-      const double added = lengths[i] - tips[i].covered, wrong = angles[i] - tips[i].angle - turn * added;
-      FrontState state;
-      const double k = tips[i].toughness * std::exp(rise[i] - own * added - shared * sum);
-      state.sifs = {k * std::cos(0.7 * wrong), k * std::sin(0.7 * wrong), -1e6};
-      state.load = equivalent_sif(state.sifs) / tips[i].toughness;
-      states.push_back(state);
-    }
-    return states;
-  }
-  std::vector<FrontState> without_growth() const {
-    std::vector<double> lengths, angles;
-    for (const FrontTip& tip : tips) lengths.push_back(tip.covered), angles.push_back(tip.angle);
-    return states(lengths, angles);
-  }
-  Front solved(const FrontOptions& options, const Eigen::MatrixXd& slopes = {}) const {
-    Front front(tips, without_growth(), options, 3600, slopes);
-    while (front.verdict() == Front::Verdict::again) {
-      std::vector<double> lengths, angles;
-      for (int i = 0; i < static_cast<int>(tips.size()); ++i) {
-        lengths.push_back(front.length(i));
-        angles.push_back(front.angle(i));
-      }
-      front.learn(states(lengths, angles));
-    }
-    return front;
-  }
-};
-
-FrontOptions options() {
-  FrontOptions options;
-  options.increment = 0.01;
-  options.shortest = 1e-4;
-  return options;
-}
-
-/// Each K is the toughness, as if the mesh had no error.
-FrontOptions exact() {
-  FrontOptions exact = options();
-  exact.mesh_error = 0;
-  return exact;
-}
-
-FrontTip tip(double angle) {
-  FrontTip tip;
-  tip.covered = 0.008;
-  tip.angle = tip.ahead = angle;
-  tip.toughness = 7e5;
-  tip.longest = tip.covered + 0.015;
-  return tip;
-}
 
 TEST(Front, FindsTheLengthAndTheDirectionOfOneTip) {
   const Front front = ClosedForm{{0.3}, {tip(0.4)}}.solved(options());
@@ -211,91 +144,6 @@ TEST(Front, LetsATipRestThatTheOtherUnloads) {
   EXPECT_NEAR(front.length(0) - 0.008, 0.3 / (form.own + form.shared), 2e-8);
   EXPECT_EQ(front.length(1), 0.008);
   EXPECT_EQ(front.angle(1), -2.0);
-}
-
-/// Tips at the speed of their last step, with the slopes from the search of that step.
-TEST(Front, NeedsFewTrialsAfterASimilarStep) {
-  const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
-  const Front first = form.solved(exact());
-  ClosedForm next = form;
-  next.rise = {0.31, 0.325};
-  for (int i = 0; i < 2; ++i) {
-    FrontTip& tip = next.tips[i];
-    tip.speed = 1.05 * (first.length(i) - tip.covered) / 3600;
-    tip.turning = 0.8 * form.turn;
-    tip.goes_on = true;
-  }
-  const Front front = next.solved(exact(), first.slopes());
-  ASSERT_EQ(front.verdict(), Front::Verdict::found);
-  const double sum = 0.635 / (form.own + 2 * form.shared);
-  EXPECT_NEAR(front.length(0) - 0.008, (0.31 - form.shared * sum) / form.own, 2e-8);
-  EXPECT_LE(front.trials(), 4);
-}
-
-/// One tip on a curved path in its whole frame: an angle moves the tip across by the length of its segment, which
-/// changes K, and K_II follows the direction as at a kink. K_eq depends on the square of K_II.
-struct CurvedPath {
-  double rise, right_angle;  ///< of ln K at the start of the step; rad, of the path there
-  FrontTip tip;
-
-  FrontState state(double length, double angle) const {
-    const double added = length - tip.covered, wrong = angle - right_angle - 8 * added;
-    const double k = tip.toughness * std::exp(rise - 30 * added + 20 * length * wrong), t_stress = -2e7;
-    const double direction = wrong * (0.5 - 2 * std::sqrt(2 / std::numbers::pi) * t_stress * std::sqrt(length) / 7e5);
-    FrontState state{{k * std::cos(direction), k * std::sin(direction), t_stress}, 0};
-    state.load = equivalent_sif(state.sifs) / tip.toughness;
-    return state;
-  }
-  Front solved(const Eigen::MatrixXd& slopes = {}) const {
-    Front front({tip}, {state(tip.covered, tip.angle)}, options(), 3600, slopes);
-    while (front.verdict() == Front::Verdict::again) front.learn({state(front.length(0), front.angle(0))});
-    return front;
-  }
-};
-
-/// A segment that is divided has another direction than the path at its end, and is shorter than that of the last step.
-TEST(Front, NeedsFewTrialsAfterASegmentWasDivided) {
-  CurvedPath path{0.12, 0.4, tip(0.4)};
-  const Front before = path.solved();
-  ASSERT_EQ(before.verdict(), Front::Verdict::found);
-  const double advance = before.length(0) - path.tip.covered;
-  EXPECT_NEAR(advance, 0.12 / 30, 1e-8);
-  path.right_angle = path.tip.ahead = before.angle(0);
-  path.tip.angle = before.angle(0) + 0.05;
-  path.tip.covered = 0.005;
-  path.tip.speed = advance / 3600;
-  path.tip.turning = (before.angle(0) - 0.4) / advance;
-  path.tip.goes_on = true;
-  path.rise = 0.11;
-  const Front front = path.solved(before.slopes());
-  ASSERT_EQ(front.verdict(), Front::Verdict::found);
-  EXPECT_NEAR(front.length(0) - 0.005, 0.11 / 30, 1e-8);
-  EXPECT_NEAR(front.angle(0), before.angle(0) + 8 * 0.11 / 30, 1e-5);
-  EXPECT_LE(front.trials(), 4);
-}
-
-/// The search learns no slopes for the turns of a tip at rest: after some steps at rest it needs no more trials than
-/// before.
-TEST(Front, NeedsFewTrialsAfterStepsAtRest) {
-  CurvedPath path{0.12, 0.4, tip(0.4)};
-  const Front before = path.solved();
-  ASSERT_EQ(before.verdict(), Front::Verdict::found);
-  path.tip.speed = 0.004 / 3600;
-  path.tip.goes_on = true;
-  Eigen::MatrixXd slopes = before.slopes();
-  path.rise = -0.01;
-  for (int k = 0; k < 6; ++k) {
-    const Front rest = path.solved(slopes);
-    ASSERT_EQ(rest.verdict(), Front::Verdict::found);
-    EXPECT_FALSE(rest.grows(0));
-    slopes = rest.slopes();
-  }
-  path.rise = 0.11;
-  const Front front = path.solved(slopes);
-  ASSERT_EQ(front.verdict(), Front::Verdict::found);
-  EXPECT_NEAR(front.length(0) - 0.008, 0.11 / 30, 1e-8);
-  EXPECT_NEAR(front.angle(0), 0.4 + 8 * 0.11 / 30, 1e-5);
-  EXPECT_LE(front.trials(), 6);
 }
 
 /// Slopes that were learnt under other loads may be of no use: by those given here K would rise with the length.
