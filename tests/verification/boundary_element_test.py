@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 MPIEXEC = sys.argv.pop(2)
 SPREKK = Path(sys.argv.pop(1)).resolve()
 A = 0.05  # m, half-length
+STIFFNESS = "stiffness: {xxxx: 44 GPa, yyyy: 40 GPa, xxyy: 11 GPa, xyxy: 17 GPa, xxxy: 0 GPa, yyxy: 0 GPa}"
 
 SCENE = """
 geometry:
@@ -144,8 +145,17 @@ class BoundaryElement(unittest.TestCase):
     def test_rock_for_which_it_is_not_made(self):
         soft = "regions: {soft: {polygon: [[0.15 m, -2 m], [2 m, -2 m], [2 m, 2 m], [0.15 m, 2 m]]}}"
         layered = scene(crack(27), young="{regions: {soft: 10 GPa, default: 40 GPa}}", regions=soft)
-        self.assertEqual(rows(layered)[0], 2, rows(layered))
-        self.assertIn("boundary elements take rock of one stiffness", rows(layered)[1])
+        code, message = rows(layered, command="check")
+        self.assertEqual(code, 2, message)
+        self.assertIn("boundary elements take rock of one stiffness", message)
+        for tips in ("boundary_element", "quarter_point"):
+            code, message = rows(scene(crack(27), tips=tips).replace("young_modulus: 40 GPa", STIFFNESS).replace("poisson_ratio: 0.2", ""),
+                                 command="check")
+            self.assertEqual(code, 2, message)
+            self.assertIn("factors are those of an isotropic rock", message)
+        changing = scene(crack(27), young="'(x > 0.15 && t > 0.5 ? 10 : 40) GPa'")
+        self.assertEqual(rows(changing)[0], 2, rows(changing))
+        self.assertIn("boundary elements take rock of one stiffness", rows(changing)[1])
         held = scene(crack(27), reconstruction=", reconstruction: wall_jump")
         self.assertEqual(rows(held, command="check")[0], 2, rows(held))
         self.assertIn("cannot take displacement jumps of walls", rows(held)[1])
