@@ -35,6 +35,10 @@ class TipSurroundings {
   /// object.
   using StressOffsets = std::function<Eigen::Matrix<double, symmetric_components, Eigen::Dynamic>()>;
   virtual StressOffsets stress_offsets(const std::vector<Point>& places) const = 0;
+  /// A function that gives the weight of the rock and the body force at the last update: (x, y) in N/m^3, a column for
+  /// each place. Empty where there is none. As for stress_offsets.
+  using BodyForces = std::function<Eigen::Matrix<double, dimension, Eigen::Dynamic>()>;
+  virtual BodyForces body_forces(const std::vector<Point>& places) const = 0;
   /// Whether the walls are held by their jump (Eq. 15 of the paper) or by their traction.
   virtual bool gives_jumps() const = 0;
   virtual Point wall_traction(int fracture, double s) const = 0;  ///< Pa, n·sigma of the plus wall, fluid included

@@ -14,7 +14,7 @@ struct LameParameters {
   double lambda, shear;
 };
 
-/// Capability: gives displacement, stress and stiffness of the rock.
+/// Capability: gives displacement, stress, weight and stiffness of the rock.
 class RockState {
  public:
   static constexpr const char* promise = "gives displacement, stress and stiffness of the rock";
@@ -25,8 +25,12 @@ class RockState {
   virtual Vector outer_displacement() const = 0;
   /// The stress −alpha (p − p_0) that the pore pressure adds to xx and yy, for each cell, Pa.
   virtual Vector pore_stress() const = 0;
-  /// The initial stress of a cell at a point x, Pa, (xx, yy, xy).
+  /// What is there of the initial stress of a cell at a point x, Pa, (xx, yy, xy); part of it where rock is taken away.
   virtual SymmetricTensor initial_stress(int cell, const Point& x) const = 0;
+  /// Whether there is any weight or body force.
+  virtual bool has_body_force() const = 0;
+  /// The weight of the rock and the body force at a point x of a cell at the end of the step, N/m^3, (x, y).
+  virtual Point body_force(int cell, const Point& x) const = 0;
   /// The stiffness of a cell; std::nullopt where the rock is anisotropic.
   virtual std::optional<LameParameters> stiffness(int cell) const = 0;
   /// A number that grows when the stiffness, or alpha of the pore pressure, has changed.

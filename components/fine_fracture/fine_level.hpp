@@ -39,6 +39,8 @@ class FineLevel {
   virtual std::uint64_t topology() const = 0;
   /// The places at which each solve needs the stress offset.
   virtual const std::vector<Point>& offset_places() const = 0;
+  /// The same for the body force.
+  virtual std::vector<Point> body_force_places() const { return offset_places(); }
   /// Throws std::runtime_error where there is no finite result, and UnsuitableRock.
   virtual TipFactors solve(const FineLoads& loads) const = 0;
 };

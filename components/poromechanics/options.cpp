@@ -57,6 +57,13 @@ std::vector<const Data*> Options::loads() const {
   return data;
 }
 
+bool Options::has_body_force() const { return !body_force.is_zero() || !(rock_density.is_zero() || gravity.is_zero()); }
+
+Point Options::body_force_in(const StepTime& step, const Place& place) const {
+  return value_in_step(body_force, place, step) +
+         value_in_step(rock_density, place, step) * value_in_step(gravity, place, step);
+}
+
 bool Options::loads_depend_on_time() const {
   const std::vector<const Data*> data = loads();
   return std::any_of(data.begin(), data.end(), [](const Data* one) { return one->depends_on_time(); });

@@ -59,6 +59,9 @@ struct Options {
   /// The data of all loads but the initial stress: those of the boundary, body force, density and gravity.
   std::vector<const Data*> loads() const;
   bool loads_depend_on_time() const;
+  bool has_body_force() const;
+  /// The weight and the body force of rock that is whole, during a step, N/m^3.
+  Point body_force_in(const StepTime& step, const Place& place) const;
   /// Pa, (xx, yy, xy).
   SymmetricTensor initial_stress_at(const Place& place) const;
   /// `type`, `doc`: of the component with its discretization.

@@ -289,8 +289,7 @@ void Rock::evaluate_data(const StepTime& step) {
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     const auto density = [&](const Point& at) -> Point {
       const Place place{at, mesh_.cell_region[c], 0};
-      return value_in_step(options_.body_force, place, step) +
-             value_in_step(options_.rock_density, place, step) * value_in_step(options_.gravity, place, step);
+      return options_.body_force_in(step, place);
     };
     body_forces_.segment<dimension>(dimension * c) =
         stiffness_.excavation().support(c) * mesh_.cell_measure[c] *
@@ -398,8 +397,15 @@ Vector Rock::pore_stress() const {
 
 SymmetricTensor Rock::initial_stress(int cell, const Point& x) const {
   SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
-  if (settled_) return settled_->stress.segment<3>(3 * cell);
-  return options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
+  const double support = stiffness_.excavation().support(cell);
+  if (settled_) return support * settled_->stress.segment<3>(3 * cell);
+  return support * options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
+}
+
+Point Rock::body_force(int cell, const Point& x) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
+  return stiffness_.excavation().support(cell) *
+         options_.body_force_in(evaluated_for_, {x, mesh_.cell_region[cell], 0});
 }
 
 std::uint64_t Rock::properties_version() const {

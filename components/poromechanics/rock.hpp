@@ -64,6 +64,8 @@ class Rock : public Component,
   Vector outer_displacement() const override;
   Vector pore_stress() const override;
   SymmetricTensor initial_stress(int cell, const Point& x) const override;
+  bool has_body_force() const override { return options_.has_body_force(); }
+  Point body_force(int cell, const Point& x) const override;
   std::optional<LameParameters> stiffness(int cell) const override { return stiffness_.lame(cell); }
   std::uint64_t properties_version() const override;
 

@@ -65,6 +65,10 @@ class TwoLevel : public Coupler, public TipSurroundings {
     if (is_cell_centred() && is_nodal())
       throw InputError(context.origin, "coupler " + name() + " cannot take displacements between cell centres",
                        "those of the rock are displacements of nodes", "choose another 'reconstruction'");
+    if (!rock_.stiffness(0))
+      throw InputError(context.origin, "coupler " + name() + " cannot give the stiffness around tips",
+                       "stress intensity factors are those of an isotropic rock; this one is anisotropic",
+                       "give the rock a young_modulus and a poisson_ratio, or remove the tips");
     for (int i = 0; i < static_cast<int>(mesh_.fractures.size()); ++i) along_.emplace_back(mesh_, i);
     context.the<FractureTips>().accept_surroundings(*this);
   }
@@ -167,6 +171,17 @@ class TwoLevel : public Coupler, public TipSurroundings {
       for (std::size_t i = 0; i < found.size(); ++i)
         offsets.col(i).head<dimension>().array() += pore_stress_.at<1>(found[i])[0];
       return offsets;
+    };
+  }
+
+  BodyForces body_forces(const std::vector<Point>& places) const override {
+    if (!rock_.has_body_force()) return {};
+    std::vector<int> cells;
+    for (const Point& x : places) cells.push_back(cell_at(x));
+    return [this, places, cells = std::move(cells)] {
+      Eigen::Matrix<double, dimension, Eigen::Dynamic> forces(dimension, places.size());
+      for (std::size_t i = 0; i < places.size(); ++i) forces.col(i) = rock_.body_force(cells[i], places[i]);
+      return forces;
     };
   }
 

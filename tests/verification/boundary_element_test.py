@@ -12,6 +12,8 @@ import unittest
 from cracks import A, CrackScenes, crack, in_metres, remote, wings
 from scene_runs import ROOT, SceneRuns
 
+STIFFNESS = "stiffness: {xxxx: 44 GPa, yyyy: 40 GPa, xxyy: 11 GPa, xyxy: 17 GPa, xxxy: 0 GPa, yyxy: 0 GPa}"
+
 SCENE = """
 geometry:
   box: {{x: [-2 m, 2 m], y: [-2 m, 2 m]}}
@@ -96,11 +98,18 @@ class BoundaryElement(CrackScenes):
     def test_rock_for_which_it_is_not_made(self):
         soft = "regions: {soft: {polygon: [[0.15 m, -2 m], [2 m, -2 m], [2 m, 2 m], [0.15 m, 2 m]]}}"
         layered = scene(crack(27), young="{regions: {soft: 10 GPa, default: 40 GPa}}", regions=soft)
+        changing = scene(crack(27), young="'(x > 0.15 && t > 0.5 ? 10 : 40) GPa'")
         held = scene(crack(27), reconstruction=", reconstruction: wall_jump")
         bent = scene(crack(27), initial="initial_stress: {xx: (1e6*y^2) Pa, yy: 2 MPa, xy: 0 MPa}")
-        for text, words, message in ((layered, ["run", "-q", "-o", "layered"], "boundary elements take rock of one stiffness"),
+        directed = [scene(crack(27), tips=tips).replace("young_modulus: 40 GPa", STIFFNESS).replace("poisson_ratio: 0.2", "")
+                    for tips in ("boundary_element", "quarter_point")]
+        run = ["run", "-q", "-o", "refused"]
+        for text, words, message in ((layered, "check", "boundary elements take rock of one stiffness"),
+                                     (directed[0], "check", "factors are those of an isotropic rock"),
+                                     (directed[1], "check", "factors are those of an isotropic rock"),
+                                     (changing, run, "boundary elements take rock of one stiffness"),
                                      (held, "check", "cannot take displacement jumps of walls"),
-                                     (bent, ["run", "-q", "-o", "bent"], "the initial stress is not linear")):
+                                     (bent, run, "the initial stress is not linear")):
             answer = self.call(words, self.write(text))
             self.assertEqual(answer.returncode, 2, answer.stderr)
             self.assertIn(message, answer.stderr)

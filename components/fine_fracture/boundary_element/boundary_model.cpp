@@ -15,7 +15,8 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr int n = element_nodes;
-constexpr int outline_places = 192;  ///< on the whole outline, about
+constexpr int force_places_across = 4;  ///< of the square around a place for which a body force is the mean
+constexpr int outline_places = 192;     ///< on the whole outline, about
 
 Complex number(const Point& x) { return {x[0], x[1]}; }
 Point point(Complex x) { return {x.real(), x.imag()}; }
@@ -234,6 +235,22 @@ const std::vector<Point>& BoundaryModel::offset_places() const {
   return offset_ ? offset_->places() : nowhere;
 }
 
+std::vector<Point> BoundaryModel::body_force_places() const {
+  const std::vector<Point>& places = offset_places();
+  std::vector<Point> around;
+  for (const Point& place : places) {
+    double next = std::numeric_limits<double>::infinity();
+    for (const Point& other : places)
+      if (&other != &place) next = std::min(next, (other - place).norm());
+    for (int i = 0; i < force_places_across; ++i)
+      for (int k = 0; k < force_places_across; ++k) {
+        const Point way = Point(i + 0.5, k + 0.5) / force_places_across - Point(0.5, 0.5), x = place + next * way;
+        around.push_back(depth_inside(x, geometry_.outline) > 0 ? x : place);
+      }
+  }
+  return around;
+}
+
 std::uint64_t BoundaryModel::topology() const {
   TopologyHash hash;
   for (const CrackElement& element : elements_) hash.add(element.crack), hash.add(element.segment);
@@ -242,11 +259,23 @@ std::uint64_t BoundaryModel::topology() const {
 
 BoundaryModel::Given BoundaryModel::given(const FineLoads& loads) const {
   Given given;
-  if (offset_ && loads.stress_offset) {
-    const Eigen::Matrix3Xd offsets = loads.stress_offset(offset_->places());
-    given.offset = offset_->solution(offsets);
+  if (offset_ && (loads.stress_offset || loads.body_force)) {
+    Eigen::Matrix3Xd offsets;
+    Eigen::Matrix2Xd body_forces;
+    if (loads.stress_offset) offsets = loads.stress_offset(offset_->places());
+    if (loads.body_force) {
+      constexpr int around = force_places_across * force_places_across;
+      const Eigen::Matrix2Xd forces = loads.body_force(body_force_places());
+      body_forces.resize(2, forces.cols() / around);
+      for (Eigen::Index i = 0; i < body_forces.cols(); ++i) {
+        const auto here = forces.middleCols<around>(around * i);
+        const Point first = here.col(0);
+        body_forces.col(i) = first + (here.colwise() - first).rowwise().mean();
+      }
+    }
+    given.offset = offset_->solution(offsets, body_forces);
     constexpr double round_off = 1e-6;  // of the largest offset: nodal means of the coarse level have some of it
-    if (given.offset->remainder() > round_off * offsets.cwiseAbs().maxCoeff())
+    if (offsets.cols() > 0 && given.offset->remainder() > round_off * offsets.cwiseAbs().maxCoeff())
       throw UnsuitableRock("the initial stress is not linear in the square around a tip",
                            "boundary elements take an initial stress that is linear there, and any pore pressure");
   }

@@ -20,7 +20,7 @@ namespace sprekk::fine_fracture {
 struct BoundaryOptions {
   ElementSizes sizes;
   int degree = 12;     ///< of the regular field
-  double spacing = 0;  ///< m, between the places where the stress offset is taken; 0: there is none
+  double spacing = 0;  ///< m, between the places where stress offset and body force are taken; 0: there are none
 };
 
 /// What models for nearly the same geometry may have in common: their factors then depend continuously on it.
@@ -29,11 +29,11 @@ struct BoundaryPattern {
   std::vector<Point> offset_places;  ///< m
 };
 
-/// Plane-strain elasticity in a homogeneous isotropic domain with cracks, div (C eps(u) + s) = 0 with the loads of
+/// Plane-strain elasticity in a homogeneous isotropic domain with cracks, div (C eps(u) + s) + b = 0 with the loads of
 /// FineLoads, as the sum of
 ///   - the fields of the jumps on the cracks in an infinite plane, from the tractions of their walls at the nodes;
 ///   - those of the known jumps beyond the outline;
-///   - a particular solution for the stress offset s;
+///   - a particular solution for the stress offset s and the body force b;
 ///   - a regular field, by least squares on the outline.
 /// Factors follow from the jump in the element at the tip, which has the root of the distance.
 class BoundaryModel : public FineLevel {
@@ -47,6 +47,9 @@ class BoundaryModel : public FineLevel {
   FineRock rock() const override { return rock_; }
   std::uint64_t topology() const override;
   const std::vector<Point>& offset_places() const override;
+  /// Several around each of offset_places(): forces are means over the way to the next one, so that layers of different
+  /// weight have their weight wherever a border lies between places.
+  std::vector<Point> body_force_places() const override;
   /// Throws std::runtime_error where the result is not finite.
   TipFactors solve(const FineLoads& loads) const override;
 

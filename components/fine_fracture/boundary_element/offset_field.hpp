@@ -1,4 +1,4 @@
-// The elastic field that pore pressure and initial stress make without cracks and without a far field.
+// The elastic field that pore pressure, initial stress and weight make without cracks and without a far field.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,17 +9,19 @@
 
 namespace sprekk::fine_fracture {
 
-/// A particular solution of div (C eps(u) + s) = 0 for a stress offset s that is linear plus isotropic: the linear part
-/// by squares of the coordinates, the rest by dual reciprocity (Partridge, Brebbia and Wrobel 1992). It is a sum of
-/// distances r from given places; laplace phi = −r/(lambda + 2G) has phi = −r^3/(9 (lambda + 2G)), and u = grad phi
-/// (Goodier, Philos. Mag. 23 (1937) 1017).
+/// A particular solution of div (C eps(u) + s) + b = 0 for a stress offset s that is linear plus isotropic and any body
+/// force b: the linear part of s and the mean of b by squares of the coordinates, the rest by dual reciprocity
+/// (Partridge, Brebbia and Wrobel 1992). It is a sum of distances r from given places. For s = r I,
+/// laplace phi = −r/(lambda + 2G) has phi = −r^3/(9 (lambda + 2G)), and u = grad phi (Goodier, Philos. Mag. 23 (1937)
+/// 1017). For b = r e, with Galerkin's vector −r^5/(225 (1 − nu)) e,
+///   2G u = −2/9 r^3 e + [r^3 e + 3 r (x·e) x]/(45 (1 − nu)).
 class OffsetField {
  public:
-  /// `places`: where the offset is known, m, no two of them the same.
+  /// `places`: where offset and body force are known, m, no two of them the same.
   OffsetField(const std::vector<Point>& places, const Elasticity& rock);
   const std::vector<Point>& places() const { return places_; }
 
-  /// A solution for values of the offset.
+  /// A solution for values of the offset and of the body force.
   class Solution {
    public:
     Point displacement(const Point& x) const;  ///< m
@@ -31,19 +33,25 @@ class OffsetField {
    private:
     friend class OffsetField;
     const OffsetField* field_;
-    Eigen::Matrix3d linear_;  ///< Pa: (xx, yy, xy) as rows; constant, by x, by y over the size of the places
-    Vector weights_;          ///< Pa/m
+    Eigen::Matrix3d linear_ =
+        Eigen::Matrix3d::Zero();        ///< Pa: (xx, yy, xy) as rows; constant, by x, by y over the size of the places
+    Vector weights_;                    ///< Pa/m
+    Point mean_force_ = Point::Zero();  ///< N/m^3, of b
+    Eigen::Matrix2Xd force_weights_;    ///< N/m^4, of the rest of b; no columns where b is the same everywhere
     double remainder_ = 0;
     Tensor linear_part(const Point& x) const;
+    Point force() const;  ///< Pa, of b and the linear part of s, times the size of the places
   };
-  /// `offsets`: (xx, yy, xy), Pa, a column for each place. The solution must not outlive this object.
-  Solution solution(const Eigen::Matrix3Xd& offsets) const;
+  /// `offsets`: (xx, yy, xy), Pa, a column for each place; `body_forces`: (x, y), N/m^3; no columns for zero. The
+  /// solution must not outlive this object.
+  Solution solution(const Eigen::Matrix3Xd& offsets, const Eigen::Matrix2Xd& body_forces) const;
 
  private:
   std::vector<Point> places_;
   Elasticity rock_;
   Point center_;
   double size_;
+  double along_;  ///< 1/(45 (1 − nu))
   Eigen::MatrixX3d linear_;
   Eigen::PartialPivLU<Eigen::MatrixXd> distances_;
 };

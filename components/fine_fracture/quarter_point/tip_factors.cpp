@@ -25,6 +25,21 @@ bool has_room(const std::vector<Point>& square, const Point& place, double radiu
 
 }  // namespace
 
+InputError Tips::refusal(const UnsuitableRock& rock) const {
+  return InputError(origin_, std::string(rock.what()) + ", for " + name(), rock.wanted,
+                    "choose fine_fracture/quarter_point, or a smaller 'size'");
+}
+
+/// Before the run; rock that changes, or a square that has moved along with its tip, is looked at in the run.
+void Tips::check_rock(const Tip& tip) const try {
+  const Point center = position(tip, {});
+  check_stiffness(fine_domain(mesh_, paths_with(paths_now()), tip.end, center, options_.size, tip.coarse_size,
+                              CrackPath::Walls::traction),
+                  surroundings_->stiffness(center));
+} catch (const UnsuitableRock& rock) {
+  throw refusal(rock);
+}
+
 void Tips::check_stiffness(const FineDomain& domain, const LameParameters& rock) const {
   constexpr int across = 16;          // places that are looked at
   constexpr double round_off = 1e-9;  // of a stiffness
@@ -62,6 +77,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) try {
   if (!tip.level || !(tip.level->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
     tip.kept_factors.reset();
     tip.offsets = nullptr;
+    tip.body_forces = nullptr;
     tip.domain = std::move(domain);
     const bool keeps = is_followed(tip);
     const FineLoads loads = loads_of(tip);
@@ -96,12 +112,16 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) try {
   }
   ++solves_;
   FineLoads loads = loads_of(tip);
-  if (!tip.offsets) tip.offsets = surroundings_->stress_offsets(tip.level->offset_places());
+  if (!tip.offsets) {
+    tip.offsets = surroundings_->stress_offsets(tip.level->offset_places());
+    tip.body_forces =
+        surroundings_->body_forces({}) ? surroundings_->body_forces(tip.level->body_force_places()) : nullptr;
+  }
   loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
+  if (tip.body_forces) loads.body_force = [&tip](const std::vector<Point>&) { return tip.body_forces(); };
   return keep_factors(tip, tip.level->solve(loads));
 } catch (const UnsuitableRock& rock) {
-  throw InputError(origin_, std::string(rock.what()) + ", for " + name(), rock.wanted,
-                   "choose fine_fracture/quarter_point, or a smaller 'size'");
+  throw refusal(rock);
 }
 
 FineRock Tips::rock_around(const Point& center) const {

@@ -47,6 +47,8 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     return surroundings_->displacement(x, inside);
   };
   loads.stress_offset = [this](const std::vector<Point>& places) { return surroundings_->stress_offsets(places)(); };
+  if (surroundings_->body_forces({}))
+    loads.body_force = [this](const std::vector<Point>& places) { return surroundings_->body_forces(places)(); };
   loads.wall_traction = [this, &domain, arc, lengths, arcs](int crack, int segment, double s) -> Point {
     const int fracture = domain.sources[crack].fracture;
     const double at = arc(crack, segment, s);

@@ -48,6 +48,9 @@ void Tips::accept_surroundings(TipSurroundings& surroundings) {
     throw InputError(origin_, name() + " cannot take displacement jumps of walls from the coarse level",
                      "boundary elements find jumps from tractions; prescribed ones would be the only source of factors",
                      "choose 'reconstruction: wall_traction', fine_fracture/quarter_point or fine_fracture/jump_fit");
+  if (maker_->needs_one_stiffness())
+    for (const Tip& tip : tips_)
+      if (!last_cell(tip.end).grown) check_rock(tip);
 }
 
 /// Displacements of the outline are linear over coarse cells: a square that cannot keep one of them away from its tip

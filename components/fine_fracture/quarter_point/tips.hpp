@@ -110,7 +110,8 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
     };
     // A factorization is reused while geometry and rock stay the same, the factors while the coarse level does, too.
     std::unique_ptr<const FineLevel> level;
-    TipSurroundings::StressOffsets offsets;  ///< at the places of the level, found when they are first asked for
+    TipSurroundings::StressOffsets offsets;   ///< at the places of the level, found when they are first asked for
+    TipSurroundings::BodyForces body_forces;  ///< the same
     FineDomain domain;
     std::optional<KeptFactors> kept_factors;
     std::uint64_t evaluated_for = 0;
@@ -155,6 +156,8 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   FineRock rock_around(const Point& center) const;
   Sifs evaluate(std::size_t tip, const std::vector<TipPath>& paths);
   /// Throws UnsuitableRock.
+  void check_rock(const Tip& tip) const;
+  InputError refusal(const UnsuitableRock& rock) const;
   void check_stiffness(const FineDomain& domain, const LameParameters& rock) const;
   FineLoads loads_of(const Tip& tip) const;
   /// Sets their estimated error, and keeps the factors for this state of the coarse level.

@@ -315,8 +315,15 @@ Vector FemRock::pore_stress() const {
 
 SymmetricTensor FemRock::initial_stress(int cell, const Point& x) const {
   SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
-  if (settled_) return settled_->stress.segment<symmetric_components>(symmetric_components * cell);
-  return options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
+  const double support = stiffness_.excavation().support(cell);
+  if (settled_) return support * settled_->stress.segment<symmetric_components>(symmetric_components * cell);
+  return support * options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
+}
+
+Point FemRock::body_force(int cell, const Point& x) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
+  return stiffness_.excavation().support(cell) *
+         options_.body_force_in(evaluated_for_, {x, mesh_.cell_region[cell], 0});
 }
 
 void FemRock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }

@@ -20,7 +20,7 @@ void add_to(Vector& forces, const std::vector<int>& first, const Eigen::VectorXd
 void add_forces_in_cells(const Options& options, const RawDisplacement& raw, const FemOperators& operators,
                          const Excavation& excavation, const Vector* settled, const StepTime& step, GivenLoads& loads) {
   const Mesh& mesh = raw.mesh;
-  const bool has_weight = !options.body_force.is_zero() || !options.rock_density.is_zero();
+  const bool has_weight = options.has_body_force();
   const bool has_stress = !options.initial_stress.is_zero() && !settled;
   int next = 0;  // in the settled forces
   if (!has_weight && !has_stress && !settled) return;
@@ -31,9 +31,7 @@ void add_forces_in_cells(const Options& options, const RawDisplacement& raw, con
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dimension * (functions + 1));
     for (const CellPoint& point : cell_points(mesh, c, operators.tips)) {
       const Place place{point.x, mesh.cell_region[c], 0};
-      const Point weight =
-          support * (value_in_step(options.body_force, place, step) +
-                     value_in_step(options.rock_density, place, step) * value_in_step(options.gravity, place, step));
+      const Point weight = support * options.body_force_in(step, place);
       if (!weight.isZero(0)) loads.largest_stress = std::numeric_limits<double>::infinity();
       const Tensor stress = has_stress ? Tensor(support * options.initial_stress.at(place)) : Tensor::Zero();
       for (int i = 0; i <= functions; ++i)

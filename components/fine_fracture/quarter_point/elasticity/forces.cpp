@@ -56,7 +56,7 @@ Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const
   return f;
 }
 
-OffsetForces::OffsetForces(const FineMesh& mesh, const FineRock& rock) {
+VolumeForces::VolumeForces(const FineMesh& mesh, const FineRock& rock) {
   constexpr int degree = 4, along_rays = 3, across = 4;
   for (const FineMesh::Element& element : mesh.elements) {
     const int of_element = is_cut(mesh, element, rock) ? degree_of_cut : degree;
@@ -65,18 +65,24 @@ OffsetForces::OffsetForces(const FineMesh& mesh, const FineRock& rock) {
       const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
       SPREKK_ASSERT(p.jacobian > 0, p.jacobian, place.xi, place.eta);
       places_.push_back(p.x);
-      shares_.push_back({element.nodes, place.weight * p.jacobian * p.gradient});
+      shares_.push_back({element.nodes, place.weight * p.jacobian * p.gradient, place.weight * p.jacobian * p.value});
     }
   }
 }
 
-void OffsetForces::subtract_from(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const {
+void VolumeForces::subtract_offsets(Vector& forces, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets) const {
   SPREKK_EXPECT(offsets.cols() == static_cast<Eigen::Index>(shares_.size()), offsets.cols(), shares_.size());
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     const Tensor s = symmetric(offsets.col(i));
     for (int k = 0; k < 6; ++k)
       forces.segment<2>(2 * shares_[i].nodes[k]) -= s * shares_[i].gradient.row(k).transpose();
   }
+}
+
+void VolumeForces::add_body_forces(Vector& forces, const Eigen::Ref<const Eigen::Matrix2Xd>& body_forces) const {
+  SPREKK_EXPECT(body_forces.cols() == static_cast<Eigen::Index>(shares_.size()), body_forces.cols(), shares_.size());
+  for (std::size_t i = 0; i < shares_.size(); ++i)
+    for (int k = 0; k < 6; ++k) forces.segment<2>(2 * shares_[i].nodes[k]) += shares_[i].value[k] * body_forces.col(i);
 }
 
 }  // namespace sprekk::fine_fracture

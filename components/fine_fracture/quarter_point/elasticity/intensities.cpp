@@ -51,6 +51,7 @@ TipEvaluation::TipEvaluation(const FineMesh& mesh, const FineRock& rock, const F
       integrals_(mesh, rock, tip, {domain_radius_, 0.5 * (domain_radius_ + tip.room.radius)}) {}
 
 TipIntensities TipEvaluation::of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
+                                 const Eigen::Ref<const Eigen::Matrix2Xd>& body_forces,
                                  const Vector& displacement) const {
   TipIntensities result{};
   result.crack = tip_.room.crack;
@@ -58,7 +59,7 @@ TipIntensities TipEvaluation::of(const FineLoads& loads, const Eigen::Ref<const 
   result.position = tip_.room.position;
   result.direction = tip_.room.direction;
   result.domain_radius = domain_radius_;
-  const auto [outer, inner] = integrals_.of(loads, offsets, displacement);
+  const auto [outer, inner] = integrals_.of(loads, offsets, body_forces, displacement);
   SPREKK_ASSERT(outer.K.allFinite() && inner.K.allFinite(), result.crack);
   result.K_interaction = outer.K;
   result.T = outer.T;

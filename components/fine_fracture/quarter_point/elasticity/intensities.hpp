@@ -51,12 +51,13 @@ class TipEvaluation {
   /// Keeps references to the mesh and to its tip.
   TipEvaluation(const FineMesh& mesh, const FineRock& rock, const FineMesh::Tip& tip,
                 const IntegralLimits& limits = {});
-  /// The places at which the stress offset is needed.
+  /// The places at which stress offset and body force are needed.
   const std::vector<Point>& offset_places() const { return integrals_.offset_places(); }
   /// The factors in a solution. `loads`: those of the solution; `offsets`: a column (xx, yy, xy) for each of
-  /// offset_places(), Pa, or no columns; `displacement`: (x, y) per node, m.
+  /// offset_places(), Pa, or no columns; `body_forces`: (x, y), N/m^3, in the same way; `displacement`: (x, y) per
+  /// node, m.
   TipIntensities of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
-                    const Vector& displacement) const;
+                    const Eigen::Ref<const Eigen::Matrix2Xd>& body_forces, const Vector& displacement) const;
 
  private:
   const FineMesh::Tip& tip_;

@@ -92,6 +92,7 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
     const std::array<AuxiliaryPoint, fields> auxiliary = auxiliary_points(rock_, x);
     const Elasticity here = rock_by_place_.at(p.x), more{here.lambda - rock_.lambda, here.shear - rock_.shear};
     Rows<3> of_offset;
+    Rows<2> of_body_force;
     for (int d = 0; d < domains; ++d) {
       const double q_here = is_rosette ? 1 : q[d][0] + place.xi * (q[d][1] - q[d][0]) + place.eta * (q[d][2] - q[d][0]);
       for (int f = 0; f < fields; ++f) {
@@ -103,6 +104,7 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
         const Tensor by_offset =
             frame_ * (factor * (0.5 * (work + work.transpose()) + q_here * a.strain_along)) * frame_.transpose();
         of_offset.row(row) << by_offset(0, 0), by_offset(1, 1), by_offset(0, 1) + by_offset(1, 0);
+        of_body_force.row(row) = -factor * q_here * (frame_ * a.displacement_along).transpose();
         if (!(here == rock_)) {
           const Tensor by_stiffness = more.stress(by_offset);
           for (int k = 0; k < 6; ++k)
@@ -120,6 +122,7 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
     }
     offset_places_.push_back(p.x);
     of_offset_.push_back(of_offset);
+    of_body_force_.push_back(of_body_force);
   }
 }
 
@@ -221,11 +224,14 @@ Point InteractionIntegrals::traction_at_tip(const State& state) const {
 
 std::array<InteractionResult, 2> InteractionIntegrals::of(const FineLoads& loads,
                                                           const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
+                                                          const Eigen::Ref<const Eigen::Matrix2Xd>& body_forces,
                                                           const Vector& displacement) const {
   State state{loads, offsets, displacement};
   SPREKK_EXPECT(displacement.size() == 2 * mesh_.node_count(), displacement.size(), mesh_.node_count());
   SPREKK_EXPECT(offsets.cols() == 0 || offsets.cols() == static_cast<Eigen::Index>(offset_places_.size()),
                 offsets.cols(), offset_places_.size());
+  SPREKK_EXPECT(body_forces.cols() == 0 || body_forces.cols() == static_cast<Eigen::Index>(offset_places_.size()),
+                body_forces.cols(), offset_places_.size());
   SPREKK_EXPECT(is_finite(displacement));
   SPREKK_ASSERT(own_wall_ != nullptr);
   if (!fit_.empty()) fit_traction(state);
@@ -240,6 +246,8 @@ std::array<InteractionResult, 2> InteractionIntegrals::of(const FineLoads& loads
   Sums sum = of_displacement_ * displacement - of_gradient_ * Eigen::Map<const Eigen::Vector4d>(constant_strain.data());
   if (offsets.cols() > 0)
     for (std::size_t i = 0; i < of_offset_.size(); ++i) sum += of_offset_[i] * (offsets.col(1 + i) - offsets.col(0));
+  if (body_forces.cols() > 0)
+    for (std::size_t i = 0; i < of_body_force_.size(); ++i) sum += of_body_force_[i] * body_forces.col(1 + i);
   for (const WallShare& share : walls_)
     sum += share.of_traction * (traction(state, share.point) - constant * share.point.normal);
 

@@ -19,27 +19,29 @@ struct InteractionResult {
 /// Interaction integrals around one tip. With total stress sigma = C eps(u) + s, auxiliary field a and a weight q that
 /// is 1 at the tip and 0 at `radius`,
 ///
-///   I = int_A [sigma_ij ua_i,1 q_,j + sa_ij u_i,1 q_,j - (sa : eps) q_,1 + q s : epsa_,1] - int_walls q t . ua_,1,
+///   I = int_A [sigma_ij ua_i,1 q_,j + sa_ij u_i,1 q_,j - (sa : eps) q_,1 + q s : epsa_,1 - q b . ua_,1]
+///       - int_walls q t . ua_,1
 ///
-/// which is the usual domain form (Li, Shih and Needleman 1985; Yau, Wang and Corten 1980) after the body force div s
-/// has been integrated by parts: only values of s occur. Before, the constant state that the walls' traction and s have
-/// at the tip is subtracted, so that integrals converge at the tip. K = E' I / 2, sigma_11 = E' I for a unit force.
-/// Where the stiffness C(x) is not that at the tip, C, the stress is C eps + s with (C(x) - C) eps as a part of s.
-/// Exact for walls that are straight within the radius. On walls of kind jump, t is the mean of both elements'
+/// with the body force b. It is the usual domain form (Li, Shih and Needleman 1985; Yau, Wang and Corten 1980) after
+/// div s has been integrated by parts: only values of s occur. Before, the constant state that the walls' traction and
+/// s have at the tip is subtracted, so that integrals converge at the tip. K = E' I / 2, sigma_11 = E' I for a unit
+/// force. Where the stiffness C(x) is not that at the tip, C, the stress is C eps + s with (C(x) - C) eps as a part of
+/// s. Exact for walls that are straight within the radius. On walls of kind jump, t is the mean of both elements'
 /// stress, in the rosette a line fitted to it from behind.
 ///
 /// The integrals for two radii, the first one the larger, are computed together: they differ in q only. They are linear
-/// in u, s and t; the coefficients follow from the mesh and are computed once.
+/// in u, s, b and t; the coefficients follow from the mesh and are computed once.
 class InteractionIntegrals {
  public:
   /// Keeps references to the mesh and to its tip.
   InteractionIntegrals(const FineMesh& mesh, const FineRock& rock, const FineMesh::Tip& tip,
                        const std::array<double, 2>& radii);
-  /// The places at which the stress offset is needed.
+  /// The places at which stress offset and body force are needed.
   const std::vector<Point>& offset_places() const { return offset_places_; }
   /// The results for both radii. `offsets`: (xx, yy, xy) in Pa, a column for each place; no columns where there is no
-  /// offset. `displacement`: (x, y) per node, m.
+  /// offset. `body_forces`: (x, y) in N/m^3, in the same way. `displacement`: (x, y) per node, m.
   std::array<InteractionResult, 2> of(const FineLoads& loads, const Eigen::Ref<const Eigen::Matrix3Xd>& offsets,
+                                      const Eigen::Ref<const Eigen::Matrix2Xd>& body_forces,
                                       const Vector& displacement) const;
 
  private:
@@ -86,6 +88,7 @@ class InteractionIntegrals {
   Rows<Eigen::Dynamic> of_displacement_;
   Rows<4> of_gradient_ = Rows<4>::Zero();  ///< of a constant one, in the frame of the tip
   std::vector<Rows<3>> of_offset_;         ///< by place in elements
+  std::vector<Rows<2>> of_body_force_;     ///< by place in elements
   std::vector<WallShare> walls_;
   std::vector<WallPoint> fit_;
 };

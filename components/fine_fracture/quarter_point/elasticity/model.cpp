@@ -68,10 +68,10 @@ FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, Fine
       unknowns_(geometry_, *mesh_),
       stiffness_(timed(*profile_, "assembly", [&] { return stiffness_by_element(*mesh_, rock_); })),
       factors_(*mesh_, unknowns_, stiffness_, *profile_),
-      offset_forces_(timed(*profile_, "loads", [&] { return OffsetForces(*mesh_, rock_); })) {
+      volume_forces_(timed(*profile_, "loads", [&] { return VolumeForces(*mesh_, rock_); })) {
   for (const char* name : {"ordering", "factorization", "back-solves"}) profile_->at(name).is_solver = true;
   const ScopedTimer timer(*profile_, "factors");
-  offset_places_ = offset_forces_.places();
+  offset_places_ = volume_forces_.places();
   for (const FineMesh::Tip& tip : mesh_->tips) {
     if (wanted && (tip.room.crack != wanted->crack || tip.room.is_last != wanted->is_last)) continue;
     const std::vector<Point>& places = tips_.emplace_back(*mesh_, rock_, tip).offset_places();
@@ -79,11 +79,13 @@ FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, Fine
   }
 }
 
-Vector FineModel::right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const {
+Vector FineModel::right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets,
+                                  const Eigen::Matrix2Xd& body_forces, const Vector& u) const {
   Vector f = traction_forces(geometry_, *mesh_, loads);
   // Behind those of the elements stand those of the tips' evaluation.
-  const auto of_elements = static_cast<Eigen::Index>(offset_forces_.places().size());
-  if (offsets.cols() > 0) offset_forces_.subtract_from(f, offsets.leftCols(of_elements));
+  const auto of_elements = static_cast<Eigen::Index>(volume_forces_.places().size());
+  if (offsets.cols() > 0) volume_forces_.subtract_offsets(f, offsets.leftCols(of_elements));
+  if (body_forces.cols() > 0) volume_forces_.add_body_forces(f, body_forces.leftCols(of_elements));
   for (std::size_t e = 0; e < stiffness_.size(); ++e) {
     const auto& element = mesh_->elements[e];
     const ElementVector local = gather(element, u);
@@ -123,11 +125,13 @@ FineSolution FineModel::solve(const FineLoads& loads) const {
   Vector& u = solution.displacement;
   Vector b;
   Eigen::Matrix3Xd offsets;
+  Eigen::Matrix2Xd body_forces;
   {
     const ScopedTimer timer(*profile_, "loads");
     if (loads.stress_offset) offsets = loads.stress_offset(offset_places_);
+    if (loads.body_force) body_forces = loads.body_force(offset_places_);
     u = unknowns_.prescribed_values(*mesh_, loads);
-    b = right_hand_side(loads, offsets, u);
+    b = right_hand_side(loads, offsets, body_forces, u);
   }
   const Vector x = back_solve(b);
   for (int i = 0; i < u.size(); ++i) {
@@ -139,10 +143,13 @@ FineSolution FineModel::solve(const FineLoads& loads) const {
     if (!contact.is_empty()) u += contact.displacement(u, by);
   }
   const ScopedTimer timer(*profile_, "factors");
-  Eigen::Index first = static_cast<Eigen::Index>(offset_forces_.places().size());
+  Eigen::Index first = static_cast<Eigen::Index>(volume_forces_.places().size());
   for (const TipEvaluation& tip : tips_) {
-    const Eigen::Index count = offsets.cols() > 0 ? static_cast<Eigen::Index>(tip.offset_places().size()) : 0;
-    solution.tips.push_back(tip.of(loads, offsets.middleCols(offsets.cols() > 0 ? first : 0, count), u));
+    const auto count = static_cast<Eigen::Index>(tip.offset_places().size());
+    const auto of_tip = [&](const auto& values) {
+      return values.cols() > 0 ? values.middleCols(first, count) : values.middleCols(0, 0);
+    };
+    solution.tips.push_back(tip.of(loads, of_tip(offsets), of_tip(body_forces), u));
     first += count;
   }
   return solution;

@@ -16,8 +16,8 @@
 namespace sprekk::fine_fracture {
 
 /// Plane-strain elasticity on quadratic triangles with quarter-point rosettes:
-/// div (C eps(u) + s) = 0 with the loads of FineLoads. The matrix is factorized once, and all that loads and factors
-/// need of the mesh is computed once; every further solve is a back-solve.
+/// div (C eps(u) + s) + b = 0 with the loads of FineLoads. The matrix is factorized once, and all that loads and
+/// factors need of the mesh is computed once; every further solve is a back-solve.
 class FineModel {
  public:
   /// Solutions will have the factors of all tips, or of the `wanted` one. Times in `profile`: mesh, assembly, ordering,
@@ -31,7 +31,7 @@ class FineModel {
   const FineMesh& mesh() const { return *mesh_; }
   const FineRock& rock() const { return rock_; }
 
-  /// The places at which each solve needs the stress offset.
+  /// The places at which each solve needs the stress offset and the body force.
   const std::vector<Point>& offset_places() const { return offset_places_; }
 
   /// Throws std::runtime_error when the result is not finite.
@@ -41,7 +41,8 @@ class FineModel {
 
  private:
   /// The right-hand side of the unknowns; `u` has all prescribed displacements, and 0 elsewhere.
-  Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Vector& u) const;
+  Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Eigen::Matrix2Xd& body_forces,
+                         const Vector& u) const;
   Vector back_solve(const Vector& b) const;
   /// The displacements by nodal forces alone, where nothing is prescribed; a column each.
   Eigen::MatrixXd responses(const Eigen::MatrixXd& forces) const;
@@ -53,9 +54,9 @@ class FineModel {
   Unknowns unknowns_;
   std::vector<ElementMatrix> stiffness_;
   StiffnessFactors factors_;
-  OffsetForces offset_forces_;
+  VolumeForces volume_forces_;
   std::vector<TipEvaluation> tips_;
-  std::vector<Point> offset_places_;  ///< of offset_forces_, then those of tips_
+  std::vector<Point> offset_places_;  ///< of volume_forces_, then those of tips_
 };
 
 }  // namespace sprekk::fine_fracture

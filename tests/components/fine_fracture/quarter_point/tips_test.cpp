@@ -37,6 +37,7 @@ class Fluid : public TipSurroundings {
   StressOffsets stress_offsets(const std::vector<Point>& places) const override {
     return [count = places.size()] { return Eigen::Matrix3Xd(Eigen::Matrix3Xd::Zero(3, count)); };
   }
+  BodyForces body_forces(const std::vector<Point>&) const override { return {}; }
   bool gives_jumps() const override { return false; }
   Point wall_traction(int, double) const override { return Point::Zero(); }
   Point wall_jump(int, double) const override { return Point::Zero(); }
