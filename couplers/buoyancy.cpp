@@ -16,9 +16,9 @@
 namespace sprekk::couplers {
 namespace {
 
-constexpr double ice_point = 273.15;             // K
-constexpr double coldest = 0, hottest = 150;     // degrees Celsius, of the law for water
-constexpr double most_that_varies = 0.05;        // of the density; beyond it a note says what is neglected
+constexpr double ice_point = 273.15;          // K
+constexpr double coldest = 0, hottest = 150;  // degrees Celsius, of the law for water
+constexpr double most_that_varies = 0.05;     // of the density; beyond it a note says what is neglected
 
 struct BuoyancyOptions {
   std::string law = "linear";
@@ -96,15 +96,16 @@ class DensityLaw {
   }
 
  private:
-  /// Kell's law (t in degrees Celsius), kg/m^3, and its derivative. Beyond its range, where iterates may be, its tangent.
+  /// Kell's law (t in degrees Celsius), kg/m^3, and its derivative. Beyond its range, where iterates may be, its
+  /// tangent.
   static std::array<double, 2> water(double t) {
     const double within = std::clamp(t, coldest, hottest);
     const auto [value, slope] = kell(within);
     return {value + slope * (t - within), slope};
   }
   static std::array<double, 2> kell(double t) {
-    constexpr std::array<double, 6> a = {999.83952,      16.945176,     -7.9870401e-3,
-                                         -46.170461e-6,  105.56302e-9,  -280.54253e-12};
+    constexpr std::array<double, 6> a = {999.83952,     16.945176,    -7.9870401e-3,
+                                         -46.170461e-6, 105.56302e-9, -280.54253e-12};
     constexpr double b = 16.879850e-3;
     double sum = 0, slope = 0;
     for (int k = 5; k >= 0; --k) {
@@ -190,9 +191,9 @@ class Buoyancy : public Coupler {
     auto* water = context.find<FractureTemperature>();
     refuse(context, matrix, matrix_fluid, fractures, rock, water);
     if (fractures)
-      in_fractures_ = std::make_unique<DensityIn>(
-          options_, options_.has_expansion ? &water->temperature() : nullptr, fracture_fluid->pressure(),
-          [water](int point) { return water->end_temperature(point); });
+      in_fractures_ = std::make_unique<DensityIn>(options_, options_.has_expansion ? &water->temperature() : nullptr,
+                                                  fracture_fluid->pressure(),
+                                                  [water](int point) { return water->end_temperature(point); });
     if (matrix)
       in_rock_ = std::make_unique<DensityIn>(options_, options_.has_expansion ? &rock->temperature() : nullptr,
                                              matrix_fluid->pressure(),
@@ -269,8 +270,8 @@ class Buoyancy : public Coupler {
     if (options_.has_expansion && ((matrix && !rock) || (fractures && !water)))
       throw refused(std::string("there is no temperature in the ") + (matrix && !rock ? "rock" : "fractures"),
                     "the density is to follow it",
-                    std::string("name a component of the kind ") +
-                        (matrix && !rock ? "matrix_heat" : "fracture_heat") + " in 'between'");
+                    std::string("name a component of the kind ") + (matrix && !rock ? "matrix_heat" : "fracture_heat") +
+                        " in 'between'");
     const std::string left_out = matrix ? context.left_out<FractureFluid>() : context.left_out<BuoyantMatrix>();
     if (!(matrix && fractures) && !left_out.empty())
       throw refused("the density of '" + left_out + "' would stay constant",
@@ -293,8 +294,7 @@ class Buoyancy : public Coupler {
                               .what());
       }
       if (!(density[i] > 0))
-        throw DataError(InputError(origin_,
-                                   fmt::format("the density of the fluid is {:.4g} kg/m^3", density[i]),
+        throw DataError(InputError(origin_, fmt::format("the density of the fluid is {:.4g} kg/m^3", density[i]),
                                    temperature ? fmt::format("{} is {:.6g} K and {} {:.6g} Pa", temperature->name(),
                                                              temperature->accepted()[i], place.pressure().name(),
                                                              place.pressure().accepted()[i])

@@ -13,9 +13,7 @@ class Buoyancy::RowMaker {
 
   /// Subtracts matrix · P of cells, of faces with unknowns, and of prescribed pressures.
   void subtract_cells(const SparseMatrix& matrix) {
-    for_each(matrix, [&](int row, int cell, double value) {
-      add_to_cell(row, -value, cell);
-    });
+    for_each(matrix, [&](int row, int cell, double value) { add_to_cell(row, -value, cell); });
   }
   void subtract_faces(const SparseMatrix& matrix) {
     for_each(matrix, [&](int row, int face, double value) {
@@ -150,9 +148,7 @@ void Buoyancy::begin_step(const std::vector<FlowCondition>& conditions, const Ve
     rows->of_boundaries = rows->boundaries * excess;
 }
 
-Vector Buoyancy::excess(FluidDensity::State state) const {
-  return in_rock_.values(state).array() - constant_density_;
-}
+Vector Buoyancy::excess(FluidDensity::State state) const { return in_rock_.values(state).array() - constant_density_; }
 
 std::array<FluidDensity::Version, 2> Buoyancy::wall_versions() const {
   const auto now = FluidDensity::State::now;

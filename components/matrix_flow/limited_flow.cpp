@@ -22,8 +22,7 @@ void MatrixFlow::use_limited() {
     largest_conductance_ = std::max(largest_conductance_, mean.row(row).cwiseAbs().sum());
 }
 
-void MatrixFlow::add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux,
-                             const Vector& excess) const {
+void MatrixFlow::add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& excess) const {
   std::array<Vector, 2> sides;
   for (const int side : {0, 1}) {
     sides[side] = operators_.limited[side].cell * potential + limited_constant_[side];

@@ -239,10 +239,10 @@ class MatrixFlow : public Component,
   /// Of limited fluxes at the last state for which face_flux_derivatives was called.
   mutable SparseMatrix limited_by_pressure_, limited_by_wall_flux_;
 
-  std::unique_ptr<Buoyancy> buoyancy_;                             ///< nullptr for a constant density
-  std::uint64_t operators_made_ = 0, operators_of_buoyancy_ = 0;   ///< how often
-  mutable LinearExpression wall_pressure_by_density_;              ///< wall_pressure_ and what the density adds
-  mutable std::array<FluidDensity::Version, 2> versions_at_walls_; ///< for which it was made
+  std::unique_ptr<Buoyancy> buoyancy_;                              ///< nullptr for a constant density
+  std::uint64_t operators_made_ = 0, operators_of_buoyancy_ = 0;    ///< how often
+  mutable LinearExpression wall_pressure_by_density_;               ///< wall_pressure_ and what the density adds
+  mutable std::array<FluidDensity::Version, 2> versions_at_walls_;  ///< for which it was made
   mutable std::vector<std::pair<const Field*, SparseMatrix>> fluxes_by_density_;  ///< of face_flux_derivatives
 };
 
