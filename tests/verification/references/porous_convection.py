@@ -8,8 +8,8 @@ insulated; the branch of a single cell. The Nusselt number is the mean of the he
 which converges faster than that at the hot side, with its corners.
 
 Ra = density * gravity * expansion * difference * permeability * side / (viscosity * diffusivity), the diffusivity being
-the conductivity over the heat capacity of the fluid. Published: side-heated, 1.98 at Ra = 50, 3.10 (Walker and Homsy
-1978), 3.11 to 3.14 at Ra = 100; heated from below, 1.45, 2.65 and 3.81 at Ra = 50, 100 and 200 (Caltagirone 1975).
+the conductivity over the heat capacity of the fluid. Published: side-heated, 3.097 at Ra = 100 (Walker and Homsy
+1978); heated from below, 1.45, 2.651 and 3.813 at Ra = 50, 100 and 200 (Caltagirone 1975).
 
 usage: porous_convection.py > porous_convection.csv
 """
