@@ -110,6 +110,7 @@ void MatrixFlow::use_operators() {
   if (properties_change_ && !is_sealed_ && keeps_operators() && parallel::size() == 1)
     mobility_of_operators_ = mobility_;
   boundary_applied_ = false;
+  ++operators_made_;
   forget_flow();
   const int rank = parallel::rank();
   // Flux through an inner face leaves one cell and enters another.

@@ -1,6 +1,7 @@
 // The pressures of faces, where they are unknowns: start values, matrices and equations.
 #include <algorithm>
 
+#include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/invariants.hpp"
 
@@ -45,13 +46,17 @@ void MatrixFlow::assemble_face_pressure(Assembly& assembly, const StepTime& step
   const Field& face_pressure = *face_pressure_;
   SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
   // As in the balances of cells: the sum is small against the fluxes, and not against single terms of the pressure.
-  assembly.add(face_pressure,
-               step.dt * (operators_.faces.continuity_cell * (pressure_.now() - gravity_potential_cell_) +
-                          operators_.faces.continuity_face * (face_pressure.now() - gravity_potential_face_) +
-                          continuity_constant_));
+  Vector sums = operators_.faces.continuity_cell * (pressure_.now() - gravity_potential_cell_) +
+                operators_.faces.continuity_face * (face_pressure.now() - gravity_potential_face_) +
+                continuity_constant_;
+  if (buoyancy_)
+    sums += buoyancy_->continuity().cells * buoyancy_->excess(FluidDensity::State::now) +
+            buoyancy_->continuity().of_boundaries;
+  assembly.add(face_pressure, step.dt * sums);
   assembly.derivative(face_pressure, pressure_, continuity_of_pressure_, step.dt);
   assembly.derivative(face_pressure, face_pressure, continuity_of_face_pressure_, step.dt);
   if (wall_flux_) assembly.linear(face_pressure, continuity_of_wall_flux_, *wall_flux_, step.dt);
+  if (buoyancy_) assemble_density_on_faces(assembly, step.dt);
   assembly.compare_with(face_pressure, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(face_pressure, step.dt * flow(State::accepted).largest_outflow);
   const double largest_pressure =

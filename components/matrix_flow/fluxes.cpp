@@ -1,4 +1,5 @@
 // The fluxes through faces at a state of the pressure, and the velocities that follow from them.
+#include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/products.hpp"
 #include "framework/field/ownership.hpp"
@@ -23,9 +24,11 @@ const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
   const std::uint64_t version = version_of(pressure_), face_version = face_pressure_ ? version_of(*face_pressure_) : 0;
   const bool is_limited = is_limited_ && !is_sealed_;
   const std::uint64_t wall_version = is_limited && wall_flux_ ? version_of(*wall_flux_) : 0;
+  const auto density_state = state == State::now ? FluidDensity::State::now : FluidDensity::State::accepted;
+  const FluidDensity::Version density = buoyancy_ ? buoyancy_->version(density_state) : FluidDensity::Version{};
   for (Flow& kept : flows_)
     if (kept.used > 0 && kept.pressure == version && kept.face_pressure == face_version &&
-        kept.wall_flux == wall_version) {
+        kept.wall_flux == wall_version && kept.density == density) {
       kept.used = ++flow_uses_;
       return kept;
     }
@@ -34,13 +37,19 @@ const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
   flow.pressure = version;
   flow.face_pressure = face_version;
   flow.wall_flux = wall_version;
+  flow.density = density;
   flow.used = ++flow_uses_;
   const Vector potential = values_of(pressure_) - gravity_potential_cell_;
   flow.fluxes = multiply(operators_.flux_cell, potential, false).value;
   if (face_pressure_)
     flow.fluxes += multiply(operators_.faces.flux, values_of(*face_pressure_) - gravity_potential_face_, false).value;
   flow.fluxes += boundary_fluxes_;
-  if (is_limited) add_limited(flow, potential, wall_flux_ ? values_of(*wall_flux_) : Vector());
+  Vector excess;
+  if (buoyancy_) {
+    excess = buoyancy_->excess(density_state);
+    flow.fluxes += buoyancy_->flux().cells * excess + buoyancy_->flux().of_boundaries;
+  }
+  if (is_limited) add_limited(flow, potential, wall_flux_ ? values_of(*wall_flux_) : Vector(), excess);
   flow.outflow = cell_sums(mesh_, flow.fluxes, 1);
   flow.leaving = Vector::Zero(mesh_.cell_count());
   for (const auto& [face, cell] : outer_faces_) flow.leaving[cell] += flow.fluxes[face];
@@ -52,8 +61,9 @@ const Vector& MatrixFlow::face_fluxes() const {
   const Flow& flow = this->flow(State::now);
   if (!wall_flux_) return flow.fluxes;
   if (with_walls_.fluxes.size() == 0 || with_walls_.pressure != flow.pressure ||
-      with_walls_.face_pressure != flow.face_pressure || with_walls_.wall_flux != wall_flux_->version())
-    with_walls_ = {flow.pressure, flow.face_pressure, wall_flux_->version(),
+      with_walls_.face_pressure != flow.face_pressure || with_walls_.wall_flux != wall_flux_->version() ||
+      with_walls_.density != flow.density)
+    with_walls_ = {flow.pressure, flow.face_pressure, wall_flux_->version(), flow.density,
                    flow.fluxes + flux_of_wall_flux_ * wall_flux_->now()};
   return with_walls_.fluxes;
 }
@@ -62,6 +72,10 @@ std::vector<MatrixFluxes::Derivative> MatrixFlow::face_flux_derivatives() const 
   std::vector<Derivative> derivatives = {{&pressure_, &operators_.flux_cell}};
   if (face_pressure_) derivatives.push_back({face_pressure_, &operators_.faces.flux});
   if (wall_flux_) derivatives.push_back({wall_flux_, &flux_of_wall_flux_});
+  if (buoyancy_) {
+    fluxes_by_density_ = fluxes_by_density(this->flow(State::now));
+    for (const auto& [field, matrix] : fluxes_by_density_) derivatives.push_back({field, &matrix});
+  }
   if (!is_limited_ || is_sealed_) return derivatives;
   const Flow& flow = this->flow(State::now);
   limited_by_pressure_ = limited_derivative(flow, operators_.limited[0].cell, operators_.limited[1].cell);

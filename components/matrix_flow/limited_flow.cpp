@@ -1,6 +1,7 @@
 // The nonlinear part of fluxes, where the discretization has one.
 #include <algorithm>
 
+#include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/limited_fluxes.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/invariants.hpp"
@@ -21,11 +22,13 @@ void MatrixFlow::use_limited() {
     largest_conductance_ = std::max(largest_conductance_, mean.row(row).cwiseAbs().sum());
 }
 
-void MatrixFlow::add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux) const {
+void MatrixFlow::add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& excess) const {
   std::array<Vector, 2> sides;
   for (const int side : {0, 1}) {
     sides[side] = operators_.limited[side].cell * potential + limited_constant_[side];
     if (wall_flux.size() > 0) sides[side] += limited_of_wall_flux_[side] * wall_flux;
+    if (excess.size() > 0)
+      sides[side] += buoyancy_->limited()[side].cells * excess + buoyancy_->limited()[side].of_boundaries;
   }
   LimitedFluxes limited = limit(sides[0], sides[1]);
   flow.fluxes += limited.value;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "components/matrix_flow/buoyancy.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -70,6 +71,8 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   if (face_pressure_) start_face_pressure();
 }
 
+MatrixFlow::~MatrixFlow() = default;
+
 double MatrixFlow::gravity_potential(const Point& x) const {
   return options_.gravity.is_zero() ? 0.0 : options_.fluid_density * options_.gravity.at({x, 0, 0}).dot(x);
 }
@@ -79,6 +82,7 @@ void MatrixFlow::begin_step(const StepTime& step) {
   discretize();
   use_storage();
   apply_boundary();
+  use_density();
 }
 
 void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
@@ -101,6 +105,7 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.derivative(pressure_, pressure_, outflow_of_pressure_, step.dt);
   if (face_pressure_) assembly.derivative(pressure_, *face_pressure_, outflow_of_face_pressure_, step.dt);
   if (is_limited_ && !is_sealed_) assemble_limited(assembly, flows, step.dt);
+  if (buoyancy_) assemble_density(assembly, flows, step.dt);
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * largest_before);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/matrix_flow/flux_operators.hpp"
@@ -17,6 +19,8 @@
 #include "framework/scene/component.hpp"
 
 namespace sprekk::matrix_flow {
+
+class Buoyancy;
 
 /// The condition on one side of the outer boundary; without pressure and flux, no fluid flows through the side.
 struct SideCondition {
@@ -56,9 +60,14 @@ struct Options {
 ///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
 /// The flux is a linear function of the pressures of cells, or of these and of those of the faces, which are unknowns
 /// then, or has a nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for
-/// a constant density. Properties may change with time, and are taken at the end of the step; a change of the storage S
-/// alone moves no fluid.
-class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, public MatrixFluxes, public KeepsTotals {
+/// a constant density; what another density adds follows from Buoyancy. Properties may change with time, and are taken
+/// at the end of the step; a change of the storage S alone moves no fluid.
+class MatrixFlow : public Component,
+                   public MatrixFluid,
+                   public MatrixWalls,
+                   public MatrixFluxes,
+                   public BuoyantMatrix,
+                   public KeepsTotals {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
@@ -66,6 +75,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   enum class Fluxes { linear, limited };
   MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize,
              Unknowns unknowns = Unknowns::on_cells, Fluxes fluxes = Fluxes::linear);
+  ~MatrixFlow() override;
 
   void evaluate_data(const StepTime& step) override;
   bool allows_stages() const override { return true; }
@@ -97,7 +107,9 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   Field& wall_flux() override { return *wall_flux_; }
   double diffusivity(int cell) const override;
   bool is_permeable() const override { return !is_sealed_; }
-  const LinearExpression& wall_pressure() const override { return wall_pressure_; }
+  const LinearExpression& wall_pressure() const override;
+  bool has_gravity() const override { return !options_.gravity.is_zero(); }
+  void accept_density(const FluidDensity& in_rock, const FluidDensity* in_fractures) override;
 
   double round_off_base_of_fluxes() const override {
     return largest_conductance_ * pressure_.now().lpNorm<Eigen::Infinity>();
@@ -115,6 +127,7 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   /// The flow at one state of the pressure, without the fluxes through walls.
   struct Flow {
     std::uint64_t pressure = 0, face_pressure = 0, wall_flux = 0;  ///< the versions of the fields that it depends on
+    FluidDensity::Version density = {};                            ///< the same
     std::uint64_t used = 0;                                        ///< when; 0 for never
     Vector fluxes;                                                 ///< m^2/s, one a face
     Vector outflow;  ///< m^2/s, one a cell: the sums of the fluxes out of it
@@ -146,9 +159,16 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   void assemble_face_pressure(Assembly& assembly, const StepTime& step) const;
   /// Of limited fluxes.
   void use_limited();
-  void add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux) const;
+  /// `excess`: of the density, empty if it is constant.
+  void add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& excess) const;
   static SparseMatrix limited_derivative(const Flow& flow, const SparseMatrix& first, const SparseMatrix& second);
   void assemble_limited(Assembly& assembly, const Flow& flow, double dt) const;
+  /// Of a density that varies: what it gives in this step; the derivatives of balances and of the equations on faces.
+  void use_density();
+  void assemble_density(Assembly& assembly, const Flow& flow, double dt) const;
+  void assemble_density_on_faces(Assembly& assembly, double dt) const;
+  /// Derivatives of the fluxes through faces, faces × values of a field.
+  std::vector<std::pair<const Field*, SparseMatrix>> fluxes_by_density(const Flow& flow) const;
   /// Whether operators can be taken over from another mesh or mobility (rediscretize).
   bool keeps_operators() const { return !face_pressure_ && !is_limited_; }
   bool is_discretized() const;  ///< on this mesh, with this mobility
@@ -212,11 +232,18 @@ class MatrixFlow : public Component, public MatrixFluid, public MatrixWalls, pub
   mutable std::uint64_t flow_uses_ = 0;
   struct WithWalls {
     std::uint64_t pressure = 0, face_pressure = 0, wall_flux = 0;  ///< versions of the fields
+    FluidDensity::Version density = {};                            ///< the same
     Vector fluxes;                                                 ///< empty for none
   };
   mutable WithWalls with_walls_;
   /// Of limited fluxes at the last state for which face_flux_derivatives was called.
   mutable SparseMatrix limited_by_pressure_, limited_by_wall_flux_;
+
+  std::unique_ptr<Buoyancy> buoyancy_;                              ///< nullptr for a constant density
+  std::uint64_t operators_made_ = 0, operators_of_buoyancy_ = 0;    ///< how often
+  mutable LinearExpression wall_pressure_by_density_;               ///< wall_pressure_ and what the density adds
+  mutable std::array<FluidDensity::Version, 2> versions_at_walls_;  ///< for which it was made
+  mutable std::vector<std::pair<const Field*, SparseMatrix>> fluxes_by_density_;  ///< of face_flux_derivatives
 };
 
 }  // namespace sprekk::matrix_flow

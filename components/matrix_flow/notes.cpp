@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/overshoots.hpp"
 #include "framework/mesh/planar.hpp"
@@ -69,6 +70,7 @@ void MatrixFlow::note_fluxes(Notes& notes, const StepTime& step) const {
                     "the quadrilaterals there; exact fluxes would gain energy); use triangles",
                     name(), blended),
         blended);
+  if (buoyancy_) return;  // fluid of another weight than around it needs no higher potential to move
   const std::string remedy = is_limited_ ? "smaller cells"
                                          : "smaller cells, or matrix_flow/ntpfa, which keeps bounds at the cost of "
                                            "several factorizations a step";

@@ -100,13 +100,14 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
 
 double FractureFlow::pressure_drop(const Link& link) const {
   const double second = link.second == none ? link.boundary_pressure : pressure_.now()[link.second];
-  return pressure_.now()[link.first] - second - link.gravity;
+  return pressure_.now()[link.first] - second - link.gravity - varying_weight(link);
 }
 
 void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(flux_)) return;
   const int points = flux_.size(), count = mesh_.fracture_cell_count();
   FluxRows rows{step.dt, Vector::Ones(points), Vector::Zero(points), {}, {}, {}};
+  if (density_) find_excess();
   const std::vector<JunctionFluxes> at_junctions = junction_fluxes();
   for (const Link& link : links_) {
     if (link.junction == none) {
@@ -129,6 +130,7 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
   apertures.setFromTriplets(rows.by_aperture.begin(), rows.by_aperture.end());
   assembly.derivative(flux_, pressure_, std::move(pressures));
   assembly.derivative(flux_, aperture_, std::move(apertures));
+  if (density_) assemble_density(assembly, rows);
   if (rows.by_flux.empty()) return;
   SparseMatrix fluxes(points, points);
   fluxes.setFromTriplets(rows.by_flux.begin(), rows.by_flux.end());
@@ -151,6 +153,8 @@ void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& row
   rows.largest_pressure = std::max(rows.largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
   rows.by_pressure.emplace_back(link.point, link.first, -scale * c.value);
   if (link.second != none) rows.by_pressure.emplace_back(link.point, link.second, scale * c.value);
+  for (const auto& [cell, weight] : link.by_density)
+    rows.by_density.emplace_back(link.point, cell, scale * c.value * weight);
   // The derivative of scale (q − C dp) by an aperture, where d scale / da = −scale^2 dC/da.
   for (const auto& [cell, by] : c.by_aperture)
     rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
@@ -163,6 +167,7 @@ void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& row
 void FractureFlow::add_pattern(const Link& link, FluxRows& rows) const {
   const Junction& junction = mesh_.junctions[link.junction];
   for (const int cell : {link.first, link.second}) rows.by_pressure.emplace_back(link.point, cell, 0);
+  for (const auto& [cell, weight] : link.by_density) rows.by_density.emplace_back(link.point, cell, 0);
   for (const int cell : junction.cells) rows.by_aperture.emplace_back(link.point, cell, 0);
   for (const int point : junction.points)
     if (point != link.point) rows.by_flux.emplace_back(link.point, point, 0);

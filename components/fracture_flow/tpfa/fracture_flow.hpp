@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/fracture_flow/laws/hydraulic_law.hpp"
@@ -28,7 +29,11 @@ namespace sprekk::fracture_flow {
 /// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
 /// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
 /// pressures, and the flux out of one cell enters the next one to the bit. Properties are those at the end of the step.
-class FractureFlow : public Component, public FractureFluid, public FractureFluxes, public KeepsTotals {
+class FractureFlow : public Component,
+                     public FractureFluid,
+                     public FractureFluxes,
+                     public BuoyantFractures,
+                     public KeepsTotals {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
@@ -70,6 +75,8 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   std::vector<FluidReservoir> fluid_reservoirs() const override;
   void accept_rock_fluid(const MatrixFluid& rock_fluid) override { rock_fluid_ = &rock_fluid; }
   const MatrixFluid* rock_fluid() const override { return rock_fluid_; }
+  bool has_gravity() const override { return !options_.gravity.is_zero(); }
+  void accept_density(const FluidDensity& in_fractures) override { density_ = &in_fractures; }
 
  private:
   /// K/mu (m^2/(Pa s) times m, Eq. 8 of the paper) of a cell and its derivative by the aperture.
@@ -92,6 +99,9 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
     int place;                     ///< among the points of the junction
     double boundary_pressure = 0;  ///< Pa, of an open end
     double gravity = 0;            ///< rho g·(x_first − x_second), Pa
+    /// What the excess of the density over the constant one adds to it: factors of cells (m^2/s^2), and Pa at an end.
+    std::vector<std::pair<int, double>> by_density = {};
+    double excess_at_end = 0;
   };
   void count_let_in(const Assembly& assembly) const;
   /// The rates at named places, and the outflow at sides with a pressure, at the end of the step.
@@ -110,6 +120,11 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   double pressure_drop(const Link& link) const;
   struct FluxRows;
+  /// Of a density that varies (varying_density.cpp).
+  void weigh_links();
+  void find_excess() const;
+  double varying_weight(const Link& link) const;
+  void assemble_density(Assembly& assembly, const FluxRows& rows) const;
   bool has_inertia() const { return !options_.law.inertia.is_zero(); }
   Conductance inertia(const Link& link) const;
   void add_inertia(const Link& link, const Conductance& conductance, FluxRows& rows) const;
@@ -137,6 +152,8 @@ class FractureFlow : public Component, public FractureFluid, public FractureFlux
 
   const Mesh& mesh_;
   const MatrixFluid* rock_fluid_ = nullptr;
+  const FluidDensity* density_ = nullptr;  ///< nullptr for a constant one
+  mutable Vector excess_;                  ///< kg/m^3, of the present density of each cell over the constant one
   Options options_;
   Origin origin_;
   Field& pressure_;

@@ -9,6 +9,7 @@ import numpy as np
 
 import kgd_leak_off
 import near_tip
+import porous_convection
 import rate_and_state
 import sealed_wings
 from kgd_self_similar import Kgd
@@ -253,6 +254,27 @@ class RateAndState(unittest.TestCase):
         last = table("fault_nucleation.csv")[-1]["extrapolated_s"]
         coarse = [rate_and_state.events(rate_and_state.nucleation(cells, 1e-6)[0], 1e-3)[0, 0] for cells in (50, 100)]
         self.assertAlmostEqual((2 * coarse[1] - coarse[0]) / last, 1, delta=1e-4)
+
+
+class PorousConvection(unittest.TestCase):
+    def test_table(self):
+        with open(os.path.join(FOLDER, "porous_convection.csv")) as lines:
+            rows = [[float(value) for value in line.split(",")] for line in lines if not line.startswith("#")]
+        # Walker and Homsy, J. Fluid Mech. 87 (1978) 449, from the side; Caltagirone, J. Fluid Mech. 72 (1975) 269, from below.
+        published = {(1, 100): (3.097, 0.015), (0, 50): (1.45, 0.005), (0, 100): (2.651, 0.01), (0, 200): (3.813, 0.01)}
+        for side, rayleigh, value in rows:
+            if (side, rayleigh) in published:
+                known, bound = published[side, rayleigh]
+                self.assertAlmostEqual(value, known, delta=bound)
+            if rayleigh <= 100:
+                coarser = porous_convection.nusselt("side" if side else "bottom", rayleigh, 13)
+                self.assertAlmostEqual(value, coarser, delta=3e-3 * value)
+
+    def test_conduction(self):
+        self.assertAlmostEqual(porous_convection.nusselt("side", 1e-9, 8), 1, delta=1e-12)
+        # Weak convection: the Nusselt number is 1 plus a multiple of Ra^2.
+        excess = [porous_convection.nusselt("side", rayleigh, 12) - 1 for rayleigh in (0.5, 1)]
+        self.assertAlmostEqual(excess[1] / excess[0], 4, delta=0.02)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,63 @@
+// The weight of a fluid whose density varies, in fluxes and in pressures at walls.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "components/capabilities/fluid_density.hpp"
+#include "components/matrix_flow/flux_operators.hpp"
+#include "framework/assembly/linear_expression.hpp"
+#include "framework/config/data.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// What the excess d of a density over a constant one adds to the fluxes and traces of FluxOperators. Each row of them
+/// is applied to pressures without that of a fluid at rest around a place y,
+///   P(x) = (d(y) + d(x))/2 g·(x − y),
+/// whose density is linear between y and x. y is the middle between the centres of the two cells at a face, or the
+/// centre of its only cell; d(y) is the mean of these cells. So a fluid at rest whose density is linear with height
+/// stays at rest to round-off, on every mesh and with every discretization; others have an error of second order. All
+/// terms are linear in the densities of cells, at prescribed pressures and at walls.
+class Buoyancy {
+ public:
+  Buoyancy(const Mesh& mesh, const VectorData& gravity, double constant_density, const FluidDensity& in_rock,
+           const FluidDensity* in_fractures);
+
+  /// Makes the matrices for new operators.
+  void discretize(const FluxOperators& operators, const std::vector<FlowCondition>& conditions);
+  /// Takes the densities at sides whose pressures are given (one a face, Pa).
+  void begin_step(const std::vector<FlowCondition>& conditions, const Vector& boundary_pressure);
+
+  /// What is added to a quantity of faces: cells · d + of_boundaries.
+  struct Rows {
+    SparseMatrix cells;         ///< faces × cells
+    SparseMatrix boundaries;    ///< faces × faces: by d at prescribed pressures
+    SparseMatrix walls;         ///< faces × fracture cells: by d at walls
+    Vector of_boundaries = {};  ///< boundaries · d, in this step
+  };
+  const Rows& flux() const { return flux_; }                       ///< m^2/s
+  const std::array<Rows, 2>& limited() const { return limited_; }  ///< of FluxOperators::limited, m^2/s
+  const Rows& continuity() const { return continuity_; }           ///< of FacePressureOperators, m^2/s
+
+  Vector excess(FluidDensity::State state) const;  ///< d, kg/m^3, one a cell
+  FluidDensity::Version version(FluidDensity::State state) const { return in_rock_.version(state); }
+  std::vector<FluidDensity::Derivative> derivatives() const { return in_rock_.derivatives(); }
+
+  /// Adds the pressure at walls to an expression of it (one a wall): its tangent at the present state, so that values
+  /// and derivatives are right as long as `wall_versions` stays the same.
+  void add_to_walls(LinearExpression& expression) const;
+  std::array<FluidDensity::Version, 2> wall_versions() const;
+
+ private:
+  class RowMaker;
+
+  const Mesh& mesh_;
+  VectorData gravity_;
+  double constant_density_;
+  const FluidDensity& in_rock_;
+  const FluidDensity* in_fractures_;
+  Rows flux_, continuity_, trace_;
+  std::array<Rows, 2> limited_;
+};
+
+}  // namespace sprekk::matrix_flow

@@ -1,0 +1,65 @@
+// The flow of a fluid whose weight follows a density that varies.
+#include "components/matrix_flow/buoyancy.hpp"
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/cell_sums.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::matrix_flow {
+
+void MatrixFlow::accept_density(const FluidDensity& in_rock, const FluidDensity* in_fractures) {
+  SPREKK_EXPECT(has_gravity() && !buoyancy_, name());
+  buoyancy_ = std::make_unique<Buoyancy>(mesh_, options_.gravity, options_.fluid_density, in_rock, in_fractures);
+}
+
+void MatrixFlow::use_density() {
+  if (!buoyancy_) return;
+  if (operators_of_buoyancy_ != operators_made_) buoyancy_->discretize(operators_, conditions_);
+  operators_of_buoyancy_ = operators_made_;
+  buoyancy_->begin_step(conditions_, boundary_values_ + gravity_potential_face_);
+  versions_at_walls_ = {};
+  forget_flow();
+}
+
+const LinearExpression& MatrixFlow::wall_pressure() const {
+  if (!buoyancy_ || operators_of_buoyancy_ == 0) return wall_pressure_;
+  if (const auto versions = buoyancy_->wall_versions(); versions != versions_at_walls_) {
+    wall_pressure_by_density_ = wall_pressure_;
+    buoyancy_->add_to_walls(wall_pressure_by_density_);
+    versions_at_walls_ = versions;
+  }
+  return wall_pressure_by_density_;
+}
+
+std::vector<std::pair<const Field*, SparseMatrix>> MatrixFlow::fluxes_by_density(const Flow& flow) const {
+  SparseMatrix of_density = buoyancy_->flux().cells;
+  if (is_limited_ && !is_sealed_)
+    of_density += limited_derivative(flow, buoyancy_->limited()[0].cells, buoyancy_->limited()[1].cells);
+  std::vector<std::pair<const Field*, SparseMatrix>> derivatives;
+  for (const FluidDensity::Derivative& by : buoyancy_->derivatives())
+    derivatives.emplace_back(by.field, of_density * by.values.asDiagonal());
+  return derivatives;
+}
+
+void MatrixFlow::assemble_density(Assembly& assembly, const Flow& flow, double dt) const {
+  if (!assembly.wants_derivatives()) return;
+  std::vector<char> is_outer(mesh_.face_count()), is_inner(mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) is_inner[f] = !(is_outer[f] = mesh_.face_cells[f][1] == none);
+  for (const auto& [field, of_faces] : fluxes_by_density(flow)) {
+    if (!assembly.has_row(*field)) continue;
+    const auto outflow = [&](const std::vector<char>& faces) {
+      return cell_sums(mesh_, SparseMatrix(dt * keep_rows(of_faces, faces)), 1, parallel::rank());
+    };
+    assembly.exchange_derivative(pressure_, *field, outflow(is_inner));
+    assembly.derivative(pressure_, *field, outflow(is_outer));
+  }
+}
+
+void MatrixFlow::assemble_density_on_faces(Assembly& assembly, double dt) const {
+  if (!assembly.wants_derivatives()) return;
+  const Buoyancy::Rows& rows = buoyancy_->continuity();
+  for (const FluidDensity::Derivative& by : buoyancy_->derivatives())
+    assembly.derivative(*face_pressure_, *by.field, SparseMatrix(dt * (rows.cells * by.values.asDiagonal())));
+}
+
+}  // namespace sprekk::matrix_flow
