@@ -81,6 +81,16 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
       std::ranges::any_of(scene_.output.probes, [&](const auto& probe) { return !fields_.has(probe.second.of); });
   const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_, outputs);
+  check_outputs();
+}
+
+void Model::check_outputs() const {
+  std::vector<FrameOutputChoice> outputs = scene_.output.chosen_outputs();
+  std::erase_if(outputs, [](const FrameOutputChoice& output) { return !output.check; });
+  if (outputs.empty()) return;
+  const std::vector<OutputField> fields = output();
+  const Frame start{scene_.time.start, 0, mesh_, fields, {}};
+  for (const FrameOutputChoice& output : outputs) output.check(start);
 }
 
 void Model::make_start(const ScheduleContext& context) {

@@ -65,6 +65,7 @@ class Model {
 
  private:
   void make_start(const ScheduleContext& context);
+  void check_outputs() const;
   void check_determined() const;
   void check_stages() const;
   void check_data();
