@@ -73,18 +73,22 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
         options_(options) {
     alpha_ = Property(options.biot_coefficient, cell_places(mesh_), context.start_time);
     decoupled_ = alpha_.values().isZero(0) && !alpha_.depends_on_time();
+    use_alpha();
     use_grains();
     if (decoupled_) return;
     if (rock_.bulk_modulus().values().minCoeff() <= 0)
       throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
                        "its stiffness is anisotropic", "give 'bulk_modulus' to the component");
-    rock_.accept_pore_pressure(fluid_.pressure(), alpha_.values(), fluid_.initial_pressure());
+    rock_.accept_pore_pressure(fluid_.pressure(), alpha_in_fluid_, fluid_.initial_pressure());
   }
 
   void evaluate_data(const StepTime& step) override {
     const std::uint64_t before = alpha_.version();
     alpha_.evaluate(step);
-    if (alpha_.version() != before) rock_.change_alpha(fluid_.pressure(), alpha_.values());
+    if (alpha_.version() != before) {
+      use_alpha();
+      rock_.change_alpha(fluid_.pressure(), alpha_in_fluid_);
+    }
     use_grains();
   }
 
@@ -102,13 +106,13 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
       assembly.derivative(pressure, pressure, grains_);
     }
     if (options_.one_way) return;
-    assembly.linear(pressure, rock_.volume_change(), 1, &alpha_.values());
+    assembly.linear(pressure, rock_.volume_change(), 1, &alpha_in_fluid_);
     SPREKK_EXPECT(rock_.volume_change().constant.size() == mesh_.cell_count(), rock_.volume_change().constant.size());
-    assembly.add(pressure, -alpha_.values().cwiseProduct(counted_volume_.accepted()));
+    assembly.add(pressure, -alpha_in_fluid_.cwiseProduct(counted_volume_.accepted()));
     Vector change = rock_.volume_change().constant - counted_volume_.accepted();
     for (const LinearExpression::Term& term : rock_.volume_change().terms)
       change += assembly.product(term.matrix, *term.field);
-    fluid.add_throughput(alpha_.values().cwiseProduct(change));
+    fluid.add_throughput(alpha_in_fluid_.cwiseProduct(change));
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime&) override {
@@ -118,7 +122,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
     if (!decoupled_ && !options_.one_way) {
       Vector volume = rock_.volume_change().now();
       replicate(mesh_, Location::cell, 1, volume);
-      stored += alpha_.values().cwiseProduct(volume - counted_volume_.accepted());
+      stored += alpha_in_fluid_.cwiseProduct(volume - counted_volume_.accepted());
       counted_volume_.set(std::move(volume));
     }
     stored_.set(std::move(stored));
@@ -133,8 +137,8 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
     replicate(mesh_, Location::cell, 1, volume);
     double difference = 0, area = 0;
     for (int c = 0; c < mesh_.cell_count(); ++c) {
-      difference += alpha_[c] * (volume[c] - counted_volume_.accepted()[c]);
-      if (change.cell[c] == none) area += alpha_[c] * mesh_.cell_measure[c];
+      difference += alpha_in_fluid_[c] * (volume[c] - counted_volume_.accepted()[c]);
+      if (change.cell[c] == none) area += alpha_in_fluid_[c] * mesh_.cell_measure[c];
     }
     for (int c = 0; c < mesh_.cell_count(); ++c)
       if (change.cell[c] == none && area > 0) volume[c] -= difference / area * mesh_.cell_measure[c];
@@ -154,7 +158,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   void output(std::vector<OutputField>& fields) const override {
     if (decoupled_ || stress_ == nullptr) return;
     Vector effective = stress_->mean_stress();
-    const Vector load = alpha_.values().cwiseProduct(fluid_.pressure().now());
+    const Vector load = alpha_in_fluid_.cwiseProduct(fluid_.pressure().now());
     for (int c = 0; c < mesh_.cell_count(); ++c)
       effective.segment<dimension>(symmetric_components * c).array() += load[c];
     fields.push_back({name() + ".effective_stress", "Pa", Location::cell, symmetric_components, std::move(effective)});
@@ -201,8 +205,8 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
     SPREKK_ASSERT(rock_.bulk_modulus().values().minCoeff() > 0, rock_.bulk_modulus().values().minCoeff());
     Vector diagonal(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c)
-      diagonal[c] =
-          options_.fixed_stress_factor * alpha_[c] * alpha_[c] / rock_.bulk_modulus()[c] * mesh_.cell_measure[c];
+      diagonal[c] = options_.fixed_stress_factor * alpha_in_fluid_[c] * alpha_in_fluid_[c] / rock_.bulk_modulus()[c] *
+                    mesh_.cell_measure[c];
     const auto [place, fresh] = stabilization.try_emplace(&fluid_.pressure(), diagonal);
     if (!fresh) place->second += diagonal;
   }
@@ -222,6 +226,13 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
             .is_amount = true};
   }
 
+  /// Rock without a flow in it is dry.
+  void use_alpha() {
+    alpha_in_fluid_ = alpha_.values();
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      if (!fluid_.is_in_cell(c)) alpha_in_fluid_[c] = 0;
+  }
+
   void use_grains() {
     const Property* porosity = fluid_.porosity_for_storage();
     const std::uint64_t version =
@@ -231,6 +242,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
     SPREKK_EXPECT(rock_.bulk_modulus().values().size() == mesh_.cell_count(), rock_.bulk_modulus().values().size());
     if (porosity && !decoupled_)
       for (int c = 0; c < mesh_.cell_count(); ++c) {
+        if (!fluid_.is_in_cell(c)) continue;
         if (alpha_[c] < (*porosity)[c])
           throw DataError(InputError(origin_, "Biot's coefficient is below the porosity",
                                      "the grains would have a negative compressibility, (alpha - phi)/K",
@@ -252,6 +264,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   Origin origin_;
   BiotOptions options_;
   Property alpha_;
+  Vector alpha_in_fluid_;  ///< the same where there is a flow, 0 elsewhere
   Vector grain_capacity_;  ///< (alpha − phi)/K V
   std::uint64_t grains_version_ = 0;
   Operator grains_;  ///< grain_capacity_ as a diagonal

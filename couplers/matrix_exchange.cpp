@@ -34,7 +34,8 @@ class MatrixExchange : public Coupler {
  public:
   MatrixExchange(const CouplerContext& context, const MatrixExchangeOptions& options)
       : Coupler(context.name), mesh_(context.mesh), switch_times_(options.exchange.switch_times()) {
-    for (MatrixFluid* flow : context.all<MatrixFluid>()) pressures_.push_back(&flow->pressure());
+    const std::vector<MatrixFluid*> flows = context.all<MatrixFluid>();
+    for (MatrixFluid* flow : flows) pressures_.push_back(&flow->pressure());
     if (pressures_.size() != 2)
       throw InputError(
           context.origin,
@@ -44,6 +45,9 @@ class MatrixExchange : public Coupler {
       if (!pressure->spec().role.is_unknown())
         throw InputError(context.origin, pressure->name() + " is prescribed",
                          "it has no balance that fluid could enter", "take a flow that determines its pressure");
+    in_both_.resize(mesh_.cell_count());
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      in_both_[c] = flows[0]->is_in_cell(c) && flows[1]->is_in_cell(c) ? mesh_.cell_measure[c] : 0;
     exchange_ = Property(options.exchange, cell_places(mesh_), context.start_time);
   }
 
@@ -51,7 +55,7 @@ class MatrixExchange : public Coupler {
   void begin_step(const StepTime& step) override {
     if (used_ == std::pair(exchange_.version(), step.dt)) return;
     conductance_ = Vector(mesh_.cell_count());
-    for (int c = 0; c < mesh_.cell_count(); ++c) conductance_[c] = step.dt * exchange_[c] * mesh_.cell_measure[c];
+    for (int c = 0; c < mesh_.cell_count(); ++c) conductance_[c] = step.dt * exchange_[c] * in_both_[c];
     // Nothing of it leaves both balances together.
     of_difference_ = Operator(diagonal_matrix(conductance_), SparseMatrix(mesh_.cell_count(), mesh_.cell_count()));
     used_ = {exchange_.version(), step.dt};
@@ -76,13 +80,14 @@ class MatrixExchange : public Coupler {
   }
 
   void hold_constants(ConstantModes& modes) const override {
-    if (!exchange_.values().isZero(0)) modes.tie(*pressures_[0], *pressures_[1]);
+    if (!exchange_.values().cwiseProduct(in_both_).isZero(0)) modes.tie(*pressures_[0], *pressures_[1]);
   }
 
  private:
   const Mesh& mesh_;
   std::vector<Field*> pressures_;
   Property exchange_;
+  Vector in_both_;      ///< the volume of each cell with both flows, m^2
   Vector conductance_;  ///< exchange V dt, m^2/Pa
   Operator of_difference_;
   std::pair<std::uint64_t, double> used_;

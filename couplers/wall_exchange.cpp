@@ -92,7 +92,7 @@ class WallExchange : public Coupler {
     SPREKK_ASSERT(kappa.value.size() == walls, kappa.value.size(), walls);
     Vector of_flux(walls), of_trace(walls), of_pressure(walls);
     for (int w = 0; w < walls; ++w) {
-      const double k = kappa.value[w], scale = 1 / (k + matrix_conductance_[w]);
+      const double k = walls_.is_behind_wall(w) ? kappa.value[w] : 0, scale = 1 / (k + matrix_conductance_[w]);
       SPREKK_ASSERT(k >= 0 && std::isfinite(scale) && scale > 0, w, k, matrix_conductance_[w]);
       of_trace[w] = power_of_two_near(scale * k);
       of_flux[w] = of_trace[w] > 0 ? of_trace[w] / k : scale;
@@ -118,7 +118,7 @@ class WallExchange : public Coupler {
     for (int w = 0; w < walls; ++w) {
       const double difference =
           of_trace[w] > 0 ? -flux.now()[w] / kappa.value[w] : trace_now[w] - pressure.now()[w / 2];
-      by_aperture[w] = of_flux[w] * kappa.by_aperture[w] * difference;
+      by_aperture[w] = walls_.is_behind_wall(w) ? of_flux[w] * kappa.by_aperture[w] * difference : 0;
     }
     assembly.derivative(flux, fracture_.aperture(), SparseMatrix(by_aperture.asDiagonal() * to_walls_));
   }

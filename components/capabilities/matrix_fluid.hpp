@@ -27,6 +27,9 @@ class MatrixFluid {
   /// The diffusivity of the fluid in a cell whose volume does not change, along the direction that conducts best,
   /// m^2/s; infinite without storage.
   virtual double diffusivity(int cell) const = 0;
+  /// Whether there is a flow in a cell. Where there is none, the pressure stays the initial one, and no part may add
+  /// anything to the row of the cell.
+  virtual bool is_in_cell(int /*cell*/) const { return true; }
 };
 
 /// Capability: accepts a flux through the walls of fractures, and gives the pressure there.
@@ -39,6 +42,8 @@ class MatrixWalls {
   virtual Field& wall_flux() = 0;
   /// Whether fluid can flow in the matrix.
   virtual bool is_permeable() const = 0;
+  /// Whether there is a flow behind a wall. Where there is none, nothing may pass through the wall.
+  virtual bool is_behind_wall(int /*wall*/) const { return true; }
   /// tr p, the pressure at each wall, Pa.
   virtual const LinearExpression& wall_pressure() const = 0;
 };

@@ -1,6 +1,7 @@
 // The discrete operators of the flow: when they are made, and what follows from them.
 #include <algorithm>
 
+#include "components/matrix_flow/flow_inside.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/products.hpp"
 #include "framework/field/ownership.hpp"
@@ -57,6 +58,7 @@ void MatrixFlow::find_conditions() {
     if (mesh_.face_side[f] == none) continue;
     outer_faces_.emplace_back(f, mesh_.face_cells[f][0]);
     const auto condition = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
+    if (!is_in_cell(mesh_.face_cells[f][0])) continue;
     if (condition != options_.boundary.end() && condition->second.pressure) conditions_[f] = FlowCondition::pressure;
   }
 }
@@ -74,11 +76,13 @@ void MatrixFlow::discretize() {
   } else if (!mobility_of_operators_.empty()) {
     return discretize_from({mesh_, mobility_of_operators_, conditions_}, operators_, no_change(mesh_));
   } else {
-    const std::vector<char> nodes = nodes_to_discretize(mesh_);
+    const std::vector<char> nodes = nodes_to_discretize(separated_ ? *separated_ : mesh_);
     ++discretizations_;
-    discretized_cells_ += mesh_.cell_count();
+    discretized_cells_ += inside_.empty() ? mesh_.cell_count() : std::count(inside_.begin(), inside_.end(), 1);
     discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
-    FluxOperators made = discretize_(mesh_, mobility_, conditions_, nodes);
+    FluxOperators made =
+        separated_ ? discretize_inside(discretize_, {mesh_, mobility_, conditions_}, *separated_, inside_, nodes)
+                   : discretize_(mesh_, mobility_, conditions_, nodes);
     operators_.swap(made);
   }
   use_operators();

@@ -1,6 +1,7 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "components/matrix_flow/buoyancy.hpp"
 #include "framework/assembly/balance_rows.hpp"
@@ -47,6 +48,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                                  .role = Role::unknown(BlockKind::bulk_elliptic),
                                                  .unit = "Pa",
                                                  .doc = "Mean fluid pressure on the faces of the mesh"});
+  find_regions();
   const std::vector<Place> places = cell_places(mesh_);
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
   initial_pressure_ = property(options_.initial_pressure).values();
@@ -139,7 +141,13 @@ void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
 void MatrixFlow::hold_constants(ConstantModes& modes) const {
   const bool has_pressure = std::any_of(options_.boundary.begin(), options_.boundary.end(),
                                         [](const auto& side) { return side.second.pressure.has_value(); });
-  if (is_sealed_ ? storage_.values().minCoeff() > 0 : has_pressure || storage_.values().maxCoeff() > 0) return;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    if (is_in_cell(c)) {
+      least = std::min(least, storage_[c]);
+      most = std::max(most, storage_[c]);
+    }
+  if (is_sealed_ ? least > 0 : has_pressure || most > 0) return;
   modes.floats(pressure_, origin_, "nothing stores fluid and no side has a pressure: any constant may be added to it",
                "give a storage, or the pressure of a side");
 }

@@ -14,6 +14,7 @@
 #include "components/matrix_flow/flux_operators.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
 #include "framework/assembly/keeps_totals.hpp"
+#include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
@@ -52,6 +53,8 @@ struct Options {
   Data source;                                ///< 1/s
   std::map<std::string, SideCondition> boundary;
   std::map<std::string, Well> wells;
+  std::vector<std::string> regions;  ///< with flow; all if there are none
+  Origin regions_origin;
   std::map<std::string, std::string> without_effect;  ///< keys of the component that have no effect, and why
   Spec spec(const std::string& type, const std::string& doc);
 };
@@ -62,12 +65,17 @@ struct Options {
 /// then, or has a nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for
 /// a constant density; what another density adds follows from Buoyancy. Properties may change with time, and are taken
 /// at the end of the step; a change of the storage S alone moves no fluid.
+///
+/// With Options::regions there is a flow in these regions only, and no flux through their boundary to other rock: the
+/// discretization has their cells alone (discretize_inside). The rows of all other cells are p − p_old = 0, times a
+/// storage, and the pressure there is no more than the number against which rock without fluid is loaded by nothing.
 class MatrixFlow : public Component,
                    public MatrixFluid,
                    public MatrixWalls,
                    public MatrixFluxes,
                    public BuoyantMatrix,
-                   public KeepsTotals {
+                   public KeepsTotals,
+                   public LivesInPart {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
@@ -106,6 +114,9 @@ class MatrixFlow : public Component,
   void change_viscosity(const Vector& viscosity) override;
   Field& wall_flux() override { return *wall_flux_; }
   double diffusivity(int cell) const override;
+  bool is_in_cell(int cell) const override { return inside_.empty() || inside_[cell]; }
+  bool is_behind_wall(int wall) const override { return is_in_cell(mesh_.face_cells[mesh_.wall_face(wall)][0]); }
+  const std::vector<char>& inhabited_cells() const override { return inside_; }
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override;
   bool has_gravity() const override { return !options_.gravity.is_zero(); }
@@ -139,6 +150,7 @@ class MatrixFlow : public Component,
   /// Notes pressures that violate a maximum principle (find_overshoots), and nodes where fluxes are not exact.
   void note_fluxes(Notes& notes, const StepTime& step) const;
   double gravity_potential(const Point& x) const;  ///< rho g·x, Pa
+  void find_regions();
   void check_sides() const;
   std::vector<const Data*> properties() const;
   /// Updates mobility and wells after properties have changed.
@@ -170,7 +182,7 @@ class MatrixFlow : public Component,
   /// Derivatives of the fluxes through faces, faces × values of a field.
   std::vector<std::pair<const Field*, SparseMatrix>> fluxes_by_density(const Flow& flow) const;
   /// Whether operators can be taken over from another mesh or mobility (rediscretize).
-  bool keeps_operators() const { return !face_pressure_ && !is_limited_; }
+  bool keeps_operators() const { return !face_pressure_ && !is_limited_ && inside_.empty(); }
   bool is_discretized() const;  ///< on this mesh, with this mobility
   bool depends_on_time() const;
   void evaluate_sources(const StepTime& step);
@@ -184,6 +196,8 @@ class MatrixFlow : public Component,
   Field* wall_flux_ = nullptr;      ///< exists with fractures only
   Field* face_pressure_ = nullptr;  ///< exists with Unknowns::on_cells_and_faces only
   Field& cumulative_;               ///< (stored, injected, outflow) of each cell since the start, m^2
+  std::vector<char> inside_;        ///< one flag a cell: there is a flow; none where there is one everywhere
+  std::optional<Mesh> separated_;   ///< the mesh cut around these cells
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, 3> permeability_;  ///< xx, yy, xy
   Property viscosity_, porosity_, compressibility_, storage_;

@@ -55,6 +55,10 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .doc = "Volume of fluid added per volume of rock and time.",
              .source = "q of the paper's Eq. 6",
              .in_time = true});
+  spec.texts(
+      "regions", regions,
+      {.doc = "Regions in which there is a flow; everywhere by default. Nothing passes to other rock, whose pores "
+              "count as dry: neither is it loaded by a pressure, nor does it store fluid."});
   static SideCondition example_side;
   const auto side_spec = [](SideCondition& side) {
     Spec inner("boundary condition of flow", "At most one of the two; none lets no fluid through.");
@@ -91,6 +95,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                       },
                       {.doc = "Point sources by name."});
   spec.check([this](const Node& node) {
+    if (const Node* given = node.find("regions")) regions_origin = given->origin;
     for (const char* key : {"porosity", "fluid_compressibility"})
       if (storage && node.find(key)) without_effect[key] = "'storage' is given as a whole";
     if (!storage && (!porosity || !fluid_compressibility))

@@ -5,6 +5,7 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/discretization/linear_fit.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/separated_mesh.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -34,19 +35,22 @@ void MatrixFlow::use_properties() {
 }
 
 void MatrixFlow::check_mobility() {
-  long sealed = 0;
-  for (const Tensor& mobility : mobility_) {
+  long sealed = 0, cells = 0;
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    if (!is_in_cell(c)) continue;
+    const Tensor& mobility = mobility_[c];
+    ++cells;
     sealed += mobility.isZero(0);
     if (!mobility.isZero(0) && mobility(0, 0) * mobility(1, 1) <= mobility(0, 1) * mobility(1, 0))
       throw DataError(InputError(origin_, "the permeability is not positive definite",
                                  "fluid could not flow in one direction", "raise it in that direction")
                           .what());
   }
-  is_sealed_ = sealed == mesh_.cell_count();
+  is_sealed_ = sealed == cells;
   if (sealed > 0 && !is_sealed_)
     throw DataError(InputError(origin_, "the permeability is zero in a part of the rock",
                                "there is no pressure at the face of a cell that lets no fluid through",
-                               "give that part a very small permeability")
+                               "give that part a very small permeability, or name the others in 'regions'")
                         .what());
 }
 
@@ -54,10 +58,48 @@ void MatrixFlow::check_sides() const {
   for (const auto& [side, condition] : options_.boundary)
     if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
       throw unknown_name(condition.origin, "side of the boundary", side, mesh_.side_names);
-  for (const auto& [name, well] : options_.wells)
+  for (const auto& [name, well] : options_.wells) {
     if (well_cells_.at(name).empty())
       throw InputError(well.origin, "well '" + name + "' lies outside the rock", "there is no cell at its position",
                        "move it inside");
+    for (const auto& [cell, weight] : well_cells_.at(name))
+      if (!is_in_cell(cell))
+        throw InputError(well.origin, "well '" + name + "' lies in rock without a flow",
+                         "the region " + mesh_.region_names[mesh_.cell_region[cell]] + " is not one of 'regions'",
+                         "move it, or name the region");
+  }
+  for (const auto& [side, condition] : options_.boundary) {
+    bool is_reached = false;
+    for (int f = 0; f < mesh_.face_count() && !is_reached; ++f)
+      is_reached = mesh_.face_side[f] != none && mesh_.side_names[mesh_.face_side[f]] == side &&
+                   is_in_cell(mesh_.face_cells[f][0]);
+    if (!is_reached)
+      throw InputError(condition.origin, "the condition on side '" + side + "' has no effect",
+                       "none of 'regions' reaches this side", "remove it, or name the region there");
+  }
+}
+
+void MatrixFlow::find_regions() {
+  if (options_.regions.empty()) return;
+  if (face_pressure_)
+    throw InputError(options_.regions_origin, "this type of flow lives in all regions",
+                     "its unknowns are on faces as well", "take matrix_flow/mpfa, tpfa or ntpfa");
+  std::vector<char> is_named(mesh_.region_names.size(), 0);
+  for (const std::string& region : options_.regions) {
+    const auto found = std::find(mesh_.region_names.begin(), mesh_.region_names.end(), region);
+    if (found == mesh_.region_names.end())
+      throw unknown_name(options_.regions_origin, "region", region, mesh_.region_names);
+    is_named[found - mesh_.region_names.begin()] = 1;
+  }
+  std::vector<char> inside(mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) inside[c] = is_named[mesh_.cell_region[c]];
+  const auto cells = std::count(inside.begin(), inside.end(), 1);
+  if (cells == 0)
+    throw InputError(options_.regions_origin, "there is no flow anywhere", "no cell is in these regions",
+                     "name others");
+  if (cells == mesh_.cell_count()) return;
+  separated_ = separated_mesh(mesh_, inside);
+  inside_ = std::move(inside);
 }
 
 void MatrixFlow::place_wells() {
@@ -76,6 +118,10 @@ void MatrixFlow::use_storage() {
   SPREKK_ASSERT(storage_.values().size() == mesh_.cell_count(), storage_.values().size(), mesh_.cell_count());
   SPREKK_ASSERT(storage_.values().size() == 0 || storage_.values().minCoeff() >= 0, storage_.values().minCoeff());
   capacity_ = storage_.values().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()));
+  // Elsewhere any storage keeps the pressure.
+  const double largest = capacity_.maxCoeff();
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    if (!is_in_cell(c)) capacity_[c] = largest > 0 ? largest : 1;
   capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
 }
 

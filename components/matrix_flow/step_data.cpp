@@ -74,6 +74,7 @@ void MatrixFlow::evaluate_sources(const StepTime& step) {
   if (!options_.source.is_zero()) {
     FluidSource& spread = sources_.emplace_back(FluidSource{"source", {}});
     for (int c = 0; c < mesh_.cell_count(); ++c) {
+      if (!is_in_cell(c)) continue;
       const auto density = [&](const Point& at) {
         return value_in_step(options_.source, {at, mesh_.cell_region[c], 0}, step);
       };

@@ -272,6 +272,10 @@ class WellExchange : public Coupler {
     if (home == none)
       throw InputError(place.origin, "well '" + place.name + "' lies outside the " + medium_name(),
                        "there is no cell at its position", "move it inside");
+    if (!rock_->is_in_cell(home))
+      throw InputError(place.origin, "well '" + place.name + "' is open to rock without fluid",
+                       "the flow does not live in the region " + mesh_.region_names[mesh_.cell_region[home]],
+                       "move the well, or name the region in 'regions' of the flow");
     const Tensor& mobility = fluxes_->mobility()[home];
     if (!(mobility.determinant() > 0))
       throw InputError(place.origin, "well '" + place.name + "' is open to rock that lets no fluid through",

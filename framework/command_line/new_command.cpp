@@ -44,9 +44,10 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }  // namespace
 
 NewCommand::NewCommand(CLI::App& app, const std::vector<TemplateFile>& templates)
-    : command_(app.add_subcommand(
-          "new",
-          "Writes a folder with a component, a coupler, a law or an accelerator to start from, outside of this tree")),
+    : command_(app.add_subcommand("new",
+                                  "Writes a folder with a component, a coupler, a law, an accelerator or an output to "
+                                  "start from, outside of this "
+                                  "tree")),
       templates_(templates) {
   command_->add_option("kind", kind_, "What it is")->required()->check(CLI::IsMember(kinds()));
   command_->add_option("name", type_, "The name of its type, for example my_part or heat_flow/my_part")

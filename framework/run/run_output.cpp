@@ -62,23 +62,23 @@ void RunOutput::lock() {
   on_first_process([this] { lock_.emplace(folder_.path()); });
 }
 
-void RunOutput::open(const std::optional<Continued>& from, bool with_fields) {
-  on_first_process([&] { start_writing(from, with_fields); });
+void RunOutput::open(const std::optional<Continued>& from, const std::vector<FrameOutputChoice>& outputs) {
+  on_first_process([&] { start_writing(from, outputs); });
 }
 
-void RunOutput::start_writing(const std::optional<Continued>& from, bool with_fields) {
+void RunOutput::start_writing(const std::optional<Continued>& from, const std::vector<FrameOutputChoice>& outputs) {
   const std::filesystem::path folder = folder_.create();
   if (!lock_) lock_.emplace(folder);
   if (from) {
     history_ = TableWriter::continued(folder / "history.csv", from->time, history_rows(from->rows));
     coupling_ = TableWriter::continued(folder / "coupling.csv", from->time, coupling_rows(from->rows));
-    if (with_fields) fields_ = FieldOutput::continued(folder, from->time);
   } else {
     require_empty(folder);
     history_.emplace(folder / "history.csv");
     coupling_.emplace(folder / "coupling.csv");
-    if (with_fields) fields_.emplace(folder);
   }
+  const OutputPlace place{folder, from ? std::optional(from->time) : std::nullopt};
+  for (const FrameOutputChoice& output : outputs) outputs_.push_back(output.build(place));
 }
 
 void RunOutput::write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities) {
@@ -110,11 +110,12 @@ void RunOutput::write_iteration(const IterationRecord& record, const std::vector
   coupling_->append(record.time.end, row);
 }
 
-void RunOutput::write_fields(double time, int step, const Model& model, const std::vector<OutputField>& fields) {
-  if (!parallel::is_root() || !fields_) return;
+void RunOutput::write_frame(double time, int step, const Model& model, const std::vector<OutputField>& fields) {
+  if (!parallel::is_root()) return;
   std::vector<OutputLine> lines;
   for (PendingPath& path : model.pending_paths()) lines.push_back({path.fracture, std::move(path.points)});
-  fields_->write(time, step, model.mesh(), fields, lines);
+  const Frame frame{time, step, model.mesh(), fields, lines};
+  for (const auto& output : outputs_) output->write(frame);
 }
 
 RunOutput::Rows RunOutput::rows() const { return {history_ ? history_->rows() : 0, coupling_ ? coupling_->rows() : 0}; }

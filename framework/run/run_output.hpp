@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "framework/frame_output/registry.hpp"
 #include "framework/output/checkpoint.hpp"
-#include "framework/output/field_output.hpp"
 #include "framework/output/output_folder.hpp"
 #include "framework/output/run_lock.hpp"
 #include "framework/output/run_record.hpp"
@@ -37,11 +37,12 @@ class RunOutput {
 
   /// Creates the folder and locks it, or continues the tables that are in it. Throws InputError when another run has
   /// locked the folder, or when a table is missing. Collective.
-  void open(const std::optional<Continued>& from, bool with_fields);
+  void open(const std::optional<Continued>& from, const std::vector<FrameOutputChoice>& outputs);
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
   /// `equations`: the names of all that have a column.
   void write_iteration(const IterationRecord& record, const std::vector<std::string>& equations);
-  void write_fields(double time, int step, const Model& model, const std::vector<OutputField>& fields);
+  /// By all outputs.
+  void write_frame(double time, int step, const Model& model, const std::vector<OutputField>& fields);
   Rows rows() const;  ///< of the tables now; 0 on processes other than the first
   /// `rows`: those of the tables at the state of the checkpoint.
   void write_checkpoint(const Model& model, const Notes& notes, const Rows& rows, std::map<std::string, Vector> extra,
@@ -53,12 +54,12 @@ class RunOutput {
   std::filesystem::path checkpoint_path() const { return path() / "checkpoint.h5"; }
 
  private:
-  void start_writing(const std::optional<Continued>& from, bool with_fields);
+  void start_writing(const std::optional<Continued>& from, const std::vector<FrameOutputChoice>& outputs);
 
   OutputFolder folder_;
   std::optional<RunLock> lock_;
   std::optional<TableWriter> history_, coupling_;
-  std::optional<FieldOutput> fields_;
+  std::vector<std::unique_ptr<FrameOutput>> outputs_;  ///< on the first process
 };
 
 }  // namespace sprekk

@@ -82,6 +82,7 @@ class Simulation {
   Progress progress_;
   ActivityListener activities_{[this](const std::string& what) { progress_.part(what); }};
   RunOutput output_;
+  bool writes_frames_ = false;  ///< whether the scene has an output
   OutputTimes output_times_;
   std::optional<Restart> restart_;  ///< until it has been taken over
   std::optional<RunOutput::Continued> continued_;
@@ -129,17 +130,17 @@ IterationLog Simulation::log() {
   };
 }
 
-/// Writes the fields at the start of a new run.
+/// Writes the outputs at the start of a new run.
 void Simulation::write_start() {
   Model& model = *state_.model;
-  if (continued_ || !model.scene().output.fields) return;
+  if (continued_ || !writes_frames_) return;
   try {
     model.prepare(state_.controller.next());  // what the first step does first, and does not repeat
   } catch (const DataError&) {
     return;  // the first step says so
   }
   const ScopedTimer timer(profile_, "output");
-  output_.write_fields(state_.controller.time(), 0, model, model.output());
+  output_.write_frame(state_.controller.time(), 0, model, model.output());
 }
 
 ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
@@ -183,8 +184,8 @@ void Simulation::accept(const StepTime& step, const StepStatus& status) {
   for (const Part* part : model.parts()) part->note_step(state_.notes, step);
   state_.balance.note_step(model.balances(), state_.notes);
   early_end_.check(model, step, quantities);
-  const bool writes_fields = early_end_.is_reached() || output_times_.contains(step.end);
-  const std::vector<OutputField> fields = writes_fields ? model.output() : std::vector<OutputField>();
+  const bool writes_frame = writes_frames_ && (early_end_.is_reached() || output_times_.contains(step.end));
+  const std::vector<OutputField> fields = writes_frame ? model.output() : std::vector<OutputField>();
   recorder_.note_topology(model, step.end);
   SplittingError& splitting_error = state_.splitting_error;
   splitting_error.observe(growth_.changes());
@@ -201,7 +202,7 @@ void Simulation::accept(const StepTime& step, const StepStatus& status) {
   recorder_.note_splitting_errors(splitting_error.of_fields());
   const ScopedTimer timer(profile_, "output");
   output_.write_history(step, status.iterations, quantities);
-  if (writes_fields) output_.write_fields(step.end, state_.controller.steps(), model, fields);
+  if (writes_frame) output_.write_frame(step.end, state_.controller.steps(), model, fields);
 }
 
 bool Simulation::follow_growth() {
@@ -238,7 +239,9 @@ ExitCode Simulation::run() {
   reserve_blas_memory();
   recorder_.begin(*state_.model);
   const InterruptGuard interrupt;
-  output_.open(continued_, state_.model->scene().output.fields);
+  const std::vector<FrameOutputChoice> outputs = state_.model->scene().output.chosen_outputs();
+  writes_frames_ = !outputs.empty();
+  output_.open(continued_, outputs);
   output_.write_record(recorder_.record(), profile_);
   for (const NoteRecord& note : recorder_.record().notes) progress_.event("note: " + described(note));
   ExitCode code = ExitCode::failed;

@@ -1,12 +1,15 @@
 #include "framework/scene/model.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/lives_in_part.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/mesh/point_location.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/output/activity.hpp"
 #include "framework/output/vtu_writer.hpp"
@@ -81,6 +84,37 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
       std::ranges::any_of(scene_.output.probes, [&](const auto& probe) { return !fields_.has(probe.second.of); });
   const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_, outputs);
+  check_probes();
+  check_outputs();
+}
+
+void Model::check_probes() const {
+  for (const auto& [name, options] : scene_.output.probes)
+    for (const auto& component : components_) {
+      const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
+      if (!partial || partial->inhabited_cells().empty() || !options.of.starts_with(component->name() + ".")) continue;
+      const int home = options.at ? PointLocation(mesh_).cell_at(*options.at) : none;
+      for (int c = 0; c < mesh_.cell_count(); ++c) {
+        const bool counts =
+            options.at ? c == home
+                       : options.fracture.empty() &&
+                             (options.region.empty() || mesh_.region_names[mesh_.cell_region[c]] == options.region);
+        if (counts && !partial->inhabited_cells()[c])
+          throw InputError(
+              options.origin, "probe '" + name + "' reaches where there is no value",
+              "'" + component->name() + "' does not live in the region " + mesh_.region_names[mesh_.cell_region[c]],
+              "take a region, or a point, in which it does");
+      }
+    }
+}
+
+void Model::check_outputs() const {
+  std::vector<FrameOutputChoice> outputs = scene_.output.chosen_outputs();
+  std::erase_if(outputs, [](const FrameOutputChoice& output) { return !output.check; });
+  if (outputs.empty()) return;
+  const std::vector<OutputField> fields = output();
+  const Frame start{scene_.time.start, 0, mesh_, fields, {}};
+  for (const FrameOutputChoice& output : outputs) output.check(start);
 }
 
 void Model::make_start(const ScheduleContext& context) {
@@ -306,7 +340,21 @@ std::vector<OutputField> Model::output() const {
   for (const auto& field : fields_.all())
     if (!field->spec().role.is_derived() && field->size() > 0) fields.push_back(output_field(*field));
   for (OutputField& field : derived_output()) fields.push_back(std::move(field));
+  hide_uninhabited(fields);
   return fields;
+}
+
+void Model::hide_uninhabited(std::vector<OutputField>& fields) const {
+  for (const auto& component : components_) {
+    const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
+    if (!partial || partial->inhabited_cells().empty()) continue;
+    for (OutputField& field : fields)
+      if (field.location == Location::cell && field.name.starts_with(component->name() + "."))
+        for (int c = 0; c < mesh_.cell_count(); ++c)
+          if (!partial->inhabited_cells()[c])
+            field.values.segment(c * field.components, field.components)
+                .setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 std::vector<OutputField> Model::derived_output() const {

@@ -65,6 +65,10 @@ class Model {
 
  private:
   void make_start(const ScheduleContext& context);
+  void check_probes() const;
+  void check_outputs() const;
+  /// Sets NaN where a component does not live (LivesInPart).
+  void hide_uninhabited(std::vector<OutputField>& fields) const;
   void check_determined() const;
   void check_stages() const;
   void check_data();

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "framework/config/data_reader.hpp"
@@ -24,9 +25,11 @@ Spec OutputOptions::spec() {
   spec.quantity("every", every,
                 {.unit = "s",
                  .range = positive(),
-                 .doc = "Fields are written at the multiples of this after the start; by default at the end only."});
-  spec.quantities("times", times, {.unit = "s", .doc = "Further times at which fields are written."});
-  spec.flag("fields", fields, {.doc = "Whether fields are written for ParaView."});
+                 .doc = "Outputs are written at the multiples of this after the start; by default at the end only."});
+  spec.quantities("times", times, {.unit = "s", .doc = "Further times at which outputs are written."});
+  outputs_.clear();
+  for (const FrameOutputRegistry::Type& type : FrameOutputRegistry::instance().types())
+    outputs_.push_back(type.declare(spec));
   spec.flag(
       "splitting_error", splitting_error,
       {.doc = "Whether the splitting error is estimated where a schedule solves in turn without iterating, at the cost "
@@ -44,6 +47,12 @@ Spec OutputOptions::spec() {
                       },
                       {.doc = "Figures for history.csv by name."});
   return spec;
+}
+
+std::vector<FrameOutputChoice> OutputOptions::chosen_outputs() const {
+  std::vector<FrameOutputChoice> chosen;
+  std::ranges::copy_if(outputs_, std::back_inserter(chosen), [](const auto& output) { return output.is_chosen(); });
+  return chosen;
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "framework/assembly/notes.hpp"
 #include "framework/config/spec.hpp"
+#include "framework/frame_output/registry.hpp"
 #include "framework/meshing/geometry.hpp"
 #include "framework/scene/probe.hpp"
 #include "framework/scene/registry.hpp"
@@ -21,11 +22,15 @@ namespace sprekk {
 struct OutputOptions {
   std::optional<double> every;  ///< s
   std::vector<double> times;    ///< s
-  bool fields = true;
   bool splitting_error = true;
   std::optional<double> checkpoint_every;  ///< s of wall time
   std::map<std::string, ProbeOptions> probes;
   Spec spec();
+  /// What is written at the times of output.
+  std::vector<FrameOutputChoice> chosen_outputs() const;
+
+ private:
+  std::vector<FrameOutputChoice> outputs_;  ///< all that are registered
 };
 
 /// A scene with checked parameters, and builders for its parts and its schedule.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""gallery_test.py: the README begins with the film, and shows every scene of configs/ with a picture that tools/gallery draws. Then
-checks itself."""
+"""gallery_test.py: the README begins with the film, and shows every scene of configs/ with a picture that tools/gallery draws;
+docs/gallery.md has the picture of each, how its file begins, and its commands. Then checks itself."""
 
 import re
 import sys
@@ -27,6 +27,18 @@ def problems(readme, scenes, drawn, exists):
             yield f"tools/gallery does not draw {scene}"
 
 
+def problems_of_page(page, scenes, text_of):
+    rows = {name: row for row in page.splitlines() for name in re.findall(r"\| !\[(\w+)\]\(pictures/gallery/\1\.png\)", row)}
+    for scene in scenes:
+        name = scene.split("/")[-1].removesuffix(".yaml")
+        row = rows.get(name, "")
+        # The first line of a file is not always a whole sentence.
+        begin = text_of(scene).splitlines()[0].removeprefix("# ").split(". ")[0]
+        for word in (f"](../{scene}): {begin}", f"`sprekk run {scene}`", f"`tools/gallery {name}`"):
+            if word not in row:
+                yield f"docs/gallery.md does not have {word} (run tools/gallery --page)"
+
+
 SCENES = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "configs").rglob("*.yaml") if "studies" not in path.parts)
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 GALLERY = (ROOT / "tools/gallery").read_text(encoding="utf-8")
@@ -40,6 +52,16 @@ for planted in (problems(README, [*SCENES, "configs/tutorial/planted.yaml"], GAL
                 problems(README.replace("wings.gif", "wings.png"), SCENES, GALLERY, exists),
                 problems(README, SCENES, "", exists), problems(README, SCENES, GALLERY, lambda path: False)):
     assert list(planted), "a planted mistake is not noticed"
-found = list(problems(README, SCENES, GALLERY, exists))
+PAGE = (ROOT / "docs/gallery.md").read_text(encoding="utf-8")
+
+
+def text_of(scene):
+    return (ROOT / scene).read_text(encoding="utf-8")
+
+
+for planted in (problems_of_page(PAGE.replace("`sprekk run configs/tutorial/", "`sprekk run tutorial/"), SCENES, text_of),
+                problems_of_page(PAGE, SCENES, lambda scene: "# Planted.\n")):
+    assert list(planted), "a planted mistake is not noticed"
+found = [*problems(README, SCENES, GALLERY, exists), *problems_of_page(PAGE, SCENES, text_of)]
 print(*found, f"{len(SCENES)} scenes, {len(found)} problems", sep="\n")
 sys.exit(1 if found else 0)

@@ -91,6 +91,7 @@ with tempfile.TemporaryDirectory() as name:
     make(scratch_folder, "coupler", "leakage", build_folder)
     make(scratch_folder, "law", "mated_badly", build_folder)
     make(scratch_folder, "accelerator", "alternating", build_folder)
+    make(scratch_folder, "output", "extremes", build_folder)
     expect(call(cmake, "--install", build_folder, "--prefix", str(scratch_folder / "prefix")), 0)
     program = str(scratch_folder / "prefix/bin/sprekk")
     component, library_file = make(scratch_folder, "component", "heat_flow/decay_of_heat", scratch_folder / "prefix/lib/cmake/sprekk")

@@ -1,0 +1,56 @@
+#include "components/matrix_flow/flow_inside.hpp"
+
+#include <algorithm>
+
+#include "framework/invariants.hpp"
+
+namespace sprekk::matrix_flow {
+
+FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, const Mesh& separated,
+                                const std::vector<char>& inside, const std::vector<char>& nodes) {
+  const Mesh& mesh = flow.mesh;
+  SPREKK_EXPECT(separated.face_count() >= mesh.face_count(), separated.face_count(), mesh.face_count());
+  std::vector<FlowCondition> conditions = flow.conditions;
+  conditions.resize(separated.face_count());
+  for (int face = 0; face < separated.face_count(); ++face)
+    if (face >= mesh.face_count() || mesh.face_cells[face][1] != none)
+      conditions[face] = separated.face_cells[face][1] == none ? FlowCondition::flux : FlowCondition::none;
+  std::vector<char> wanted(separated.node_count(), 0);
+  for (int node = 0; node < separated.node_count(); ++node)
+    wanted[node] = inside[separated.node_cells[node][0]] && (nodes.empty() || nodes[node]);
+  // Cells that are not discretized must have some mobility, which reaches nothing.
+  std::vector<Tensor> mobility = flow.mobility;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    if (!inside[cell]) mobility[cell] = Tensor::Identity();
+
+  FluxOperators made = discretize(separated, mobility, conditions, wanted);
+  // Faces between the two are inner faces of the whole mesh: nothing is prescribed there, and nobody asks for traces.
+  std::vector<char> keeps(separated.face_count(), 0);
+  for (int face = 0; face < mesh.face_count(); ++face)
+    keeps[face] = separated.face_cells[face] == mesh.face_cells[face] && inside[mesh.face_cells[face][0]];
+  const auto reduce = [&](SparseMatrix& matrix, bool has_faces) {
+    if (matrix.rows() == 0) return;
+    std::vector<Triplet> entries;
+    for (int row = 0; row < mesh.face_count(); ++row)
+      if (keeps[row])
+        for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry)
+          if (!has_faces || (entry.col() < mesh.face_count() && keeps[entry.col()]))
+            entries.emplace_back(row, entry.col(), entry.value());
+    SparseMatrix reduced(mesh.face_count(), has_faces ? mesh.face_count() : mesh.cell_count());
+    reduced.setFromTriplets(entries.begin(), entries.end());
+    matrix.swap(reduced);
+  };
+  reduce(made.flux_cell, false);
+  reduce(made.trace_cell, false);
+  for (SparseMatrix* of_faces :
+       {&made.flux_boundary, &made.flux_change, &made.trace_boundary, &made.trace_change, &made.blended_nodes})
+    reduce(*of_faces, true);
+  for (OneSidedFluxOperators& one : made.limited) {
+    reduce(one.cell, false);
+    reduce(one.boundary, true);
+    reduce(one.change, true);
+  }
+  return made;
+}
+
+}  // namespace sprekk::matrix_flow

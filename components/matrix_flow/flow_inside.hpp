@@ -1,0 +1,17 @@
+// A discretization of the flux in some of the cells, whose outer boundary lets nothing through.
+#pragma once
+
+#include <vector>
+
+#include "components/matrix_flow/rediscretize.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// The operators that `discretize` gives for the cells `inside` (one flag a cell) alone: no flux passes a face between
+/// one of them and another cell, whatever the mesh around. `separated` is the mesh cut along these faces
+/// (separated_mesh), `nodes` those of it that the process discretizes (none for all). Rows and columns are those of
+/// `flow.mesh`; what belongs to other cells is empty. The mobility of other cells is not used.
+FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, const Mesh& separated,
+                                const std::vector<char>& inside, const std::vector<char>& nodes);
+
+}  // namespace sprekk::matrix_flow

@@ -1,0 +1,38 @@
+// Outputs: what a run writes at its times of output, each by a class of its own.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "framework/field/output_field.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+struct OutputLine;
+
+/// The state at a time of output, whole.
+struct Frame {
+  double time;  ///< s
+  int step;     ///< accepted steps so far; 0 at the start
+  const Mesh& mesh;
+  const std::vector<OutputField>& fields;  ///< unknowns and inputs, then what parts write beside their fields
+  const std::vector<OutputLine>& lines;    ///< by which fractures are longer than the mesh has them
+};
+
+/// Where an output writes, and from when on.
+struct OutputPlace {
+  std::filesystem::path folder;          ///< of the run; it exists
+  std::optional<double> continued_from;  ///< s, of a run that goes on: what is later in files of before is replaced
+};
+
+/// One output of a run. It exists on the first process only, and calls nothing that all processes take part in.
+class FrameOutput {
+ public:
+  virtual ~FrameOutput() = default;
+  /// Throws std::runtime_error when a file cannot be written.
+  virtual void write(const Frame& frame) = 0;
+};
+
+}  // namespace sprekk
