@@ -476,6 +476,33 @@ TEST(Buoyancy, WaterIsThatOfTheTables) {
   }
 }
 
+/// Reference: the factor 1/(1 − rate · step) of a mode, which is between −1 and 0 for steps above 2/rate.
+TEST(Buoyancy, LongStepsThatHoldHeavyFluidUpAreNoted) {
+  const auto is_noted = [](Square square, double dt) {
+    square.mesh = squares(8);
+    square.time = fmt::format("{{end: {} s, step: {} s}}", 2 * dt, dt);
+    SceneRun run = SceneRun::from_text(square.text());
+    bool found = false;
+    run.run_until(2 * dt, [&] {
+      Notes notes;
+      for (const Part* part : run.model().parts()) part->note_step(notes, {run.time() - dt, dt, run.time()});
+      for (const Notes::Note& note : notes.all())
+        found = found || note.text.find("lies above lighter one") != std::string::npos;
+    });
+    return found;
+  };
+  Square heated_below;
+  heated_below.gravity = {0, -200};
+  heated_below.temperature = "1 - y + 1e-5*cos(pi*x)*sin(pi*y)";
+  EXPECT_TRUE(is_noted(heated_below, 0.1));
+  EXPECT_FALSE(is_noted(heated_below, 0.004));
+  Square stable = heated_below;
+  stable.gravity = {0, 200};
+  EXPECT_FALSE(is_noted(stable, 0.1));
+  Square moving = from_side();
+  EXPECT_FALSE(is_noted(moving, 0.1));
+}
+
 TEST(Buoyancy, MistakesAreRefused) {
   const auto has = [](std::string text, const std::string& from, const std::string& to, const std::string& words) {
     ASSERT_NE(text.find(from), std::string::npos) << from;
