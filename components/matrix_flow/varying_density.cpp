@@ -13,9 +13,9 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-/// A mode that grows with the rate r is multiplied by 1/(1 − r dt) in a step of backward Euler: it is damped, instead,
-/// from r dt = 2 on, and changes its sign from 1 on.
-constexpr double most_growth = 1;
+/// Of the rate r at most, times the step: cells as wide as high grow with r/2, less what conduction takes from them,
+/// and backward Euler multiplies what grows with the rate s by 1/(1 − s dt): it is damped from s dt = 2 on.
+constexpr double most_growth = 4;
 /// Of the velocity that the whole range of densities would drive; convection that has begun has some tenths.
 constexpr double hardly_moves = 0.01;
 
