@@ -16,6 +16,7 @@
 namespace sprekk::couplers {
 namespace {
 
+constexpr double room_temperature = 293.15;   // K
 constexpr double ice_point = 273.15;          // K
 constexpr double coldest = 0, hottest = 150;  // degrees Celsius, of the law for water
 constexpr double most_that_varies = 0.05;     // of the density; beyond it a note says what is neglected
@@ -24,7 +25,7 @@ struct BuoyancyOptions {
   std::string law = "linear";
   double fluid_density = 1000;
   double fluid_expansion = 0;
-  double reference_temperature = 293.15;
+  double reference_temperature = room_temperature;
   double compressibility = 0;
   double reference_pressure = 0;
   bool has_expansion = false, has_temperature = false;
@@ -104,16 +105,16 @@ class DensityLaw {
     return {value + slope * (t - within), slope};
   }
   static std::array<double, 2> kell(double t) {
-    constexpr std::array<double, 6> a = {999.83952,     16.945176,    -7.9870401e-3,
-                                         -46.170461e-6, 105.56302e-9, -280.54253e-12};
-    constexpr double b = 16.879850e-3;
+    constexpr std::array<double, 6> numerator = {999.83952,     16.945176,    -7.9870401e-3,
+                                                 -46.170461e-6, 105.56302e-9, -280.54253e-12};
+    constexpr double denominator = 16.879850e-3;
     double sum = 0, slope = 0;
     for (int k = 5; k >= 0; --k) {
       slope = slope * t + sum;
-      sum = sum * t + a[k];
+      sum = sum * t + numerator[k];
     }
-    const double below = 1 + b * t;
-    return {sum / below, (slope - sum * b / below) / below};
+    const double below = 1 + denominator * t;
+    return {sum / below, (slope - sum * denominator / below) / below};
   }
 
   const BuoyancyOptions& options_;

@@ -14,6 +14,7 @@ namespace sprekk {
 /// The density of a fluid as a function of fields, one value a cell of the rock or of the fractures.
 class FluidDensity {
  public:
+  /// At the start of a step, or at its end as far as it has been found.
   enum class State { accepted, now };
   virtual ~FluidDensity() = default;
   /// kg/m^3.

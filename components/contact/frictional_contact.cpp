@@ -332,6 +332,13 @@ void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
   if (rate_and_state_) rate_and_state_->note_step(name(), traction_.now(), slips(), notes);
 }
 
+std::string FrictionalContact::loss_of_one_stage() const {
+  if (!rate_and_state_) return "";
+  return "recurrence times and peak slip rates of '" + name() +
+         "' are of first order in 'state_change' (0.6 % and 8 % too small in the cycle of a spring-slider at 0.1, "
+         "against 5e-6 and 3e-4)";
+}
+
 void FrictionalContact::note_input(Notes& notes) const {
   if (rate_and_state_) rate_and_state_->note_input(name(), notes);
 }

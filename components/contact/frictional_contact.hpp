@@ -12,6 +12,7 @@
 #include "components/contact/multiplier.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/gains_from_stages.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
@@ -58,6 +59,7 @@ class FrictionalContact : public Component,
                           public FractureContact,
                           public IterateDependent,
                           public CountsFromHere,
+                          public GainsFromStages,
                           public LimitsStep {
  public:
   /// `stiffness_factor`: c over the stiffness of the rock against a jump of the cell.
@@ -94,6 +96,7 @@ class FrictionalContact : public Component,
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
+  std::string loss_of_one_stage() const override;
   void note_step(Notes& notes, const StepTime& step) const override;
   void accepted() override;
   void save(std::map<std::string, Vector>& state) const override;

@@ -177,6 +177,8 @@ class MatrixFlow : public Component,
   void assemble_limited(Assembly& assembly, const Flow& flow, double dt) const;
   /// Of a density that varies: what it gives in this step; the derivatives of balances and of the equations on faces.
   void use_density();
+  /// Notes steps in which heavy fluid stays above lighter one because backward Euler damps what would grow.
+  void note_heavy_above(Notes& notes, const StepTime& step) const;
   void assemble_density(Assembly& assembly, const Flow& flow, double dt) const;
   void assemble_density_on_faces(Assembly& assembly, double dt) const;
   /// Derivatives of the fluxes through faces, faces × values of a field.

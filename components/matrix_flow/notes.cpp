@@ -31,6 +31,7 @@ void MatrixFlow::note_input(Notes& notes) const {
 
 void MatrixFlow::note_step(Notes& notes, const StepTime& step) const {
   note_fluxes(notes, step);
+  if (buoyancy_) note_heavy_above(notes, step);
   const Vector& pressure = pressure_.now();
   Eigen::Index lowest = 0, largest = 0;
   const double smallest = pressure.minCoeff(&lowest), most = pressure.cwiseAbs().maxCoeff(&largest);

@@ -1,4 +1,9 @@
 // The flow of a fluid whose weight follows a density that varies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/invariants.hpp"
@@ -6,6 +11,15 @@
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {
+namespace {
+
+/// Of the rate r at most, times the step: cells as wide as high grow with r/2, less what conduction takes from them,
+/// and backward Euler multiplies what grows with the rate s by 1/(1 − s dt): it is damped from s dt = 2 on.
+constexpr double most_growth = 4;
+/// Of the velocity that the whole range of densities would drive; convection that has begun has some tenths.
+constexpr double hardly_moves = 0.01;
+
+}  // namespace
 
 void MatrixFlow::accept_density(const FluidDensity& in_rock, const FluidDensity* in_fractures) {
   SPREKK_EXPECT(has_gravity() && !buoyancy_, name());
@@ -39,6 +53,35 @@ std::vector<std::pair<const Field*, SparseMatrix>> MatrixFlow::fluxes_by_density
   for (const FluidDensity::Derivative& by : buoyancy_->derivatives())
     derivatives.emplace_back(by.field, of_density * by.values.asDiagonal());
   return derivatives;
+}
+
+void MatrixFlow::note_heavy_above(Notes& notes, const StepTime& step) const {
+  const Vector density = buoyancy_->excess(FluidDensity::State::now), &fluxes = face_fluxes();
+  // An excess of the density moves fluid with M g d, which brings density from above: d' = M g d drho/dz, and a little
+  // more where the rock stores less heat than the fluid.
+  double growth = 0, speed = 0, driven = 0;
+  const double range = density.maxCoeff() - density.minCoeff();
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const auto [cell, other] = mesh_.face_cells[f];
+    if (mesh_.cell_rank[cell] != parallel::rank()) continue;
+    speed = std::max(speed, std::abs(fluxes[f]) / mesh_.face_measure[f]);
+    if (other == none) continue;
+    const Point gravity = options_.gravity.at({mesh_.face_center[f], 0, 0});
+    const double conducts = gravity.dot(mobility_[cell] * gravity) / gravity.squaredNorm();
+    const Point between = mesh_.cell_center[other] - mesh_.cell_center[cell];
+    growth =
+        std::max(growth, conducts * (density[cell] - density[other]) * between.dot(gravity) / between.squaredNorm());
+    driven = std::max(driven, conducts * gravity.norm() * range);
+  }
+  growth = step.dt * parallel::max(growth);
+  if (growth > most_growth && parallel::max(speed) < hardly_moves * parallel::max(driven))
+    notes.add(
+        name() + ": heavy fluid stays above lighter fluid",
+        fmt::format("heavier fluid of '{}' lies above lighter one and hardly moves, in a step {:.2g} times as long "
+                    "as the time in which convection could grow (so long a step damps it, also where it would "
+                    "begin) take steps below {:.2g} s until fluid moves, if it is to",
+                    name(), growth, step.dt / growth),
+        growth);
 }
 
 void MatrixFlow::assemble_density(Assembly& assembly, const Flow& flow, double dt) const {

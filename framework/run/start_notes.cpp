@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/assembly/gains_from_stages.hpp"
 #include "framework/linear/direct/blas_memory.hpp"
 #include "framework/mesh/network_shape.hpp"
 #include "framework/mesh/planar.hpp"
@@ -62,12 +63,26 @@ void note_pockets(const Mesh& mesh, Notes& notes) {
                         others(small.size() - 1, "pockets have few")));
 }
 
+/// Recommends two stages to a run with one, where all parts allow them.
+void note_stages(const Model& model, Notes& notes) {
+  if (model.scene().time.scheme != TimeScheme::backward_euler) return;
+  if (!std::ranges::all_of(model.parts(), &Part::allows_stages)) return;
+  for (const Part* part : model.parts()) {
+    const auto* gains = dynamic_cast<const GainsFromStages*>(part);
+    const std::string loss = gains ? gains->loss_of_one_stage() : "";
+    if (!loss.empty())
+      notes.add("one stage where two are far better",
+                "with backward_euler " + loss + " set time.scheme to sdirk2, which every part of this scene allows");
+  }
+}
+
 }  // namespace
 
 Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns) {
   Notes notes = model.input_notes();
   note_angles(model.mesh(), notes);
   note_pockets(model.mesh(), notes);
+  note_stages(model, notes);
   if (blas_in_use().is_reference)
     notes.add("reference BLAS",
               "the reference BLAS is in use, which makes sparse factorizations several times slower: "

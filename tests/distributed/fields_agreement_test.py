@@ -5,7 +5,8 @@ Fractures that cross, closed at first, and opened by fluid that is injected into
 the opening where they cross is 0.675 of a single crack's (configs/verification/pressurized_cross.yaml), on two
 processes as on one. And rock whose pressures no flow smooths in so short a step, where cells around a node exchange
 volume, on a mesh that grows fast from a fracture and has nodes of both processes. And heat that water carries from an
-injection and a well through crossing fractures and rock, which it loads.
+injection and a well through crossing fractures and rock, which it loads; the same with water whose density follows
+temperature and pressure, under gravity, for all discretizations of the flow.
 """
 
 import subprocess
@@ -133,6 +134,9 @@ time: {end: 10 h, step: 1 h}
 output: {every: 5 h}
 """
 
+BUOYANT = (HEAT.replace("poisson_ratio: 0.2}", "poisson_ratio: 0.2, gravity: [3 m/s^2, -9 m/s^2], fluid_expansion: 2.0e-3 1/K}").replace("end: 10 day", "end: 4 day")
+           .replace("schedule:", "  - {type: buoyancy, between: [pore, conduit, heat, water], law: exponential, compressibility: 1.0e-8 1/Pa}\nschedule:"))
+
 
 def other_components(order, contact):
     return (SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0").replace("contact/coulomb", f"contact/{contact}")
@@ -188,8 +192,9 @@ with tempfile.TemporaryDirectory() as temporary:
     for name, text in (("closed cross", CLOSED_CROSS), ("short steps", SHORT_STEPS),
                        ("mixed elements", SHORT_STEPS.replace("matrix_flow/mpfa", "matrix_flow/rt0")),
                        ("other components", other_components("second", "augmented_lagrangian")),
-                       ("other components of first order", other_components("first", "penalty")), ("heat", HEAT), ("wells", WELLS)):
-        scene = Path(temporary) / f"{name.replace(' ', '_')}.yaml"
+                       ("other components of first order", other_components("first", "penalty")), ("heat", HEAT), ("wells", WELLS),
+                       *((f"buoyant, {flow}", BUOYANT.replace("matrix_flow/mpfa", f"matrix_flow/{flow}")) for flow in ("mpfa", "rt0", "ntpfa"))):
+        scene = Path(temporary) / f"{name.replace(' ', '_').replace(',', '')}.yaml"
         scene.write_text(text)
         alone = run([program], scene, scene.with_suffix(".one"))
         together = run([mpiexec, "-n", "2", program], scene, scene.with_suffix(".two"))

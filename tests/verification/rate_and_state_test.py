@@ -210,6 +210,12 @@ couplers: [{type: wall_traction, between: [rock, contact, conduit]}]
         self.assertIn("nothing limits its rate", (answer := self.call("check", scene)).stdout + answer.stderr)
         self.assertEqual(answer.returncode, 0)
 
+    def test_two_stages_are_recommended(self):
+        for setting, is_noted in (("time.scheme=sdirk2", False), ("time.scheme=backward_euler", True)):
+            answer = self.call(["check"], SLIDER, setting)
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+            self.assertEqual("set time.scheme to sdirk2" in answer.stdout + answer.stderr, is_noted, answer.stdout + answer.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
