@@ -27,6 +27,8 @@ class RockState {
   virtual Vector pore_stress() const = 0;
   /// What is there of the initial stress of a cell at a point x, Pa, (xx, yy, xy); part of it where rock is taken away.
   virtual SymmetricTensor initial_stress(int cell, const Point& x) const = 0;
+  /// Whether the initial stress at a place may become another one in the run.
+  virtual bool initial_stress_changes() const = 0;
   /// Whether there is any weight or body force.
   virtual bool has_body_force() const = 0;
   /// The weight of the rock and the body force at a point x of a cell at the end of the step, N/m^3, (x, y).

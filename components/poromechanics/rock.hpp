@@ -39,6 +39,7 @@ class Rock : public Component,
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
   void count_from_here() override;
+  bool has_settled_reference() const override { return settled_.has_value(); }
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
@@ -64,6 +65,7 @@ class Rock : public Component,
   Vector outer_displacement() const override;
   Vector pore_stress() const override;
   SymmetricTensor initial_stress(int cell, const Point& x) const override;
+  bool initial_stress_changes() const override { return !stiffness_.excavation().is_empty(); }
   bool has_body_force() const override { return options_.has_body_force(); }
   Point body_force(int cell, const Point& x) const override;
   std::optional<LameParameters> stiffness(int cell) const override { return stiffness_.lame(cell); }

@@ -160,14 +160,18 @@ class TwoLevel : public Coupler, public TipSurroundings {
   StressOffsets stress_offsets(const std::vector<Point>& places) const override {
     std::vector<NodalValues::Place> found;
     found.reserve(places.size());
-    Eigen::Matrix<double, symmetric_components, Eigen::Dynamic> initial(symmetric_components, places.size());
+    std::vector<int> cells;
     for (const Point& x : places) {
-      const int cell = cell_at(x);
-      initial.col(found.size()) = rock_.initial_stress(cell, x);
-      found.push_back(pore_stress_.place(cell, x));
+      cells.push_back(cell_at(x));
+      found.push_back(pore_stress_.place(cells.back(), x));
     }
-    return [this, found = std::move(found), initial = std::move(initial)] {
-      auto offsets = initial;
+    const auto initial_stress = [this, places, cells = std::move(cells)] {
+      Eigen::Matrix<double, symmetric_components, Eigen::Dynamic> initial(symmetric_components, places.size());
+      for (std::size_t i = 0; i < places.size(); ++i) initial.col(i) = rock_.initial_stress(cells[i], places[i]);
+      return initial;
+    };
+    return [this, found = std::move(found), initial = initial_stress(), initial_stress] {
+      auto offsets = rock_.initial_stress_changes() ? initial_stress() : initial;
       for (std::size_t i = 0; i < found.size(); ++i)
         offsets.col(i).head<dimension>().array() += pore_stress_.at<1>(found[i])[0];
       return offsets;

@@ -12,6 +12,8 @@ class CountsFromHere {
   /// Makes the present state the reference: the unknowns become zero, and nothing else of the state changes. To be
   /// called after the state has been settled, with parts that have begun a step.
   virtual void count_from_here() = 0;
+  /// Whether it counts from a state that was settled, of which it keeps more than fields: not on another mesh.
+  virtual bool has_settled_reference() const { return false; }
 };
 
 }  // namespace sprekk

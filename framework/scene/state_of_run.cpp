@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/topology_hash.hpp"
@@ -182,6 +183,12 @@ void take_state_of_run(const std::string& from, Model& model) {
   for (Part* part : model.parts()) {
     part->restore(run.checkpoint.extra);
     if (auto* keeps = dynamic_cast<KeepsTotals*>(part)) keeps->begin_totals();
+    const auto* counts = dynamic_cast<const CountsFromHere*>(part);
+    if (counts && counts->has_settled_reference() && !model.growing().empty())
+      throw unfit(
+          model, "a scene whose fractures grow does not start from '" + from + "'",
+          "changes are counted from a state that was settled there, which a mesh that has changed does not know",
+          "start from a run without 'settle', or remove the 'grow' step");
   }
   model.accept();
 }

@@ -75,6 +75,30 @@ class BoundaryElement(CrackScenes):
                 for tip in self.factors(scene(wings(mirror), size, -20e6, 0.0, friction=0.3)):
                     self.assertLess(abs(tip[0] / k1 - 1), bound, (mirror, size))
 
+    def test_wings_turned_disturbed_and_on_two_processes(self):
+        k1 = 0.13885 * 20e6 * math.sqrt(math.pi * A)
+
+        def turned(degrees, stress=-20.0, mirror=1):
+            c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+            points = [(c * x - s * y, s * x + c * y) for x, y in wings(mirror)]
+            text = scene(points, "10 mm", friction=0.3, initial=f"initial_stress: {{xx: {stress * c * c!r} MPa, "
+                         f"yy: {stress * s * s!r} MPa, xy: {stress * s * c!r} MPa}}")
+            for held in ("left: {displacement_x: 0 m}", "bottom: {displacement_y: 0 m}", "right: {normal_stress: 0.0 Pa}",
+                         "top: {normal_stress: 2000000.0 Pa}"):
+                self.assertIn(held, text)
+                text = text.replace(held, held.split(":")[0] + ": {displacement: [0 m, 0 m]}")
+            return text
+
+        plain = factors(turned(35))
+        for found in (plain, factors(turned(-70)), factors(turned(160, mirror=-1))):
+            for tip in found:
+                self.assertLess(abs(tip[0] / k1 - 1), 0.01, found)
+        moved, two = factors(turned(35, -20.0 * (1 + 1e-9))), factors(turned(35), 2)
+        for end in range(2):
+            for k in range(2):
+                self.assertAlmostEqual(moved[end][k] / k1, plain[end][k] / k1, delta=1e-8)
+                self.assertAlmostEqual(two[end][k] / k1, plain[end][k] / k1, delta=1e-9)
+
     def test_twins(self):
         plain = self.factors(scene(crack(27)))
         scale = math.hypot(*plain[0])

@@ -212,6 +212,19 @@ class Start(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("the state of 'rock' is left behind", done.stderr)
 
+    def test_growth_does_not_begin_with_a_settled_run(self):
+        # The fine level has no settled stress, nor has a mesh that has changed: K would be half as large.
+        self.rows("settled", changed(WEIGHT, ("ROCK", "mpsa")))
+        self.rows("plain", changed(WEIGHT, ("ROCK", "mpsa"), ("start: {settle: [rock, contact]}\n", "")))
+        tips = changed(WEIGHT, ("ROCK", "mpsa"), ("couplers: [", "  tips: {type: fine_fracture/quarter_point, size: 10 m}\n"
+                       "couplers: [{type: two_level, between: [rock, tips]}, "), ("time: {end: 4 s", "time: {start: 4 s, end: 6 s"),
+                       ("{solve: [rock, contact]}", "{solve: [rock, contact]}, {grow: tips, settle: [rock, contact]}"))
+        for other, code in (("settled", 2), ("plain", 0)):
+            text = changed(tips, ("start: {settle: [rock, contact]}", f"start: {{from: {other}}}"))
+            done = self.call("second", text, command="check")
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertEqual("changes are counted from a state that was settled there" in done.stderr, code == 2, done.stderr)
+
     def test_settled_run_goes_on_from_its_checkpoint(self):
         for rock in ("mpsa", "fem"):
             scene = changed(WEIGHT, ("ROCK", rock))

@@ -46,6 +46,7 @@ class FemRock : public Component,
   /// Not at first order: what stabilizes it is no stress of cells.
   void require_countable() const override;
   void count_from_here() override;
+  bool has_settled_reference() const override { return settled_.has_value(); }
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
   void output(std::vector<OutputField>& fields) const override;
@@ -68,6 +69,7 @@ class FemRock : public Component,
   Vector outer_displacement() const override;
   Vector pore_stress() const override;
   SymmetricTensor initial_stress(int cell, const Point& x) const override;
+  bool initial_stress_changes() const override { return !stiffness_.excavation().is_empty(); }
   bool has_body_force() const override { return options_.has_body_force(); }
   Point body_force(int cell, const Point& x) const override;
   std::optional<LameParameters> stiffness(int cell) const override { return stiffness_.lame(cell); }

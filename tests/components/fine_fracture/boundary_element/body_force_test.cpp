@@ -1,4 +1,5 @@
 // The weight of the rock on a fine level of boundary elements: a particular solution is added to the crack in a plate.
+#include "components/fine_fracture/boundary_element/boundary_model.hpp"
 #include "tests/components/fine_fracture/body_forces.hpp"
 #include "tests/components/fine_fracture/boundary_element/cases.hpp"
 

@@ -1,4 +1,5 @@
 // The weight of the rock on a fine level of elements: a particular solution is added to the crack in a plate.
+#include "components/fine_fracture/quarter_point/elasticity/model.hpp"
 #include "tests/components/fine_fracture/body_forces.hpp"
 
 namespace sprekk::test {
