@@ -39,6 +39,9 @@ class FractureFluid {
   virtual double conductance(int cell) const = 0;
   /// The part of the aperture of a fracture cell that has fluid in it: 1, unless the pressure has a lower bound.
   virtual double filled_part(int cell) const = 0;
+  /// Whether there is a flow in a fracture cell. Where there is none, the fracture is dry: its pressure is zero,
+  /// nothing passes through its walls, and no part may add anything to the row of the cell.
+  virtual bool is_in_fracture_cell(int /*cell*/) const { return true; }
   /// Whether the pressure follows the aperture: not with a given transmissivity, nor where all of it is prescribed.
   virtual bool follows_aperture() const = 0;
   /// The fluid of the rock, which leaves and enters through the walls; nullptr where they are sealed. To be accepted

@@ -213,6 +213,10 @@ class WellExchange : public Coupler {
       throw InputError(place.origin, "well '" + place.name + "' is not on fracture '" + *place.fracture + "'",
                        fmt::format("the nearest cell is {:.3g} m away and only {:.3g} m long", away, cell.measure),
                        "move it onto the fracture");
+    if (!fracture_->is_in_fracture_cell(nearest))
+      throw InputError(place.origin, "well '" + place.name + "' is open to a fracture without fluid",
+                       "the flow does not live on fracture '" + *place.fracture + "'",
+                       "name the fracture in 'fractures' of the flow, or move the well");
     return nearest;
   }
 

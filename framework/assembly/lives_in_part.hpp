@@ -5,13 +5,14 @@
 
 namespace sprekk {
 
-/// A component whose fields mean something in some of the cells only. The others keep initial values, which files and
-/// probes do not show.
+/// A component whose fields mean something in some of the cells, or of the fracture cells, only. The others have values
+/// without a meaning, which files and probes do not show.
 class LivesInPart {
  public:
   virtual ~LivesInPart() = default;
-  /// One flag a cell; none where it lives everywhere.
+  /// One flag a cell, or fracture cell; none where it lives everywhere.
   virtual const std::vector<char>& inhabited_cells() const = 0;
+  virtual bool lives_on_fractures() const { return false; }
 };
 
 }  // namespace sprekk

@@ -93,6 +93,24 @@ void Model::check_probes() const {
     for (const auto& component : components_) {
       const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
       if (!partial || partial->inhabited_cells().empty() || !options.of.starts_with(component->name() + ".")) continue;
+      if (partial->lives_on_fractures()) {
+        int nearest = none;
+        const auto distance = [&](int cell) { return (mesh_.fracture_cells[cell].center - *options.at).norm(); };
+        for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+          const std::string& fracture = mesh_.fractures[mesh_.fracture_cells[i].fracture].name;
+          if (!options.fracture.empty() && fracture != options.fracture) continue;
+          if (!options.at && !partial->inhabited_cells()[i])
+            throw InputError(options.origin, "probe '" + name + "' reaches where there is no value",
+                             "'" + component->name() + "' does not live on fracture '" + fracture + "'",
+                             "take a fracture on which it does");
+          if (options.at && (nearest == none || distance(i) < distance(nearest))) nearest = i;
+        }
+        if (nearest != none && !partial->inhabited_cells()[nearest])
+          throw InputError(options.origin, "probe '" + name + "' reaches where there is no value",
+                           "'" + component->name() + "' does not live on the fracture there",
+                           "take a point on a fracture on which it does");
+        continue;
+      }
       const int home = options.at ? PointLocation(mesh_).cell_at(*options.at) : none;
       for (int c = 0; c < mesh_.cell_count(); ++c) {
         const bool counts =
@@ -348,9 +366,10 @@ void Model::hide_uninhabited(std::vector<OutputField>& fields) const {
   for (const auto& component : components_) {
     const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
     if (!partial || partial->inhabited_cells().empty()) continue;
+    const Location home = partial->lives_on_fractures() ? Location::fracture_cell : Location::cell;
     for (OutputField& field : fields)
-      if (field.location == Location::cell && field.name.starts_with(component->name() + "."))
-        for (int c = 0; c < mesh_.cell_count(); ++c)
+      if (field.location == home && field.name.starts_with(component->name() + "."))
+        for (int c = 0; c < entity_count(mesh_, home); ++c)
           if (!partial->inhabited_cells()[c])
             field.values.segment(c * field.components, field.components)
                 .setConstant(std::numeric_limits<double>::quiet_NaN());

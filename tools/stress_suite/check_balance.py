@@ -134,7 +134,8 @@ def allowed_flow(p, instant):
     return (RESIDUAL * flow + ROUND_OFF * level) * physics.time_step(p) * len(instant.matrix.cells)
 
 
-def matrix_mass(p, instants):
+def matrix_mass(p, instants, brought=None):
+    """`brought`: a function (start, stop, None) -> m^2 that wells bring into the rock."""
     if p["alpha"] > 0 or p["boundary"] != "none":
         return []
     found = []
@@ -148,8 +149,9 @@ def matrix_mass(p, instants):
             received = (instant.time - before[0]) * length * (walls["pore.wall_flux.plus[m/s]"] +
                                                               walls["pore.wall_flux.minus[m/s]"])
             stored = p["storage"] * area * (pressure - before[1])
-            error = stored.sum() - received.sum()
-            size = max(np.abs(stored).max(), np.abs(received).max())
+            source = brought(before[0], instant.time, None) if brought else 0.0
+            error = stored.sum() - received.sum() - source
+            size = max(np.abs(stored).max(), np.abs(received).max(), abs(source))
             digits = 1e-13 * (p["storage"] * area * np.abs(pressure)).sum()
             if abs(error) > PRECISION * size + digits + allowed_flow(p, instant):
                 found.append(f"mass: the matrix is wrong by {error:.3g} of {size:.3g} m^2 at t = {instant.time:.6g} s")
@@ -188,4 +190,5 @@ def relative_error_of_balance(history):
 
 
 def failures(p, instants, history, main, brought=None):
-    return momentum(p, instants) + fracture_mass(p, instants, main, brought) + matrix_mass(p, instants) + cumulative_balance(p, instants, history)
+    return momentum(p, instants) + fracture_mass(p, instants, main, brought) + matrix_mass(p, instants, brought) + \
+        cumulative_balance(p, instants, history)

@@ -56,6 +56,9 @@ std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
   for (const Junction& junction : mesh_.junctions) {
     std::vector<JunctionFluxes::Half> halves =
         options_.is_constant() ? given_halves(junction) : halves_by_opening(junction);
+    for (std::size_t k = 0; k < halves.size(); ++k)
+      if (!is_in_fracture_cell(junction.cells[k]))
+        halves[k] = {0, Vector::Zero(static_cast<Eigen::Index>(halves.size()))};
     if (has_inertia()) slow_down(junction, halves);
     fluxes.emplace_back(junction, std::move(halves));
   }
@@ -81,9 +84,11 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
       if (i != j && (count == 2 || fracture_of(i) == fracture_of(j))) partners[i] = j;
   const auto arms_of = [&](const Vector& aperture) {
     std::vector<CellAperture> cells;
-    for (const int cell : junction.cells)
-      cells.push_back(
-          {0.5 * mesh_.fracture_cells[cell].measure, aperture[cell], aperture[cell] - initial_aperture_[cell]});
+    for (const int cell : junction.cells) {
+      // How far a dry arm is open counts for none of the others.
+      const double present = is_in_fracture_cell(cell) ? aperture[cell] : initial_aperture_[cell];
+      cells.push_back({0.5 * mesh_.fracture_cells[cell].measure, present, present - initial_aperture_[cell]});
+    }
     return junction_apertures(cells, partners);
   };
   const std::vector<ArmAperture> arms = arms_of(aperture_.now());

@@ -44,6 +44,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
   if (mesh_.fracture_cell_count() == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
+  find_fractures();
   check_names();
   if (options_.cavitation)
     empty_ = &context.fields.add(
@@ -60,7 +61,10 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     if (mesh_.fracture_cells[i].grown) initial_aperture_[i] = options_.grown_aperture;
   aperture_.set_both(initial_aperture_);
-  pressure_.set_both(property(options_.initial_pressure).values());
+  Vector initial_pressure = property(options_.initial_pressure).values();
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    if (!is_in_fracture_cell(i)) initial_pressure[i] = 0;
+  pressure_.set_both(std::move(initial_pressure));
   law_ = options_.law.make(options_.aperture_floor);
   viscosity_ = property(options_.viscosity);
   compressibility_ = property(options_.fluid_compressibility);
@@ -139,6 +143,7 @@ void FractureFlow::make_links(const StepTime& step) {
       link.boundary_pressure = value_in_step(found->second, place, step);
       check_bound(link.boundary_pressure, options_.boundary_origins.at(mesh_.side_names[point.side]), "the pressure");
     }
+    if (!is_in_fracture_cell(link.first) || (link.second != none && !is_in_fracture_cell(link.second))) continue;
     if (!options_.gravity.is_zero())
       link.gravity = options_.fluid_density *
                      options_.gravity.at({point.position, 0, 0}).dot(mesh_.fracture_cells[link.first].center - other);
@@ -213,6 +218,8 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
   NormalPermeability kappa{Vector(walls), Vector::Zero(walls)};
   for (int w = 0; w < walls; ++w) {
     const int i = w / 2;
+    kappa.value[w] = 0;
+    if (!is_in_fracture_cell(i)) continue;
     if (options_.wall_permeability[w % 2]) {
       kappa.value[w] = given_wall_permeability_[w % 2][i];
     } else if (options_.normal_permeability == "constant") {
@@ -241,6 +248,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
     capacity[i] = length * aperture_.now()[i] * compressibility_[i];
     stored[i] = length * (filled_now(i) - filled_accepted(i)) + capacity[i] * change;
     stored_by_aperture[i] = length * (1 + compressibility_[i] * change);
+    if (!is_in_fracture_cell(i)) stored[i] = 0;
   }
   // The stored volumes are small differences of large numbers: apertures and pressures.
   double subtracted = 0;
@@ -275,12 +283,15 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
 void FractureFlow::constrain(Assembly& assembly) const {
   count_let_in(assembly);
   for (const Prescribed& p : prescribed_) assembly.fix(pressure_, p.cell, p.pressure, p.scale);
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    if (!is_in_fracture_cell(i)) assembly.fix(pressure_, i, 0, mesh_.fracture_cells[i].measure);
 }
 
 void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
   if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
   Vector sums = cumulative_.accepted();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    if (!is_in_fracture_cell(i)) continue;
     const double length = mesh_.fracture_cells[i].measure;
     sums[3 * i] += length * (filled_now(i) - filled_accepted(i)) +
                    length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);

@@ -16,6 +16,7 @@
 #include "components/fracture_flow/tpfa/mean_along.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
 #include "framework/assembly/keeps_totals.hpp"
+#include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
 
@@ -29,11 +30,15 @@ namespace sprekk::fracture_flow {
 /// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
 /// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
 /// pressures, and the flux out of one cell enters the next one to the bit. Properties are those at the end of the step.
+///
+/// With Options::fractures there is a flow in these fractures only. In all others the row of p is p = 0, no flux has a
+/// conductance, and walls are sealed.
 class FractureFlow : public Component,
                      public FractureFluid,
                      public FractureFluxes,
                      public BuoyantFractures,
-                     public KeepsTotals {
+                     public KeepsTotals,
+                     public LivesInPart {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
@@ -65,6 +70,9 @@ class FractureFlow : public Component,
   NormalPermeability normal_permeability() const override;
   void change_viscosity(const Vector& viscosity) override;
   double filled_part(int cell) const override;
+  bool is_in_fracture_cell(int cell) const override { return wet_.empty() || wet_[cell]; }
+  const std::vector<char>& inhabited_cells() const override { return wet_; }
+  bool lives_on_fractures() const override { return true; }
   double viscosity_between_walls(int cell) const override { return options_.is_constant() ? 0 : viscosity_[cell]; }
   double conductance(int cell) const override {
     return transmissivity(cell).value / mesh_.fracture_cells[cell].measure;
@@ -136,6 +144,7 @@ class FractureFlow : public Component,
   void add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const;
   void add_pattern(const Link& link, FluxRows& rows) const;
   double scale_of_row(const Link& link, double conductance, double dt) const;
+  void find_fractures();
   void check_names() const;
   /// Cavitation: without it nothing is empty, and these do nothing.
   void check_bound(double pressure, const Origin& where, const std::string& what) const;
@@ -162,6 +171,7 @@ class FractureFlow : public Component,
   Field* empty_ = nullptr;  ///< m, the part of the aperture without fluid; only with cavitation
   double bound_scale_ = 1;  ///< m/Pa, between e and p − p_c
   Field& cumulative_;       ///< (stored, injected, outflow) of each cell since the start, m^2
+  std::vector<char> wet_;   ///< one flag a cell: there is a flow; none where there is one everywhere
   Vector initial_aperture_;
   std::unique_ptr<HydraulicLaw> law_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one

@@ -29,7 +29,8 @@ void FractureFlow::note_input(Notes& notes) const {
   }
   for (const auto& [side, origin] : options_.boundary_origins) {
     const bool has_end = std::any_of(mesh_.fracture_points.begin(), mesh_.fracture_points.end(), [&](const auto& p) {
-      return p.kind == FracturePoint::Kind::on_boundary && mesh_.side_names[p.side] == side;
+      return p.kind == FracturePoint::Kind::on_boundary && mesh_.side_names[p.side] == side &&
+             is_in_fracture_cell(p.cells[0]);
     });
     if (!has_end)
       note("boundary." + side, origin,

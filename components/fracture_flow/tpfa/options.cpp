@@ -128,6 +128,9 @@ Spec Options::spec() {
                  .range = non_negative(),
                  .doc = "Density of the fluid; matters with gravity, and with the inertia of `law`, only.",
                  .material = true});
+  spec.texts("fractures", fractures,
+             {.doc = "Fractures in which there is a flow; all by default. The others are dry: nothing flows in them or "
+                     "passes through their walls, and no pressure pushes them open."});
   static Injection example_injection;
   spec.named_sections("injection", injection_spec(example_injection),
                       [this](const std::string& key, const Origin& origin) {
@@ -150,6 +153,7 @@ Spec Options::spec() {
                       },
                       {.doc = "Pressures where fractures end on a side; else no fluid flows out there."});
   spec.check([this](const Node& node) {
+    if (const Node* given = node.find("fractures")) fractures_origin = given->origin;
     for (const char* key : {"transmissivity", "transmissivity_value"})
       if (has_law && node.find(key) && !node.find(key)->is_null())
         throw InputError(node.find(key)->origin, std::string("'") + key + "' contradicts 'law'",

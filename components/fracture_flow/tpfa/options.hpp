@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/fracture_flow/laws/law_options.hpp"
 #include "framework/config/spec.hpp"
@@ -47,9 +48,11 @@ struct Options {
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
   /// m/(Pa s), by Wall: of a wall that has a normal permeability of its own.
   std::array<std::optional<Data>, 2> wall_permeability;
-  std::optional<double> cavitation;  ///< Pa, the pressure does not fall below
-  VectorData gravity;                ///< m/s^2
-  double fluid_density = 1000;       ///< kg/m^3
+  std::optional<double> cavitation;    ///< Pa, the pressure does not fall below
+  VectorData gravity;                  ///< m/s^2
+  double fluid_density = 1000;         ///< kg/m^3
+  std::vector<std::string> fractures;  ///< with flow; all if there are none
+  Origin fractures_origin;
   std::map<std::string, Injection> injections;
   std::map<std::string, PrescribedPressure> prescribed;
   std::map<std::string, Data> boundary;  ///< pressure by side, Pa

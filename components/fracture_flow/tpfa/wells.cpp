@@ -53,6 +53,9 @@ void FractureFlow::check_names() const {
   const auto check = [&](const FracturePlace& where) {
     if (!where.fracture.empty() && find_fracture(mesh_, where.fracture) == none)
       throw unknown_name(where.origin, "fracture", where.fracture, names);
+    if (cells_of(where).empty())
+      throw InputError(where.origin, "there is no flow at this place", "its fracture is not one of 'fractures'",
+                       "name the fracture there, or choose another place");
     if (!where.at) return;
     const FractureCell& cell = mesh_.fracture_cells[cells_at(mesh_, where).front()];
     const double away = (cell.center - *where.at).norm();
@@ -66,7 +69,7 @@ void FractureFlow::check_names() const {
   std::vector<const std::string*> prescribed_by(mesh_.fracture_cell_count(), nullptr);
   for (const auto& [name, prescribed] : options_.prescribed) {
     check(prescribed.where);
-    for (const int cell : cells_at(mesh_, prescribed.where)) {
+    for (const int cell : cells_of(prescribed.where)) {
       if (prescribed_by[cell])
         throw InputError(prescribed.where.origin, "'" + name + "' prescribes a pressure where there is one",
                          "'" + *prescribed_by[cell] + "' gives the same fracture cell at " +
@@ -80,13 +83,29 @@ void FractureFlow::check_names() const {
       throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
 }
 
-std::vector<int> FractureFlow::cells_of(const FracturePlace& where) const { return cells_at(mesh_, where); }
+std::vector<int> FractureFlow::cells_of(const FracturePlace& where) const {
+  std::vector<int> cells = cells_at(mesh_, where);
+  std::erase_if(cells, [this](int cell) { return !is_in_fracture_cell(cell); });
+  return cells;
+}
+
+void FractureFlow::find_fractures() {
+  if (options_.fractures.empty()) return;
+  std::vector<std::string> names;
+  for (const Fracture& fracture : mesh_.fractures) names.push_back(fracture.name);
+  for (const std::string& name : options_.fractures)
+    if (std::ranges::count(names, name) == 0) throw unknown_name(options_.fractures_origin, "fracture", name, names);
+  std::vector<char> wet(mesh_.fracture_cell_count());
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    wet[i] = std::ranges::count(options_.fractures, names[mesh_.fracture_cells[i].fracture]) > 0;
+  if (std::ranges::count(wet, 0) > 0) wet_ = std::move(wet);
+}
 
 void FractureFlow::prescribe(const StepTime& step) {
   source_ = Vector::Zero(mesh_.fracture_cell_count());
   sources_.clear();
   for (const auto& [name, injection] : options_.injections) {
-    const std::vector<int> cells = cells_at(mesh_, injection.where);
+    const std::vector<int> cells = cells_of(injection.where);
     FluidSource source{name, {}};
     double length = 0;
     for (const int cell : cells) length += mesh_.fracture_cells[cell].measure;
@@ -102,8 +121,9 @@ void FractureFlow::prescribe(const StepTime& step) {
   let_in_.clear();
   step_length_ = step.dt;
   is_prescribed_.assign(mesh_.fracture_cell_count(), 0);
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_prescribed_[i] = !is_in_fracture_cell(i);
   for (const auto& [name, given] : options_.prescribed)
-    for (const int cell : cells_at(mesh_, given.where)) {
+    for (const int cell : cells_of(given.where)) {
       const FractureCell& at = mesh_.fracture_cells[cell];
       is_prescribed_[cell] = 1;
       check_bound(value_in_step(given.pressure, fracture_cell_place(mesh_, cell), step), given.where.origin,
@@ -143,7 +163,7 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
   std::size_t k = 0;
   Eigen::Index place = 0;
   for (const auto& [place_name, given] : options_.prescribed) {
-    const std::size_t count = cells_at(mesh_, given.where).size();
+    const std::size_t count = cells_of(given.where).size();
     for (std::size_t i = 0; i < count && k < let_in_.size(); ++i, ++k)
       if (is_owned(mesh_, Location::fracture_cell, prescribed_[k].cell)) rates[place] += let_in_[k];
     ++place;
@@ -165,7 +185,7 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
 
 std::vector<FluidReservoir> FractureFlow::fluid_reservoirs() const {
   std::vector<FluidReservoir> reservoirs;
-  for (const auto& [name, given] : options_.prescribed) reservoirs.push_back({name, cells_at(mesh_, given.where)});
+  for (const auto& [name, given] : options_.prescribed) reservoirs.push_back({name, cells_of(given.where)});
   return reservoirs;
 }
 
