@@ -292,7 +292,8 @@ StepStatus IterateStep::run(const StepTime& step) {
       if (options_.has_substeps) return pass > 2 && is_error_below(bound, check.largest, change_before);
       return bound == options_.until.tightest() ? check.converged : check_residual(assembly, system_, bound).converged;
     };
-    if (criteria_.hold(pass, residual_holds, values_before)) return converged(step, {true, "", pass, 0, of_newton});
+    if (criteria_.hold(pass, residual_holds, check.of_equations, values_before))
+      return converged(step, {true, "", pass, 0, of_newton});
     if (pass == 1) {
       choose_scales();
       if (!accelerator_) continue;
