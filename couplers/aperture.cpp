@@ -1,4 +1,6 @@
 // aperture: the opening of a fracture makes room for fluid and lets it flow (below Eq. 8 of the paper).
+#include <algorithm>
+
 #include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "framework/assembly/follows_waiting.hpp"
@@ -44,6 +46,19 @@ class Aperture : public Coupler, public FollowsWaiting {
   std::vector<Following> following(const std::string& stabilization) const override {
     if (stabilization != "fixed_stress" || !fluid_.follows_aperture()) return {};
     return {{&fluid_.aperture(), &fluid_.pressure()}};
+  }
+
+  /// Walls that close touch at the initial aperture, or compress each other: in one pass not by more than half.
+  Vector least_change(const Field& row) const override {
+    if (&row != &fluid_.aperture()) return {};
+    const Vector& initial = fluid_.initial_aperture();
+    Vector least(initial.size());
+    constexpr double half = 0.5;
+    for (Eigen::Index i = 0; i < least.size(); ++i) {
+      const double opening = contact_.jump().now()[dimension * i];
+      least[i] = -std::max({opening, half * (initial[i] + opening), 0.0});
+    }
+    return least;
   }
 
   /// The pressure holds the fracture open, and what opens stores fluid.

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "components/capabilities/rock_state.hpp"
 #include "components/capabilities/rock_stress.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
@@ -22,6 +24,9 @@ namespace {
 struct BiotOptions {
   Data biot_coefficient;
   double fixed_stress_factor = 1;
+  std::string fixed_stress_modulus = "bulk";
+  std::optional<double> fixed_stress_value;
+  Origin modulus_origin;
   bool one_way = false;
   Spec spec() {
     Spec spec("biot",
@@ -36,8 +41,29 @@ struct BiotOptions {
                .in_time = true});
     spec.quantity("fixed_stress_factor", fixed_stress_factor,
                   {.range = positive(),
-                   .doc = "The stabilization fixed_stress of split schemes is this times alpha^2/K.",
+                   .doc = "The stabilization fixed_stress of split schemes is this times alpha^2/K, with the modulus "
+                          "K of `fixed_stress_modulus`.",
                    .source = "Kim, Tchelepi, Juanes 2011"});
+    spec.choice("fixed_stress_modulus", fixed_stress_modulus,
+                {{"bulk", "the drained bulk modulus"},
+                 {"uniaxial", "lambda + 2 G: one pass is enough where the displacement is irrotational"},
+                 {"optimal",
+                  "the harmonic mean of lambda + 2 G and the bulk modulus in the plane, lambda + G: the middle of what "
+                  "pressures of any shape displace"}},
+                {.doc = "The modulus of the stabilization fixed_stress.",
+                 .source = "Kim, Tchelepi, Juanes 2011; Storvik, Both, Kumar, Nordbotten, Radu 2019"});
+    spec.quantity("fixed_stress_value", fixed_stress_value,
+                  {.unit = "1/Pa",
+                   .range = positive(),
+                   .doc = "The stabilization fixed_stress itself, in the place of factor and modulus."});
+    spec.check([this](const Node& node) {
+      const Node* modulus = node.find("fixed_stress_modulus");
+      modulus_origin = modulus ? modulus->origin : node.origin;
+      for (const char* other : {"fixed_stress_factor", "fixed_stress_modulus"})
+        if (fixed_stress_value && node.find(other))
+          throw InputError(node.find(other)->origin, "'" + std::string(other) + "' has no effect",
+                           "'fixed_stress_value' is the whole stabilization", "remove one of them");
+    });
     spec.flag(
         "one_way", one_way,
         {.doc = "The pressure loads the rock, and the rock's change of volume stores no fluid: the flow is that in "
@@ -65,6 +91,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
         fluid_(context.the<MatrixFluid>()),
         rock_(context.the<PoroelasticRock>()),
         stress_(context.find<RockStress>()),
+        state_(context.find<RockState>()),
         counted_volume_(context.fields.add(
             mesh_, counted_field(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
         stored_(context.fields.add(
@@ -80,6 +107,10 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
       throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
                        "its stiffness is anisotropic", "give 'bulk_modulus' to the component");
     rock_.accept_pore_pressure(fluid_.pressure(), alpha_in_fluid_, fluid_.initial_pressure());
+    if (options_.fixed_stress_modulus != "bulk" && (state_ == nullptr || !state_->stiffness(0)))
+      throw InputError(options_.modulus_origin, "coupler " + name() + " does not know lambda and G of the rock",
+                       "its stiffness is anisotropic",
+                       "leave out 'fixed_stress_modulus', or give 'fixed_stress_value'");
   }
 
   void evaluate_data(const StepTime& step) override {
@@ -205,8 +236,10 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
     SPREKK_ASSERT(rock_.bulk_modulus().values().minCoeff() > 0, rock_.bulk_modulus().values().minCoeff());
     Vector diagonal(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c)
-      diagonal[c] = options_.fixed_stress_factor * alpha_in_fluid_[c] * alpha_in_fluid_[c] / rock_.bulk_modulus()[c] *
-                    mesh_.cell_measure[c];
+      diagonal[c] =
+          mesh_.cell_measure[c] * (options_.fixed_stress_value ? *options_.fixed_stress_value
+                                                               : options_.fixed_stress_factor * alpha_in_fluid_[c] *
+                                                                     alpha_in_fluid_[c] / fixed_stress_modulus(c));
     const auto [place, fresh] = stabilization.try_emplace(&fluid_.pressure(), diagonal);
     if (!fresh) place->second += diagonal;
   }
@@ -231,6 +264,16 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
     alpha_in_fluid_ = alpha_.values();
     for (int c = 0; c < mesh_.cell_count(); ++c)
       if (!fluid_.is_in_cell(c)) alpha_in_fluid_[c] = 0;
+  }
+
+  /// What alpha p has to overcome to change the volume of a cell, Pa.
+  double fixed_stress_modulus(int cell) const {
+    if (options_.fixed_stress_modulus == "bulk") return rock_.bulk_modulus()[cell];
+    const LameParameters stiffness = *state_->stiffness(cell);
+    const double uniaxial = stiffness.lambda + 2 * stiffness.shear;
+    if (options_.fixed_stress_modulus == "uniaxial") return uniaxial;
+    const double in_plane = stiffness.lambda + 2 * stiffness.shear / dimension;
+    return 2 / (1 / uniaxial + 1 / in_plane);
   }
 
   void use_grains() {
@@ -259,6 +302,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   MatrixFluid& fluid_;
   PoroelasticRock& rock_;
   const RockStress* stress_;  ///< nullptr where the rock does not give it
+  const RockState* state_;    ///< the same
   Field& counted_volume_;
   Field& stored_;
   Origin origin_;

@@ -57,6 +57,7 @@ ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
   const Node* stabilize = node.find("stabilize");
   options.stabilization_origin = stabilize ? stabilize->origin : node.origin;
   options.origin = node.find("solve")->origin;
+  options.may_be_inexact = reading.may_be_inexact;
   options.spec().read(node, reading.read);
   check_components(options.components, node, reading);
   if (options.stabilization != "none" && !reading.is_iterated)
@@ -109,6 +110,7 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
     const Node* steps = node.find("iterate")->find("steps");
     options.has_substeps = has_substeps(*steps);
     inner.is_in_stages = reading.is_in_stages || !options.has_substeps;
+    inner.may_be_inexact = !options.has_substeps && options.until.bounds_residual();
   });
   const Node& steps = *node.find("iterate")->find("steps");
   if (options.has_substeps) options.until.require_changes();
@@ -139,6 +141,7 @@ ScheduleBuilder read_subcycle(const Node& node, const ScheduleReading& reading) 
   const ScheduleBuilder inside = read_inside(*node.find("subcycle"), options, reading, [&](ScheduleReading& inner) {
     takes_stages = !reading.is_in_stages && !has_substeps(*node.find("subcycle")->find("steps"));
     inner.is_substep = inner.is_substep || options.count > 1;
+    inner.may_be_inexact = inner.may_be_inexact && options.count == 1;
     inner.is_in_stages = reading.is_in_stages || takes_stages;
     inner.waiting = options.waiting;
   });

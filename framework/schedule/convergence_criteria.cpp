@@ -15,20 +15,37 @@ const char* const residual_doc =
 }  // namespace
 
 Spec CriterionOptions::spec() {
-  Spec spec("condition", "A bound of the coupled residual, or of the change of a field by a pass.");
+  Spec spec("condition",
+            "A bound of the coupled residual, of that of one equation, or of the change of a field by a pass.");
   spec.quantity("residual", residual, {.range = strictly_between(0, 1), .doc = residual_doc});
   spec.text("change_of", change_of, {.doc = "A field that is solved inside, by its whole name."});
+  spec.text(
+      "residual_of", residual_of,
+      {.doc = "A field that is solved inside, by its whole name: bounds the residual of its equation, such as that of "
+              "contact."});
   spec.quantity("relative", relative,
-                {.range = strictly_between(0, 1), .doc = "Largest change of the field over its largest value."});
+                {.range = strictly_between(0, 1),
+                 .doc = "Largest change of the field over its largest value, or largest residual of its equation over "
+                        "the largest of its terms."});
   spec.text("absolute", absolute, {.doc = "Largest change of the field, with a unit."});
   spec.check([this](const Node& node) {
     origin = node.origin;
-    if (const Node* given = node.find("change_of")) field_origin = given->origin;
+    for (const char* key : {"change_of", "residual_of"})
+      if (const Node* given = node.find(key)) field_origin = given->origin;
     if (const Node* given = node.find("absolute")) absolute_origin = given->origin;
+    if (residual_of) {
+      if (residual || change_of || absolute || !relative)
+        throw InputError(origin, "the condition on the equation of " + quoted(*residual_of) + " has not one bound",
+                         "it bounds its residual over its largest term by 'relative', and nothing else",
+                         "write '{residual_of: " + *residual_of + ", relative: 1e-8}'");
+      return;
+    }
     if (residual.has_value() == change_of.has_value())
       throw InputError(origin,
                        residual ? "one condition bounds 'residual' and 'change_of'" : "the condition bounds nothing",
-                       "each is an item of the list", "write '{residual: 1e-8}' or '{change_of: a.b, relative: 1e-6}'");
+                       "each is an item of the list",
+                       "write '{residual: 1e-8}', '{residual_of: a.b, relative: 1e-8}' or '{change_of: a.b, relative: "
+                       "1e-6}'");
     if (residual && (relative || absolute))
       throw InputError(origin, "'relative' and 'absolute' have no effect", "the condition bounds the residual",
                        "remove them, or write 'change_of'");
@@ -73,11 +90,15 @@ Spec UntilOptions::spec() {
       if (condition.residual && is_relative_given && relative <= *condition.residual)
         throw InputError(condition.origin, "the condition has no effect",
                          "'relative' already asks for a residual that is at least as small", "remove one of them");
-    if (is_relative_given)
-      for (const CriterionOptions& condition : all)
-        if (condition.residual)
-          throw InputError(condition.origin, "the residual has two bounds", "'relative' is one of all conditions, too",
-                           "remove one of them");
+    if (!is_relative_given) return;
+    for (const CriterionOptions& condition : all) {
+      if (condition.residual)
+        throw InputError(condition.origin, "the residual has two bounds", "'relative' is one of all conditions, too",
+                         "remove one of them");
+      if (condition.residual_of && *condition.relative >= relative)
+        throw InputError(condition.origin, "the condition has no effect",
+                         "'relative' already asks for residuals that are at least as small", "remove one of them");
+    }
   });
   return spec;
 }
@@ -87,17 +108,23 @@ double UntilOptions::tightest() const {
   bool is_first = !is_relative_given;
   for (const auto* conditions : {&all, &any})
     for (const CriterionOptions& condition : *conditions)
-      if (condition.residual) {
-        least = is_first ? *condition.residual : std::min(least, *condition.residual);
+      if (const std::optional<double> bound = condition.of_residual()) {
+        least = is_first ? *bound : std::min(least, *bound);
         is_first = false;
       }
   return least;
 }
 
+bool UntilOptions::bounds_residual() const {
+  const auto is_of_residual = [](const CriterionOptions& condition) { return condition.residual.has_value(); };
+  if (is_relative_given || (all.empty() && any.empty())) return true;
+  return std::ranges::any_of(all, is_of_residual) || (!any.empty() && std::ranges::all_of(any, is_of_residual));
+}
+
 void UntilOptions::require_changes() const {
   for (const auto* conditions : {&all, &any})
     for (const CriterionOptions& condition : *conditions)
-      if (condition.residual)
+      if (condition.of_residual())
         throw InputError(condition.origin, "there is no residual to be bounded",
                          "the steps inside take substeps, which do not fulfil the equations of the whole step",
                          "write 'relative', or bound changes by 'change_of'");
@@ -107,7 +134,8 @@ ConvergenceCriteria::ConvergenceCriteria(const UntilOptions& options, const std:
     : at_least_(options.at_least), all_(made(options.all, fields)), any_(made(options.any, fields)) {
   if (options.is_relative_given || (all_.empty() && any_.empty())) all_.push_back({options.relative});
   for (const auto* criteria : {&all_, &any_})
-    for (const Criterion& criterion : *criteria) need_changes_ = need_changes_ || criterion.field;
+    for (const Criterion& criterion : *criteria)
+      need_changes_ = need_changes_ || (criterion.field && !criterion.is_residual);
 }
 
 std::vector<ConvergenceCriteria::Criterion> ConvergenceCriteria::made(const std::list<CriterionOptions>& options,
@@ -118,11 +146,17 @@ std::vector<ConvergenceCriteria::Criterion> ConvergenceCriteria::made(const std:
       criteria.push_back({*condition.residual});
       continue;
     }
+    const std::string& name = condition.residual_of ? *condition.residual_of : *condition.change_of;
     std::vector<std::string> names;
     for (const Field* field : fields) names.push_back(field->name());
-    const auto place = std::ranges::find(names, *condition.change_of) - names.begin();
+    const auto place = std::ranges::find(names, name) - names.begin();
     if (place == static_cast<std::ptrdiff_t>(names.size()))
-      throw unknown_name(condition.field_origin, "field that is solved inside", *condition.change_of, names);
+      throw unknown_name(condition.field_origin, "field that is solved inside", name, names);
+    if (condition.residual_of) {
+      criteria.push_back(
+          {*condition.relative, fields[static_cast<std::size_t>(place)], static_cast<std::size_t>(place), true, true});
+      continue;
+    }
     const Field* field = fields[static_cast<std::size_t>(place)];
     const double bound = condition.relative ? *condition.relative
                                             : parse_quantity(*condition.absolute, field->spec().unit,
@@ -136,8 +170,13 @@ std::vector<ConvergenceCriteria::Criterion> ConvergenceCriteria::made(const std:
 }
 
 bool ConvergenceCriteria::holds(const Criterion& criterion, int pass, const std::function<bool(double)>& residual_holds,
+                                const std::vector<std::pair<std::string, double>>& residuals,
                                 const std::vector<Vector>& before) {
   if (!criterion.field) return residual_holds(criterion.bound);
+  if (criterion.is_residual)
+    return std::ranges::all_of(residuals, [&](const auto& residual) {
+      return residual.first != criterion.field->name() || residual.second <= criterion.bound;
+    });
   if (criterion.field->size() == 0) return true;
   if (pass == 1) return false;
   const Vector& now = criterion.field->now();
@@ -149,9 +188,12 @@ bool ConvergenceCriteria::holds(const Criterion& criterion, int pass, const std:
 }
 
 bool ConvergenceCriteria::hold(int pass, const std::function<bool(double)>& residual_holds,
+                               const std::vector<std::pair<std::string, double>>& residuals,
                                const std::vector<Vector>& before) const {
   if (pass < at_least_) return false;
-  const auto is_met = [&](const Criterion& criterion) { return holds(criterion, pass, residual_holds, before); };
+  const auto is_met = [&](const Criterion& criterion) {
+    return holds(criterion, pass, residual_holds, residuals, before);
+  };
   return std::ranges::all_of(all_, is_met) && (any_.empty() || std::ranges::any_of(any_, is_met));
 }
 

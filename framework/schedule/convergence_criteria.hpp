@@ -5,6 +5,7 @@
 #include <list>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/config/spec.hpp"
@@ -12,10 +13,13 @@
 
 namespace sprekk {
 
-/// One condition of `until:`: a bound of the coupled residual, or of the change of a field by a pass.
+/// One condition of `until:`: a bound of the coupled residual, of that of one equation, or of the change of a field by
+/// a pass.
 struct CriterionOptions {
   std::optional<double> residual, relative;
-  std::optional<std::string> change_of, absolute;
+  std::optional<std::string> change_of, residual_of, absolute;
+  /// The bound of a residual, of all equations or of one, if it is one.
+  std::optional<double> of_residual() const { return residual_of ? relative : residual; }
   Origin origin, field_origin, absolute_origin;
   Spec spec();
 };
@@ -29,6 +33,8 @@ struct UntilOptions {
   Spec spec();
   /// The smallest bound of the residual that is asked for; `relative` where none is.
   double tightest() const;
+  /// Whether no iteration ends without a bound of the residual.
+  bool bounds_residual() const;
   /// Throws InputError for conditions on a residual, which an iteration over substeps does not have.
   void require_changes() const;
 };
@@ -40,9 +46,10 @@ class ConvergenceCriteria {
   /// field's.
   ConvergenceCriteria(const UntilOptions& options, const std::vector<Field*>& fields);
   /// Whether the iteration has converged after a pass. `residual_holds`: whether the coupled residual is below a bound.
-  /// `before`: the values of all fields before the pass. In the first pass nothing is known of changes that would
-  /// vanish by themselves.
-  bool hold(int pass, const std::function<bool(double)>& residual_holds, const std::vector<Vector>& before) const;
+  /// `residuals`: of each equation, over its largest term. `before`: the values of all fields before the pass. In the
+  /// first pass nothing is known of changes that would vanish by themselves.
+  bool hold(int pass, const std::function<bool(double)>& residual_holds,
+            const std::vector<std::pair<std::string, double>>& residuals, const std::vector<Vector>& before) const;
   bool need_changes() const { return need_changes_; }
 
  private:
@@ -51,10 +58,11 @@ class ConvergenceCriteria {
     const Field* field = nullptr;  ///< nullptr for the residual
     std::size_t place = 0;         ///< of the field
     bool is_relative = true;
+    bool is_residual = false;  ///< of the field's equation
   };
   static std::vector<Criterion> made(const std::list<CriterionOptions>& options, const std::vector<Field*>& fields);
   static bool holds(const Criterion& criterion, int pass, const std::function<bool(double)>& residual_holds,
-                    const std::vector<Vector>& before);
+                    const std::vector<std::pair<std::string, double>>& residuals, const std::vector<Vector>& before);
 
   int at_least_;
   bool need_changes_ = false;

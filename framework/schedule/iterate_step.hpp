@@ -53,6 +53,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   /// Counts what was exchanged with the fields of all solves together, whose equations hold: a solve has counted what
   /// it knew of the others when it was its turn.
   StepStatus converged(const StepTime& step, const StepStatus& status);
+  ResidualCheck coupled_residual(const StepTime& step) const;
   void choose_scales();
   void begin_acceleration();
   /// Sets the accelerated fields to the next iterate; `before`: their values before the pass.

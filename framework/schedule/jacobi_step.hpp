@@ -13,6 +13,7 @@ class JacobiStep : public SequenceStep {
   JacobiStep(std::vector<std::unique_ptr<ScheduleStep>> steps, FieldStore& fields)
       : SequenceStep(std::move(steps)), fields_(fields) {}
   StepStatus run(const StepTime& step) override;
+  StepStatus run_until(const StepTime& step, const std::function<bool()>&) override { return run(step); }
   std::string describe() const override { return "all at once"; }
 
  private:

@@ -58,12 +58,22 @@ std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
       if (!assembly->has_row(*response.row)) continue;
       SPREKK_EXPECT(response.matrix.cols() == response.column->size(), response.column->name());
       const Vector &now = response.column->now(), &start = start_.at(response.column);
-      assembly->add(*response.row, response.matrix * (now - start));
+      Vector term = response.matrix * (now - start);
+      Vector follows;  // 1 where the change is not at its bound
+      if (response.least.size() > 0) {
+        SPREKK_EXPECT(response.least.size() == term.size(), response.row->name(), term.size());
+        follows = (term.array() < -response.least.array()).cast<double>();
+        term = term.cwiseMin(-response.least);
+      }
+      assembly->add(*response.row, term);
       const bool is_copy = !response.row->is_solved();  // by a part: it follows from differences of larger numbers
       if (is_copy && now.size() > 0)
         assembly->compare_round_off(
             *response.row, (response.matrix.cwiseAbs() * now.cwiseAbs().cwiseMax(start.cwiseAbs())).maxCoeff());
-      assembly->derivative(*response.row, *response.column, response.matrix);
+      if (follows.size() == 0 || follows.minCoeff() == 1)
+        assembly->derivative(*response.row, *response.column, response.matrix);
+      else
+        assembly->derivative(*response.row, *response.column, SparseMatrix(follows.asDiagonal() * response.matrix));
     }
   }
   for (const Part* part : parts_) part->constrain(*assembly);
@@ -259,6 +269,8 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     status.iterations += before;
   }
   if (status.converged || !state_has_changed_ || options_.pieces == 0) return status;
+  const bool is_used_up = is_used_up_;
+  const std::vector<Vector> tried = values();
   constexpr double much_shorter = 1.0 / 2;
   const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
   if (has_failed && step.dt > much_shorter * last_failed_path_.dt) return status;
@@ -283,11 +295,13 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     status.reason += "; then " + path.reason;
   }
   last_failed_path_ = step;
+  if (is_used_up) set(tried);
+  is_used_up_ = is_used_up;
   return status;
 }
 
 StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
-  was_singular_ = was_left_ = false;
+  was_singular_ = was_left_ = is_used_up_ = false;
   std::multiset<std::uint64_t> seen_states;
   std::uint64_t last_state = 0;
   bool factored = false, cycling = false, seeks_balance = false;
@@ -324,7 +338,8 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
       if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0, check.of_equations});
       if (size <= options_.update) return {true, "", iteration};
     }
-    if (iteration == options_.at_most)
+    is_used_up_ = iteration == options_.at_most;
+    if (is_used_up_)
       return {false,
               fmt::format("no convergence in {} iterations (the residual of {} is {:.2g} of its terms)", iteration,
                           check.equation, check.largest),

@@ -62,6 +62,9 @@ class Newton {
   /// Makes a call iterate once at least, also where the residuals hold from the start. In an iteration of several
   /// solves a residual may be small against its own terms, and large against a balance that another solve keeps.
   void iterate_at_least_once() { least_iterations_ = 1; }
+  /// Whether the last call has used up its iterations. The fields have the values of the last attempt with descent
+  /// then, or of the only one.
+  bool has_used_up_iterations() const { return is_used_up_; }
   void set_preconditioner_stabilization(const Stabilization& stabilization);
 
  private:
@@ -116,6 +119,7 @@ class Newton {
   std::vector<ResidualCheck> recent_;  ///< the last states
   bool state_has_changed_ = false;     ///< whether the discrete state has changed in this solve
   bool was_singular_ = false;          ///< whether the last attempt ended with a singular system
+  bool is_used_up_ = false;            ///< whether the last attempt has used up its iterations
   bool was_left_ = false;              ///< whether the last attempt ended at Until::search
   StepTime last_failed_path_;          ///< the last step whose path failed; a hardly shorter step does not try again
   const Stabilization* stabilization_ = nullptr;

@@ -35,6 +35,8 @@ class ScheduleStep {
   virtual ~ScheduleStep() = default;
   /// Advances its fields' current values to the end of the time step. Never throws for lack of convergence.
   virtual StepStatus run(const StepTime& step) = 0;
+  /// The same, but where steps inside are run one after the other it ends behind the first one after which `is_enough`.
+  virtual StepStatus run_until(const StepTime& step, const std::function<bool()>& /*is_enough*/) { return run(step); }
   /// The fields that this step, or a step inside it, solves for.
   virtual std::vector<const Field*> unknowns() const = 0;
   /// How many systems a time step solves in turn, each without regard to those behind it: more than one is a split

@@ -5,6 +5,10 @@
 namespace sprekk {
 
 StepStatus SequenceStep::run(const StepTime& step) {
+  return run_until(step, [] { return false; });
+}
+
+StepStatus SequenceStep::run_until(const StepTime& step, const std::function<bool()>& is_enough) {
   StepStatus status{true, "", 0};
   for (auto& inner : steps_) {
     const StepStatus inner_status = inner->run(step);
@@ -12,6 +16,7 @@ StepStatus SequenceStep::run(const StepTime& step) {
     status.of_newton = std::max(status.of_newton, inner_status.effort());
     if (!inner_status.converged)
       return {false, inner->describe() + ": " + inner_status.reason, status.iterations, inner_status.retry_dt};
+    if (is_enough()) break;
   }
   return status;
 }

@@ -10,6 +10,7 @@ class SequenceStep : public ScheduleStep {
  public:
   explicit SequenceStep(std::vector<std::unique_ptr<ScheduleStep>> steps) : steps_(std::move(steps)) {}
   StepStatus run(const StepTime& step) override;
+  StepStatus run_until(const StepTime& step, const std::function<bool()>& is_enough) override;
   std::vector<const Field*> unknowns() const override;
   int systems_in_turn(const StepTime& step) const override;
   bool solves(const Field& field, const StepTime& step) const override;

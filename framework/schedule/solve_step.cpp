@@ -203,6 +203,28 @@ void SolveStep::check() const {
                    "give it to the 'solve' of '" + stabilization.begin()->first->spec().owner + "'");
 }
 
+StepStatus SolveStep::solve(const StepTime& step, const Stabilization& stabilization, const Responses& of_waiting) {
+  const auto has_bound = [](const ResponseTerm& term) { return term.least.size() > 0; };
+  if (std::ranges::none_of(of_waiting.terms, has_bound)) return newton_->solve(step, stabilization, of_waiting);
+  std::vector<Vector> start;
+  for (const Field* field : fields_) start.push_back(field->now());
+  Responses unbounded = of_waiting;
+  for (ResponseTerm& term : unbounded.terms) term.least = {};
+  const StepStatus status = newton_->solve(step, stabilization, unbounded);
+  if (status.converged) return status;
+  for (std::size_t u = 0; u < fields_.size(); ++u) fields_[u]->set(start[u]);
+  return newton_->solve(step, stabilization, of_waiting);
+}
+
+bool SolveStep::is_good_enough(const StepTime& step) {
+  constexpr int most_in_a_row = 5;  // where nobody asked for it: what is found may lead nowhere
+  if (!options_.may_be_inexact || !newton_->has_used_up_iterations()) return false;
+  const bool goes_on = step.start == inexact_in_.start && step.dt == inexact_in_.dt;
+  inexact_ = goes_on ? inexact_ + 1 : 1;
+  inexact_in_ = step;
+  return options_.overrides_newton || inexact_ <= most_in_a_row;
+}
+
 StepStatus SolveStep::run(const StepTime& step) {
   SPREKK_EXPECT(step.dt > 0 && step.end > step.start, step.start, step.dt, step.end);
   Stabilization stabilization, preconditioning;
@@ -213,7 +235,11 @@ StepStatus SolveStep::run(const StepTime& step) {
   }
   const Responses& of_waiting = responses(step);
   newton_->set_preconditioner_stabilization(preconditioning);
-  StepStatus status = newton_->solve(step, stabilization, of_waiting);
+  StepStatus status = solve(step, stabilization, of_waiting);
+  if (status.converged)
+    inexact_ = 0;
+  else
+    status.converged = is_good_enough(step);
   if (!status.converged && response_ && !response_->is_determined())
     status.reason +=
         " (the unknowns that wait are not determined while those of this step are held, so they have no response)";

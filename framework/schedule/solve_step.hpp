@@ -16,6 +16,7 @@ struct SolveOptions {
   NewtonOptions newton;  ///< those of the scene, with what the step overrides
   LinearOptions linear;
   bool overrides_newton = false, overrides_linear = false;
+  bool may_be_inexact = false;  ///< an iteration around the step looks at the residuals of its equations
   Spec spec();
 };
 
@@ -44,6 +45,10 @@ class SolveStep : public ScheduleStep {
   ResponseOptions wanted_responses() const;
   std::vector<const Field*> waiting() const;
   const Responses& responses(const StepTime& step);
+  /// Without bounds of the response, which are far from linear, and with them where that does not converge.
+  StepStatus solve(const StepTime& step, const Stabilization& stabilization, const Responses& of_waiting);
+  /// Whether a solve that has used up its iterations is as good as any to go on with.
+  bool is_good_enough(const StepTime& step);
   std::unique_ptr<Newton> newton_for(const std::vector<Field*>& unknowns) const;
 
   SolveOptions options_;
@@ -56,6 +61,8 @@ class SolveStep : public ScheduleStep {
   std::vector<const Field*> iterated_;         ///< in the iteration around the step
   std::unique_ptr<WaitingResponse> response_;  ///< of a stabilization that contains one; made when data are known
   bool is_response_made_ = false;
+  StepTime inexact_in_;  ///< the time step in which solves were inexact
+  int inexact_ = 0;      ///< how many of them in a row
 };
 
 Spec newton_spec(NewtonOptions& options);  ///< of the section `newton:`

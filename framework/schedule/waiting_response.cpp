@@ -51,6 +51,14 @@ int WaitingResponse::copy_of(int waiting) const {
   return found == copied_.end() ? -1 : static_cast<int>(found - copied_.begin());
 }
 
+void WaitingResponse::set_bounds() {
+  if (options_.has_pending) return;  // these terms are not of a pair that a part names
+  for (ResponseTerm& term : responses_.terms)
+    for (const Part* part : parts_)
+      if (const auto* follows = dynamic_cast<const FollowsWaiting*>(part))
+        if (Vector least = follows->least_change(*term.row); least.size() > 0) term.least = std::move(least);
+}
+
 const Responses& WaitingResponse::update(const StepTime& step) {
   SPREKK_EXPECT(step.dt > 0, step.dt);
   products_.forget_unused();
@@ -63,6 +71,7 @@ const Responses& WaitingResponse::update(const StepTime& step) {
   assemble_all(assembly, parts_, step);
   const LinearSystem& system = system_.matrix(assembly);
   const bool is_new = has_changed(system) || step.dt != known_dt_;
+  if (!is_new && !options_.has_pending) set_bounds();
   if (!is_new && (!is_determined_ || !options_.has_pending)) return responses_;
   if (is_new) {
     known_ = Eigen::Map<const Vector>(system.local.valuePtr(), system.local.nonZeros());
@@ -76,6 +85,7 @@ const Responses& WaitingResponse::update(const StepTime& step) {
   if (is_new) {
     respond(*all, answers);
     if (is_determined_) add_copies(*all);
+    set_bounds();
   }
   if (!is_determined_ || !options_.has_pending) return responses_;
   const ResidualCheck check = check_residual(assembly, system_, options_.settled);

@@ -13,9 +13,11 @@
 namespace sprekk {
 
 /// A term of a solve inside an iteration: residual(row) += matrix · (value − value at the solve's start) of column.
+/// With `least`, no value is smaller than that, and the term is at most −least.
 struct ResponseTerm {
   const Field *row, *column;
   SparseMatrix matrix;  ///< the rows that this process owns
+  Vector least = {};    ///< the least change of each value of the row, or empty
 };
 
 /// The terms that a solve inside an iteration gets from the unknowns that wait, in the units of its equations.
@@ -64,6 +66,8 @@ class WaitingResponse {
 
  private:
   bool has_changed(const LinearSystem& system);
+  /// Sets the bounds of the terms, at the present values of the fields.
+  void set_bounds();
   /// The derivatives of all equations at hand; the waiting unknowns come first.
   std::unique_ptr<Assembly> assemble_with_solved(const StepTime& step);
   /// d row / d waiting, for each row field, without those that have copies.

@@ -60,6 +60,25 @@ class ConvergenceCriteria(unittest.TestCase):
         for least in (2, alone[pressure], alone[pressure] + 7):
             self.assertEqual(self.passes(f"at_least: {least}, all: [{pressure}]"), max(least, alone[pressure]))
 
+    def test_the_residual_of_one_equation(self):
+        # Of this split only the flow has a residual behind a pass: the rock is solved last.
+        of_flow, of_rock = "{residual_of: pore.pressure, relative: 1e-7}", "{residual_of: rock.displacement, relative: 1e-7}"
+        self.assertEqual(self.passes(f"all: [{of_flow}]"), self.passes("relative: 1e-7"))
+        self.assertEqual(self.passes(f"all: [{of_rock}]"), 1)
+        self.assertEqual(self.passes(f"relative: 1e-4, all: [{of_flow}]"), self.passes("relative: 1e-7"))
+
+    def test_contact_has_a_bound_of_its_own(self):
+        steps = "[{solve: [pore, conduit], stabilize: fixed_stress}, {solve: [rock, contact]}]"
+        tight = "relative: 1e-6, at_most: 100, all: [{residual_of: contact.traction, relative: 1e-10}, {residual_of: contact.jump, relative: 1e-10}]"
+        run = self.call("run", "-q", ROOT / "configs/tutorial/first_scene.yaml", "-o", self.folder, settings=(iterated(tight, steps=steps), "time.end=8 h"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.folder / "coupling.csv", newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if row["schedule"] == "iterate"]
+        for row, following in zip(rows, [*rows[1:], None]):
+            if following is None or following["iteration[1]"] == "1":  # the last pass of a step
+                for field in ("traction", "jump"):
+                    self.assertLessEqual(float(row[f"residual.contact.{field}[1]"]), 1e-10)
+
     def test_a_change_bounds_the_error(self):
         # Errors of p alternate and shrink by 0.8: behind a change d is an error 0.8 d/1.8.
         truth = self.run_scene()["p_closed"][-1]
@@ -113,6 +132,10 @@ class ConvergenceCriteria(unittest.TestCase):
                              (f"at_most: 1, any: [{change}]", "no change to be seen"),
                              ("relative: 1e-8, any: [{residual: 1e-7}, " + change + "]", "no effect"),
                              ("relative: 1e-8, all: [{residual: 1e-7}]", "two bounds"),
+                             ("all: [{residual_of: pore.pressure}]", "has not one bound"),
+                             ("all: [{residual_of: pore.pressure, absolute: 1 Pa, relative: 1e-8}]", "has not one bound"),
+                             ("all: [{residual_of: pore.presure, relative: 1e-8}]", "pore.pressure"),
+                             ("relative: 1e-8, all: [{residual_of: pore.pressure, relative: 1e-7}]", "no effect"),
                              ("all: [{residual: 2}]", "residual")):
             answer = self.call("check", TERZAGHI, "--set", iterated(until))
             self.assertEqual(answer.returncode, 2, until)
