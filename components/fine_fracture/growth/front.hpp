@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "components/fine_fracture/growth/broyden.hpp"
+#include "components/fine_fracture/growth/learnt_slopes.hpp"
 #include "components/fine_fracture/growth/mixed_mode.hpp"
 #include "components/fine_fracture/growth/most_equal_front.hpp"
 #include "framework/types.hpp"
@@ -22,6 +22,7 @@ struct FrontTip {
   double angle = 0;              ///< rad, of the segment from the x axis; of the direction ahead where a new one begins
   double toughness = 0;          ///< K_IC, Pa sqrt(m)
   double longest = 0;            ///< m, most that the segment may become in this step
+  double size = 0;               ///< m, length of the fracture of the tip; 0: not known
   double least = 0;              ///< m, of a new segment: what has parted in earlier steps does not heal
   double speed = 0;              ///< m/s, of the last step; 0 where the tip did not grow
   /// rad from the x axis: of the path at the tip, and not of a segment that was divided; for a bent one its chord
@@ -54,9 +55,9 @@ struct FrontOptions {
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
 ///   K_eq = K_IC and K_II = 0 at tips that grow,    K_eq <= K_IC at tips that do not,
-/// by Broyden's method for the tips that grow; which do is decided anew after each trial. Of several tips K is known to
-/// the error of the mesh, and of all fronts within it the most equal one is sought (most_equal_front.hpp). Of several
-/// solutions it seeks the one next to the start of the step.
+/// by a quasi-Newton method for the tips that grow; which do is decided anew after each trial. Of several tips K is
+/// known to the error of the mesh, and of all fronts within it the most equal one is sought (most_equal_front.hpp). Of
+/// several solutions it seeks the one next to the start of the step.
 ///
 ///   Front front(…, states of the trial without growth, …);
 ///   while (front.verdict() == again) front.learn(states of the trial with lengths(), angles());
@@ -89,7 +90,7 @@ class Front {
   double worst() const { return worst_; }
   const std::string& reason() const { return reason_; }
   /// The derivative of (ln(K/K_IC), K_II/K_I) by (length/increment, angle), per tip, as it was learnt, without the
-  /// part that depends on the length of the segment that turns; for the next step.
+  /// parts that depend on the lengths of segments and fractures; for the next step.
   Eigen::MatrixXd slopes() const;
 
  private:
@@ -103,9 +104,9 @@ class Front {
   bool learns_from_start() const;
   void make_jacobian();
   void forget();
-  /// Puts the part of the derivatives by angles that depends on the lengths of segments in, or takes it out
+  /// Puts the parts of the derivatives that depend on the lengths of segments and fractures in, or takes them out
   /// (`inverse`). `states`: those at which the slopes of turns are taken.
-  void scale_turns(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const;
+  void scale(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const;
   /// d(K_II/K_I)/d angle of the last segment of a tip, of this length (m), by the expansion of a kink.
   double turn_slope_of(int tip, const Sifs& sifs, double length) const;
   /// (ln(K/K_IC), K_II/K_I), per tip. For a tip that grows K² = K_I² + K_II², the energy release rate: its roots are
@@ -144,7 +145,7 @@ class Front {
   std::vector<char> was_unstable_;  ///< tips that were pushed on once, since their load did not fall with their length
   std::vector<double> length_, angle_;
   std::vector<FrontState> last_;
-  Broyden slopes_;  ///< of residual() by (length/increment, angle), per tip
+  LearntSlopes slopes_;  ///< of residual() by (length/increment, angle), per tip
   Eigen::VectorXd before_place_, before_residual_;
   /// The best trial so far with the tips that grow now.
   struct Best {

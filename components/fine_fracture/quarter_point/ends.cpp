@@ -26,6 +26,13 @@ std::vector<TipEnd> all_ends(const Mesh& mesh) {
   return ends;
 }
 
+double fracture_length(const Mesh& mesh, int fracture) {
+  const Fracture& cells = mesh.fractures[fracture];
+  double length = 0;
+  for (int i = 0; i < cells.cell_count; ++i) length += mesh.fracture_cells[cells.first_cell + i].measure;
+  return length;
+}
+
 double original_size(const Mesh& mesh, const TipEnd& end) {
   const Fracture& cells = mesh.fractures[end.fracture];
   for (int i = 0; i < cells.cell_count; ++i) {

@@ -20,6 +20,7 @@ inline bool is_same(const TipEnd& a, const TipEnd& b) { return a.fracture == b.f
 Point end_point(const Mesh& mesh, const TipEnd& end);  ///< where the fracture ends in the mesh, m
 /// The last cell of the fracture at this end.
 const FractureCell& end_cell(const Mesh& mesh, const TipEnd& end);
+double fracture_length(const Mesh& mesh, int fracture);  ///< of all its cells, m
 /// The length of the cell at this end of the fracture as the scene gives it, before any growth, m.
 double original_size(const Mesh& mesh, const TipEnd& end);
 /// The length of the fracture's new cells at this end, m.

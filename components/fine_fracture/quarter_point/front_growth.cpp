@@ -30,6 +30,8 @@ constexpr double largest_first_part = 0.8;  ///< of a first segment: the same
 constexpr double longest_advance = 1.5;     ///< of an increment, in one step
 constexpr double on_the_way = 0.2;          ///< of an increment: of nearer places only one gives a direction
 constexpr double wanted_advance = 0.85;     ///< of an increment, of the fastest tip in one step
+constexpr double carried_on = 0.5;          ///< of the change of speed between the last two steps: it has noise, too
+constexpr double largest_trend = 1.5;       ///< of the expected speed over the mean of the last two steps
 constexpr double shorter_step = 0.5;        ///< the next attempt at a step that is too long
 
 /// Of the last step and of the one before. Segments are divided every other step, and advances alternate with that.
@@ -64,6 +66,7 @@ class TipsFront : public FrontSearch {
   double part_by_turn(const Tips::Tip& tip) const;
   double what_stays(const Tips::Tip& tip, const FrontTip& start) const;
   double speed(std::size_t tip) const;
+  double trend() const;
   void add(Tips::Tip& tip);
   void find_joinings();
   void propose();
@@ -103,6 +106,8 @@ FrontState TipsFront::state_of(const Tips& tips, const Tips::Tip& tip) {
 TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goes_on)
     : tips_(tips), dt_(step.dt), may_shrink_(may_shrink), goes_on_(goes_on) {
   for (Tips::Tip& tip : tips_.tips_) add(tip);
+  const double by_trend = trend();
+  for (FrontTip& start : at_start_) start.speed *= by_trend;
   find_joinings();
   options_.increment = tips_.options_.growth.increment;
   options_.shortest = tips_.options_.growth.smallest_length();
@@ -145,6 +150,20 @@ double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const 
   return start.covered > full ? start.covered - rest_of_segment * full : 0;
 }
 
+/// The speed of all tips together in this step over its mean in the last two. How tips share it alternates with the
+/// division of segments, but their sum hardly does.
+double TipsFront::trend() const {
+  double mean = 0, expected = 0;
+  for (const Tips::Tip& tip : tips_.tips_) {
+    const Tips::State& now = tip.now;
+    if (!(now.speed > 0 && now.speed_before > 0 && now.lasted > 0 && now.lasted_before > 0)) continue;
+    mean += (now.speed + now.speed_before) / 2;
+    expected +=
+        now.speed + carried_on * (now.speed - now.speed_before) * (dt_ + now.lasted) / (now.lasted + now.lasted_before);
+  }
+  return mean > 0 ? std::clamp(expected / mean, 1 / largest_trend, largest_trend) : 1;
+}
+
 void TipsFront::add(Tips::Tip& tip) {
   tip.pattern.reset();
   tip.next_start.reset();
@@ -156,6 +175,7 @@ void TipsFront::add(Tips::Tip& tip) {
   start.anchor = end;
   start.angle = start.ahead = angle_of(ahead);
   start.toughness = tips_.toughness(tip);
+  start.size = fracture_length(tips_.mesh_, tip.end.fracture);
   start.speed = mean_of_steps(tip.now.speed, tip.now.speed_before);
   start.turning = mean_of_steps(tip.now.turning, tip.now.turning_before);
   start.goes_on = goes_on_ && tip.now.is_extendable && !tip.now.is_stopped && tip.now.speed > 0;
@@ -383,6 +403,8 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     const double grown = same->now.grown - tips_.tips_[i].now.grown - at_start_[i].first_length;
     same->now.speed_before = tips_.tips_[i].now.speed;
     same->now.turning_before = tips_.tips_[i].now.turning;
+    same->now.lasted_before = tips_.tips_[i].now.lasted;
+    same->now.lasted = dt_;
     same->now.speed = std::max(0.0, grown) / dt_;
     same->now.apparent_toughness =
         speed(i) > 0 && there.is_viscous(*same) ? there.apparent_toughness(*same, speed(i)) : 0;

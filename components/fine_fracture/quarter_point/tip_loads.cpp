@@ -1,6 +1,7 @@
 // The loads that the fine level takes from the coarse level: displacements on its outline, stress, tractions on walls.
 #include <algorithm>
 
+#include "components/fine_fracture/quarter_point/ends.hpp"
 #include "components/fine_fracture/quarter_point/tips.hpp"
 #include "framework/mesh/planar.hpp"
 
@@ -25,11 +26,7 @@ Point turned(const Point& vector, const Point& from, const Point& to) {
 
 FineLoads Tips::loads_of(const Tip& tip) const {
   std::vector<double> lengths;
-  for (const Fracture& fracture : mesh_.fractures) {
-    double length = 0;
-    for (int i = 0; i < fracture.cell_count; ++i) length += mesh_.fracture_cells[fracture.first_cell + i].measure;
-    lengths.push_back(length);
-  }
+  for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f) lengths.push_back(fracture_length(mesh_, f));
   std::vector<Arc> arcs;
   for (const Tip& other : tips_) {
     if (!other.now.segment_start) continue;

@@ -258,6 +258,7 @@ bool Tips::is_long_enough(const Tip& tip, const TipPath& path) const {
 /// The last segment stays where it is: a path that grows with the state held begins at the tip.
 void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
   tip.now.speed = (length_of(position(tip, {}), path) - length_of(position(tip, {}), tip.now.path)) / step_.dt;
+  tip.now.lasted = tip.now.lasted_before = 0;
   tip.now.is_extendable = false;
   tip.now.way.clear();
   tip.next_start.reset();

@@ -87,6 +87,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
     double apparent_toughness = 0;
     double turning = 0;                           ///< rad/m, of the last segment by growth in the last step
     double speed_before = 0, turning_before = 0;  ///< the same, of the step before that
+    double lasted = 0, lasted_before = 0;         ///< s, these two steps; 0: not known
     /// Where the tip was at ends of steps while its last segment grew; the last one is here.
     std::vector<PlaceOnWay> way;
     /// The direction of the path at the beginning of the last segment. With one the fine level has an arc in place of

@@ -80,7 +80,7 @@ struct Setting {
   /// Lets the path grow straight on by this length, which the coarse level does not have, at these ends.
   void grow(double length, bool first, bool last) {
     const auto state = [&](bool has_grown, double sign) {
-      Vector values = Vector::Zero(has_grown ? 21 : 19);
+      Vector values = Vector::Zero(has_grown ? 23 : 21);
       values[7] = 1;
       if (has_grown) values.tail<2>() = sign * (crack_half_length + length) * along;
       return values;
@@ -175,7 +175,7 @@ struct TwoFractures {
         mesh(make_mesh()),
         tips({"tips", mesh, fields, 0, {}}, options(other_toughness)) {
     tips.accept_surroundings(fluid);
-    Vector rest = Vector::Zero(19), path = Vector::Zero(21);
+    Vector rest = Vector::Zero(21), path = Vector::Zero(23);
     rest[7] = path[7] = 1;
     path.tail<2>() = (grown - half_gap) * along;
     tips.restore(
@@ -253,15 +253,16 @@ TEST(Tips, AskForEdgesThatGrowAsTheSceneSays) {
 
 TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
   // Factors, growth, flags (stopped, started, evaluated, extendable), an error, a warm start, a load, a speed, a
-  // turning, the start of a segment, both of the step before, a way of one point with its direction and a path of one.
+  // turning, the start of a segment, both of the step before, the lengths of these two steps, a way of one point with
+  // its direction and a path of one.
   constexpr int flags[] = {4, 5, 9, 11};
   for (int set = 0; set < 16; ++set) {
     constexpr int count = 14;  // of points on the way
-    Vector first(25), last(19);
+    Vector first(27), last(21);
     for (int i = 0; i < first.size(); ++i) first[i] = 1.1 + 0.1 * i;
     for (int k = 0; k < 4; ++k) first[flags[k]] = (set >> k) & 1;
     first[count] = 1;
-    last = -first.head(19);
+    last = -first.head(21);
     last[count] = 0;
     for (int k = 0; k < 4; ++k) last[flags[k]] = 1 - first[flags[k]];
     Setting setting(0.3);
@@ -292,7 +293,7 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
   setting.fluid.jump[0] = 0;
   setting.fluid.pressure[1] = 30e6;
   setting.grow(0.1, false, true);
-  Vector values = Vector::Zero(21);
+  Vector values = Vector::Zero(23);
   values[7] = 1;
   const double turn = 100 * pi / 180;
   const Point tip = crack_half_length * setting.along;

@@ -1,0 +1,159 @@
+// The step from one trial of a search for a front to the next one.
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "components/fine_fracture/growth/front.hpp"
+#include "components/fine_fracture/growth/front_limits.hpp"
+#include "components/fine_fracture/growth/linear_front.hpp"
+
+namespace sprekk::fine_fracture {
+
+namespace {
+
+constexpr double quarter_turn = 1.5;     ///< rad: for a move that turns further the slope of K_II is wrong
+constexpr double largest_factor = 3;     ///< between lengths of a new segment in two trials
+constexpr double largest_advance = 0.6;  ///< of an increment, between two trials
+constexpr double no_motion = 1e-300;     ///< no division by zero
+
+}  // namespace
+
+/// The step with the slopes that were learnt. Loads and directions are linear, while the equations of the front are
+/// solved as they are; these are linearized, too, if there is no solution.
+Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) {
+  if (const auto move = step_to_linear_front(free, residual)) return *move;
+  const std::vector<int> tips = front_tips();
+  const FrontEquations front = equations(residual);
+  const auto matrix_of_front = [&] {
+    Eigen::MatrixXd jacobian = slopes_.jacobian;
+    for (std::size_t a = 0; a < tips.size(); ++a) {
+      jacobian.row(2 * tips[a]).setZero();
+      for (std::size_t b = 0; b < tips.size(); ++b) {
+        const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
+        jacobian.row(2 * tips[a]) += front.by_load(row, column) * slopes_.jacobian.row(2 * tips[b]);
+        jacobian(2 * tips[a], 2 * tips[b]) += front.by_advance(row, column);
+      }
+    }
+    return Eigen::MatrixXd(jacobian(free, free));
+  };
+  Eigen::MatrixXd matrix = matrix_of_front();
+  if (!matrix.fullPivLu().isInvertible()) {
+    // Loads that were once found not to depend on lengths would leave the tips where they are.
+    forget();
+    matrix = matrix_of_front();
+  }
+  return matrix.fullPivLu().solve(-count_loads(residual, front)(free));
+}
+
+/// Whether a tip would turn further than any turn for which the slopes of K_II hold.
+bool Front::turns_far(const Eigen::VectorXd& move) {
+  for (Eigen::Index a = 1; a < move.size(); a += 2)
+    if (std::abs(move[a]) > quarter_turn) return true;
+  return false;
+}
+
+/// The step of lengths with the directions of these tips as they are.
+Eigen::VectorXd Front::step_with_held_turns(const std::vector<int>& free, const Eigen::VectorXd& residual,
+                                            const Eigen::VectorXd& full) {
+  const Eigen::MatrixXd learnt = slopes_.jacobian;
+  Eigen::VectorXd held = residual;
+  for (std::size_t a = 1; a < free.size(); a += 2) {
+    if (std::abs(full[static_cast<Eigen::Index>(a)]) <= quarter_turn) continue;
+    slopes_.jacobian.row(free[a]).setZero();
+    slopes_.jacobian.col(free[a]).setZero();
+    slopes_.jacobian(free[a], free[a]) = 1;
+    held[free[a]] = 0;
+  }
+  Eigen::VectorXd move = newton_step(free, held);
+  slopes_.jacobian = learnt;
+  return move;
+}
+
+/// The move by which all directions and the lengths of new segments follow the lengths of the other tips, and these
+/// lengths are those of the front.
+std::optional<Eigen::VectorXd> Front::step_to_linear_front(const std::vector<int>& free,
+                                                           const Eigen::VectorXd& residual) const {
+  const std::vector<int> tips = front_tips();
+  if (tips.empty()) return std::nullopt;
+  std::vector<int> lengths, others;
+  for (const int tip : tips) lengths.push_back(2 * tip);
+  for (const int unknown : free)
+    if (std::ranges::find(lengths, unknown) == lengths.end()) others.push_back(unknown);
+  const Eigen::MatrixXd& jacobian = slopes_.jacobian;
+  const Eigen::FullPivLU<Eigen::MatrixXd> factors(jacobian(others, others));
+  if (!factors.isInvertible()) return std::nullopt;
+  const Eigen::MatrixXd follow = -factors.solve(Eigen::MatrixXd(jacobian(others, lengths)));
+  const Eigen::VectorXd own = -factors.solve(Eigen::VectorXd(residual(others)));
+  const Eigen::VectorXd at = advances(tips);
+  const auto advances = linear_front({residual(lengths) + jacobian(lengths, others) * own,
+                                      jacobian(lengths, lengths) + jacobian(lengths, others) * follow, at},
+                                     options_.mesh_error);
+  if (!advances) return std::nullopt;
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(residual.size());
+  all(lengths) = *advances - at;
+  all(others) = own + follow * (*advances - at);
+  return Eigen::VectorXd(all(free));
+}
+
+/// Newton's step. A tip that would move back to where it was at the start of the step rests there.
+void Front::step(const Eigen::VectorXd& residual) {
+  if (free_tips(residual)) return;
+  const Eigen::VectorXd from = place();
+  std::vector<int> free;
+  for (int i = 0; i < count(); ++i)
+    if (grows_[i]) free.insert(free.end(), {2 * i, 2 * i + 1});
+  const int size = static_cast<int>(free.size());
+  const Eigen::VectorXd full = newton_step(free, residual);
+  Eigen::VectorXd move = turns_far(full) ? step_with_held_turns(free, residual, full) : full;
+  const Eigen::VectorXd counted = count_loads(residual, equations(residual));
+  double part = part_;
+  for (int a = 0; a < size; a += 2) {
+    const int i = free[a] / 2;
+    if (!std::isfinite(move[a]) || !std::isfinite(move[a + 1]))
+      move[a] = counted[free[a]] > 0 ? 0.5 : -0.5, move[a + 1] = 0;
+    part = std::min(part, largest_advance / std::max(no_motion, std::abs(move[a])));
+    part = std::min(part, largest_turn / std::max(no_motion, std::abs(move[a + 1])));
+    if (is_new(i)) {
+      const double factor = 1 + move[a] * options_.increment / length_[i];
+      if (factor > largest_factor) part = std::min(part, (largest_factor - 1) / (factor - 1));
+      if (factor < 1 / largest_factor) part = std::min(part, (1 - 1 / largest_factor) / (1 - factor));
+    }
+  }
+  before_place_ = from;
+  before_residual_ = residual;
+  for (int a = 0; a < size; a += 2) {
+    const int i = free[a] / 2;
+    const double wanted = length_[i] + part * move[a] * options_.increment;
+    angle_[i] += part * move[a + 1];
+    if (wanted <= least(i)) {
+      // Back at the start of the step: the tip rests, unless it is there and above its toughness. Then its load rises
+      // with its length.
+      const bool is_unstable = counted[2 * i] > 0 && length_[i] <= least(i) * (1 + at_limit);
+      if (is_unstable && was_unstable_[i]) {
+        verdict_ = Verdict::failed;
+        reason_ = "the load of a tip rises with its length";
+        return;
+      }
+      was_unstable_[i] = was_unstable_[i] || is_unstable;
+      length_[i] = least(i) + (is_unstable ? first_part * options_.increment : 0);
+      if (!is_new(i))
+        angle_[i] = tips_[i].angle;
+      else if (tips_[i].least > 0)
+        angle_[i] = tips_[i].first_angle;  // the direction of the part that exists already
+      grows_[i] = is_unstable;
+      best_.reset();
+    } else {
+      length_[i] = wanted;
+    }
+    if (length_[i] > tips_[i].longest) {
+      if (counted[2 * i] > 0 && from[2 * i] * options_.increment >= tips_[i].longest * (1 - at_limit)) {
+        verdict_ = Verdict::too_far;
+        reason_ = "a tip grows further than its longest advance in one step";
+        return;
+      }
+      length_[i] = tips_[i].longest;
+    }
+  }
+}
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,67 @@
+#include "components/fine_fracture/growth/learnt_slopes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/invariants.hpp"
+
+namespace sprekk::fine_fracture {
+
+namespace {
+
+/// How far an entry may be off. Derivatives by an advance: parts of the derivative of the load by the tip's own
+/// advance. Derivatives by an angle: of loads 1/rad, of directions parts of the derivative by the tip's own angle.
+struct Uncertainty {
+  double by_advance, by_angle;
+};
+constexpr Uncertainty load_by_own{0.5, 0.1}, load_by_others{0.2, 0.005};
+constexpr Uncertainty direction_by_own{0.5, 0.1}, direction_by_others{0.05, 0.003};
+constexpr double least_slope = 0.01;  ///< per increment and per rad, in the uncertainties
+constexpr double curvature = 0.03;    ///< per increment² and rad²: what a Jacobian cannot tell of a residual
+constexpr double least_fresh = 0.1;   ///< of the uncertainty: a move with less of it was known from earlier moves
+constexpr double surprising = 5;      ///< standard deviations: a row that was so wrong, but known, forgets its moves
+constexpr double round_off = 1e-9;    ///< of a residual
+
+}  // namespace
+
+Eigen::VectorXd LearntSlopes::uncertainties(Eigen::Index row) const {
+  const Eigen::Index tip = row / 2;
+  const bool is_load = row % 2 == 0;
+  const double by_advance = std::max(least_slope, std::abs(jacobian(2 * tip, 2 * tip)));
+  const double by_angle = is_load ? 1 : std::max(least_slope, std::abs(jacobian(2 * tip + 1, 2 * tip + 1)));
+  Eigen::VectorXd values(jacobian.cols());
+  for (Eigen::Index other = 0; other < jacobian.cols() / 2; ++other) {
+    const Uncertainty& by =
+        other == tip ? (is_load ? load_by_own : direction_by_own) : (is_load ? load_by_others : direction_by_others);
+    values[2 * other] = by.by_advance * by_advance;
+    values[2 * other + 1] = by.by_angle * by_angle;
+  }
+  return values;
+}
+
+void LearntSlopes::update(const Eigen::VectorXd& moved, const Eigen::VectorXd& change) {
+  SPREKK_EXPECT(moved.size() == jacobian.cols() && change.size() == jacobian.rows(), moved.size(), change.size());
+  if (moved.squaredNorm() == 0) return;
+  if (covariances_.empty())
+    for (Eigen::Index row = 0; row < jacobian.rows(); ++row)
+      covariances_.emplace_back(uncertainties(row).cwiseAbs2().asDiagonal());
+  const Eigen::VectorXd missed = change - jacobian * moved;
+  const double of_squares = curvature * moved.squaredNorm();
+  const double of_measurement = of_squares * of_squares + round_off * round_off;
+  for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
+    Eigen::MatrixXd& covariance = covariances_[row];
+    const Eigen::VectorXd at_first = uncertainties(row).cwiseAbs2().cwiseProduct(moved);
+    Eigen::VectorXd shared = covariance * moved;
+    double variance = std::max(0.0, moved.dot(shared)) + of_measurement;
+    const bool is_known = variance < least_fresh * least_fresh * moved.dot(at_first) + of_measurement;
+    if (is_known && std::abs(missed[row]) > surprising * std::sqrt(variance)) {
+      covariance = uncertainties(row).cwiseAbs2().asDiagonal();
+      shared = at_first;
+      variance = moved.dot(at_first) + of_measurement;
+    }
+    jacobian.row(row) += missed[row] / variance * shared.transpose();
+    covariance -= shared * shared.transpose() / variance;
+  }
+}
+
+}  // namespace sprekk::fine_fracture
