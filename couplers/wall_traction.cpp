@@ -12,6 +12,7 @@
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/network_shape.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -47,6 +48,7 @@ class WallTraction : public Coupler {
         rock_(context.the<RockWalls>()),
         contact_(context.find<FractureContact>()),
         fluid_(context.find<FractureFluid>()),
+        stressed_rock_(context.find<RockState>()),
         fluid_left_out_(fluid_ ? "" : context.left_out<FractureFluid>()) {
     if (!contact_ && !fluid_)
       throw InputError(context.origin, "coupler " + name() + " has nothing that acts on the walls",
@@ -69,6 +71,7 @@ class WallTraction : public Coupler {
   void evaluate_data(const StepTime& step) override { alpha_.evaluate(step); }
 
   void note_input(Notes& notes) const override {
+    note_pockets(notes);
     if (fluid_left_out_.empty()) return;
     notes.add(name() + " without " + fluid_left_out_,
               fmt::format("the pressure of {0} does not push the walls of fractures apart ({0} is not in the `between` "
@@ -131,6 +134,22 @@ class WallTraction : public Coupler {
   }
 
  private:
+  /// Rock between fractures that is held by nothing but tractions on its walls, which are zero at the start.
+  void note_pockets(Notes& notes) const {
+    if (!contact_ || !stressed_rock_) return;
+    for (int w = 0; w < mesh_.wall_count(); ++w) {
+      const int face = mesh_.wall_face(w);
+      if (!stressed_rock_->initial_stress(mesh_.face_cells[face][0], mesh_.face_center[face]).isZero(0)) return;
+    }
+    const std::vector<Pocket> enclosed = pockets(mesh_);
+    if (enclosed.empty()) return;
+    notes.add("rock between fractures without stress",
+              fmt::format("fractures cut off {} parts of the rock, the smallest at {}, and press nothing at the start "
+                          "(while all of its walls are open nothing holds such a part, and a step may fail with a "
+                          "singular system) give the rock an initial_stress that balances the loads",
+                          enclosed.size(), to_text(enclosed.front().center)));
+  }
+
   /// Beside each fracture cell, Pa: twice that of both sides in series. Nothing where rock is anisotropic.
   std::optional<Vector> shear_modulus() const {
     Vector modulus(mesh_.fracture_cell_count());
@@ -178,8 +197,9 @@ class WallTraction : public Coupler {
   FractureContact* contact_;
   const RockState* rock_state_ = nullptr;  ///< where the contact needs the shear modulus
   FractureFluid* fluid_;
-  std::string fluid_left_out_;  ///< a component of the scene that the coupler does not stand between
-  Property alpha_;              ///< alpha_i of Eq. 4 of the paper, with a fluid
+  const RockState* stressed_rock_;  ///< nullptr where the rock does not tell its initial stress
+  std::string fluid_left_out_;      ///< a component of the scene that the coupler does not stand between
+  Property alpha_;                  ///< alpha_i of Eq. 4 of the paper, with a fluid
   std::uint64_t loaded_with_ = 0;
   Vector compliance_;     ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
   Operator normal_load_;  ///< `dimension` fracture cells × fracture cells: pressure pushes the plus wall along −n
