@@ -9,18 +9,20 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-/// How far an entry may be off. Derivatives by an advance: parts of the derivative of the load by the tip's own
-/// advance. Derivatives by an angle: of loads 1/rad, of directions parts of the derivative by the tip's own angle.
-struct Uncertainty {
-  double by_advance, by_angle;
-};
-constexpr Uncertainty load_by_own{0.5, 0.1}, load_by_others{0.2, 0.005};
-constexpr Uncertainty direction_by_own{0.5, 0.1}, direction_by_others{0.05, 0.003};
-constexpr double least_slope = 0.01;  ///< per increment and per rad, in the uncertainties
-constexpr double curvature = 0.03;    ///< per increment² and rad²: what a Jacobian cannot tell of a residual
-constexpr double least_fresh = 0.1;   ///< of the uncertainty: a move with less of it was known from earlier moves
-constexpr double surprising = 5;      ///< standard deviations: a row that was so wrong, but known, forgets its moves
-constexpr double round_off = 1e-9;    ///< of a residual
+// How far an entry may be off.
+constexpr double load_by_advance = 0.5;              ///< of the derivative of the load by the tip's own advance
+constexpr double load_by_other_advance = 0.2;        ///< the same, by that of another tip
+constexpr double load_by_angle = 0.1;                ///< 1/rad
+constexpr double load_by_other_angle = 0.005;        ///< 1/rad
+constexpr double direction_by_advance = 0.5;         ///< of the derivative of the load by the tip's own advance
+constexpr double direction_by_other_advance = 0.05;  ///< the same, by that of another tip
+constexpr double direction_by_angle = 0.1;           ///< of the derivative of the direction by the tip's own angle
+constexpr double direction_by_other_angle = 0.003;   ///< the same, by that of another tip
+constexpr double least_slope = 0.01;                 ///< per increment and per rad, in the uncertainties
+constexpr double curvature = 0.03;   ///< per increment² and rad²: what a Jacobian cannot tell of a residual
+constexpr double least_fresh = 0.1;  ///< of the uncertainty: a move with less of it was known from earlier moves
+constexpr double surprising = 5;     ///< standard deviations: a row that was so wrong, but known, forgets its moves
+constexpr double round_off = 1e-9;   ///< of a residual
 
 }  // namespace
 
@@ -28,13 +30,17 @@ Eigen::VectorXd LearntSlopes::uncertainties(Eigen::Index row) const {
   const Eigen::Index tip = row / 2;
   const bool is_load = row % 2 == 0;
   const double by_advance = std::max(least_slope, std::abs(jacobian(2 * tip, 2 * tip)));
-  const double by_angle = is_load ? 1 : std::max(least_slope, std::abs(jacobian(2 * tip + 1, 2 * tip + 1)));
+  const double by_angle = std::max(least_slope, std::abs(jacobian(2 * tip + 1, 2 * tip + 1)));
   Eigen::VectorXd values(jacobian.cols());
   for (Eigen::Index other = 0; other < jacobian.cols() / 2; ++other) {
-    const Uncertainty& by =
-        other == tip ? (is_load ? load_by_own : direction_by_own) : (is_load ? load_by_others : direction_by_others);
-    values[2 * other] = by.by_advance * by_advance;
-    values[2 * other + 1] = by.by_angle * by_angle;
+    const bool is_own = other == tip;
+    if (is_load) {
+      values[2 * other] = (is_own ? load_by_advance : load_by_other_advance) * by_advance;
+      values[2 * other + 1] = is_own ? load_by_angle : load_by_other_angle;
+    } else {
+      values[2 * other] = (is_own ? direction_by_advance : direction_by_other_advance) * by_advance;
+      values[2 * other + 1] = (is_own ? direction_by_angle : direction_by_other_angle) * by_angle;
+    }
   }
   return values;
 }

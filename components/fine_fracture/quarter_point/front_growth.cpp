@@ -31,8 +31,8 @@ constexpr double longest_advance = 1.5;     ///< of an increment, in one step
 constexpr double on_the_way = 0.2;          ///< of an increment: of nearer places only one gives a direction
 constexpr double wanted_advance = 0.85;     ///< of an increment, of the fastest tip in one step
 constexpr double carried_on = 0.5;          ///< of the change of speed between the last two steps: it has noise, too
-constexpr double largest_trend = 1.5;       ///< of the expected speed over the mean of the last two steps
-constexpr double shorter_step = 0.5;        ///< the next attempt at a step that is too long
+constexpr double steady = 1.2;  ///< ratio of the speeds of two steps from which they tell no trend; largest one by it
+constexpr double shorter_step = 0.5;  ///< the next attempt at a step that is too long
 
 /// Of the last step and of the one before. Segments are divided every other step, and advances alternate with that.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
@@ -151,17 +151,18 @@ double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const 
 }
 
 /// The speed of all tips together in this step over its mean in the last two. How tips share it alternates with the
-/// division of segments, but their sum hardly does.
+/// division of segments, but their sum hardly does. Where it changed much from one step to the other, it has no trend.
 double TipsFront::trend() const {
-  double mean = 0, expected = 0;
+  double last = 0, before = 0, part = 0;
   for (const Tips::Tip& tip : tips_.tips_) {
     const Tips::State& now = tip.now;
     if (!(now.speed > 0 && now.speed_before > 0 && now.lasted > 0 && now.lasted_before > 0)) continue;
-    mean += (now.speed + now.speed_before) / 2;
-    expected +=
-        now.speed + carried_on * (now.speed - now.speed_before) * (dt_ + now.lasted) / (now.lasted + now.lasted_before);
+    last += now.speed;
+    before += now.speed_before;
+    part = carried_on * (dt_ + now.lasted) / (now.lasted + now.lasted_before);
   }
-  return mean > 0 ? std::clamp(expected / mean, 1 / largest_trend, largest_trend) : 1;
+  if (last > steady * before || before > steady * last || last == 0) return 1;
+  return std::clamp((last + part * (last - before)) / (0.5 * (last + before)), 1 / steady, steady);
 }
 
 void TipsFront::add(Tips::Tip& tip) {
