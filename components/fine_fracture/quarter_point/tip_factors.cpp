@@ -26,7 +26,7 @@ bool has_room(const std::vector<Point>& square, const Point& place, double radiu
 }  // namespace
 
 void Tips::check_stiffness(const FineDomain& domain, const LameParameters& rock) const {
-  constexpr int across = 16;          // places that are looked at
+  constexpr int across = 16;          // places where the stiffness is compared
   constexpr double round_off = 1e-9;  // of a stiffness
   const Point low = domain.geometry.outline[0], size = domain.geometry.outline[2] - low;
   for (int i = 0; i <= across; ++i)
