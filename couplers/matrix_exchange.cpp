@@ -56,7 +56,7 @@ class MatrixExchange : public Coupler {
     if (used_ == std::pair(exchange_.version(), step.dt)) return;
     conductance_ = Vector(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c) conductance_[c] = step.dt * exchange_[c] * in_both_[c];
-    // Nothing of it leaves both balances together.
+    // What leaves one balance enters the other.
     of_difference_ = Operator(diagonal_matrix(conductance_), SparseMatrix(mesh_.cell_count(), mesh_.cell_count()));
     used_ = {exchange_.version(), step.dt};
   }

@@ -31,8 +31,9 @@ bool is_finite(const Eigen::DenseBase<Derived>& values) {
 }
 
 inline bool is_finite(const SparseMatrix& matrix) {
-  return std::all_of(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(),
-                     [](double v) { return std::isfinite(v); });
+  for (long k = 0; k < static_cast<long>(matrix.nonZeros()); ++k)
+    if (!std::isfinite(matrix.valuePtr()[k])) return false;
+  return true;
 }
 
 /// Of the larger of two values that ought to be equal: what rounding may leave between them.

@@ -20,7 +20,7 @@ class SlipEvents {
     Vector slip_rate;      ///< m/s, at the end
     Vector shear_modulus;  ///< Pa; empty where it is not known
   };
-  /// What is known of the latest event.
+  /// The latest event, as far as it has come.
   struct Event {
     bool goes_on = false;
     double count = 0;           ///< events that have begun

@@ -83,7 +83,7 @@ Trial FrictionalContact::trial(int i) const {
     t.path_by_slip = direction_of<dimension - 1>(magnitude<dimension - 1>(slipped) > 0 ? slipped : t.tangential);
   }
   t.bound = t.strength.cohesion - t.strength.friction * std::min(0.0, t.normal);
-  // No cone limits what depends on the rate.
+  // Friction that depends on the slip rate has no cone.
   if (rate_and_state_) t.bound = std::numeric_limits<double>::infinity();
   if (!kept_.empty() && kept_[i] && !t.is_open()) t.bound = std::numeric_limits<double>::infinity();
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.

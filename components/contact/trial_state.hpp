@@ -19,7 +19,7 @@ struct Trial : TrialTraction<dimension - 1> {
   TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
   double path_by_gap;
   double least_bound;  ///< friction below it does not hold anything: which way it points is round-off
-  /// What walls hold whose friction depends on slip rate; nothing where the cone of friction says it.
+  /// The traction of walls whose friction depends on the slip rate; none for friction with a cone.
   struct AtRate {
     ReturnedTraction<dimension - 1> traction;
     TangentialVector by_pressure = TangentialVector::Zero();  ///< d traction / d (−normal) where the walls touch

@@ -35,7 +35,7 @@ class FineLevel {
  public:
   virtual ~FineLevel() = default;
   virtual FineRock rock() const = 0;
-  /// Of its elements: factors of fine levels with the same one depend continuously on the geometry.
+  /// The pattern of its elements: factors of fine levels with one pattern depend continuously on the geometry.
   virtual std::uint64_t topology() const = 0;
   /// The places at which each solve needs the stress offset.
   virtual const std::vector<Point>& offset_places() const = 0;

@@ -42,7 +42,7 @@ class Excavation {
   std::vector<char> left() const;
 
  private:
-  /// So little that displacements change by about this part of themselves, and enough to determine those inside.
+  /// Displacements around change by about this part; those inside stay determined.
   static constexpr double left_stiffness = 1e-6;
   std::vector<const ExcavatedRegion*> regions_;
   std::vector<int> region_of_cell_;  ///< empty without regions

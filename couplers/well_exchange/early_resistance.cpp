@@ -14,8 +14,8 @@ constexpr double last_scale = 64;       // of the cell's area: the mesh is late 
 constexpr int samples_of_a_term = 2;    // more change the fit by a tenth of its error
 constexpr double beyond_the_terms = 4;  // samples reach beyond first and last scale by this factor
 
-/// s times the transform of the pressure of a bore hole of the radius r in rock without end, times 2 pi sqrt(det M)/q,
-/// with x = r sqrt(s/c).
+/// s times the Laplace transform of the pressure of a bore hole of the radius r in infinite rock, times 2 pi sqrt(det
+/// M)/q, with x = r sqrt(s/c).
 double bore_hole(double x) { return std::cyl_bessel_k(0.0, x) / (x * std::cyl_bessel_k(1.0, x)); }
 
 }  // namespace

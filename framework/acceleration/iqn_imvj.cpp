@@ -1,5 +1,6 @@
 // iqn_imvj: interface quasi-Newton with the inverse Jacobian from all time steps.
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "framework/acceleration/registry.hpp"
 #include "framework/acceleration/secants.hpp"

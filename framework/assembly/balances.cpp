@@ -1,10 +1,17 @@
 #include "framework/assembly/balances.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
 
 namespace sprekk {
+
+Balances::Balances(std::size_t unknowns) : of_(unknowns) {}
+
+bool Balances::Quantity::has(int unknown) const {
+  return std::find(unknowns.begin(), unknowns.end(), unknown) != unknowns.end();
+}
 
 void Balances::declare(int unknown, const std::string& field, const std::string& quantity, const Vector& so_far) {
   SPREKK_EXPECT(is_index(unknown, static_cast<long>(of_.size())), unknown, of_.size());

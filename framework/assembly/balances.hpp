@@ -1,7 +1,6 @@
 // Balances of conserved quantities, and their sums.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,13 +14,13 @@ namespace sprekk {
 /// into it by BalanceRows.
 class Balances {
  public:
-  explicit Balances(std::size_t unknowns) : of_(unknowns) {}
+  explicit Balances(std::size_t unknowns);
 
   /// The balances of one quantity, which are added up: their potentials share one constant mode.
   struct Quantity {
     std::string name;
     std::vector<int> unknowns;
-    bool has(int unknown) const { return std::find(unknowns.begin(), unknowns.end(), unknown) != unknowns.end(); }
+    bool has(int unknown) const;
   };
 
   /// Declares the rows of an unknown as balances of a quantity. `field`: the name of the unknown; `so_far`: the

@@ -12,6 +12,10 @@ void ConstantModes::floats(const Field& field, const Origin& where, const std::s
   if (!floats(&field)) floating_.push_back({&field, where, why, suggestion});
 }
 
+void ConstantModes::hold(const Field& field) { held_.insert(&field); }
+
+void ConstantModes::tie(const Field& one, const Field& other) { ties_.emplace_back(&one, &other); }
+
 bool ConstantModes::floats(const Field* field) const {
   return std::any_of(floating_.begin(), floating_.end(), [&](const Floating& one) { return one.field == field; });
 }

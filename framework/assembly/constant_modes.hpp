@@ -19,9 +19,9 @@ class ConstantModes {
  public:
   /// Declares that the field's own equations and data leave a constant open: `why`, and what would hold it.
   void floats(const Field& field, const Origin& where, const std::string& why, const std::string& suggestion);
-  void hold(const Field& field) { held_.insert(&field); }
+  void hold(const Field& field);
   /// Declares that two fields share one constant: what holds one holds the other.
-  void tie(const Field& one, const Field& other) { ties_.emplace_back(&one, &other); }
+  void tie(const Field& one, const Field& other);
   /// Throws InputError naming a floating field that nothing holds.
   void require_held() const;
 

@@ -22,11 +22,7 @@ struct LinearExpression {
   Vector constant;
   std::vector<Term> terms;
 
-  Vector now() const {
-    Vector value = constant;
-    for (const Term& term : terms) value += term.matrix.entries() * term.field->now();
-    return value;
-  }
+  Vector now() const;
 };
 
 }  // namespace sprekk

@@ -1,8 +1,11 @@
 #include "framework/assembly/notes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace sprekk {
+
+void Notes::restore(std::vector<Note> notes) { notes_ = std::move(notes); }
 
 void Notes::add(const std::string& topic, const std::string& text, double measure) {
   const auto same = std::find_if(notes_.begin(), notes_.end(), [&](const Note& note) { return note.topic == topic; });

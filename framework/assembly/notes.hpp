@@ -34,7 +34,7 @@ class Notes {
 
   const std::vector<Note>& all() const { return notes_; }
   bool empty() const { return notes_.empty(); }
-  void restore(std::vector<Note> notes) { notes_ = std::move(notes); }
+  void restore(std::vector<Note> notes);
 
  private:
   double time_ = 0;

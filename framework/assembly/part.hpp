@@ -12,7 +12,7 @@
 #include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
 #include "framework/field/output_field.hpp"
-#include "framework/output/profile.hpp"
+#include "framework/output/profile_entry.hpp"
 
 namespace sprekk {
 
@@ -56,7 +56,7 @@ enum class SearchMode { with_shortcuts, without_shortcuts, piecewise, piecewise_
 /// a part keeps between calls is in fields, or follows from the mesh, the parameters and the time of the step.
 class Part {
  public:
-  virtual ~Part() = default;
+  virtual ~Part();
 
   /// Evaluates the data that depend on time for the step (value_in_step), and does nothing else. Also called before a
   /// run, for its last and its first step, to refuse data without a value there. Throws DataError.
@@ -112,15 +112,15 @@ class Part {
   /// Releases all kept cells.
   virtual void release_kept() {}
   /// The names of the stabilizations that the part offers to split schemes.
-  virtual std::vector<std::string> stabilizations() const { return {}; }
+  virtual std::vector<std::string> stabilizations() const;
   /// Adds the diagonals of a named stabilization for the fields that the part can stabilize.
   virtual void stabilize(const std::string& /*scheme*/, Stabilization&) const {}
   /// Pairs of components of which the first cannot be in a solve without the second.
-  virtual std::vector<Dependence> dependences() const { return {}; }
+  virtual std::vector<Dependence> dependences() const;
   /// Declares which unknowns float by a constant, and what holds or ties them.
   virtual void hold_constants(ConstantModes&) const {}
   /// Times (s) that a step must end at, because data jump there.
-  virtual std::vector<double> switch_times() const { return {}; }
+  virtual std::vector<double> switch_times() const;
   /// Quantities for history.csv, and fields for pictures.
   virtual void report(std::vector<Quantity>&) const {}
   virtual void output(std::vector<OutputField>&) const {}
@@ -131,16 +131,13 @@ class Part {
   /// accepted, after report().
   virtual void note_step(Notes&, const StepTime&) const {}
   /// How often something was computed or reused, for the end-of-run table: name → count.
-  virtual std::map<std::string, long> counts() const { return {}; }
+  virtual std::map<std::string, long> counts() const;
   /// Entries of the end-of-run table for the part's own work inside of steps, without the work of the schedule's
   /// solvers.
-  virtual std::vector<Profile::Entry> efforts() const { return {}; }
+  virtual std::vector<ProfileEntry> efforts() const;
 };
 
 /// Begins a step of all parts. All data come first: what one part discretizes may depend on properties of another.
-inline void begin_step(const std::vector<Part*>& parts, const StepTime& step) {
-  for (Part* part : parts) part->evaluate_data(step);
-  for (Part* part : parts) part->begin_step(step);
-}
+void begin_step(const std::vector<Part*>& parts, const StepTime& step);
 
 }  // namespace sprekk

@@ -1,6 +1,7 @@
 #include "framework/config/data.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace sprekk {
 namespace {
@@ -30,5 +31,36 @@ std::vector<double> merged_switch_times(const std::vector<const Data*>& data) {
   sort_unique(times);
   return times;
 }
+
+Point VectorData::at(const Place& place) const {
+  Point value;
+  for (int k = 0; k < dimension; ++k) value[k] = component[k].at(place);
+  return value;
+}
+
+bool VectorData::is_zero() const { return std::ranges::all_of(component, &Data::is_zero); }
+
+bool VectorData::depends_on_time() const { return std::ranges::any_of(component, &Data::depends_on_time); }
+
+bool VectorData::depends_on_space() const { return std::ranges::any_of(component, &Data::depends_on_space); }
+
+std::vector<double> VectorData::switch_times() const {
+  std::vector<const Data*> data;
+  for (const Data& each : component) data.push_back(&each);
+  return merged_switch_times(data);
+}
+
+TensorData::TensorData(double isotropic) : xx(isotropic), yy(isotropic), xy(0) {}
+
+TensorData::TensorData(Data xx, Data yy, Data xy) : xx(std::move(xx)), yy(std::move(yy)), xy(std::move(xy)) {}
+
+Tensor TensorData::at(const Place& place) const {
+  const double off_diagonal = xy.at(place);
+  Tensor tensor;
+  tensor << xx.at(place), off_diagonal, off_diagonal, yy.at(place);
+  return tensor;
+}
+
+std::vector<double> TensorData::switch_times() const { return merged_switch_times({&xx, &yy, &xy}); }
 
 }  // namespace sprekk

@@ -1,13 +1,10 @@
 // Properties, sources, boundary and initial values: anything that may vary in space and time.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <functional>
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "framework/types.hpp"
@@ -63,36 +60,23 @@ std::vector<double> merged_switch_times(const std::vector<const Data*>& data);
 /// A vector of data, a component for each axis.
 struct VectorData {
   std::array<Data, dimension> component;
-  Point at(const Place& place) const {
-    Point value;
-    for (int k = 0; k < dimension; ++k) value[k] = component[k].at(place);
-    return value;
-  }
-  bool is_zero() const { return std::ranges::all_of(component, &Data::is_zero); }
-  bool depends_on_time() const { return std::ranges::any_of(component, &Data::depends_on_time); }
-  bool depends_on_space() const { return std::ranges::any_of(component, &Data::depends_on_space); }
-  std::vector<double> switch_times() const {
-    std::vector<const Data*> data;
-    for (const Data& each : component) data.push_back(&each);
-    return merged_switch_times(data);
-  }
+  Point at(const Place& place) const;
+  bool is_zero() const;
+  bool depends_on_time() const;
+  bool depends_on_space() const;
+  std::vector<double> switch_times() const;
 };
 
 /// A symmetric tensor (xx, yy, xy) of data: written as a scalar (isotropic), {xx:, yy:, xy:}, or
 /// {along:, across:, angle:} (principal values and the direction of the first).
 struct TensorData {
   Data xx, yy, xy;
-  TensorData(double isotropic = 0) : xx(isotropic), yy(isotropic), xy(0) {}  // NOLINT: a number is isotropic
-  TensorData(Data xx_, Data yy_, Data xy_) : xx(std::move(xx_)), yy(std::move(yy_)), xy(std::move(xy_)) {}
-  Tensor at(const Place& place) const {
-    const double off_diagonal = xy.at(place);
-    Tensor tensor;
-    tensor << xx.at(place), off_diagonal, off_diagonal, yy.at(place);
-    return tensor;
-  }
+  TensorData(double isotropic = 0);  // NOLINT: a number is isotropic
+  TensorData(Data xx, Data yy, Data xy);
+  Tensor at(const Place& place) const;
   bool is_zero() const { return xx.is_zero() && yy.is_zero() && xy.is_zero(); }
   bool depends_on_time() const { return xx.depends_on_time() || yy.depends_on_time() || xy.depends_on_time(); }
-  std::vector<double> switch_times() const { return merged_switch_times({&xx, &yy, &xy}); }
+  std::vector<double> switch_times() const;
 };
 
 }  // namespace sprekk

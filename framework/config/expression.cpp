@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <numbers>
 

@@ -1,5 +1,8 @@
 // Reads keys, numbers and texts of nodes, with the messages for mistakes.
 #include "framework/config/data_reader.hpp"
+
+#include <algorithm>
+
 #include "framework/config/units.hpp"
 
 namespace sprekk {

@@ -1,7 +1,6 @@
 // A list of lists in two arrays: the items of entity i are items[offsets[i]] … items[offsets[i+1]-1].
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -18,11 +17,7 @@ struct Adjacency {
   }
 
   /// Adds the list of a new entity: the given items, in ascending order and each once. Sorts `some`.
-  void append_set(std::vector<int>& some) {
-    std::sort(some.begin(), some.end());
-    items.insert(items.end(), some.begin(), std::unique(some.begin(), some.end()));
-    offsets.push_back(static_cast<int>(items.size()));
-  }
+  void append_set(std::vector<int>& some);
 };
 
 }  // namespace sprekk

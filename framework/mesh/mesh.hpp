@@ -36,14 +36,22 @@ struct FractureCell {
   /// A vector in the frame of the cell, (normal, tangential), as fields on fracture cells have them.
   Point to_local(const Point& global) const {
     Point local;
-    local[0] = global.dot(normal);
-    for (int k = 1; k < dimension; ++k) local[k] = global.dot(tangents.col(k - 1));
+    for (int k = 0; k < dimension; ++k) {
+      const double* axis = k == 0 ? normal.data() : tangents.data() + (k - 1) * dimension;
+      double along = global[0] * axis[0];
+      for (int i = 1; i < dimension; ++i) along += global[i] * axis[i];
+      local[k] = along;
+    }
     return local;
   }
   /// The reverse.
   Point to_global(const Point& local) const {
-    Point global = local[0] * normal;
-    for (int k = 1; k < dimension; ++k) global += local[k] * tangents.col(k - 1);
+    Point global;
+    for (int i = 0; i < dimension; ++i) {
+      double along = local[0] * normal[i];
+      for (int k = 1; k < dimension; ++k) along += local[k] * tangents.data()[(k - 1) * dimension + i];
+      global[i] = along;
+    }
     return global;
   }
 };

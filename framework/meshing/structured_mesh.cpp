@@ -1,5 +1,6 @@
 #include "framework/meshing/structured_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 

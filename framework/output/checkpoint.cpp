@@ -24,10 +24,6 @@ Vector read_vector(const Hdf5Reader& file, const std::string& path) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-std::vector<std::string> read_names(const Hdf5Reader& file, const std::string& path) {
-  return nlohmann::json::parse(file.text(path)).get<std::vector<std::string>>();
-}
-
 template <class Map>
 std::vector<std::string> names_of(const Map& map) {
   std::vector<std::string> names;
@@ -79,11 +75,11 @@ Checkpoint read_content(const Hdf5Reader& file) {
   checkpoint.scene_fingerprint = file.text("scene_fingerprint");
   checkpoint.notes = read_notes(file.text("notes"));
   checkpoint.mesh = read_mesh(file);
-  const auto fields = read_names(file, "fields/names");
+  const auto fields = file.texts("fields/names");
   for (std::size_t i = 0; i < fields.size(); ++i)
     checkpoint.fields[fields[i]] = {read_vector(file, field_path(i, "now")),
                                     read_vector(file, field_path(i, "accepted"))};
-  const auto extra = read_names(file, "extra/names");
+  const auto extra = file.texts("extra/names");
   for (std::size_t i = 0; i < extra.size(); ++i) checkpoint.extra[extra[i]] = read_vector(file, extra_path(i));
   return checkpoint;
 }

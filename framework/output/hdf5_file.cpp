@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "framework/output/atomic_file.hpp"
 
@@ -167,6 +168,10 @@ std::vector<int> Hdf5Reader::integers(const std::string& path) const { return re
 std::string Hdf5Reader::text(const std::string& path) const {
   const std::vector<char> characters = read<char>(path, H5T_NATIVE_CHAR);
   return {characters.begin(), characters.end()};
+}
+
+std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
+  return nlohmann::json::parse(text(path)).get<std::vector<std::string>>();
 }
 
 bool Hdf5Reader::has(const std::string& path) const { return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0; }

@@ -53,7 +53,8 @@ class Hdf5Reader {
   std::vector<double> doubles(const std::string& path) const;
   std::vector<int> integers(const std::string& path) const;
   std::string text(const std::string& path) const;
-  bool has(const std::string& path) const;  ///< of a path whose group exists
+  std::vector<std::string> texts(const std::string& path) const;  ///< a text that is a list of texts in JSON
+  bool has(const std::string& path) const;                        ///< of a path whose group exists
 
  private:
   template <class Value>

@@ -42,10 +42,6 @@ void write_names(Hdf5Writer& file, const std::string& path, const std::vector<st
   file.text(path, nlohmann::json(names).dump());
 }
 
-std::vector<std::string> read_names(const Hdf5Reader& file, const std::string& path) {
-  return nlohmann::json::parse(file.text(path)).get<std::vector<std::string>>();
-}
-
 void write_adjacency(Hdf5Writer& file, const std::string& path, const Adjacency& adjacency) {
   file.integers(path + "/offsets", adjacency.offsets);
   file.integers(path + "/items", adjacency.items);
@@ -138,7 +134,7 @@ void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
 }
 
 void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
-  const auto names = read_names(file, "mesh/fractures/names");
+  const auto names = file.texts("mesh/fractures/names");
   const auto ranges = read_lists<2>(file, "mesh/fractures/ranges");
   if (names.size() != ranges.size()) throw Hdf5Error("array mesh/fractures/ranges has a wrong length");
   for (std::size_t i = 0; i < names.size(); ++i) mesh.fractures.push_back({names[i], ranges[i][0], ranges[i][1]});
@@ -234,9 +230,9 @@ Mesh read_mesh(const Hdf5Reader& file) {
   mesh.node_cells = read_adjacency(file, "mesh/node_cells");
   mesh.node_faces = read_adjacency(file, "mesh/node_faces");
   mesh.face_side = file.integers("mesh/face_side");
-  mesh.side_names = read_names(file, "mesh/side_names");
+  mesh.side_names = file.texts("mesh/side_names");
   mesh.cell_region = file.integers("mesh/cell_region");
-  mesh.region_names = read_names(file, "mesh/region_names");
+  mesh.region_names = file.texts("mesh/region_names");
   mesh.face_fracture_cell = file.integers("mesh/face_fracture_cell");
   mesh.cell_rank = file.integers("mesh/cell_rank");
   read_fractures(file, mesh);

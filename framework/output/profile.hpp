@@ -9,20 +9,14 @@
 #include <string_view>
 #include <vector>
 
+#include "framework/output/profile_entry.hpp"
+
 namespace sprekk {
 
 /// Counts and times of named pieces of work.
 class Profile {
  public:
-  /// One piece of work.
-  struct Entry {
-    std::string name;        ///< of the object: "pore: discretization", "rock+pore: factorization"
-    long calls = 0;          ///< how often it did its work
-    long reuses = 0;         ///< how often a kept result was used instead
-    long skips = 0;          ///< how often nothing was needed at all
-    double seconds = 0;      ///< own time, without that of work timed inside, so that all entries add up
-    bool is_solver = false;  ///< a factorization (with its ordering) or back-solves of a linear system
-  };
+  using Entry = ProfileEntry;
 
   /// The entry of that name, made on first use; the reference stays valid.
   Entry& at(std::string_view name) {

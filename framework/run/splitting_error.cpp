@@ -99,7 +99,7 @@ void SplittingError::after_acceptance(Model& model, const StepTime& step) {
   for (const auto& field : fields) accepted.push_back(field->accepted());
   const Values begin = waiting(model, step, accepted);
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    fields[i]->set(accepted[i] == before_[i] ? second_[i] : begin[i]);  // the step may have left it unchanged
+    fields[i]->set(accepted[i] == before_[i] ? second_[i] : begin[i]);  // the step may not have solved for it
     fields[i]->set_accepted(second_[i]);
   }
   for (GrowStep* grow : model.growing()) grow->rest(true);

@@ -2,6 +2,16 @@
 
 namespace sprekk {
 
+CouplerContext::CouplerContext(std::string name, const Mesh& mesh, FieldStore& fields, std::vector<Component*> between,
+                               std::vector<Component*> scene, double start_time, Origin origin)
+    : name(std::move(name)),
+      mesh(mesh),
+      fields(fields),
+      start_time(start_time),
+      origin(std::move(origin)),
+      between_(std::move(between)),
+      scene_(std::move(scene)) {}
+
 std::string CouplerContext::between_text() const {
   std::string text;
   for (const Component* component : between_) text += (text.empty() ? "" : ", ") + component->name();

@@ -38,14 +38,7 @@ class CouplerContext {
  public:
   /// `scene`: all components of the scene, of which the coupler stands between some.
   CouplerContext(std::string name, const Mesh& mesh, FieldStore& fields, std::vector<Component*> between,
-                 std::vector<Component*> scene, double start_time, Origin origin)
-      : name(std::move(name)),
-        mesh(mesh),
-        fields(fields),
-        start_time(start_time),
-        origin(std::move(origin)),
-        between_(std::move(between)),
-        scene_(std::move(scene)) {}
+                 std::vector<Component*> scene, double start_time, Origin origin);
 
   const std::string name;  ///< its type; "type#2" for a second coupler of that type
   const Mesh& mesh;

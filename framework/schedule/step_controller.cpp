@@ -9,7 +9,7 @@ namespace sprekk {
 namespace {
 
 constexpr double rounding = 1e-9;         ///< of the standard step: times nearer than this are the same
-constexpr double least_rise = 1e-2;       ///< of a level; a smaller rise does not give a rate
+constexpr double least_rise = 1e-2;       ///< of a level: from a smaller rise no rate follows
 constexpr double of_failed_size = 0.999;  ///< a step that is shorter by rounding only is as long as the failed one
 constexpr double smallest_part = 1e-6;    ///< of the standard step: the smallest, where the scene does not give it
 constexpr double shortest_part = 0.1;     ///< of the standard step: the shortest wait for a hold that is expected

@@ -273,7 +273,7 @@ std::vector<WaitingResponse::WaitingBalance> WaitingResponse::balances(const Ass
     for (const int u : quantity.unknowns)
       if (is_in(u)) sum.residual += sum_of_residuals(assembly, u, system_.owned(u));
     parallel::sum(sum.of_waiting);
-    // In the order of `all_`: that of the map is by address, and processes differ in it.
+    // In the order of `all_`: the map is ordered by address, which differs between processes.
     for (const Field* field : all_)
       if (const auto column = sum.of_columns.find(field); column != sum.of_columns.end()) parallel::sum(column->second);
     for (int w = 0; w < waiting; ++w)

@@ -52,7 +52,7 @@ class WaitingResponse {
   WaitingResponse(const Mesh& mesh, std::vector<const Field*> waiting, std::vector<Part*> parts,
                   ResponseOptions options, const LinearOptions& linear);
 
-  /// Copies of the waiting unknowns that the solve has to find as well, with pending terms only. The first call makes
+  /// Copies of waiting unknowns that the solve finds, too; they have pending terms only. The first call makes
   /// them, at the values of the fields then. Collective.
   const std::vector<std::unique_ptr<Field>>& copies(const StepTime& step);
   /// What copies() are of, in its order.

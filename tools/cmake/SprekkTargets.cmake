@@ -1,3 +1,9 @@
+# Folders beside the numerics, whose files are compiled six at a time: reading scenes, writing results, commands and pages. A clean build
+# reads their headers once instead of six times, and a file that is touched there costs five others. Names of anonymous namespaces
+# are those of one file all the same, so each is used once in such a folder; builds without show that files compile alone.
+option(SPREKK_UNITY "Compile files beside the numerics several at a time" ON)
+set(compiled_together "^framework/(command_line|compare|config|converge|output|picture|report|results|run|schemes|study)$")
+
 # sprekk_library(name folder libraries…): a static library of all sources below `folder`, without those of modules.
 function(sprekk_library name folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
@@ -6,6 +12,9 @@ function(sprekk_library name folder)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC ${ARGN})
     sprekk_reuses(${name} ${folder} headers)
+    if(SPREKK_UNITY AND folder MATCHES "${compiled_together}")
+      set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    endif()
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ${ARGN})

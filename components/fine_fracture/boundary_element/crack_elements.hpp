@@ -46,7 +46,7 @@ std::vector<CrackElement> crack_elements(const FineGeometry& geometry, const Div
 /// Divides a straight piece outside of a convex outline, in elements that are short beside it, with polynomial jumps.
 std::vector<CrackElement> beyond_elements(const std::vector<Point>& outline, const Point& from, const Point& to);
 
-/// What a vector with the real and the imaginary part of one number becomes.
+/// The complex number with the components of a vector as its real and its imaginary part.
 using Pair = Eigen::Matrix2d;
 
 /// The fields in an infinite plane of the jumps on an element (Crouch, Int. J. Numer. Methods Eng. 10 (1976) 301; with

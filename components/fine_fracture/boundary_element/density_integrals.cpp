@@ -106,7 +106,7 @@ DensityIntegrals by_quadrature(Density density, Complex w) {
   const Rule& rule = density == Density::polynomial ? polynomial : density == Density::root ? root : corner;
   DensityIntegrals result{};
   for (const Rule::Place& place : rule.places) {
-    // By hand: operators of complex numbers look for infinities.
+    // Written out: the operators of std::complex also test for infinities.
     const double x = w.real() - place.t, y = w.imag(), norm = 1 / (x * x + y * y);
     const Complex kernel(x * norm, -y * norm),
         square(y * y * norm * norm - x * x * norm * norm, 2 * x * y * norm * norm),

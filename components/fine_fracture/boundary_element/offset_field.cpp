@@ -1,6 +1,7 @@
 #include "components/fine_fracture/boundary_element/offset_field.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 
 namespace sprekk::fine_fracture {
 

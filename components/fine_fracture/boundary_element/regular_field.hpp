@@ -9,7 +9,7 @@
 namespace sprekk::fine_fracture {
 
 /// All displacement fields up to a degree that need no body force in homogeneous isotropic rock: the potentials phi and
-/// psi of Muskhelishvili (1953) are polynomials of z. They are what the rest of the world makes in a domain, and
+/// psi of Muskhelishvili (1953) are polynomials of z. They stand for all that lies outside of the domain, and
 /// converge geometrically where its sources keep away from the domain.
 class RegularField {
  public:

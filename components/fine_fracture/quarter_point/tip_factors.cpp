@@ -41,7 +41,7 @@ void Tips::check_rock(const Tip& tip) const try {
 }
 
 void Tips::check_stiffness(const FineDomain& domain, const LameParameters& rock) const {
-  constexpr int across = 16;          // places that are looked at
+  constexpr int across = 16;          // places where the stiffness is compared
   constexpr double round_off = 1e-9;  // of a stiffness
   const Point low = domain.geometry.outline[0], size = domain.geometry.outline[2] - low;
   for (int i = 0; i <= across; ++i)

@@ -137,7 +137,7 @@ void FractureFlow::prescribe(const StepTime& step) {
     std::erase_if(source.rates, [&](const auto& rate) { return is_prescribed_[rate.first] != 0; });
 }
 
-/// What the balance of a prescribed cell lacks before its row is replaced has entered there.
+/// The residual of the balance of a prescribed cell, before its row is replaced, is what enters there.
 void FractureFlow::count_let_in(const Assembly& assembly) const {
   const std::vector<const Field*>& unknowns = assembly.unknowns();
   const auto found = std::ranges::find(unknowns, &pressure_);

@@ -1,10 +1,10 @@
 // Interaction regions with quadrilaterals whose flow would gain energy.
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
+#include "framework/linear/dense_svd.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
@@ -103,7 +103,7 @@ LocalFluxes::Stabilizer LocalFluxes::stabilize(const Mesh& mesh, int node, const
   const Eigen::VectorXd scale = scale_of(dissipation(region, conditions));
 
   // The part of the pressures that is not linear: orthogonal to all pressures without kinks, in units of equal energy.
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(kinks * scale.asDiagonal(), Eigen::ComputeFullV);
+  const DenseSvd svd(kinks * scale.asDiagonal(), Eigen::ComputeFullV);
   const auto& size = svd.singularValues();
   const Eigen::MatrixXd turned = svd.matrixV().leftCols((size.array() > bends * size[0]).count());
   const Eigen::MatrixXd bent = scale.asDiagonal() * turned * turned.transpose() * scale.cwiseInverse().asDiagonal();

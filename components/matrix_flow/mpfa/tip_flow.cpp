@@ -1,8 +1,9 @@
 #include "components/matrix_flow/mpfa/tip_flow.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "framework/linear/dense_svd.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
@@ -60,7 +61,7 @@ bool TipFlow::fit(const Mesh& mesh, const MpfaLimits& limits) {
     const Point x = mesh.cell_center[cells_[k]], local = (x - frame_.origin()) / size;
     basis.row(k) << 1, local.x(), local.y(), pressure(x, frame_.side_of_cell(mesh, cells_[k])) / std::sqrt(size);
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const DenseSvd svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
   if (svd.singularValues()[terms - 1] < limits.well_posed * svd.singularValues()[0]) return false;
   const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd::Identity(count, count));
   share_ = inverse.bottomRows<2>() / std::sqrt(size);

@@ -12,7 +12,7 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-/// The share of the common part of two fluxes that is not limited. With all of it the rest changes its sign at more
+/// The share of the common part of two fluxes that is not limited. With all of it the rest changes sign at more
 /// faces, and is lost there; with half of it the flux is more accurate, and the bounds hold as well.
 constexpr double taken_as_it_is = 0.5;
 

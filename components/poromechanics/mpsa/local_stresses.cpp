@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 
 #include "components/poromechanics/mpsa/tip_correction.hpp"
 #include "framework/invariants.hpp"
+#include "framework/linear/dense_svd.hpp"
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::poromechanics {
@@ -276,13 +276,13 @@ void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& regi
   Eigen::MatrixXd free = Eigen::MatrixXd::Identity(4, 4);
   if (!held.empty()) {
     const Eigen::MatrixXd rows = known(held, Eigen::all);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const DenseSvd svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
     q = svd.solve(Eigen::MatrixXd(value(held, Eigen::all)));
     free = svd.matrixV().rightCols(forces.size()).eval();
   }
   if (!forces.empty()) {
     const Eigen::MatrixXd rows = known(forces, Eigen::all);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows * free, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const DenseSvd svd(rows * free, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::MatrixXd along = svd.matrixU().transpose() * (value(forces, Eigen::all) - rows * q);
     const Eigen::MatrixXd directions = free * svd.matrixV();
     std::vector<int> open;

@@ -1,11 +1,12 @@
 #include "components/poromechanics/mpsa/tip_field.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <iterator>
 #include <utility>
+
+#include "framework/linear/dense_svd.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
@@ -72,7 +73,7 @@ bool TipField::fit(const Mesh& mesh, int count_of_terms, double well_posed) {
     basis.block(2 * k, linear_terms, 2, count_of_terms) =
         (modes.array().rowwise() / unit.array()).leftCols(count_of_terms).matrix();
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const DenseSvd svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
   if (svd.singularValues()[all - 1] < well_posed * svd.singularValues()[0]) return false;
   const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd::Identity(2 * count, 2 * count));
   share_.setZero(terms, 2 * count);

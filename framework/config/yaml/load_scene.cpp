@@ -85,7 +85,7 @@ Node& item_of(Node& list, const std::string& index, const Override& change) {
   const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), i);
   const bool is_index = error == std::errc{} && end == index.data() + index.size();
   if (!is_index || i < 0 || i >= static_cast<int>(list.items.size())) {
-    throw InputError(place_of(change), quoted(list.path) + " has no item " + quoted(index),
+    throw InputError(place_of(change), sprekk::quoted(list.path) + " has no item " + sprekk::quoted(index),
                      "it is a list of " + std::to_string(list.items.size()) + ", counted from 0");
   }
   return list.items[static_cast<std::size_t>(i)];
@@ -102,8 +102,8 @@ void apply(Node& root, const Override& change) {
       continue;
     }
     if (node->is_scalar()) {
-      throw InputError(place_of(change), quoted(node->path) + " has no keys",
-                       "it is the value " + quoted(node->scalar) + ", from " + node->origin.text());
+      throw InputError(place_of(change), sprekk::quoted(node->path) + " has no keys",
+                       "it is the value " + sprekk::quoted(node->scalar) + ", from " + node->origin.text());
     }
     node->kind = Node::Kind::map;  // a node that was missing or empty becomes a map
     Node::Entry* entry = entry_of(*node, parts[i]);

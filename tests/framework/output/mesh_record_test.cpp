@@ -1,5 +1,7 @@
 #include "framework/output/mesh_record.hpp"
 
+#include <algorithm>
+
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/output/small_case.hpp"
 

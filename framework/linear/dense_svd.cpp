@@ -1,0 +1,3 @@
+#include "framework/linear/dense_svd.hpp"
+
+template class Eigen::JacobiSVD<Eigen::MatrixXd>;
