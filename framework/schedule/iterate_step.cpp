@@ -214,6 +214,13 @@ bool hardly_fall(const std::vector<double>& values, std::size_t last_passes) {
 }
 constexpr std::size_t without_progress = 25, without_better_balance = 10;  // passes
 
+/// Whether errors of balances, over the throughput, fall no more and are small: larger ones are no round-off, and
+/// passes that converge slowly leave them as well.
+bool are_round_off_of_balances(const std::vector<double>& imbalances) {
+  constexpr double largest = 1e-6;
+  return hardly_fall(imbalances, without_better_balance) && imbalances.back() <= largest;
+}
+
 /// What may be asked for where this residual is all that passes reach.
 std::string looser(double residual) {
   constexpr double sensible = 1e-5;
@@ -308,7 +315,7 @@ StepStatus IterateStep::run(const StepTime& step) {
     if (check.rows_hold && changes.are_round_off()) return converged(step, {true, "", pass, 0, of_newton});
     if (!check.rows_hold || check.balances_hold) imbalances.clear();
     if (check.rows_hold && !check.balances_hold) imbalances.push_back(check.imbalance);
-    if (hardly_fall(imbalances, without_better_balance)) return converged(step, {true, "", pass, 0, of_newton});
+    if (are_round_off_of_balances(imbalances)) return converged(step, {true, "", pass, 0, of_newton});
     residuals.push_back(check.largest);
     if (changes.are_round_off() && !options_.has_substeps && hardly_fall(residuals, without_progress))
       return {

@@ -5,7 +5,7 @@
 - Consolidation: a column whose one half is dry and elastic settles by that of Terzaghi's column, drained at one end and sealed where
   the dry rock begins, and by that of the dry half, also turned and on two processes.
 - The same scene with Biot's coefficient zero and hardly any permeability in the other rock gives the same answer, also with fractures
-  that cross the border.
+  that cross the border, and with a fluid whose density varies.
 """
 
 import math
@@ -21,6 +21,8 @@ del sys.argv[1:]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tools/python"))
 import sprekk  # noqa: E402
+
+CONVECTION = ROOT / "configs/tutorial/geothermal_convection.yaml"
 
 PATCH = """
 name: patch
@@ -209,6 +211,20 @@ class FlowInRegions(unittest.TestCase):
             print(f"{flow}, {processes} processes: largest difference {worst:.1e}")
             self.assertLess(worst, 1e-8)
             self.assertLess(max(abs(error) for error in one["fluid_balance_error[m^2]"]), 1e-9 * max(one["fluid_injected[m^2]"]))
+
+    def test_fluid_whose_density_varies(self):
+        # Convection in a slanted layer, with a fault that crosses its border.
+        common = ("geometry.regions={layer: {polygon: [[0, -1000], [2000, -1000], [2000, -250], [0, -350]]}}",
+                  "materials.permeability=5e-14 m^2", "time.end=800000 day",
+                  "output={fields: false, probes: {T: {of: heat.temperature, at: [1000 m, -500 m]}, "
+                  "p: {of: pore.pressure, at: [1000 m, -500 m]}, f: {of: conduit.pressure, fracture: east, take: mean}}}")
+        scene = CONVECTION.read_text(encoding="utf-8").replace("    boundary: {top: {pressure: 5 MPa}}\n", "")  # outside of the layer
+        inside, tight = [self.call("run", scene, *common, setting)["history"]
+                         for setting in ("components.pore.regions=[layer]",
+                                         "components.pore.permeability={regions: {layer: 5e-14 m^2, default: 1e-30 m^2}}")]
+        self.assertGreater(abs(tight["T[K]"][-1] - (293.15 + 0.12 * 500)), 5)  # K, away from conduction
+        for column in ("T[K]", "p[Pa]", "f[Pa]"):
+            self.assertLess(abs(inside[column][-1] / tight[column][-1] - 1), 1e-9, column)
 
     def test_what_has_no_meaning_is_refused(self):
         scene = PATCH.format(flow="mpfa", size=0.1)
