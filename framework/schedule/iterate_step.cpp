@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -214,11 +215,10 @@ bool hardly_fall(const std::vector<double>& values, std::size_t last_passes) {
 }
 constexpr std::size_t without_progress = 25, without_better_balance = 10;  // passes
 
-/// Whether errors of balances, over the throughput, fall no more and are small: larger ones are no round-off, and
-/// passes that converge slowly leave them as well.
+/// Whether errors of balances fall no more but scatter. Those of passes that converge slowly fall in each.
 bool are_round_off_of_balances(const std::vector<double>& imbalances) {
-  constexpr double largest = 1e-6;
-  return hardly_fall(imbalances, without_better_balance) && imbalances.back() <= largest;
+  return hardly_fall(imbalances, without_better_balance) &&
+         !std::is_sorted(imbalances.end() - without_better_balance, imbalances.end(), std::greater<>());
 }
 
 /// What may be asked for where this residual is all that passes reach.
