@@ -1,7 +1,7 @@
 // Tips whose fine levels have no mesh but elements on the fractures.
 #pragma once
 
-#include "components/fine_fracture/quarter_point/tips.hpp"
+#include "components/fine_fracture/tips/tips.hpp"
 
 namespace sprekk::fine_fracture {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "components/fine_fracture/quarter_point/domain/outline.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/fine_level/outline.hpp"
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/topology_hash.hpp"
 

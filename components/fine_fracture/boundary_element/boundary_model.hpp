@@ -11,7 +11,7 @@
 #include "components/fine_fracture/boundary_element/crack_elements.hpp"
 #include "components/fine_fracture/boundary_element/offset_field.hpp"
 #include "components/fine_fracture/boundary_element/regular_field.hpp"
-#include "components/fine_fracture/fine_level.hpp"
+#include "components/fine_fracture/fine_level/fine_level.hpp"
 #include "framework/output/profile.hpp"
 
 namespace sprekk::fine_fracture {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/fine_fracture/quarter_point/domain/outline.hpp"
+#include "components/fine_fracture/fine_level/outline.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"
 

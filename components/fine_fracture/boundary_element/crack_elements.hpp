@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "components/fine_fracture/boundary_element/density_integrals.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/intensities.hpp"
+#include "components/fine_fracture/fine_level/elasticity.hpp"
+#include "components/fine_fracture/fine_level/geometry.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk::fine_fracture {

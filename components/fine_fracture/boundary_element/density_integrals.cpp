@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::fine_fracture {

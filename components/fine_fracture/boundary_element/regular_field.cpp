@@ -1,4 +1,5 @@
 #include "components/fine_fracture/boundary_element/regular_field.hpp"
+#include <cmath>
 
 namespace sprekk::fine_fracture {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "components/capabilities/fracture_tips.hpp"
 #include "components/fine_fracture/jump_fit/factors_from_jumps.hpp"
-#include "components/fine_fracture/quarter_point/ends.hpp"
+#include "components/fine_fracture/tips/ends.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/growing.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "components/fine_fracture/quarter_point/tips.hpp"
+#include "components/fine_fracture/tips/tips.hpp"
 
 namespace sprekk::fine_fracture {
 

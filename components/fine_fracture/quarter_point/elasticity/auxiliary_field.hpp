@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
+#include "components/fine_fracture/fine_level/elasticity.hpp"
 
 namespace sprekk::fine_fracture {
 

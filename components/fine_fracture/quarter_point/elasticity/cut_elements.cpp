@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 
 namespace sprekk::fine_fracture {

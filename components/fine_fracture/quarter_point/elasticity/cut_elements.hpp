@@ -1,8 +1,8 @@
 // Elements that a border between two stiffnesses crosses.
 #pragma once
 
-#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
+#include "components/fine_fracture/fine_level/fine_rock.hpp"
+#include "components/fine_fracture/quarter_point/mesh/fine_mesh.hpp"
 
 namespace sprekk::fine_fracture {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
+#include "components/fine_fracture/quarter_point/mesh/fine_mesh.hpp"
 
 namespace sprekk::fine_fracture {
 

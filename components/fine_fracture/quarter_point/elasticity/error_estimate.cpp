@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/auxiliary_field.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"

@@ -1,9 +1,9 @@
 #include "components/fine_fracture/quarter_point/elasticity/forces.hpp"
 
-#include "components/fine_fracture/quarter_point/domain/outline.hpp"
+#include "components/fine_fracture/fine_level/elasticity.hpp"
+#include "components/fine_fracture/fine_level/outline.hpp"
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/cut_elements.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/sliding_walls.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"

@@ -1,9 +1,9 @@
 // Nodal forces of tractions, of the stress offset and of the body force.
 #pragma once
 
-#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
+#include "components/fine_fracture/fine_level/fine_rock.hpp"
+#include "components/fine_fracture/fine_level/loads.hpp"
+#include "components/fine_fracture/quarter_point/mesh/fine_mesh.hpp"
 
 namespace sprekk::fine_fracture {
 

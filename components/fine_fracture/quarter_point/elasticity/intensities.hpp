@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
+#include "components/fine_fracture/fine_level/fine_rock.hpp"
+#include "components/fine_fracture/fine_level/loads.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/interaction_integral.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
+#include "components/fine_fracture/quarter_point/mesh/fine_mesh.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -31,12 +31,6 @@ struct TipIntensities {
   double energy_release_rate;  ///< (K_I^2 + K_II^2) / E', Pa m
   Point error;  ///< an estimate for K: how far K_interaction is from K_inner, or K_extrapolated from K_correlation
   double domain_radius;  ///< of the interaction integral, m
-};
-
-/// One of the tips of a geometry.
-struct TipPlace {
-  int crack;
-  bool is_last;
 };
 
 /// Where interaction integrals are taken. Only tests take other values, to see how much factors depend on them.

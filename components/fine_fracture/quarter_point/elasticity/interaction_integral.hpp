@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/fine_level/fine_rock.hpp"
+#include "components/fine_fracture/fine_level/loads.hpp"
+#include "components/fine_fracture/fine_level/quadrature.hpp"
+#include "components/fine_fracture/quarter_point/mesh/fine_mesh.hpp"
 
 namespace sprekk::fine_fracture {
 

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/cut_elements.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/sliding_walls.hpp"
 #include "framework/mesh/mesh.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
+#include "components/fine_fracture/fine_level/fine_rock.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/forces.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/solution.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/stiffness_factors.hpp"

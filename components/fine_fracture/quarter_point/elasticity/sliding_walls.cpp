@@ -4,7 +4,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
 #include "framework/mesh/mesh.hpp"

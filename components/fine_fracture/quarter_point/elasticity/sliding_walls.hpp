@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/loads.hpp"
+#include "components/fine_fracture/fine_level/loads.hpp"
+#include "components/fine_fracture/quarter_point/mesh/fine_mesh.hpp"
 
 namespace sprekk::fine_fracture {
 

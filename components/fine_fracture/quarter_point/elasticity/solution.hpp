@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "components/fine_fracture/fine_level/fine_rock.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/element_locator.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/fine_rock.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/intensities.hpp"
 
 namespace sprekk::fine_fracture {

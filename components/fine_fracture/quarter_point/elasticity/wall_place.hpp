@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/fine_fracture/quarter_point/domain/fine_mesh.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
+#include "components/fine_fracture/fine_level/quadrature.hpp"
+#include "components/fine_fracture/quarter_point/mesh/fine_mesh.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {

@@ -1,7 +1,7 @@
 #include "components/fine_fracture/quarter_point/elasticity/error_estimate.hpp"
 
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
-#include "components/fine_fracture/quarter_point/elasticity/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"

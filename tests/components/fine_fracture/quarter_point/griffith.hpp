@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "components/fine_fracture/quarter_point/elasticity/elasticity.hpp"
+#include "components/fine_fracture/fine_level/elasticity.hpp"
 
 namespace sprekk::test {
 

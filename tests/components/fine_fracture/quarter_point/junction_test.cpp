@@ -2,7 +2,7 @@
 #include <functional>
 #include <random>
 
-#include "components/fine_fracture/quarter_point/domain/fine_domain.hpp"
+#include "components/fine_fracture/fine_level/fine_domain.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"

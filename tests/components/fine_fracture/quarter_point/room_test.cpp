@@ -1,4 +1,4 @@
-#include "components/fine_fracture/quarter_point/domain/room.hpp"
+#include "components/fine_fracture/quarter_point/mesh/room.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Fine levels whose geometries differ by round-off have meshes with the same topology, and nodes that differ by as
 // much.
-#include "components/fine_fracture/quarter_point/domain/rounded_geometry.hpp"
+#include "components/fine_fracture/quarter_point/mesh/rounded_geometry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,292 @@
+#include "components/fine_fracture/fine_level/fine_domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk::fine_fracture {
+
+namespace {
+constexpr double least_bend = 1e-10;  ///< 1 − cos of it, 1e-5 rad: rounding of directions leaves less
+constexpr double same_place = 1e-10;  ///< of the rock's extent: ends of fractures that meet
+constexpr double rounding = 1e-9;     ///< of a domain, or of a segment: what lies in it by less does not
+}  // namespace
+
+FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last,
+                           const LastSegment& at_first, const LastSegment& at_last) {
+  FracturePath path;
+  const Fracture& cells = mesh.fractures[fracture];
+  std::vector<char> is_kept;  // where the coarse level begins or ends, and where fractures meet
+  const auto append = [&](const Point& x, double arc, bool keep) {
+    const std::size_t n = path.points.size();
+    if (n >= 2) {
+      // On a straight part, the new point replaces the point before.
+      const Point a = path.points[n - 1] - path.points[n - 2], b = x - path.points[n - 1];
+      if (a.dot(b) > (1 - least_bend) * a.norm() * b.norm() && !is_kept.back()) {
+        path.points.pop_back();
+        path.arc.pop_back();
+        is_kept.pop_back();
+      }
+    }
+    path.points.push_back(x);
+    path.arc.push_back(arc);
+    is_kept.push_back(keep);
+  };
+  path.length = 0;
+  for (int i = 0; i < cells.cell_count; ++i) path.length += mesh.fracture_cells[cells.first_cell + i].measure;
+  const auto end_point = [&](bool at_end) -> const FracturePoint& {
+    const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (at_end ? cells.cell_count - 1 : 0)];
+    return mesh.fracture_points[cell.points[at_end ? 1 : 0]];
+  };
+  double arc = 0;
+  Point last = end_point(false).position;
+  for (const Point& x : added_first.added) {
+    arc -= (x - last).norm();
+    last = x;
+  }
+  for (auto x = added_first.added.rbegin(); x != added_first.added.rend(); ++x) {
+    append(*x, arc, false);
+    const Point& next = x + 1 == added_first.added.rend() ? end_point(false).position : *(x + 1);
+    arc += (*x - next).norm();
+  }
+  arc = 0;
+  append(end_point(false).position, 0, true);
+  for (int i = 0; i < cells.cell_count; ++i) {
+    const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
+    const bool is_first = i == 0, is_last = i + 1 == cells.cell_count;
+    if (is_last && at_last.turns) is_kept.back() = true;
+    if (is_first && at_first.middle) append(*at_first.middle, arc + 0.5 * cell.measure, true);
+    if (is_last && at_last.middle) append(*at_last.middle, arc + 0.5 * cell.measure, true);
+    arc += cell.measure;
+    const FracturePoint& point = mesh.fracture_points[cell.points[1]];
+    append(point.position, is_last ? path.length : arc,
+           is_last || (is_first && at_first.turns) || point.kind == FracturePoint::Kind::junction);
+  }
+  arc = path.length;
+  last = end_point(true).position;
+  for (const Point& x : added_last.added) {
+    arc += (x - last).norm();
+    append(x, arc, false);
+    last = x;
+  }
+  path.first_is_tip = end_point(false).kind == FracturePoint::Kind::tip;
+  path.last_is_tip = end_point(true).kind == FracturePoint::Kind::tip;
+  return path;
+}
+
+namespace {
+
+struct Rectangle {
+  Point low, high;
+  double depth(const Point& x) const { return std::min((x - low).minCoeff(), (high - x).minCoeff()); }
+};
+
+Rectangle bounds(const Mesh& mesh) {
+  Rectangle box{mesh.nodes[0], mesh.nodes[0]};
+  for (const Point& x : mesh.nodes) {
+    box.low = box.low.cwiseMin(x);
+    box.high = box.high.cwiseMax(x);
+  }
+  return box;
+}
+
+/// The parameters at which the part of the segment inside of the box begins and ends; there is no such part if the
+/// first is not below the second.
+std::pair<double, double> clipped(const Rectangle& box, const Point& from, const Point& to) {
+  double first = 0, last = 1;
+  for (int k = 0; k < dimension; ++k) {
+    const double d = to[k] - from[k];
+    if (d == 0) {
+      if (from[k] < box.low[k] || from[k] > box.high[k]) return {1, 0};
+      continue;
+    }
+    const double a = (box.low[k] - from[k]) / d, b = (box.high[k] - from[k]) / d;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return {first, last};
+}
+
+/// Moves a point that is near the outline exactly onto it.
+Point snapped(const Rectangle& box, Point x) {
+  const double near = rounding * (box.high - box.low).maxCoeff();
+  for (int k = 0; k < dimension; ++k) {
+    if (std::abs(x[k] - box.low[k]) < near) x[k] = box.low[k];
+    if (std::abs(x[k] - box.high[k]) < near) x[k] = box.high[k];
+  }
+  return x;
+}
+
+/// The smallest distance of the outline from tips, kinks and junctions inside of the rock, and from segments along one
+/// of its sides. For a segment the distance of its farthest point counts, so that segments that cross a side are left
+/// out. Points on the outer boundary of the rock are left out, too.
+double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const FracturePath& path : paths)
+    for (const Point& x : path.points)
+      for (int k = 0; k < dimension; ++k) {
+        if (x[1 - k] < box.low[1 - k] || x[1 - k] > box.high[1 - k]) continue;
+        if (box.low[k] > rock.low[k]) gap = std::min(gap, std::abs(x[k] - box.low[k]));
+        if (box.high[k] < rock.high[k]) gap = std::min(gap, std::abs(x[k] - box.high[k]));
+      }
+  for (const FracturePath& path : paths)
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
+      for (int k = 0; k < dimension; ++k) {
+        // The parts of the rock beyond the two sides normal to axis k.
+        Rectangle strip = rock;
+        strip.low[1 - k] = box.low[1 - k];
+        strip.high[1 - k] = box.high[1 - k];
+        const Point &a = path.points[i], &b = path.points[i + 1];
+        const auto [first, last] = clipped(strip, a, b);
+        if (last - first <= rounding) continue;
+        const double from = a[k] + first * (b[k] - a[k]), to = a[k] + last * (b[k] - a[k]);
+        const auto farthest = [&](double side) { return std::max(std::abs(from - side), std::abs(to - side)); };
+        if (box.low[k] > rock.low[k]) gap = std::min(gap, farthest(box.low[k]));
+        if (box.high[k] < rock.high[k]) gap = std::min(gap, farthest(box.high[k]));
+      }
+  return gap;
+}
+
+/// Adds x to the points of the path if the path leads through x; returns whether it does.
+bool add_if_on(FracturePath& path, const Point& x, double tolerance) {
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const Segment segment{path.points[i], path.points[i + 1]};
+    if (distance(x, segment) > tolerance) continue;
+    if (x == segment.from || x == segment.to) return true;
+    const double arc = path.arc[i] + (x - segment.from).norm();
+    path.points.insert(path.points.begin() + i + 1, x);
+    path.arc.insert(path.arc.begin() + i + 1, arc);
+    return true;
+  }
+  return false;
+}
+
+/// The added path of an end may reach another fracture, at a point of its mesh, before the coarse level has the path.
+/// Then the end is no tip any more, and both paths have a point there.
+std::vector<FracturePath> joined(std::vector<FracturePath> paths, double tolerance) {
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (const bool at_end : {false, true}) {
+      bool& is_tip = at_end ? paths[i].last_is_tip : paths[i].first_is_tip;
+      if (!is_tip || (at_end ? paths[i].arc.back() <= paths[i].length : paths[i].arc.front() >= 0)) continue;
+      const Point end = at_end ? paths[i].points.back() : paths[i].points.front();
+      for (std::size_t k = 0; k < paths.size(); ++k)
+        if (k != i && add_if_on(paths[k], end, tolerance)) is_tip = false;
+    }
+  return paths;
+}
+
+}  // namespace
+
+FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separate_paths, const TipEnd& tip,
+                       const Point& center, double size, double gap, CrackPath::Walls coarse_walls,
+                       const std::vector<Point>* outline) {
+  const Rectangle rock = bounds(mesh);
+  const std::vector<FracturePath> paths = joined(separate_paths, same_place * (rock.high - rock.low).maxCoeff());
+  Rectangle box;
+  double widest = -1;
+  constexpr double more = 1 + 1e-9;  // exceeds rounding, so that domains of mirrored scenes are mirrored
+  if (outline) box = {(*outline)[0], (*outline)[2]};
+  // A domain is made larger by small steps until no side is near to a fracture.
+  constexpr double step = 0.02;
+  for (double factor = 1; !outline && factor < largest_enlargement && widest * more < gap; factor += step) {
+    const Point half = Point::Constant(0.5 * factor * size);
+    const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
+    const double found = smallest_gap(larger, rock, paths);
+    if (found <= widest * more) continue;
+    widest = found;
+    box = larger;
+  }
+  FineDomain domain;
+  domain.geometry.outline = {box.low, {box.high[0], box.low[1]}, box.high, {box.low[0], box.high[1]}};
+  for (int f = 0; f < static_cast<int>(paths.size()); ++f) {
+    const FracturePath& path = paths[f];
+    bool is_open = false;  // whether the last crack continues
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const Point &a = path.points[i], &b = path.points[i + 1];
+      const auto [first, last] = clipped(box, a, b);
+      if (last - first <= rounding) {
+        is_open = false;
+        continue;
+      }
+      const auto at = [&](double t) { return snapped(box, t == 0 ? a : t == 1 ? b : Point(a + t * (b - a))); };
+      const auto arc = [&](double t) { return path.arc[i] + t * (path.arc[i + 1] - path.arc[i]); };
+      if (!is_open || first > 0) {
+        domain.geometry.cracks.push_back({{at(first)}, i == 0 && first == 0 && path.first_is_tip, false, {}});
+        domain.sources.push_back({f, {arc(first)}});
+        if (f == tip.fracture && !tip.at_end && i == 0 && first == 0) {
+          domain.crack = static_cast<int>(domain.sources.size()) - 1;
+          domain.is_last = false;
+        }
+      }
+      CrackPath& crack = domain.geometry.cracks.back();
+      crack.points.push_back(at(last));
+      const double middle = 0.5 * (arc(first) + arc(last));
+      crack.walls.push_back(middle < 0 || middle > path.length ? CrackPath::Walls::traction : coarse_walls);
+      domain.sources.back().arc.push_back(arc(last));
+      is_open = last == 1;
+      if (i + 2 == path.points.size() && last == 1) {
+        crack.last_is_tip = path.last_is_tip;
+        if (f == tip.fracture && tip.at_end) domain.crack = static_cast<int>(domain.sources.size()) - 1;
+      }
+    }
+  }
+  if (domain.crack == none) throw std::runtime_error("the domain of a tip does not contain the tip");
+  return domain;
+}
+
+void add_beyond(FineDomain& domain, const std::vector<FracturePath>& paths) {
+  const std::vector<Point>& outline = domain.geometry.outline;
+  const Rectangle inner{outline[0], outline[2]};
+  const Point reach = Point::Constant((inner.high - inner.low).maxCoeff());
+  const Rectangle outer{inner.low - reach, inner.high + reach};
+  std::vector<std::vector<Point>>& pieces = domain.geometry.beyond;
+  pieces.clear();
+  domain.beyond.clear();
+  for (int f = 0; f < static_cast<int>(paths.size()); ++f) {
+    const FracturePath& path = paths[f];
+    bool is_open = false;  // whether the last piece continues
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const Point &a = path.points[i], &b = path.points[i + 1];
+      const auto [begin, end] = clipped(outer, a, b);
+      if (end - begin <= rounding) {
+        is_open = false;
+        continue;
+      }
+      auto [enters, leaves] = clipped(inner, a, b);
+      if (leaves - enters <= rounding) enters = leaves = end;
+      for (const auto& [first, last] : {std::pair(begin, enters), std::pair(leaves, end)}) {
+        if (last - first > rounding) {
+          const auto at = [&](double t) { return snapped(inner, Point(a + t * (b - a))); };
+          const auto arc = [&](double t) { return path.arc[i] + t * (path.arc[i + 1] - path.arc[i]); };
+          if (!is_open || first > 0) {
+            pieces.push_back({at(first)});
+            domain.beyond.push_back({f, {arc(first)}});
+          }
+          pieces.back().push_back(at(last));
+          domain.beyond.back().arc.push_back(arc(last));
+          is_open = last == 1;
+        } else {
+          is_open = false;
+        }
+      }
+    }
+    const double near = rounding * reach.maxCoeff();
+    const auto ends_on_outline = [&](const Point& x) { return std::abs(inner.depth(x)) < near; };
+    const std::size_t last = path.points.size() - 1;
+    if (!path.first_is_tip && ends_on_outline(path.points[0])) {
+      const Point& x = path.points[0];
+      pieces.push_back({x + reach[0] * (x - path.points[1]).normalized(), x});
+      domain.beyond.push_back({f, {path.arc[0], path.arc[0]}});
+    }
+    if (!path.last_is_tip && ends_on_outline(path.points[last])) {
+      const Point& x = path.points[last];
+      pieces.push_back({x, x + reach[0] * (x - path.points[last - 1]).normalized()});
+      domain.beyond.push_back({f, {path.arc[last], path.arc[last]}});
+    }
+  }
+}
+
+}  // namespace sprekk::fine_fracture

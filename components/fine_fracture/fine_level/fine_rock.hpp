@@ -1,0 +1,31 @@
+// The stiffness of the rock of a fine level.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "components/fine_fracture/fine_level/elasticity.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// One stiffness everywhere, or one for each place.
+class FineRock {
+ public:
+  FineRock(const Elasticity& everywhere) : everywhere_(everywhere) {}
+  /// `at` is asked for places (m) of the domain alone; `version` tells functions with other values apart.
+  FineRock(std::function<Elasticity(const Point&)> at, std::uint64_t version) : at_(std::move(at)), version_(version) {}
+
+  bool is_uniform() const { return everywhere_.has_value(); }
+  Elasticity at(const Point& x) const { return everywhere_ ? *everywhere_ : at_(x); }
+  bool operator==(const FineRock& other) const {
+    return everywhere_ == other.everywhere_ && version_ == other.version_;
+  }
+
+ private:
+  std::optional<Elasticity> everywhere_;
+  std::function<Elasticity(const Point&)> at_;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,392 @@
+// The piece of rock around a tip: paths of fractures, and what a square cuts out of them.
+#include "components/fine_fracture/fine_level/fine_domain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/components/meshes.hpp"
+
+namespace sprekk::test {
+namespace {
+
+using namespace fine_fracture;
+using Walls = CrackPath::Walls;
+
+constexpr double rounding = 1e-12;
+constexpr double gap = 0.01;
+
+Mesh rock_with(const std::vector<std::vector<Point>>& fractures) {
+  Geometry geometry = box(2, 1);
+  for (const auto& points : fractures) {
+    geometry.fractures.emplace_back();
+    geometry.fractures.back().name = std::string(1, static_cast<char>('a' + geometry.fractures.size()));
+    geometry.fractures.back().points = points;
+  }
+  return generate_mesh(geometry, unstructured(0.1));
+}
+
+std::vector<FracturePath> paths_of(const Mesh& mesh) {
+  std::vector<FracturePath> paths;
+  for (int i = 0; i < static_cast<int>(mesh.fractures.size()); ++i) paths.push_back(fracture_path(mesh, i, {}, {}));
+  return paths;
+}
+
+void expect_points(const std::vector<Point>& found, const std::vector<Point>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_LT((found[i] - expected[i]).norm(), rounding) << i;
+}
+
+void expect_lengths(const std::vector<double>& found, const std::vector<double>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], rounding) << i;
+}
+
+// Paths.
+
+const std::vector<Point> kinked{Point(0.5, 0.5), Point(0.9, 0.8), Point(1.4, 0.8)};  // lengths 0.5 and 0.5
+
+TEST(FracturePath, MergesCellsOfAStraightPieceAndKeepsKinks) {
+  const Mesh mesh = rock_with({{Point(0.1, 0.1), Point(0.4, 0.1)}, kinked});
+  ASSERT_GT(mesh.fractures[1].cell_count, 8);
+  const FracturePath path = fracture_path(mesh, 1, {}, {});
+  expect_points(path.points, kinked);
+  expect_lengths(path.arc, {0, 0.5, 1});
+  EXPECT_NEAR(path.length, 1, rounding);
+  EXPECT_TRUE(path.first_is_tip);
+  EXPECT_TRUE(path.last_is_tip);
+}
+
+TEST(FracturePath, CountsWhatIsAddedBelowZeroAndAboveTheLength) {
+  const Mesh mesh = rock_with({kinked});
+  // At the first point 0.1 to the left and then 0.2 down; at the last one 0.05 up, 0.3 to the right.
+  const TipPath first{{Point(0.4, 0.5), Point(0.4, 0.3)}}, last{{Point(1.4, 0.85), Point(1.7, 0.85)}};
+  const FracturePath path = fracture_path(mesh, 0, first, last);
+  expect_points(path.points, {Point(0.4, 0.3), Point(0.4, 0.5), kinked[0], kinked[1], kinked[2], Point(1.4, 0.85),
+                              Point(1.7, 0.85)});
+  expect_lengths(path.arc, {-0.3, -0.1, 0, 0.5, 1, 1.05, 1.35});
+  EXPECT_NEAR(path.length, 1, rounding);
+}
+
+TEST(FracturePath, KeepsTheEndsOfTheCoarseLevelWhereGrowthIsStraight) {
+  const Mesh mesh = rock_with({{Point(0.5, 0.5), Point(1, 0.5)}});
+  // Two points straight ahead at either end: they become one segment, which begins at the coarse end.
+  const TipPath first{{Point(0.4, 0.5), Point(0.2, 0.5)}}, last{{Point(1.1, 0.5), Point(1.3, 0.5)}};
+  const FracturePath path = fracture_path(mesh, 0, first, last);
+  expect_points(path.points, {Point(0.2, 0.5), Point(0.5, 0.5), Point(1, 0.5), Point(1.3, 0.5)});
+  expect_lengths(path.arc, {-0.3, 0, 0.5, 0.8});
+}
+
+TEST(FracturePath, BendsItsLastCellsByTheirMiddles) {
+  const Mesh mesh = rock_with({kinked});
+  const Fracture& cells = mesh.fractures[0];
+  const FractureCell &first = mesh.fracture_cells[cells.first_cell],
+                     &last = mesh.fracture_cells[cells.first_cell + cells.cell_count - 1];
+  const Point bent_first = first.center + Point(0, 1e-3), bent_last = last.center + Point(2e-3, 0);
+  const FracturePath path =
+      fracture_path(mesh, 0, {}, TipPath{{Point(1.4, 0.85)}}, {true, bent_first}, {true, bent_last});
+  ASSERT_GE(path.points.size(), 6u);
+  EXPECT_EQ(path.points[0], kinked[0]);
+  EXPECT_EQ(path.points[1], bent_first);
+  EXPECT_NEAR(path.arc[1], 0.5 * first.measure, rounding);
+  const std::size_t n = path.points.size();
+  EXPECT_EQ(path.points[n - 3], bent_last);
+  EXPECT_NEAR(path.arc[n - 3], path.length - 0.5 * last.measure, rounding);
+  EXPECT_NEAR(path.arc[n - 2], path.length, rounding);
+  EXPECT_NEAR(path.length, 1, rounding);
+}
+
+/// A cell that growth lays anew in each trial begins at a point of the path whether or not it bends there: the mesh of
+/// the fine level does not change where the bend passes zero.
+TEST(FracturePath, HasTheEndsOfACellThatTurnsHoweverSmallItsBend) {
+  for (const double bend : {0.0, 1e-7, 0.9e-5, 1.1e-5, 1e-3}) {
+    const Point first(0.5, 0.5 + 0.1 * bend), last(1.1, 0.5 - 0.1 * bend);
+    const Mesh mesh = rock_with({{first, Point(0.6, 0.5), Point(1, 0.5), last}});
+    const Fracture& cells = mesh.fractures[0];
+    const auto end_of = [&](int cell, int end) {
+      return mesh.fracture_points[mesh.fracture_cells[cells.first_cell + cell].points[end]].position;
+    };
+    const FracturePath path = fracture_path(mesh, 0, {}, TipPath{{Point(1.2, 0.5 - 0.2 * bend)}}, {true}, {true});
+    const int n = cells.cell_count;
+    const std::vector<Point> kept{first, end_of(0, 1), end_of(n - 1, 0), last, Point(1.2, 0.5 - 0.2 * bend)};
+    for (const Point& x : kept)
+      EXPECT_EQ(std::ranges::count_if(path.points, [&](const Point& y) { return (x - y).norm() < 1e-12; }), 1) << bend;
+  }
+}
+
+TEST(FracturePath, KnowsEndsOnTheOuterBoundary) {
+  const Mesh mesh = rock_with({{Point(0, 0.4), Point(0.5, 0.5)}, {Point(1.5, 0.4), Point(2, 0.5)}});
+  const auto paths = paths_of(mesh);
+  EXPECT_FALSE(paths[0].first_is_tip);
+  EXPECT_TRUE(paths[0].last_is_tip);
+  EXPECT_TRUE(paths[1].first_is_tip);
+  EXPECT_FALSE(paths[1].last_is_tip);
+}
+
+TEST(FracturePath, HasAPointWhereAnotherFractureCrossesOrTouchesIt) {
+  const Mesh mesh = rock_with(
+      {{Point(0.4, 0.5), Point(1.6, 0.5)}, {Point(0.8, 0.2), Point(0.8, 0.8)}, {Point(1.2, 0.5), Point(1.3, 0.9)}});
+  const auto paths = paths_of(mesh);
+  expect_points(paths[0].points, {Point(0.4, 0.5), Point(0.8, 0.5), Point(1.2, 0.5), Point(1.6, 0.5)});
+  expect_lengths(paths[0].arc, {0, 0.4, 0.8, 1.2});
+  expect_points(paths[1].points, {Point(0.8, 0.2), Point(0.8, 0.5), Point(0.8, 0.8)});
+  // The end that touches is no tip.
+  expect_points(paths[2].points, {Point(1.2, 0.5), Point(1.3, 0.9)});
+  EXPECT_FALSE(paths[2].first_is_tip);
+  EXPECT_TRUE(paths[2].last_is_tip);
+  EXPECT_TRUE(paths[0].first_is_tip && paths[0].last_is_tip);
+}
+
+// Domains.
+
+TEST(FineDomain, OfACrackThatLeavesTheSquare) {
+  const Mesh mesh = rock_with({{Point(0.5, 0.5), Point(1, 0.5)}});
+  for (const bool at_end : {false, true}) {
+    const Point tip(at_end ? 1 : 0.5, 0.5);
+    const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, at_end}, tip, 0.4, gap, Walls::jump);
+    EXPECT_NO_THROW(validate(domain.geometry));
+    const Point half(0.2, 0.2);
+    const Point low = tip - half, high = tip + half;
+    expect_points(domain.geometry.outline, {low, Point(high[0], low[1]), high, Point(low[0], high[1])});
+    ASSERT_EQ(domain.geometry.cracks.size(), 1u);
+    const CrackPath& crack = domain.geometry.cracks[0];
+    // It goes from the first to the last point, as the fracture does.
+    expect_points(crack.points, at_end ? std::vector{Point(0.8, 0.5), tip} : std::vector{tip, Point(0.7, 0.5)});
+    EXPECT_EQ(crack.first_is_tip, !at_end);
+    EXPECT_EQ(crack.last_is_tip, at_end);
+    EXPECT_EQ(crack.walls, std::vector{Walls::jump});
+    EXPECT_EQ(domain.sources[0].fracture, 0);
+    expect_lengths(domain.sources[0].arc, at_end ? std::vector{0.3, 0.5} : std::vector{0.0, 0.2});
+    EXPECT_EQ(domain.crack, 0);
+    EXPECT_EQ(domain.is_last, at_end);
+  }
+}
+
+TEST(FineDomain, OfACrackWithBothTipsInside) {
+  const Mesh mesh = rock_with({{Point(0.9, 0.5), Point(1.1, 0.5)}});
+  for (const bool at_end : {false, true}) {
+    const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, at_end}, Point(1, 0.5), 0.6, gap, Walls::traction);
+    EXPECT_NO_THROW(validate(domain.geometry));
+    ASSERT_EQ(domain.geometry.cracks.size(), 1u);
+    const CrackPath& crack = domain.geometry.cracks[0];
+    expect_points(crack.points, {Point(0.9, 0.5), Point(1.1, 0.5)});
+    EXPECT_TRUE(crack.first_is_tip);
+    EXPECT_TRUE(crack.last_is_tip);
+    EXPECT_EQ(domain.crack, 0);
+    EXPECT_EQ(domain.is_last, at_end);
+  }
+}
+
+TEST(FineDomain, WithOtherFracturesInAroundAndAcrossIt) {
+  // Around (1, 0.5): 0 passes through, 1 lies inside, 2 far away, 3 has the tip and begins outside.
+  const Mesh mesh = rock_with({{Point(0.6, 0.62), Point(1.5, 0.6)},
+                               {Point(0.95, 0.4), Point(1.05, 0.38)},
+                               {Point(0.1, 0.1), Point(0.3, 0.1)},
+                               {Point(0.3, 0.5), Point(1, 0.5)}});
+  const FineDomain domain = fine_domain(mesh, paths_of(mesh), {3, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+  EXPECT_NO_THROW(validate(domain.geometry));
+  ASSERT_EQ(domain.geometry.cracks.size(), 3u);
+  ASSERT_EQ(domain.sources.size(), 3u);
+  EXPECT_EQ(domain.sources[0].fracture, 0);
+  EXPECT_EQ(domain.sources[1].fracture, 1);
+  EXPECT_EQ(domain.sources[2].fracture, 3);
+  EXPECT_EQ(domain.crack, 2);
+  EXPECT_TRUE(domain.is_last);
+  const auto on_first = [](double x) { return Point(x, 0.62 - 0.02 * (x - 0.6) / 0.9); };
+  const CrackPath& across = domain.geometry.cracks[0];
+  expect_points(across.points, {on_first(0.8), on_first(1.2)});
+  EXPECT_FALSE(across.first_is_tip || across.last_is_tip);
+  const double stretch = std::hypot(0.9, 0.02) / 0.9;
+  expect_lengths(domain.sources[0].arc, {0.2 * stretch, 0.6 * stretch});
+  EXPECT_TRUE(domain.geometry.cracks[1].first_is_tip && domain.geometry.cracks[1].last_is_tip);
+}
+
+TEST(FineDomain, OfACrackThatLeavesAndComesBack) {
+  // Out at the right, back higher up: two cracks of one fracture; only the second one has the tip.
+  const Mesh mesh = rock_with({{Point(0.9, 0.42), Point(1.4, 0.42), Point(1.4, 0.6), Point(1, 0.6)}});
+  const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+  EXPECT_NO_THROW(validate(domain.geometry));
+  ASSERT_EQ(domain.geometry.cracks.size(), 2u);
+  const CrackPath &first = domain.geometry.cracks[0], &second = domain.geometry.cracks[1];
+  expect_points(first.points, {Point(0.9, 0.42), Point(1.2, 0.42)});
+  expect_points(second.points, {Point(1.2, 0.6), Point(1, 0.6)});
+  EXPECT_TRUE(first.first_is_tip && !first.last_is_tip);
+  EXPECT_TRUE(!second.first_is_tip && second.last_is_tip);
+  expect_lengths(domain.sources[0].arc, {0, 0.3});
+  expect_lengths(domain.sources[1].arc, {0.5 + 0.18 + 0.2, 0.5 + 0.18 + 0.4});
+  EXPECT_EQ(domain.crack, 1);
+  const FineDomain of_first = fine_domain(mesh, paths_of(mesh), {0, false}, Point(1, 0.5), 0.4, gap, Walls::traction);
+  EXPECT_EQ(of_first.crack, 0);
+  EXPECT_FALSE(of_first.is_last);
+}
+
+TEST(FineDomain, EndsAtTheRock) {
+  // Nearer to the right side and the top than half the size, with a fracture that goes to the right side.
+  const Mesh mesh = rock_with({{Point(1.5, 0.9), Point(1.9, 0.9)}, {Point(1.8, 0.8), Point(2, 0.75)}});
+  const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1.9, 0.9), 0.4, gap, Walls::traction);
+  EXPECT_NO_THROW(validate(domain.geometry));
+  expect_points(domain.geometry.outline, {Point(1.7, 0.7), Point(2, 0.7), Point(2, 1), Point(1.7, 1)});
+  ASSERT_EQ(domain.geometry.cracks.size(), 2u);
+  expect_points(domain.geometry.cracks[0].points, {Point(1.7, 0.9), Point(1.9, 0.9)});
+  expect_points(domain.geometry.cracks[1].points, {Point(1.8, 0.8), Point(2, 0.75)});
+  EXPECT_TRUE(domain.geometry.cracks[1].first_is_tip);
+  EXPECT_FALSE(domain.geometry.cracks[1].last_is_tip);
+}
+
+TEST(FineDomain, WallsThatHaveBeenAddedFeelTractions) {
+  const Mesh mesh = rock_with({{Point(0.9, 0.5), Point(1.1, 0.5)}});
+  const TipPath first{{Point(0.85, 0.48), Point(0.8, 0.49)}}, last{{Point(1.2, 0.5)}};
+  const std::vector<FracturePath> paths{fracture_path(mesh, 0, first, last)};
+  for (const bool at_end : {false, true}) {
+    const FineDomain domain = fine_domain(mesh, paths, {0, at_end}, Point(1, 0.5), 0.8, gap, Walls::jump);
+    EXPECT_NO_THROW(validate(domain.geometry));
+    ASSERT_EQ(domain.geometry.cracks.size(), 1u);
+    const CrackPath& crack = domain.geometry.cracks[0];
+    expect_points(crack.points,
+                  {Point(0.8, 0.49), Point(0.85, 0.48), Point(0.9, 0.5), Point(1.1, 0.5), Point(1.2, 0.5)});
+    EXPECT_EQ(crack.walls, (std::vector{Walls::traction, Walls::traction, Walls::jump, Walls::traction}));
+    // The tip is the end of what has been added.
+    EXPECT_TRUE(crack.first_is_tip && crack.last_is_tip);
+    EXPECT_EQ(domain.is_last, at_end);
+    const double kinked = std::hypot(0.05, 0.02), oblique = std::hypot(0.05, 0.01);
+    expect_lengths(domain.sources[0].arc, {-kinked - oblique, -kinked, 0, 0.2, 0.3});
+  }
+}
+
+double width(const FineDomain& domain) { return domain.geometry.outline[1][0] - domain.geometry.outline[0][0]; }
+
+TEST(FineDomain, KeepsItsOutlineAwayFromTipsAndKinks) {
+  for (const double away : {-0.009, -0.004, 0.0, 0.004, 0.009}) {
+    // The other end of the crack lies `away` outside of the square, or a kink of another fracture does.
+    const Mesh with_tip = rock_with({{Point(0.8 - away, 0.5), Point(1, 0.5)}});
+    const Mesh with_kink = rock_with(
+        {{Point(0.6, 0.5), Point(1, 0.5)}, {Point(1.2 + away, 0.6), Point(1.2 + away, 0.4), Point(1.4, 0.4)}});
+    for (const auto& [mesh, x] : {std::pair(&with_tip, 0.8 - away), std::pair(&with_kink, 1.2 + away)}) {
+      const FineDomain domain =
+          fine_domain(*mesh, paths_of(*mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+      EXPECT_NO_THROW(validate(domain.geometry));
+      EXPECT_GE(std::abs(x - domain.geometry.outline[0][0]), gap);
+      EXPECT_GE(std::abs(x - domain.geometry.outline[1][0]), gap);
+      EXPECT_GT(width(domain), 0.4);
+      EXPECT_LT(width(domain), 0.4 + 2 * (2 * gap + 0.02 * 0.4));
+    }
+  }
+  // With enough room the square is not made larger.
+  for (const double away : {-0.011, 0.011}) {
+    const Mesh mesh = rock_with({{Point(0.8 - away, 0.5), Point(1, 0.5)}});
+    const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+    EXPECT_NEAR(width(domain), 0.4, rounding);
+  }
+}
+
+TEST(FineDomain, KeepsItsOutlineAwayFromFracturesThatRunAlongIt) {
+  for (const double away : {-0.009, -1e-6, 0.0, 1e-6, 0.009}) {
+    // Past both ends of the lower side of the square, and of the left one.
+    const double y = 0.3 + away, x = 0.8 + away;
+    for (const bool is_upright : {false, true}) {
+      const Mesh mesh = rock_with(
+          {{Point(0.9, 0.5), Point(1, 0.5)},
+           is_upright ? std::vector{Point(x, 0.1), Point(x, 0.9)} : std::vector{Point(0.2, y), Point(1.6, y)}});
+      const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+      EXPECT_NO_THROW(validate(domain.geometry));
+      const Point low = domain.geometry.outline[0];
+      EXPECT_GE(is_upright ? std::abs(x - low[0]) : std::abs(y - low[1]), gap);
+    }
+  }
+  // A crack that crosses a side, or leaves through a corner of the square, is no reason for a larger one.
+  const Mesh diagonal = rock_with({{Point(0.6, 0.1), Point(1, 0.5)}});
+  EXPECT_NEAR(width(fine_domain(diagonal, paths_of(diagonal), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction)),
+              0.4, rounding);
+}
+
+TEST(FineDomain, KeepsAsFarAwayAsItCan) {
+  // A zigzag with a kink every 12 mm leaves the square: no outline is a gap of 10 mm away from all of them. Squares
+  // grow by 4 mm a side, so that one is at least 4 mm away from the kinks on its both sides.
+  std::vector<Point> zigzag;
+  for (int i = 0; i <= 60; ++i) zigzag.push_back(Point(1 - 0.012 * i, 0.5 + (i % 2 == 0 ? 0 : 0.004)));
+  const Mesh mesh = rock_with({zigzag});
+  for (const double shift : {0.0, 0.001, 0.005, 0.011}) {
+    const FineDomain domain =
+        fine_domain(mesh, paths_of(mesh), {0, false}, Point(1 + shift, 0.5), 0.4, gap, Walls::traction);
+    EXPECT_NO_THROW(validate(domain.geometry));
+    double nearest = gap;
+    for (const Point& x : zigzag) nearest = std::min(nearest, std::abs(x[0] - domain.geometry.outline[0][0]));
+    EXPECT_GE(nearest, 0.004 - rounding);
+    EXPECT_LT(width(domain), 1.5 * 0.4);
+  }
+}
+
+TEST(FineDomain, DoesNotAvoidTheRocksOwnBoundary) {
+  // An end on the outer boundary is no reason for a larger square.
+  const Mesh mesh = rock_with({{Point(0, 0.5), Point(0.15, 0.5)}});
+  const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(0.15, 0.5), 0.4, gap, Walls::traction);
+  EXPECT_NO_THROW(validate(domain.geometry));
+  expect_points(domain.geometry.outline, {Point(0, 0.3), Point(0.35, 0.3), Point(0.35, 0.7), Point(0, 0.7)});
+  expect_points(domain.geometry.cracks[0].points, {Point(0, 0.5), Point(0.15, 0.5)});
+  EXPECT_FALSE(domain.geometry.cracks[0].first_is_tip);
+}
+
+TEST(FineDomain, WithFracturesThatMeetInItAndOutside) {
+  // The tip at (1.2, 0.5); one fracture crosses at (1, 0.5), one touches at (1.1, 0.5) and goes on outside; two meet
+  // outside.
+  const Mesh mesh = rock_with({{Point(0.4, 0.5), Point(1.2, 0.5)},
+                               {Point(1, 0.4), Point(1, 0.6)},
+                               {Point(1.1, 0.5), Point(1.1, 0.9)},
+                               {Point(0.6, 0.3), Point(0.6, 0.7)}});
+  const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1.2, 0.5), 0.6, gap, Walls::jump);
+  EXPECT_NO_THROW(validate(domain.geometry));
+  ASSERT_EQ(domain.geometry.cracks.size(), 3u);
+  const auto& cracks = domain.geometry.cracks;
+  expect_points(cracks[0].points, {Point(0.9, 0.5), Point(1, 0.5), Point(1.1, 0.5), Point(1.2, 0.5)});
+  expect_points(cracks[1].points, {Point(1, 0.4), Point(1, 0.5), Point(1, 0.6)});
+  expect_points(cracks[2].points, {Point(1.1, 0.5), Point(1.1, 0.8)});
+  EXPECT_TRUE(cracks[1].first_is_tip && cracks[1].last_is_tip);
+  EXPECT_FALSE(cracks[2].first_is_tip || cracks[2].last_is_tip);
+  const auto meetings = junctions(domain.geometry);
+  ASSERT_EQ(meetings.size(), 2u);
+  // To the last digit one point for both.
+  EXPECT_EQ(cracks[0].points[1], cracks[1].points[1]);
+  EXPECT_EQ(cracks[0].points[2], cracks[2].points[0]);
+}
+
+TEST(FineDomain, WithAPathThatReachesAnotherFractureBeforeTheMeshKnows) {
+  // From (0.8, 0.7) down to (0.8, 0.5), in the middle of a straight fracture whose tip is at (1, 0.5).
+  const Mesh mesh = rock_with({{Point(0.4, 0.5), Point(1, 0.5)}, {Point(0.8, 0.9), Point(0.8, 0.7)}});
+  const std::vector<FracturePath> paths{fracture_path(mesh, 0, {}, {}),
+                                        fracture_path(mesh, 1, {}, TipPath{{Point(0.8, 0.6), Point(0.8, 0.5)}})};
+  const FineDomain domain = fine_domain(mesh, paths, {0, true}, Point(1, 0.5), 0.6, gap, Walls::jump);
+  EXPECT_NO_THROW(validate(domain.geometry));
+  ASSERT_EQ(domain.geometry.cracks.size(), 2u);
+  const CrackPath &through = domain.geometry.cracks[0], &joining = domain.geometry.cracks[1];
+  expect_points(through.points, {Point(0.7, 0.5), Point(0.8, 0.5), Point(1, 0.5)});
+  expect_lengths(domain.sources[0].arc, {0.3, 0.4, 0.6});
+  EXPECT_EQ(through.walls, (std::vector{Walls::jump, Walls::jump}));
+  expect_points(joining.points, {Point(0.8, 0.8), Point(0.8, 0.7), Point(0.8, 0.5)});
+  EXPECT_EQ(joining.walls, (std::vector{Walls::jump, Walls::traction}));
+  EXPECT_FALSE(joining.last_is_tip);
+  EXPECT_EQ(junctions(domain.geometry).size(), 1u);
+}
+
+TEST(FineDomain, KeepsItsOutlineAwayFromJunctions) {
+  for (const double away : {-0.009, -0.004, 0.0, 0.004, 0.009}) {
+    // A fracture crosses the one with the tip where the outline would be, or touches it there.
+    const Point at(0.8 + away, 0.5);
+    for (const Point& begin : {Point(at + Point(-0.1, -0.3)), at}) {
+      const Mesh mesh = rock_with({{Point(0.4, 0.5), Point(1, 0.5)}, {begin, at + Point(0.1, 0.3)}});
+      const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+      EXPECT_NO_THROW(validate(domain.geometry));
+      EXPECT_GE(std::abs(at[0] - domain.geometry.outline[0][0]), gap);
+      EXPECT_EQ(junctions(domain.geometry).size(), at[0] > domain.geometry.outline[0][0] ? 1u : 0u);
+    }
+  }
+}
+
+TEST(FineDomain, RefusesASquareWithoutTheTip) {
+  const Mesh mesh = rock_with({{Point(0.5, 0.5), Point(1, 0.5)}});
+  EXPECT_THROW(fine_domain(mesh, paths_of(mesh), {0, true}, Point(0.5, 0.5), 0.4, gap, Walls::traction),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sprekk::test
