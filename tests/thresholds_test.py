@@ -96,7 +96,7 @@ EXEMPT_ONES = (
     ("components/fine_fracture/quarter_point/elasticity/interaction_integral.hpp", "domains", "a count"),
     ("components/fine_fracture/quarter_point/elasticity/interaction_integral.hpp", "fields", "a count"),
     ("components/fine_fracture/quarter_point/elasticity/stiffness_factors.cpp", "12", "two components of six nodes"),
-    ("components/fine_fracture/tips/front_growth.cpp", "1e3", "m to mm in a text"),
+    ("components/fine_fracture/tips/front_jump.cpp", "1e3", "m to mm in a text"),
     ("components/fine_fracture/tips/growth_ends.cpp", "1e3", "m to mm in a text"),
     ("components/fine_fracture/tips/saved_tips.cpp", "state_size", "a count"),
     ("components/fracture_flow/tpfa/mean_along.cpp", "place", "points of a quadrature"),

@@ -1,0 +1,68 @@
+// A front that was not found in the shortest step: tips jump until they are below their toughness.
+#include <fmt/format.h>
+
+#include "components/fine_fracture/tips/tips_front.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// In the shortest step there is no stable growth, or none that was found: tips advance until they are below their
+/// toughness.
+FrontSearch::Verdict TipsFront::settle_for_less(Tips& there) {
+  if (begin_jump()) return Verdict::again;
+  note_rest(front_->worst());
+  return finish(there);
+}
+
+void TipsFront::note_rest(double worst) {
+  const std::string name = tips_.name();
+  notes_.push_back({name + " is off its toughness",
+                    fmt::format("tips of {} end a step with K_eq/K_IC off by {:.2g} (the advance was not found more "
+                                "precisely)",
+                                name, worst),
+                    worst});
+}
+
+/// False where no tip can advance.
+bool TipsFront::begin_jump() {
+  jump_ = std::make_unique<FrontJump>(at_start_, without_growth_, options_);
+  for (std::size_t i = 0; i < at_start_.size(); ++i)
+    if (is_blocked_[i]) jump_->stop(static_cast<int>(i));
+  if (jump_->verdict() != Front::Verdict::again) jump_.reset();
+  if (jump_) propose();
+  return jump_ != nullptr;
+}
+
+bool TipsFront::retreat() {
+  if (may_shrink_) return false;
+  if (!jump_) return begin_jump();
+  if (!jump_->retreat()) return false;
+  propose();
+  return true;
+}
+
+FrontSearch::Verdict TipsFront::end_jump(Tips& there) {
+  bool is_jump = false;
+  for (std::size_t i = 0; i < at_start_.size(); ++i) {
+    const FrontJump::Record& record = jump_->record(static_cast<int>(i));
+    if (!(record.advance > 0) || (jump_->verdict() == Front::Verdict::found && !record.is_unstable)) continue;
+    is_jump = true;
+    const std::string name = tips_.name() + "." + tips_.tips_[i].name;
+    const LameParameters lame = tips_.surroundings_->stiffness(at_start_[i].anchor);
+    const double toughness = at_start_[i].toughness;
+    const double energy = record.surplus * toughness * toughness / Elasticity{lame.lambda, lame.shear}.plane_modulus();
+    notes_.push_back(
+        {name + " jumps",
+         fmt::format("{} jumps by {:.3g} mm in one step ({}) and {}; K_eq/K_IC is up to {:.4g} on the way, and {:.3g} "
+                     "J/m of energy are left over",
+                     name, 1e3 * record.advance,
+                     record.is_unstable ? "its load rises with its length: growth is unstable"
+                                        : "its load does not fall to the toughness nearby",
+                     jump_->verdict() == Front::Verdict::found ? "comes to rest" : "goes on in the next one",
+                     record.largest_load, energy),
+         energy});
+  }
+  if (!is_jump) note_rest(jump_->worst());
+  return finish(there);
+}
+
+}  // namespace sprekk::fine_fracture

@@ -1,0 +1,108 @@
+// What is known of the tips when the search for a front begins.
+#include <algorithm>
+#include <cmath>
+
+#include "components/fine_fracture/tips/ends.hpp"
+#include "components/fine_fracture/tips/tips_front.hpp"
+#include "framework/mesh/planar.hpp"
+
+namespace sprekk::fine_fracture {
+
+namespace {
+
+constexpr double longest_advance = 1.5;  ///< of an increment, in one step
+constexpr double carried_on = 0.5;       ///< of the change of speed between the last two steps: it has noise, too
+constexpr double steady = 1.2;  ///< ratio of the speeds of two steps from which they tell no trend; largest one by it
+
+/// Of the last step and of the one before. Segments are divided every other step, and advances alternate with that.
+double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
+
+}  // namespace
+
+/// The speed of all tips together in this step over its mean in the last two. How tips share it alternates with the
+/// division of segments, but their sum hardly does. Where it changed much from one step to the other, it has no trend.
+double TipsFront::trend() const {
+  double last = 0, before = 0, part = 0;
+  for (const Tips::Tip& tip : tips_.tips_) {
+    const Tips::State& now = tip.now;
+    if (!(now.speed > 0 && now.speed_before > 0 && now.lasted > 0 && now.lasted_before > 0)) continue;
+    last += now.speed;
+    before += now.speed_before;
+    part = carried_on * (dt_ + now.lasted) / (now.lasted + now.lasted_before);
+  }
+  if (last > steady * before || before > steady * last || last == 0) return 1;
+  return std::clamp((last + part * (last - before)) / (0.5 * (last + before)), 1 / steady, steady);
+}
+
+void TipsFront::add(Tips::Tip& tip) {
+  tip.pattern.reset();
+  tip.next_start.reset();
+  const double increment = tips_.options_.growth.increment;
+  const Point end = tips_.position(tip, {});
+  const Point ahead = tip.now.is_extendable ? tips_.direction(tip) : tips_.end_direction(tip);
+  FrontTip start;
+  Segment segment;
+  start.anchor = end;
+  start.angle = start.ahead = angle_of(ahead);
+  start.toughness = tips_.toughness(tip);
+  start.size = fracture_length(tips_.mesh_, tip.end.fracture);
+  start.speed = mean_of_steps(tip.now.speed, tip.now.speed_before);
+  start.turning = mean_of_steps(tip.now.turning, tip.now.turning_before);
+  start.goes_on = goes_on_ && tip.now.is_extendable && !tip.now.is_stopped && tip.now.speed > 0;
+  if (tip.now.is_extendable) {
+    start.covered = tips_.last_cell(tip.end).measure;
+    segment.replaced = 1;
+    start.anchor = end - start.covered * ahead;
+    tip.next_start = tip.now.segment_start;
+    if (const double stays = what_stays(tip, start); stays > 0) {
+      // What stays leads to where the tip has been. The segment has turned since, as it grew.
+      const PlaceOnWay place = place_on_way(start.anchor, tip.now.segment_start, tip.now.way, stays);
+      start.anchor = place.position;
+      start.covered = (end - start.anchor).norm();
+      start.angle = angle_of(end - start.anchor);
+      segment.before.push_back(start.anchor);
+      tip.next_start = place.direction;
+    }
+    start.is_bent = tip.next_start.has_value();
+    if (start.is_bent) start.ahead = start.angle;
+  }
+  FrontState state = state_of(tips_, tip);
+  if (state.is_evaluated && !tip.now.path.added.empty()) {
+    const Point way = tips_.position(tip, tip.now.path) - end;
+    start.first_length = way.norm();
+    start.first_angle = angle_of(way);
+    start.least = (tips_.position(tip, tip.accepted.path) - end).norm();
+  }
+  // A tip that is at another fracture or at the boundary grows no more by increments.
+  const bool wants = start.goes_on || start.first_length > 0 || state.load > 1;
+  const double reach = start.first_length + longest_advance * increment;
+  const double free = wants ? tips_.free_distance(tip, {}, end + reach * ahead) : reach;
+  is_blocked_.push_back(wants && state.is_evaluated &&
+                        free < std::max(start.first_length, tips_.options_.growth.smallest_length()));
+  if (is_blocked_.back()) {
+    state.is_evaluated = false;
+    start.first_length = 0;
+    start.goes_on = false;
+  }
+  start.longest = start.covered + std::min(reach, free);
+  at_start_.push_back(start);
+  segments_.push_back(segment);
+  states_.push_back(state);
+}
+
+/// The rock that is left between a blocked tip and another fracture breaks at once.
+void TipsFront::find_joinings() {
+  std::vector<std::pair<int, int>> joined;
+  for (std::size_t i = 0; i < tips_.tips_.size(); ++i) {
+    if (!is_blocked_[i] || tips_.options_.meeting != "join") continue;
+    Tips::Tip& tip = tips_.tips_[i];
+    TipOutcome outcome;
+    outcome.ahead = tips_.direction(tip);
+    const auto joining = tips_.find_joining(tip, outcome, joinings_, joined);
+    if (!joining) continue;
+    joined.emplace_back(tip.end.fracture, joining->other);
+    joinings_.push_back(joining->extension);
+  }
+}
+
+}  // namespace sprekk::fine_fracture

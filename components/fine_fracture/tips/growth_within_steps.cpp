@@ -1,0 +1,48 @@
+// What tips that grow within steps tell a run, and the search that they begin.
+#include <algorithm>
+#include <limits>
+
+#include "components/fine_fracture/tips/ends.hpp"
+#include "components/fine_fracture/tips/tips_front.hpp"
+
+namespace sprekk::fine_fracture {
+
+namespace {
+
+constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
+
+}  // namespace
+
+void Tips::prepare(Growing& other) const {
+  for (Tip& tip : dynamic_cast<Tips&>(other).tips_)
+    for (const Tip& same : tips_)
+      if (is_same(same.end, tip.end)) tip.pattern = same.pattern, tip.next_start = same.next_start;
+}
+
+bool Tips::grows_on() const {
+  if (!options_.toughness || !grows_within_steps_ || slopes_.size() == 0) return false;
+  const auto is_settled = [](const Tip& tip) { return tip.now.is_stopped || tip.now.is_extendable; };
+  return std::ranges::all_of(tips_, is_settled) &&
+         std::ranges::any_of(tips_, [](const Tip& tip) { return !tip.now.is_stopped && tip.now.speed > 0; });
+}
+
+double Tips::longest_step() const {
+  double fastest = 0;
+  for (const Tip& tip : tips_)
+    if (grows_within_steps_ && !tip.now.is_stopped) fastest = std::max(fastest, tip.now.speed);
+  return fastest > 0 ? wanted_advance * options_.growth.increment / fastest : std::numeric_limits<double>::infinity();
+}
+
+std::unique_ptr<FrontSearch> Tips::search_front(const StepTime& step, bool may_shrink, bool goes_on) {
+  if (!options_.toughness || !grows_within_steps_) return nullptr;
+  if (goes_on) {
+    notes_.clear();
+    note_start(step);
+  }
+  auto search = std::make_unique<TipsFront>(*this, step, may_shrink, goes_on);
+  if (search->is_needed()) return search;
+  search->finish_without_growth();
+  return nullptr;
+}
+
+}  // namespace sprekk::fine_fracture

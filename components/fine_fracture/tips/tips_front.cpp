@@ -1,0 +1,151 @@
+#include "components/fine_fracture/tips/tips_front.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "components/fine_fracture/growth/viscous_state.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk::fine_fracture {
+
+namespace {
+
+constexpr double shorter_step = 0.5;  ///< the next attempt at a step that is too long
+
+}  // namespace
+
+FrontState TipsFront::state_of(const Tips& tips, const Tips::Tip& tip) {
+  if (!tips.is_followed(tip) || tip.now.is_stopped) return {{}, 0, false};
+  return {tip.now.sifs, tip.now.load, tip.now.is_evaluated};
+}
+
+TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goes_on)
+    : tips_(tips), dt_(step.dt), may_shrink_(may_shrink), goes_on_(goes_on) {
+  for (Tips::Tip& tip : tips_.tips_) add(tip);
+  const double by_trend = trend();
+  for (FrontTip& start : at_start_) start.speed *= by_trend;
+  find_joinings();
+  options_.increment = tips_.options_.growth.increment;
+  options_.shortest = tips_.options_.growth.smallest_length();
+  for (std::size_t i = 0; i < tips_.tips_.size(); ++i) {
+    const Tips::Tip& tip = tips_.tips_[i];
+    const double expected = at_start_[i].speed > 0 ? at_start_[i].speed : options_.increment / dt_;
+    scale_.push_back(tips_.is_viscous(tip) ? tips_.apparent_toughness(tip, expected) : 0);
+    if (scale_[i] > 0) states_[i] = against_viscosity(states_[i], at_start_[i].toughness, scale_[i]);
+  }
+  without_growth_ = states_;
+  front_ = std::make_unique<Front>(at_start_, states_, options_, step.dt, tips_.slopes_);
+  propose();
+}
+
+void TipsFront::propose() {
+  paths_ = joinings_;
+  tip_of_path_.assign(paths_.size(), none);
+  for (std::size_t i = 0; i < at_start_.size(); ++i) {
+    if (jump_ ? !jump_->is_laid(i) : !front_->is_laid(i)) continue;
+    const double angle = jump_ ? jump_->angle(i) : front_->angle(i),
+                 length = jump_ ? jump_->length(i) : front_->length(i);
+    PathExtension extension{tips_.tips_[i].end.fracture, tips_.tips_[i].end.at_end, segments_[i].before};
+    extension.points.push_back(at_start_[i].anchor + length * Point(std::cos(angle), std::sin(angle)));
+    extension.replaced = segments_[i].replaced;
+    extension.whole_segments = true;
+    paths_.push_back(std::move(extension));
+    tip_of_path_.push_back(static_cast<int>(i));
+  }
+}
+
+void TipsFront::give_up(int path, const std::string& why) {
+  const int tip = tip_of_path_[path];
+  if (tip == none) {
+    joinings_.erase(joinings_.begin() + path);
+  } else {
+    is_blocked_[tip] = 1;
+    front_->stop(tip);
+    if (jump_) jump_->stop(tip);
+    const std::string name = tips_.name() + "." + tips_.tips_[tip].name;
+    notes_.push_back({name + " is stopped: the mesh cannot follow",
+                      fmt::format("{} stays where it is for good (the mesh cannot follow it: {})", name, why), 0});
+  }
+  propose();
+}
+
+Tips::Tip* TipsFront::same_tip(Tips& there, int tip) const {
+  const TipEnd& end = tips_.tips_[tip].end;
+  for (Tips::Tip& same : there.tips_)
+    if (same.end.fracture == end.fracture && same.end.at_end == end.at_end) return &same;
+  return nullptr;
+}
+
+/// m/s, of the advance in this trial. What the fine level had found before this step is no part of it.
+double TipsFront::speed(std::size_t i) const {
+  const int tip = static_cast<int>(i);
+  const double length = jump_ ? jump_->length(i) : front_->length(tip);
+  return std::max(0.0, length - std::max(at_start_[i].covered, at_start_[i].least)) / dt_;
+}
+
+FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
+  auto& there = dynamic_cast<Tips&>(trial);
+  for (std::size_t i = 0; i < at_start_.size(); ++i) {
+    states_[i] = {{}, 0, false};
+    Tips::Tip* same = same_tip(there, static_cast<int>(i));
+    if (!same) continue;
+    if (!is_blocked_[i]) states_[i] = state_of(there, *same);
+    if (scale_[i] > 0 && there.is_viscous(*same))
+      states_[i] = against_viscosity(states_[i], there.apparent_toughness(*same, speed(i)), scale_[i]);
+    // A tip that has grown on the fine level in this trial is followed from now on.
+    if (!same->now.path.added.empty()) {
+      const Point way = there.position(*same, same->now.path) - there.position(*same, {});
+      front_->begin_with(static_cast<int>(i), way.norm(), angle_of(way));
+    }
+    tips_.tips_[i].pattern = same->pattern;
+  }
+  if (jump_) {
+    jump_->learn(states_);
+    if (jump_->verdict() != Front::Verdict::again) return end_jump(there);
+    propose();
+    return Verdict::again;
+  }
+  if (front_->verdict() == Front::Verdict::again) front_->learn(states_);
+  switch (front_->verdict()) {
+    case Front::Verdict::again:
+      propose();
+      return Verdict::again;
+    case Front::Verdict::found:
+      return finish(there);
+    case Front::Verdict::too_far:
+    case Front::Verdict::failed:
+      break;
+  }
+  reason_ = front_->reason();
+  return may_shrink_ ? Verdict::refused : settle_for_less(there);
+}
+
+FrontSearch::Verdict TipsFront::finish(Tips& there) {
+  for (std::size_t i = 0; i < at_start_.size(); ++i) {
+    Tips::Tip* same = same_tip(there, static_cast<int>(i));
+    if (!same) continue;
+    // A path that the fine level had found before this step is no growth in it.
+    const double grown = same->now.grown - tips_.tips_[i].now.grown - at_start_[i].first_length;
+    same->now.speed_before = tips_.tips_[i].now.speed;
+    same->now.turning_before = tips_.tips_[i].now.turning;
+    same->now.lasted_before = tips_.tips_[i].now.lasted;
+    same->now.lasted = dt_;
+    same->now.speed = std::max(0.0, grown) / dt_;
+    same->now.apparent_toughness =
+        speed(i) > 0 && there.is_viscous(*same) ? there.apparent_toughness(*same, speed(i)) : 0;
+    const double advance = front_->length(static_cast<int>(i)) - at_start_[i].covered;
+    same->now.turning = !jump_ && at_start_[i].covered > 0 && advance > 0
+                            ? (front_->angle(static_cast<int>(i)) - at_start_[i].ahead) / advance
+                            : 0;
+    same->now.way = way_to(there, *same, tips_.tips_[i].now.way);
+    same->now.has_started = same->now.has_started || (jump_ ? jump_->is_laid(i) : front_->grows(i));
+    same->now.is_stopped = same->now.is_stopped || is_blocked_[i];
+  }
+  there.notes_.insert(there.notes_.end(), notes_.begin(), notes_.end());
+  if (!jump_ && front_->trials() > 0) there.slopes_ = front_->slopes();
+  return Verdict::found;
+}
+
+double TipsFront::retry_dt() const { return shorter_step * dt_; }
+
+}  // namespace sprekk::fine_fracture
