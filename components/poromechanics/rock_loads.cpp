@@ -1,0 +1,121 @@
+// The loads on the rock that the scene gives: initial stress, sides, weight, and what is taken away.
+#include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/rock.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/cell_mean.hpp"
+#include "framework/mesh/cell_sums.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::poromechanics {
+
+Point Rock::initial_traction(int face, int side) const {
+  const int cell = mesh_.face_cells[face][side];
+  const double support = stiffness_.excavation().support(cell);
+  if (settled_) return support / mesh_.face_measure[face] * settled_->forces.segment<dimension>(dimension * face);
+  if (options_.initial_stress.is_zero()) return Point::Zero();
+  const Place place{mesh_.face_center[face], mesh_.cell_region[cell], 0};
+  return support * (options_.initial_stress.at(place) * mesh_.face_normal[face]);
+}
+
+Point Rock::initial_load(int face) const {
+  const auto [one, other] = mesh_.face_cells[face];
+
+  if (other == none || mesh_.cell_region[one] == mesh_.cell_region[other]) return Point::Zero();
+  return mesh_.face_measure[face] * (initial_traction(face, 1) - initial_traction(face, 0));
+}
+
+bool Rock::may_have_initial_load(int face) const {
+  const auto [one, other] = mesh_.face_cells[face];
+  const Excavation& excavation = stiffness_.excavation();
+  return !initial_load(face).isZero(0) || excavation.is_excavated(one) != excavation.is_excavated(other);
+}
+
+void Rock::use_excavation() {
+  const Excavation& excavation = stiffness_.excavation();
+  if (excavation.version() == used_excavation_) return;
+  used_excavation_ = excavation.version();
+  for (Load& load : loads_) {
+    load.alpha = excavation.of_rock(load.given);
+    ++load.alpha_version;
+  }
+}
+
+void Rock::evaluate_data(const StepTime& step) {
+  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
+  if (data_evaluated_ && (same_step || !(stiffness_.changes() || options_.loads_depend_on_time()))) return;
+  data_evaluated_ = true;
+  evaluated_for_ = step;
+  boundary_applied_ = false;
+  stiffness_.evaluate(step);
+  use_excavation();
+
+  boundary_values_ = Vector::Zero(dimension * mesh_.face_count());
+  initial_forces_ = Vector::Zero(dimension * mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const double length = mesh_.face_measure[f];
+    const Point initial = initial_traction(f, 0);
+    initial_forces_.segment<dimension>(dimension * f) = length * initial;
+    if (mesh_.face_cells[f][1] != none) {
+      boundary_values_.segment<dimension>(dimension * f) = initial_load(f);
+      continue;
+    }
+    // Prescribed tractions are those of the total stress; the stress of the deformation is the total less the initial
+    // one.
+    boundary_values_.segment<dimension>(dimension * f) = -length * initial;
+    const SideCondition* condition = condition_of(options_, mesh_, f);
+    if (!condition) continue;
+    const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
+    boundary_values_.segment<dimension>(dimension * f) +=
+        length * condition->traction_in(step, place, mesh_.face_normal[f]);
+    if (condition->axes() == ConditionAxes::of_face)
+      boundary_values_.segment<dimension>(dimension * f) =
+          axes_of(condition->axes(), mesh_.face_normal[f]).transpose() *
+          Point(boundary_values_.segment<dimension>(dimension * f));
+    for (int k = 0; k < dimension; ++k)
+      if (const Data* displacement = condition->displacement_of(k))
+        boundary_values_[dimension * f + k] =
+            value_in_step(*displacement, place, step) - (settled_ ? settled_->displacements[dimension * f + k] : 0);
+  }
+  body_forces_ = Vector::Zero(dimension * mesh_.cell_count());
+  const bool vary = options_.body_force.depends_on_space() || options_.rock_density.depends_on_space() ||
+                    options_.gravity.depends_on_space();
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const auto density = [&](const Point& at) -> Point {
+      const Place place{at, mesh_.cell_region[c], 0};
+      return options_.body_force_in(step, place);
+    };
+    body_forces_.segment<dimension>(dimension * c) =
+        stiffness_.excavation().support(c) * mesh_.cell_measure[c] *
+        (vary ? cell_mean(mesh_, c, density) : density(mesh_.cell_center[c]));
+  }
+}
+
+void Rock::apply_boundary() {
+  if (boundary_applied_) return;
+  boundary_applied_ = true;
+  SPREKK_ASSERT(is_finite(boundary_values_) && is_finite(initial_forces_) && is_finite(body_forces_));
+  SPREKK_ASSERT(boundary_values_.size() == dimension * mesh_.face_count(), boundary_values_.size());
+  force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), 2);
+  force_constant_ -= body_forces_;
+  if (wall_remainder_) force_constant_ += force_of_wall_traction_.entries() * wall_remainder_->now();
+  if (parallel::size() > 1)
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      if (!is_owned(mesh_, Location::cell, c)) force_constant_.segment<dimension>(dimension * c).setZero();
+  Vector values = boundary_values_;
+  if (wall_remainder_) values += wall_forces_ * wall_remainder_->now();
+  volume_change_.constant = operators_.volume_boundary * values;
+  if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * values);
+  if (wall_traction_ && settled_)
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+      if (is_owned(mesh_, Location::fracture_cell, i))
+        jump_.constant.segment<dimension>(dimension * i) += settled_->jumps.segment<dimension>(dimension * i);
+  for (const Load& load : loads_) {
+    const Vector reference = load.alpha.cwiseProduct(load.reference);
+    force_constant_ -= load.force_on_cell.entries() * load.reference;
+    volume_change_.constant -= operators_.volume_stress * reference;
+    if (wall_traction_) jump_.constant -= wall_jump_ * (operators_.trace_stress * reference);
+  }
+}
+
+}  // namespace sprekk::poromechanics

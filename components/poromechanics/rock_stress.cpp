@@ -1,0 +1,65 @@
+// Forces, stress and displacements of sides that follow from the state of the rock.
+#include "components/poromechanics/principal_stress.hpp"
+#include "components/poromechanics/rock.hpp"
+#include "components/poromechanics/stress_without_displacement.hpp"
+#include "framework/field/ownership.hpp"
+
+namespace sprekk::poromechanics {
+
+Vector Rock::face_forces() const {
+  Vector values = boundary_values_;
+  if (wall_traction_) values += wall_forces_ * wall_load();
+  Vector forces = operators_.force_displacement * displacement_.now() + operators_.force_boundary * values;
+  for (const Load& load : loads_) forces += operators_.force_stress * load.stress();
+  for (int f = 0; f < mesh_.face_count(); ++f)
+    forces.segment<dimension>(dimension * f) += mesh_.face_measure[f] * initial_traction(f, 0);
+  return forces;
+}
+
+Vector Rock::outer_displacement() const {
+  Vector values = boundary_values_;
+  if (wall_traction_) values += wall_forces_ * wall_load();
+  Vector displacement = operators_.trace_displacement * displacement_.now() + operators_.trace_boundary * values;
+  for (const Load& load : loads_) displacement += operators_.trace_stress * load.stress();
+  replicate(mesh_, Location::face, dimension, displacement);
+  return displacement;
+}
+
+Vector Rock::pore_stress() const {
+  Vector stress = Vector::Zero(mesh_.cell_count());
+  for (const Load& load : loads_) stress -= load.stress();
+  return stress;
+}
+
+Vector Rock::stress_of(const Vector& forces, const Vector& moments) const {
+  // Of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when constant, and near
+  // tips of cracks with the moments of the singular tractions about the centres of the faces.
+  Vector stress = Vector::Zero(3 * mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    for (const int face : mesh_.cell_faces[c]) {
+      const double sign = mesh_.face_cells[face][0] == c ? 1 : -1;
+      const Point force = sign * forces.segment<dimension>(dimension * face);
+      const Point arm = (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
+      stress.segment<3>(3 * c) +=
+          Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0])) +
+          sign / mesh_.cell_measure[c] * moments.segment<3>(3 * face);
+    }
+  return stress;
+}
+
+Vector Rock::mean_stress() const {
+  if (discretizations_ == 0 || (!settled_ && displacement_.now().isZero(0)))
+    return stress_without_displacement(mesh_, options_, pore_stress());
+  Vector stress = stress_of(face_forces(), operators_.moment_displacement * displacement_.now());
+  if (settled_) {
+    const Vector of_moments = settled_->stress - stress_of(settled_->forces, Vector::Zero(3 * mesh_.face_count()));
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      stress.segment<3>(3 * c) += stiffness_.excavation().support(c) * of_moments.segment<3>(3 * c);
+  }
+  replicate(mesh_, Location::cell, 3, stress);
+  return stress;
+}
+
+void Rock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
+
+}  // namespace sprekk::poromechanics
