@@ -10,7 +10,6 @@
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
-#include "components/capabilities/temperature.hpp"
 #include "components/capabilities/wells.hpp"
 #include "couplers/well_exchange/early_resistance.hpp"
 #include "couplers/well_exchange/equivalent_radius.hpp"
@@ -58,7 +57,6 @@ class WellExchange : public Coupler {
         memory_(context.fields.add(mesh_, memory_spec(context, wells_.rate(), count()))),
         resistance_(Vector::Zero(count())) {
     context.determine(wells_.rate());
-    refuse_heat(context);
     std::vector<Triplet> of_rock, of_fracture, of_wells;
     Vector around = Vector::Zero(count());
     for (int k = 0; k < count(); ++k) {
@@ -73,6 +71,10 @@ class WellExchange : public Coupler {
       of_rock.emplace_back(k, cells_[k], 1.0);
       around[k] = rock_->initial_pressure()[cells_[k]];
     }
+    std::vector<AroundWell> surroundings;
+    for (int k = 0; k < count(); ++k)
+      surroundings.push_back({places_[k].fracture ? &fracture_->pressure() : &rock_->pressure(), cells_[k]});
+    wells_.accept_surroundings(std::move(surroundings));
     wells_.check_limits(around);
     wells_.pressure().set_both(mean_around(around));
     of_wells_ = operator_of(of_wells, wells_.pressure().size());
@@ -177,15 +179,6 @@ class WellExchange : public Coupler {
     if (!assembly.has_row(pressure)) return;
     assembly.linear(pressure, into, wells_.rate(), -dt);
     BalanceRows(assembly, pressure).add_throughput(dt * (into.entries() * wells_.rate().now()));
-  }
-
-  void refuse_heat(const CouplerContext& context) const {
-    std::string heat = context.left_out<MatrixTemperature>();
-    if (heat.empty()) heat = context.left_out<FractureTemperature>();
-    if (!heat.empty())
-      throw InputError(context.origin, "the fluid of these wells carries no heat, and the scene has '" + heat + "'",
-                       "what they inject would have no temperature",
-                       "use the 'wells' of the flow in the rock, or 'injection' and 'prescribed' in fractures");
   }
 
   Vector mean_around(const Vector& around) const {
