@@ -234,6 +234,20 @@ time: {{end: 1 s, step: 1 s}}
   }
 }
 
+/// A well with a pressure, which lets fluid in that nobody has given a temperature, is noted; one that draws is not.
+TEST(WellsHeat, FluidWithoutATemperatureIsNoted) {
+  for (const bool injects : {true, false}) {
+    SceneRun run = SceneRun::from_text(three_pipes(injects ? "pressure: 50 Pa" : "pressure: -50 Pa", 1000));
+    EXPECT_TRUE(run.step());
+    Notes notes;
+    for (const Part* part : run.model().parts()) part->note_step(notes, {0, 50, 50});
+    bool is_noted = false;
+    for (const Notes::Note& note : notes.all())
+      is_noted = is_noted || note.text.find("of fluid that has no temperature") != std::string::npos;
+    EXPECT_EQ(is_noted, injects);
+  }
+}
+
 /// What a scene may not ask for.
 TEST(WellsHeat, MistakesAreRefused) {
   const auto has = [](const std::string& from, const std::string& to, const std::string& words) {
