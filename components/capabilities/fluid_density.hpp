@@ -39,6 +39,10 @@ class BuoyantMatrix {
   static constexpr const char* promise = "flows in the matrix by its weight";
   virtual ~BuoyantMatrix() = default;
   virtual bool has_gravity() const = 0;
+  /// The pressure at `to` less that at `from` in fluid at rest of the scene's constant density, Pa.
+  virtual double weight_between(const Point& from, const Point& to) const = 0;
+  /// Whether a density that varies has been accepted.
+  virtual bool density_varies() const = 0;
   /// The weight of the fluid follows this density instead of the scene's; volumes do not. `in_fractures`: the density
   /// at walls, that of the fracture cell beside; nullptr where that of the rock cell is to be taken. Both must outlive
   /// this object. To be called while the scene is built.
@@ -51,6 +55,9 @@ class BuoyantFractures {
   static constexpr const char* promise = "flows in the fractures by its weight";
   virtual ~BuoyantFractures() = default;
   virtual bool has_gravity() const = 0;
+  /// As for the matrix.
+  virtual double weight_between(const Point& from, const Point& to) const = 0;
+  virtual bool density_varies() const = 0;
   /// As for the matrix.
   virtual void accept_density(const FluidDensity& in_fractures) = 0;
 };

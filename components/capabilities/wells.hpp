@@ -22,6 +22,12 @@ struct WellPlace {
   std::optional<double> index;  ///< m^2/(Pa s), rate over difference of pressure; absent where it follows from the mesh
 };
 
+/// What surrounds a place: a cell of the rock or of a fracture.
+struct AroundWell {
+  const Field* pressure = nullptr;  ///< of the flow to which the place is open
+  int cell = none;
+};
+
 /// Capability: determines the pressure in wells from their rates.
 class WellPressures {
  public:
@@ -31,7 +37,16 @@ class WellPressures {
   virtual Field& pressure() = 0;
   /// Input: the rate out of the well at each place, m^2/s.
   virtual Field& rate() = 0;
+  virtual const Field& rate() const = 0;
   virtual const std::vector<WellPlace>& places() const = 0;
+  virtual const std::vector<std::string>& names() const = 0;
+  /// Whether a well has a rate in this step with which it injects.
+  virtual bool is_to_inject(int well) const = 0;
+  /// What surrounds the places, one each. To be given by the coupler that determines the rates, while the scene is
+  /// built.
+  virtual void accept_surroundings(std::vector<AroundWell> around) = 0;
+  /// Empty as long as nothing has been given. Mind that couplers are built in any order.
+  virtual const std::vector<AroundWell>& surroundings() const = 0;
   /// Whether the pressure of some well is given, whatever its rate.
   virtual bool holds_pressure() const = 0;
   /// Refuses limits that contradict the pressure around the well at the start, Pa, one a place. Throws InputError.

@@ -120,6 +120,10 @@ class MatrixFlow : public Component,
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override;
   bool has_gravity() const override { return !options_.gravity.is_zero(); }
+  double weight_between(const Point& from, const Point& to) const override {
+    return gravity_potential(to) - gravity_potential(from);
+  }
+  bool density_varies() const override { return buoyancy_ != nullptr; }
   void accept_density(const FluidDensity& in_rock, const FluidDensity* in_fractures) override;
 
   double round_off_base_of_fluxes() const override {

@@ -52,7 +52,12 @@ class LimitedWells : public Component, public WellPressures, public KeepsTotals 
 
   Field& pressure() override { return pressure_; }
   Field& rate() override { return rate_; }
+  const Field& rate() const override { return rate_; }
   const std::vector<WellPlace>& places() const override { return places_; }
+  const std::vector<std::string>& names() const override { return names_; }
+  bool is_to_inject(int well) const override { return now_[well].rate > 0; }
+  void accept_surroundings(std::vector<AroundWell> around) override { surroundings_ = std::move(around); }
+  const std::vector<AroundWell>& surroundings() const override { return surroundings_; }
   bool holds_pressure() const override;
   void check_limits(const Vector& around) const override;
   void scale(const Vector& resistance) override;
@@ -67,6 +72,7 @@ class LimitedWells : public Component, public WellPressures, public KeepsTotals 
   Options options_;
   std::vector<std::string> names_;
   std::vector<WellPlace> places_;
+  std::vector<AroundWell> surroundings_;
   Field& pressure_;
   Field& rate_;
   Field& injected_;                ///< m^2, at each place since the start

@@ -48,6 +48,20 @@ void append_sources(const StreamSources& sources, const std::vector<FluidSource>
         streams.push_back(from_outside(cell, rate, sources.injected_temperature(source.name)));
 }
 
+/// The streams out of wells into the cells that belong to the flow with this pressure.
+void append_wells(const StreamSources& sources, const Field* pressure, bool only_own_cells,
+                  std::vector<Stream>& streams) {
+  if (!sources.wells || !pressure) return;
+  for (int k = 0; k < static_cast<int>(sources.wells->places().size()); ++k) {
+    const AroundWell& around = sources.wells->surroundings()[k];
+    if (around.pressure != pressure) continue;
+    if (only_own_cells && sources.mesh.cell_rank[around.cell] != parallel::rank()) continue;
+    Stream stream{around.cell, sources.wells->rate().now()[k], Stream::From::well, sources.wells->places()[k].well};
+    stream.is_outside = true;
+    streams.push_back(with_flux(stream, Stream::Flux::well, k, 1));
+  }
+}
+
 }  // namespace
 
 std::vector<Stream> streams_of_rock(const StreamSources& sources) {
@@ -72,6 +86,7 @@ std::vector<Stream> streams_of_rock(const StreamSources& sources) {
   }
   append_walls(sources, 1, streams);
   append_sources(sources, sources.matrix->fluid_sources(), true, streams);
+  append_wells(sources, sources.rock_pressure, true, streams);
   return streams;
 }
 
@@ -97,6 +112,7 @@ std::vector<Stream> streams_of_fractures(const StreamSources& sources) {
   }
   append_walls(sources, -1, streams);
   append_sources(sources, sources.fracture->fluid_sources(), false, streams);
+  append_wells(sources, sources.fracture_pressure, false, streams);
   Vector net = Vector::Zero(mesh.fracture_cell_count());
   for (const Stream& stream : streams) net[stream.cell] += stream.rate;
   for (const FluidReservoir& reservoir : sources.fracture->fluid_reservoirs())

@@ -6,19 +6,21 @@
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/temperature.hpp"
+#include "couplers/heat_advection/well_mixture.hpp"
 
 namespace sprekk::couplers {
 
 /// Fluid that enters a cell, or with a negative rate leaves it.
 struct Stream {
   /// own: the temperature of the cell itself, where no other one is known.
-  enum class From { own, rock_cell, fracture_cell, given };
-  /// What the rate is a multiple of: the flux through a face, a wall, a fracture point, or nothing that is solved for.
-  enum class Flux { face, wall, fracture_point, none };
+  enum class From { own, rock_cell, fracture_cell, given, well };
+  /// What the rate is a multiple of: the flux through a face, a wall, a fracture point, the rate of a well at a place,
+  /// or nothing that is solved for.
+  enum class Flux { face, wall, fracture_point, well, none };
   int cell;
   double rate;  ///< m^2/s
   From from;
-  int index = none;         ///< of the cell that it comes from
+  int index = none;         ///< of the cell or of the well that it comes from
   double temperature = 0;   ///< K, where it is given
   bool is_outside = false;  ///< whether it comes from or goes to outside of rock and fractures
   Flux flux = Flux::none;
@@ -35,6 +37,9 @@ struct StreamSources {
   const FractureFluxes* fracture = nullptr;
   const MatrixTemperature* matrix_heat = nullptr;
   const FractureTemperature* fracture_heat = nullptr;
+  const WellPressures* wells = nullptr;
+  const Field* rock_pressure = nullptr;      ///< of the flow whose fluid carries heat in the matrix
+  const Field* fracture_pressure = nullptr;  ///< and in the fractures
   /// The temperature of fluid from a named place (K), by name.
   std::vector<std::pair<std::string, double>> injected = {};
 

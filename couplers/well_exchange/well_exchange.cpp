@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
-#include "components/capabilities/temperature.hpp"
 #include "components/capabilities/wells.hpp"
 #include "couplers/well_exchange/early_resistance.hpp"
 #include "couplers/well_exchange/equivalent_radius.hpp"
@@ -50,15 +50,17 @@ class WellExchange : public Coupler {
         rock_(context.find<MatrixFluid>()),
         fluxes_(context.find<MatrixFluxes>()),
         fracture_(context.find<FractureFluid>()),
+        rock_weight_(context.find<BuoyantMatrix>()),
+        fracture_weight_(context.find<BuoyantFractures>()),
         places_(wells_.places()),
         cells_(places_.size(), none),
         log_of_radii_(Vector::Zero(count())),
         early_(places_.size()),
         diffusivity_(Vector::Zero(count())),
         memory_(context.fields.add(mesh_, memory_spec(context, wells_.rate(), count()))),
-        resistance_(Vector::Zero(count())) {
+        resistance_(Vector::Zero(count())),
+        weight_(Vector::Zero(count())) {
     context.determine(wells_.rate());
-    refuse_heat(context);
     std::vector<Triplet> of_rock, of_fracture, of_wells;
     Vector around = Vector::Zero(count());
     for (int k = 0; k < count(); ++k) {
@@ -73,6 +75,12 @@ class WellExchange : public Coupler {
       of_rock.emplace_back(k, cells_[k], 1.0);
       around[k] = rock_->initial_pressure()[cells_[k]];
     }
+    std::vector<AroundWell> surroundings;
+    for (int k = 0; k < count(); ++k)
+      surroundings.push_back({places_[k].fracture ? &fracture_->pressure() : &rock_->pressure(), cells_[k]});
+    wells_.accept_surroundings(std::move(surroundings));
+    find_weights();
+    around -= weight_;
     wells_.check_limits(around);
     wells_.pressure().set_both(mean_around(around));
     of_wells_ = operator_of(of_wells, wells_.pressure().size());
@@ -123,6 +131,7 @@ class WellExchange : public Coupler {
     Vector of_rate = resistance_;
     add_early(assembly, step, of_rate);
     assembly.add(rate, of_rate.cwiseProduct(rate.now()));
+    if (!weight_.isZero(0)) assembly.add(rate, -weight_);
     assembly.diagonal(rate, rate, of_rate);
   }
 
@@ -146,6 +155,19 @@ class WellExchange : public Coupler {
     for (int k = 0; k < count(); ++k)
       if (early_[k].scales != before.early_[k].scales) memory.segment<early_terms>(early_terms * k).setZero();
     memory_.set_both(std::move(memory));
+  }
+
+  void note_input(Notes& notes) const override {
+    if ((!rock_weight_ || !rock_weight_->density_varies()) &&
+        (!fracture_weight_ || !fracture_weight_->density_varies()))
+      return;
+    for (int k = 0; k < count(); ++k)
+      if (weight_[k] != 0)
+        notes.add(name() + ": fluid in wells has one density",
+                  "the fluid between the places of well '" + places_[k].name +
+                      "' has the constant density of the flow (a density that follows temperature and pressure counts "
+                      "around wells, not in them) make a well of each place where that matters",
+                  std::abs(weight_[k]));
   }
 
   void hold_constants(ConstantModes& modes) const override {
@@ -179,13 +201,22 @@ class WellExchange : public Coupler {
     BalanceRows(assembly, pressure).add_throughput(dt * (into.entries() * wells_.rate().now()));
   }
 
-  void refuse_heat(const CouplerContext& context) const {
-    std::string heat = context.left_out<MatrixTemperature>();
-    if (heat.empty()) heat = context.left_out<FractureTemperature>();
-    if (!heat.empty())
-      throw InputError(context.origin, "the fluid of these wells carries no heat, and the scene has '" + heat + "'",
-                       "what they inject would have no temperature",
-                       "use the 'wells' of the flow in the rock, or 'injection' and 'prescribed' in fractures");
+  double weight_between(int place, const Point& from, const Point& to) const {
+    if (places_[place].fracture) return fracture_weight_ ? fracture_weight_->weight_between(from, to) : 0;
+    return rock_weight_ ? rock_weight_->weight_between(from, to) : 0;
+  }
+  Point middle(int place) const {
+    return places_[place].fracture ? mesh_.fracture_cells[cells_[place]].center : mesh_.cell_center[cells_[place]];
+  }
+
+  /// A column of fluid at rest stands in each well; the pressure of the well is that at its highest place.
+  void find_weights() {
+    std::vector<int> highest(wells_.pressure().size(), none);
+    for (int k = 0; k < count(); ++k) {
+      int& best = highest[places_[k].well];
+      if (best == none || weight_between(k, middle(best), middle(k)) < 0) best = k;
+    }
+    for (int k = 0; k < count(); ++k) weight_[k] = weight_between(k, middle(highest[places_[k].well]), middle(k));
   }
 
   Vector mean_around(const Vector& around) const {
@@ -318,6 +349,8 @@ class WellExchange : public Coupler {
   MatrixFluid* rock_;
   MatrixFluxes* fluxes_;
   FractureFluid* fracture_;
+  const BuoyantMatrix* rock_weight_;
+  const BuoyantFractures* fracture_weight_;
   const std::vector<WellPlace>& places_;
   std::vector<int> cells_;              ///< of the rock or of the fracture, one a place
   Vector log_of_radii_;                 ///< ln(r_e/r_w) + skin of places in rock without a given index
@@ -325,6 +358,7 @@ class WellExchange : public Coupler {
   Vector diffusivity_;                  ///< around places in rock without a given index, m^2/s
   Field& memory_;                       ///< m_k of every place, m^2/s
   Vector resistance_;                   ///< R of a steady flow, Pa s/m^2, one a place
+  Vector weight_;                       ///< of the fluid in the well between its reference and each place, Pa
   Operator of_wells_;                   ///< places × wells: −1
   Operator of_rock_, into_rock_, of_fracture_, into_fracture_;
 };

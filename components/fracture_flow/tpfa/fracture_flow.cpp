@@ -151,6 +151,11 @@ void FractureFlow::make_links(const StepTime& step) {
   }
 }
 
+double FractureFlow::weight_between(const Point& from, const Point& to) const {
+  if (options_.gravity.is_zero()) return 0;
+  return options_.fluid_density * options_.gravity.at({from, 0, 0}).dot(to - from);
+}
+
 void FractureFlow::evaluate_data(const StepTime& step) {
   for (Property* property : {&compressibility_, &inertia_}) property->evaluate(step);
   if (!viscosity_is_given_) viscosity_.evaluate(step);

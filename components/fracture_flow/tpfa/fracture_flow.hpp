@@ -84,6 +84,8 @@ class FractureFlow : public Component,
   void accept_rock_fluid(const MatrixFluid& rock_fluid) override { rock_fluid_ = &rock_fluid; }
   const MatrixFluid* rock_fluid() const override { return rock_fluid_; }
   bool has_gravity() const override { return !options_.gravity.is_zero(); }
+  double weight_between(const Point& from, const Point& to) const override;
+  bool density_varies() const override { return density_ != nullptr; }
   void accept_density(const FluidDensity& in_fractures) override { density_ = &in_fractures; }
 
  private:

@@ -1,0 +1,38 @@
+// The fluid in wells, whose temperature is that of what flows in.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "components/capabilities/wells.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk::couplers {
+
+/// The cells of the rock, or of the fractures, that have a temperature (pointers are empty where there is none).
+struct HeatOfCells {
+  const Field* pressure = nullptr;  ///< of the flow there
+  const Field* temperature = nullptr;
+};
+
+/// The fluid in a well, which is mixed and stores nothing. It flows in at some of its places, with the temperatures T_k
+/// of the cells there, and with a net rate Q = sum of q_k > 0 from outside with T_given:
+///   T = (sum over q_k < 0 of −q_k T_k + max(Q, 0) T_given)/(sum over q_k < 0 of −q_k + max(Q, 0)).
+/// It leaves with T, at other places and to the outside.
+struct WellMixture {
+  /// By the rate at a place, K s/m^2, or by the temperature of a cell.
+  struct Derivative {
+    int index;
+    double value;
+  };
+  double temperature = 0;  ///< K; the mean of the cells where nothing flows
+  std::vector<Derivative> by_rate, by_rock, by_fractures;
+};
+
+/// One a well; empty for a well that is open to nothing whose temperature is known. `given`: the temperature of what
+/// comes from outside, one a well.
+std::vector<std::optional<WellMixture>> mixtures(const WellPressures& wells, const HeatOfCells& rock,
+                                                 const HeatOfCells& fractures,
+                                                 const std::vector<std::optional<double>>& given);
+
+}  // namespace sprekk::couplers
