@@ -1,8 +1,10 @@
 // aperture: the opening of a fracture makes room for fluid and lets it flow (below Eq. 8 of the paper).
+#include <fmt/format.h>
+
 #include <algorithm>
 
-#include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
+#include "couplers/contacts.hpp"
 #include "framework/assembly/follows_waiting.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
@@ -26,10 +28,10 @@ struct ApertureOptions {
 class Aperture : public Coupler, public FollowsWaiting {
  public:
   Aperture(const CouplerContext& context, const ApertureOptions&)
-      : Coupler(context.name),
-        mesh_(context.mesh),
-        contact_(context.the<FractureContact>()),
-        fluid_(context.the<FractureFluid>()) {
+      : Coupler(context.name), mesh_(context.mesh), contacts_(context), fluid_(context.the<FractureFluid>()) {
+    if (contacts_.empty()) context.the<FractureContact>();  // says what is missing
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+      if (!contacts_.at(i) && fluid_.is_in_fracture_cell(i)) left_out_ = context.left_out<FractureContact>();
     context.determine(fluid_.aperture());
     const int cells = context.mesh.fracture_cell_count();
     std::vector<Triplet> entries;
@@ -53,9 +55,10 @@ class Aperture : public Coupler, public FollowsWaiting {
     if (&row != &fluid_.aperture()) return {};
     const Vector& initial = fluid_.initial_aperture();
     Vector least(initial.size());
+    const Vector jump = contacts_.jump();
     constexpr double half = 0.5;
     for (Eigen::Index i = 0; i < least.size(); ++i) {
-      const double opening = contact_.jump().now()[dimension * i];
+      const double opening = jump[dimension * i];
       least[i] = -std::max({opening, half * (initial[i] + opening), 0.0});
     }
     return least;
@@ -70,21 +73,30 @@ class Aperture : public Coupler, public FollowsWaiting {
     assembly.add(aperture, aperture.now());
     assembly.diagonal(aperture, aperture, Vector::Ones(aperture.size()));
     assembly.add(aperture, -fluid_.initial_aperture());
-    assembly.linear(aperture, normal_, contact_.jump(), -1);
+    for (FractureContact* contact : contacts_) assembly.linear(aperture, normal_, contact->jump(), -1);
   }
 
   /// Cells in the place of a replaced one share its opening as the contact has shared its jump, not evenly: otherwise
   /// fluid would have to flow between them at once.
   void carry_over(const Part& part, const MeshChange& change) override {
-    const Vector& old_jump = dynamic_cast<const Aperture&>(part).contact_.jump().accepted();
+    const Vector old_jump = dynamic_cast<const Aperture&>(part).contacts_.accepted_jump();
+    const Vector jump = contacts_.accepted_jump();
     Vector evenly = Vector::Zero(fluid_.aperture().size());
     for (const ReplacedPart& replaced : change.replaced_parts)
       evenly[replaced.cell] +=
           replaced.length / mesh_.fracture_cells[replaced.cell].measure * old_jump[dimension * replaced.old_cell];
     Vector aperture = fluid_.aperture().accepted();
     for (Eigen::Index i = 0; i < aperture.size(); ++i)
-      if (change.fracture_cell[i] == none) aperture[i] += contact_.jump().accepted()[dimension * i] - evenly[i];
+      if (change.fracture_cell[i] == none) aperture[i] += jump[dimension * i] - evenly[i];
     fluid_.aperture().set_both(std::move(aperture));
+  }
+
+  void note_input(Notes& notes) const override {
+    if (left_out_.empty()) return;
+    notes.add(name() + " without " + left_out_,
+              fmt::format("the aperture in {0} stays what it is at the start where '{1}' opens or dilates ({1} is not "
+                          "in the `between` of the coupler {2}) add it there, unless that is meant",
+                          fluid_.pressure().spec().owner, left_out_, name()));
   }
 
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
@@ -104,9 +116,10 @@ class Aperture : public Coupler, public FollowsWaiting {
 
  private:
   const Mesh& mesh_;
-  FractureContact& contact_;
+  Contacts contacts_;
   FractureFluid& fluid_;
-  Operator normal_;  ///< fracture cells × `dimension` fracture cells: picks the opening
+  std::string left_out_;  ///< a contact of the scene that the coupler does not stand between
+  Operator normal_;       ///< fracture cells × `dimension` fracture cells: picks the opening
 };
 
 const RegisterCoupler<Aperture, ApertureOptions> registration("aperture");

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
+#include "couplers/contacts.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -22,10 +22,12 @@ namespace {
 struct WallTractionOptions {
   Data fracture_biot_coefficient = 1;
   Spec spec() {
-    Spec spec("wall_traction",
-              "Contact traction and fluid pressure act on the walls of fractures (the paper's Eq. 4); the displacement "
-              "jump of the "
-              "rock acts on the contact. The contact, or the fluid, may be left out.");
+    Spec spec(
+        "wall_traction",
+        "Contact traction and fluid pressure act on the walls of fractures (the paper's Eq. 4); the displacement "
+        "jump of the "
+        "rock acts on the contact. The contact, or the fluid, may be left out. Several contacts, each on some of the "
+        "fractures, stand in one coupler.");
     spec.ignore("type").ignore("between");
     spec.data("fracture_biot_coefficient", fracture_biot_coefficient,
               {.range = between(0, 1),
@@ -46,22 +48,27 @@ class WallTraction : public Coupler {
         mesh_(context.mesh),
         options_(options),
         rock_(context.the<RockWalls>()),
-        contact_(context.find<FractureContact>()),
+        contacts_(context),
         fluid_(context.find<FractureFluid>()),
         stressed_rock_(context.find<RockState>()),
         fluid_left_out_(fluid_ ? "" : context.left_out<FractureFluid>()) {
-    if (!contact_ && !fluid_)
+    if (contacts_.empty() && !fluid_)
       throw InputError(context.origin, "coupler " + name() + " has nothing that acts on the walls",
                        "it joins the rock with a contact law, the fluid in the fractures, or both",
                        "name one of them in `between`");
     context.determine(rock_.wall_traction());
-    if (contact_) context.determine(contact_->jump());
-    if (contact_ && contact_->needs_shear_modulus()) {
+    contacts_.need_all_fractures(context);
+    for (FractureContact* contact : contacts_) {
+      context.determine(contact->jump());
+      on_cells_.push_back(contacts_.are_several() ? cells_of(*contact) : Vector());
+    }
+    for (FractureContact* contact : contacts_) {
+      if (!contact->needs_shear_modulus()) continue;
       rock_state_ = &context.the<RockState>();
       if (!shear_modulus())
         throw InputError(
             context.origin, "the shear modulus beside the fractures is unknown",
-            "the friction of '" + contact_->traction().spec().owner + "' needs it, and anisotropic rock has none",
+            "the friction of '" + contact->traction().spec().owner + "' needs it, and anisotropic rock has none",
             "give the rock beside fractures young_modulus and poisson_ratio");
     }
     if (!fluid_) return;
@@ -80,9 +87,12 @@ class WallTraction : public Coupler {
   }
 
   std::vector<Dependence> dependences() const override {
-    if (!contact_) return {};
-    return {{contact_->jump().spec().owner, rock_.wall_traction().spec().owner,
-             "while the rock is held so is the jump, and walls that stick may then have any traction", true}};
+    std::vector<Dependence> dependences;
+    for (FractureContact* contact : contacts_)
+      dependences.push_back({contact->jump().spec().owner, rock_.wall_traction().spec().owner,
+                             "while the rock is held so is the jump, and walls that stick may then have any traction",
+                             true});
+    return dependences;
   }
 
   bool allows_stages() const override { return true; }
@@ -90,8 +100,10 @@ class WallTraction : public Coupler {
     Vector compliance = rock_.wall_compliance();
     replicate(mesh_, Location::fracture_cell, dimension, compliance);
     compliance_ = positive(std::move(compliance));
-    if (contact_) contact_->set_wall_stiffness(compliance_.cwiseInverse());
-    if (rock_state_) contact_->set_shear_modulus(shear_modulus().value());
+    for (FractureContact* contact : contacts_) {
+      contact->set_wall_stiffness(compliance_.cwiseInverse());
+      if (contact->needs_shear_modulus()) contact->set_shear_modulus(shear_modulus().value());
+    }
     SPREKK_ASSERT(compliance_.minCoeff() > 0, compliance_.minCoeff());
     if (loaded_with_ != alpha_.version()) load_with_fluid();
   }
@@ -120,23 +132,42 @@ class WallTraction : public Coupler {
     if (assembly.has_row(traction)) {
       assembly.add(traction, compliance_.cwiseProduct(traction.now()));
       assembly.diagonal(traction, traction, compliance_);
-      if (contact_) {
-        assembly.add(traction, -compliance_.cwiseProduct(contact_->traction().now()));
-        assembly.diagonal(traction, contact_->traction(), -compliance_);
+      for (FractureContact* contact : contacts_) {
+        assembly.add(traction, -compliance_.cwiseProduct(contact->traction().now()));
+        assembly.diagonal(traction, contact->traction(), -compliance_);
       }
       if (fluid_) assembly.linear(traction, normal_load_, fluid_->pressure(), 1, &compliance_);
     }
-    if (!contact_ || !assembly.has_row(contact_->jump())) return;
-    const Field& jump = contact_->jump();
-    assembly.add(jump, jump.now());
-    assembly.diagonal(jump, jump, Vector::Ones(jump.size()));
-    assembly.linear(jump, rock_.displacement_jump(), -1);
+    std::size_t k = 0;
+    for (FractureContact* contact : contacts_) {
+      const Vector& here = on_cells_[k++];
+      const Field& jump = contact->jump();
+      if (!assembly.has_row(jump)) continue;
+      assembly.add(jump, jump.now());
+      assembly.diagonal(jump, jump, Vector::Ones(jump.size()));
+      assembly.linear(jump, rock_.displacement_jump(), -1, here.size() > 0 ? &here : nullptr);
+    }
+  }
+
+  /// With several contacts, those of all fractures together.
+  void output(std::vector<OutputField>& fields) const override {
+    if (!contacts_.are_several()) return;
+    fields.push_back({name() + ".jump", "m", Location::fracture_cell, dimension, contacts_.jump()});
+    fields.push_back({name() + ".contact_traction", "Pa", Location::fracture_cell, dimension, contacts_.traction()});
   }
 
  private:
+  /// 1 for each value of a fracture cell that the contact is on, 0 elsewhere.
+  Vector cells_of(const FractureContact& contact) const {
+    Vector flags = Vector::Zero(dimension * mesh_.fracture_cell_count());
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+      if (contact.is_on_fracture_cell(i)) flags.segment<dimension>(dimension * i).setOnes();
+    return flags;
+  }
+
   /// Rock between fractures that is held by nothing but tractions on its walls, which are zero at the start.
   void note_pockets(Notes& notes) const {
-    if (!contact_ || !stressed_rock_) return;
+    if (contacts_.empty() || !stressed_rock_) return;
     for (int w = 0; w < mesh_.wall_count(); ++w) {
       const int face = mesh_.wall_face(w);
       if (!stressed_rock_->initial_stress(mesh_.face_cells[face][0], mesh_.face_center[face]).isZero(0)) return;
@@ -194,8 +225,9 @@ class WallTraction : public Coupler {
   const Mesh& mesh_;
   WallTractionOptions options_;
   RockWalls& rock_;
-  FractureContact* contact_;
-  const RockState* rock_state_ = nullptr;  ///< where the contact needs the shear modulus
+  Contacts contacts_;
+  std::vector<Vector> on_cells_;           ///< of each contact: 1 for values of its fracture cells; none for all
+  const RockState* rock_state_ = nullptr;  ///< where a contact needs the shear modulus
   FractureFluid* fluid_;
   const RockState* stressed_rock_;  ///< nullptr where the rock does not tell its initial stress
   std::string fluid_left_out_;      ///< a component of the scene that the coupler does not stand between

@@ -25,6 +25,9 @@ class FractureContact {
   /// The contact traction f of Eqs. 2–4 of the paper, Pa, (normal, tangential) of each fracture cell; the normal
   /// component is negative in contact.
   virtual Field& traction() = 0;
+  /// Whether the contact is on a fracture cell. Where it is not, its traction and its jump are zero: another contact
+  /// may be there, and sums over all contacts are those of all fractures.
+  virtual bool is_on_fracture_cell(int /*cell*/) const { return true; }
   /// Input: the displacement jump, m, (normal, tangential) of each fracture cell (Eq. 1 of the paper); opening
   /// positive.
   virtual Field& jump() = 0;

@@ -16,11 +16,13 @@
 #include "components/contact/laws/closure.hpp"
 #include "components/contact/note_jumps.hpp"
 #include "components/contact/options.hpp"
+#include "components/contact/places_of_parameters.hpp"
 #include "components/contact/rate_and_state_walls.hpp"
 #include "components/contact/shear_load.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
+#include "framework/scene/fracture_set.hpp"
 
 namespace sprekk::contact {
 
@@ -31,6 +33,7 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
       traction_(add_traction(context, options.depends_on_rate ? Friction::of_rate : Friction::of_path)),
       jump_(add_jump(context, options.depends_on_rate ? Friction::of_rate : Friction::of_path)),
       options_(std::make_unique<Options>(options)),
+      here_(fracture_set(mesh_, options.fractures, options.fractures_origin)),
       dilation_limit_(options.dilation_limit),
       weakening_(options.weakening),
       multiplier_(multiplier),
@@ -40,13 +43,13 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
   if (count == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
-  const std::vector<Place> places = fracture_cell_places(mesh_);
+  const std::vector<Place> places = places_of_parameters(mesh_, here_);
   if (weakening_.is_on()) path_ = &add_path(context);
   friction_ = Property(options_->friction, places, context.start_time);
   dilation_angle_ = Property(options_->dilation_angle, places, context.start_time);
   if (options_->dynamic_friction) dynamic_friction_ = Property(*options_->dynamic_friction, places, context.start_time);
   if (options.depends_on_rate)
-    rate_and_state_ = std::make_unique<RateAndStateWalls>(context, options.rate_and_state, friction_);
+    rate_and_state_ = std::make_unique<RateAndStateWalls>(context, options.rate_and_state, friction_, here_);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
   fracture_measure_.assign(mesh_.fractures.size(), 0);
@@ -139,12 +142,16 @@ void FrictionalContact::after_solve(const std::vector<Field*>& solved, const Ste
     constexpr int tangents = dimension - 1;
     Vector rates(tangents * mesh_.fracture_cell_count());
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-      rates.segment<tangents>(tangents * i) = trial(i).at_rate.value().slip_rate;
+      if (is_on_fracture_cell(i))
+        rates.segment<tangents>(tangents * i) = trial(i).at_rate.value().slip_rate;
+      else
+        rates.segment<tangents>(tangents * i).setZero();
     rate_and_state_->set_slip_rates(std::move(rates));
   }
   if (!path_) return;
-  Vector paths(mesh_.fracture_cell_count());
-  for (int i = 0; i < paths.size(); ++i) paths[i] = path(i, gap(i, traction_.now(), jump_.now()));
+  Vector paths = Vector::Zero(mesh_.fracture_cell_count());
+  for (int i = 0; i < paths.size(); ++i)
+    if (is_on_fracture_cell(i)) paths[i] = path(i, gap(i, traction_.now(), jump_.now()));
   path_->set(std::move(paths));
 }
 
@@ -157,6 +164,7 @@ void FrictionalContact::observe_iterate(const std::vector<Field*>& unknowns) {
   followed_ = values;
   back_slip_.resize(mesh_.fracture_cell_count());
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    if (!is_on_fracture_cell(i)) continue;
     BackSlip& cell = back_slip_[i];
     const Trial t = trial(i);
     SPREKK_ASSERT(is_index(i, static_cast<long>(back_slip_.size())), i, back_slip_.size());
@@ -190,6 +198,7 @@ bool is_forward(const TangentialVector& vector) { return dimension == 2 && vecto
 }  // namespace
 
 int FrictionalContact::piece(int i) const {
+  if (!is_on_fracture_cell(i)) return 0;
   const Trial t = trial(i);
   const State now = t.state();
   const bool knows_direction = now == State::slip && friction_[i] > 0;
@@ -207,7 +216,7 @@ void FrictionalContact::deactivate_conditions() {
   constexpr double opening = 1e-9;  // of the length of a cell
   Vector traction = traction_.now(), jump = jump_.now();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    if (is_bonded(i)) continue;
+    if (is_bonded(i) || !is_on_fracture_cell(i)) continue;
     traction.segment<dimension>(dimension * i).setZero();
     const double least = dilated(i, magnitude<dimension - 1>(tangential(jump, i))) - closure(0);
     jump[dimension * i] = std::max(jump[dimension * i], least + opening * mesh_.fracture_cells[i].measure);
@@ -222,6 +231,7 @@ int FrictionalContact::keep_states() {
   kept_.assign(mesh_.fracture_cell_count(), 0);
   int count = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    if (!is_on_fracture_cell(i)) continue;
     const TangentialVector before = tangential(jump_.accepted(), i), slip = tangential(jump_.now(), i) - before;
     const bool slides_back = dilation_[i] > 0 && friction_[i] > 0 && slip.dot(before) < 0;
     if (is_bonded(i) || !slides_back || magnitude<dimension - 1>(slip) < least * jump_.now().lpNorm<Eigen::Infinity>())
@@ -264,7 +274,10 @@ void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
   for (int i = 0; i < count; ++i) {
     const int row = dimension * i;
     CellEquations cell;
-    if (is_bonded(i)) {
+    if (!is_on_fracture_cell(i)) {
+      cell.residual = traction_.now().segment<dimension>(row).cwiseQuotient(stiffness().segment<dimension>(row));
+      cell.by_traction.diagonal() = stiffness().segment<dimension>(row).cwiseInverse();
+    } else if (is_bonded(i)) {
       cell.residual = bonded_jump_.segment<dimension>(row) - jump_.now().segment<dimension>(row);
       cell.by_jump.diagonal().setConstant(-1);
     } else {
@@ -286,7 +299,8 @@ void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
 
 void FrictionalContact::report(std::vector<Quantity>& quantities) const {
   int counts[3] = {0, 0, 0};
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) ++counts[static_cast<int>(state(i))];
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    if (is_on_fracture_cell(i)) ++counts[static_cast<int>(state(i))];
   quantities.push_back({name() + ".cells_stick", "1", static_cast<double>(counts[0])});
   quantities.push_back({name() + ".cells_slip", "1", static_cast<double>(counts[1])});
   quantities.push_back({name() + ".cells_open", "1", static_cast<double>(counts[2])});
@@ -327,7 +341,7 @@ void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
                     slip_at_start_),
         slip_at_start_);
   std::vector<char> is_open(mesh_.fracture_cell_count());
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_open[i] = state(i) == State::open;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_open[i] = is_on_fracture_cell(i) && state(i) == State::open;
   note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, options_->large_jump});
   if (rate_and_state_) rate_and_state_->note_step(name(), traction_.now(), slips(), notes);
 }

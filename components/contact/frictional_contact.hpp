@@ -14,6 +14,7 @@
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/gains_from_stages.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
+#include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/limits_step.hpp"
@@ -47,6 +48,9 @@ struct Options;
 /// mu_s and psi are those of the end of the step. The gap knows the slip and not its history: where psi falls, a
 /// fracture that has slipped closes.
 ///
+/// With Options::fractures the contact is on these fractures only. Elsewhere f = 0, the coupler makes [u] = 0, and
+/// parameters are not asked for.
+///
 /// A wall that slides back loses the opening that it has gained by dilation. The fracture closes, fluid in it that
 /// cannot leave is compressed, its pressure pushes the walls apart, and they hold less shear. So there may be no
 /// state between the present slip and zero slip in which friction balances the load. Newton's method then cycles
@@ -60,6 +64,7 @@ class FrictionalContact : public Component,
                           public IterateDependent,
                           public CountsFromHere,
                           public GainsFromStages,
+                          public LivesInPart,
                           public LimitsStep {
  public:
   /// `stiffness_factor`: c over the stiffness of the rock against a jump of the cell.
@@ -105,6 +110,9 @@ class FrictionalContact : public Component,
   std::optional<StepTooLong> too_long(const StepTime& step) const override;
 
   Field& traction() override { return traction_; }
+  bool is_on_fracture_cell(int cell) const override { return here_.empty() || here_[cell]; }
+  const std::vector<char>& inhabited_cells() const override { return here_; }
+  bool lives_on_fractures() const override { return true; }
   Field& jump() override { return jump_; }
   /// The tangential stiffness of a cell is replaced by that of its whole fracture: slip of all cells together meets a
   /// stiffness that is smaller by the ratio of the length of the cell to that of the fracture. When a load decreases,
@@ -164,6 +172,7 @@ class FrictionalContact : public Component,
   Field& jump_;
   Field* path_ = nullptr;  ///< q, m; null without weakening
   std::unique_ptr<const Options> options_;
+  std::vector<char> here_;                ///< one flag a fracture cell; none where the contact is on all fractures
   std::optional<double> dilation_limit_;  ///< m
   Weakening weakening_;
   Multiplier multiplier_;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/contact/laws/closure_options.hpp"
 #include "components/contact/laws/rate_and_state_options.hpp"
@@ -27,6 +28,8 @@ struct Options {
   ClosureOptions closure;
   /// Jump over the length of its fracture from where on a note says that it is large.
   double large_jump = 0.01;
+  std::vector<std::string> fractures;  ///< where the contact is; all if there are none
+  Origin fractures_origin;
   Spec spec(const std::string& type, const std::string& doc);
 };
 

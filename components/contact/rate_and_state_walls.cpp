@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "components/contact/fields.hpp"
+#include "components/contact/places_of_parameters.hpp"
 #include "framework/config/units.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/planar.hpp"
@@ -15,8 +16,8 @@ namespace sprekk::contact {
 
 namespace {
 
-Vector values_at_start(const Data& data, const ComponentContext& context) {
-  return Property(data, fracture_cell_places(context.mesh), context.start_time).values();
+Vector values_at_start(const Data& data, const ComponentContext& context, const std::vector<char>& here) {
+  return Property(data, places_of_parameters(context.mesh, here), context.start_time).values();
 }
 
 std::string place_of_zero(const Mesh& mesh, const Property& friction) {
@@ -28,12 +29,13 @@ std::string place_of_zero(const Mesh& mesh, const Property& friction) {
 }  // namespace
 
 RateAndStateWalls::RateAndStateWalls(const ComponentContext& context, const RateAndStateOptions& options,
-                                     const Property& friction)
+                                     const Property& friction, const std::vector<char>& here)
     : mesh_(context.mesh),
       options_(options),
-      a_(values_at_start(options.a, context)),
-      b_(values_at_start(options.b, context)),
-      distance_(values_at_start(options.distance, context)),
+      here_(here),
+      a_(values_at_start(options.a, context, here)),
+      b_(values_at_start(options.b, context, here)),
+      distance_(values_at_start(options.distance, context, here)),
       state_(add_state(context)),
       slip_rate_(add_slip_rate(context)),
       events_(context, options.event_slip_rate) {
@@ -42,8 +44,8 @@ RateAndStateWalls::RateAndStateWalls(const ComponentContext& context, const Rate
                      "with 'rate_and_state' it is the friction of steady slip at the reference rate",
                      "give a positive one, for example 0.6, or remove 'rate_and_state'");
   state_.set_both(options.initial_state
-                      ? values_at_start(*options.initial_state, context)
-                      : Vector(distance_.cwiseQuotient(values_at_start(*options.initial_slip_rate, context))));
+                      ? values_at_start(*options.initial_state, context, here)
+                      : Vector(distance_.cwiseQuotient(values_at_start(*options.initial_slip_rate, context, here))));
 }
 
 void RateAndStateWalls::evaluate_data(const Property& friction) const {
@@ -84,6 +86,7 @@ void RateAndStateWalls::set_slip_rates(Vector rates) {
 double RateAndStateWalls::longest_step() const {
   double longest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    if (!here_.empty() && !here_[i]) continue;
     longest = std::min(longest, state_.now()[i]);
     if (const double rate = slip_rate(i); rate > 0) longest = std::min(longest, distance_[i] / rate);
   }

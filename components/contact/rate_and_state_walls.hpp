@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/contact/laws/rate_and_state.hpp"
 #include "components/contact/laws/rate_and_state_options.hpp"
@@ -19,8 +20,10 @@ namespace sprekk::contact {
 /// Both follow from the traction and the jump of the step, by RateAndStateLaw.
 class RateAndStateWalls {
  public:
-  /// Throws InputError where a friction f_0 is zero.
-  RateAndStateWalls(const ComponentContext& context, const RateAndStateOptions& options, const Property& friction);
+  /// `here`: one flag a fracture cell, of those that the contact is on; none for all. Throws InputError where a
+  /// friction f_0 is zero.
+  RateAndStateWalls(const ComponentContext& context, const RateAndStateOptions& options, const Property& friction,
+                    const std::vector<char>& here);
 
   /// Throws DataError where a friction f_0 is zero.
   void evaluate_data(const Property& friction) const;
@@ -62,6 +65,7 @@ class RateAndStateWalls {
 
   const Mesh& mesh_;
   RateAndStateOptions options_;
+  std::vector<char> here_;
   Vector a_, b_, distance_;  ///< of each cell; L in m
   Field& state_;             ///< theta, s
   Field& slip_rate_;         ///< V, m/s, along the tangents

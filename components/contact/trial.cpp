@@ -115,7 +115,7 @@ Trial::AtRate FrictionalContact::at_rate(int i, const Trial& t) const {
 
 std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   if constexpr (dimension != 2) return std::nullopt;
-  if (is_bonded(i)) return std::nullopt;
+  if (is_bonded(i) || !is_on_fracture_cell(i)) return std::nullopt;
   constexpr double at_bound = 1e-6;    // relative: walls with less shear than the bound by more than this stick
   constexpr double least_slip = 1e-3;  // of the slip that would take all shear from the walls
   const Trial t = trial(i);

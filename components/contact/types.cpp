@@ -54,6 +54,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                &depends_on_rate);
   spec.section("closure", closure.spec(), {.doc = "How far walls in contact approach each other under pressure."});
   spec.check([this](const Node& node) {
+    if (const Node* given = node.find("fractures")) fractures_origin = given->origin;
     if (weakens && depends_on_rate)
       throw InputError(node.find("rate_and_state")->origin, "'rate_and_state' and 'weakening' exclude each other",
                        "each says how friction changes with slip", "remove one of them");
@@ -68,6 +69,10 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                 {.range = positive(),
                  .doc = "A note tells of a jump above this share of the length of its fracture: the model keeps places "
                         "and shapes of fractures."});
+  spec.texts(
+      "fractures", fractures,
+      {.doc = "Fractures with this contact; all by default. Each fracture needs one contact: others are given to "
+              "other components of this kind, beside it."});
   return spec;
 }
 

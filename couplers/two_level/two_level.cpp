@@ -4,11 +4,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "components/capabilities/fracture_contact.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/fracture_tips.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "couplers/contacts.hpp"
 #include "couplers/two_level/along_fracture.hpp"
 #include "couplers/two_level/nodal_values.hpp"
 #include "framework/field/ownership.hpp"
@@ -57,7 +57,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
         walls_(context.the<RockWalls>()),
         fluid_(context.find<FractureFluid>()),
         fluid_left_out_(fluid_ ? "" : context.left_out<FractureFluid>()),
-        contact_(context.find<FractureContact>()),
+        contacts_(context),
         moving_(context.find<MovingTips>()),
         location_(mesh_),
         displacement_(mesh_, is_cell_centred() ? NodalValues::From::mean_of_cells : NodalValues::From::cells_and_faces),
@@ -121,12 +121,12 @@ class TwoLevel : public Coupler, public TipSurroundings {
     traction_ = walls_.wall_traction().now();
     jump_ = is_cell_centred() ? jump_between_cells() : walls_.displacement_jump().now();
     replicate(mesh_, Location::fracture_cell, 2, jump_);
-    if (contact_) fluid_traction_ = traction_ - contact_->traction().now();
+    if (!contacts_.empty()) fluid_traction_ = traction_ - contacts_.traction();
   }
 
   std::uint64_t version() const override {
     return rock_.properties_version() + rock_.displacement().version() + walls_.wall_traction().version() +
-           (fluid_ ? fluid_->pressure().version() : 0) + (contact_ ? contact_->traction().version() : 0);
+           (fluid_ ? fluid_->pressure().version() : 0) + contacts_.traction_version();
   }
 
   int region(const Point& x) const override { return mesh_.cell_region[cell_at(x)]; }
@@ -192,10 +192,11 @@ class TwoLevel : public Coupler, public TipSurroundings {
   bool gives_jumps() const override { return options_.reconstruction != "wall_traction"; }
   Point wall_traction(int fracture, double s) const override { return along_[fracture].at(s, traction_); }
   std::optional<Sliding> sliding(int fracture, double s) const override {
-    if (!contact_) return std::nullopt;
     const int index = along_[fracture].index_at(s);
+    const FractureContact* contact = contacts_.at(index);
+    if (!contact) return std::nullopt;
     const FractureCell& cell = mesh_.fracture_cells[index];
-    const std::optional<SlidingWalls> law = cell.grown ? std::nullopt : contact_->sliding(index);
+    const std::optional<SlidingWalls> law = cell.grown ? std::nullopt : contact->sliding(index);
     if (!law) return std::nullopt;
     return Sliding{along_[fracture].at(s, fluid_traction_), cell.to_global({1, -law->direction * law->friction}),
                    cell.to_global({1, -law->dilation}), law->opening};
@@ -258,7 +259,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   RockWalls& walls_;
   FractureFluid* fluid_;
   std::string fluid_left_out_;  ///< a component of the scene that the coupler does not stand between
-  FractureContact* contact_;
+  Contacts contacts_;
   const MovingTips* moving_;  ///< nullptr where the tips do not move
   PointLocation location_;
   mutable int last_cell_ = none;  ///< the cell of the last place that was looked for: the next is often in it, too

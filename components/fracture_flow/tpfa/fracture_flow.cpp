@@ -5,6 +5,7 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
+#include "framework/scene/fracture_set.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -40,11 +41,11 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                              .unit = "m^2",
                                              .doc = "Fluid stored, injected, and flowed out through the outer boundary",
                                              .accepted_with = pressure_.name(),
-                                             .is_amount = true})) {
+                                             .is_amount = true})),
+      wet_(fracture_set(mesh_, options_.fractures, options_.fractures_origin)) {
   if (mesh_.fracture_cell_count() == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
-  find_fractures();
   check_names();
   if (options_.cavitation)
     empty_ = &context.fields.add(

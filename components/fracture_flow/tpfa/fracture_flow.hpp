@@ -146,7 +146,6 @@ class FractureFlow : public Component,
   void add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const;
   void add_pattern(const Link& link, FluxRows& rows) const;
   double scale_of_row(const Link& link, double conductance, double dt) const;
-  void find_fractures();
   void check_names() const;
   /// Cavitation: without it nothing is empty, and these do nothing.
   void check_bound(double pressure, const Origin& where, const std::string& what) const;

@@ -89,18 +89,6 @@ std::vector<int> FractureFlow::cells_of(const FracturePlace& where) const {
   return cells;
 }
 
-void FractureFlow::find_fractures() {
-  if (options_.fractures.empty()) return;
-  std::vector<std::string> names;
-  for (const Fracture& fracture : mesh_.fractures) names.push_back(fracture.name);
-  for (const std::string& name : options_.fractures)
-    if (std::ranges::count(names, name) == 0) throw unknown_name(options_.fractures_origin, "fracture", name, names);
-  std::vector<char> wet(mesh_.fracture_cell_count());
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-    wet[i] = std::ranges::count(options_.fractures, names[mesh_.fracture_cells[i].fracture]) > 0;
-  if (std::ranges::count(wet, 0) > 0) wet_ = std::move(wet);
-}
-
 void FractureFlow::prescribe(const StepTime& step) {
   source_ = Vector::Zero(mesh_.fracture_cell_count());
   sources_.clear();

@@ -1,0 +1,17 @@
+// Sets of fractures that a component lives on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/config/input_error.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// One flag a fracture cell: whether its fracture has one of these names. What has grown belongs to the fracture that
+/// it continues. Empty where `names` is empty or has all fractures: then the set is all of them. Throws InputError at
+/// `origin` for a name that no fracture has.
+std::vector<char> fracture_set(const Mesh& mesh, const std::vector<std::string>& names, const Origin& origin);
+
+}  // namespace sprekk
