@@ -72,14 +72,20 @@ TEST(FemBiot, FollowsMandelsSolution) {
 
 /// Fluid and grains that cannot be compressed, and no flow: Stokes' equations with G = 1 as viscosity,
 /// u = (sin pi x cos pi y, −cos pi x sin pi y), p = 2 pi cos pi x sin 2 pi y, of the
-/// size of the stresses.
-Errors closed_errors(const std::string& order, const std::string& shape, int cells) {
+/// size of the stresses. Where grains and fluid together are as stiff as nearly incompressible rock, S = 1/lambda, each
+/// of both carries half of the stress p, and all else is the same to 2 G/lambda.
+enum class Incompressible { fluid, rock_and_fluid };
+Errors closed_errors(const std::string& order, const std::string& shape, int cells,
+                     Incompressible what = Incompressible::fluid) {
+  const bool half = what == Incompressible::rock_and_fluid;
+  const double poisson = half ? 0.49995 : 0.25, lambda = 2 * poisson / (1 - 2 * poisson);
   const char* u = "{displacement: [\"(sin(pi*x)*cos(pi*y)) m\", \"(-cos(pi*x)*sin(pi*y)) m\"]}";
   SceneRun run = SceneRun::from_text(fmt::format(
       "{{geometry: {{box: {{x: [0, 1], y: [0, 1]}}}}, mesh: {{kind: structured, cells: [{}, {}], shape: {}, "
       "distortion: "
-      "0.3}}, components: {{pore: {{type: matrix_flow/mpfa, permeability: 0 m^2, viscosity: 1 Pa*s, storage: 0 1/Pa}}, "
-      "rock: {{type: poromechanics/fem, order: {}, young_modulus: 2.5 Pa, poisson_ratio: 0.25, body_force: "
+      "0.3}}, components: {{pore: {{type: matrix_flow/mpfa, permeability: 0 m^2, viscosity: 1 Pa*s, storage: {} "
+      "1/Pa}}, "
+      "rock: {{type: poromechanics/fem, order: {}, young_modulus: {} Pa, poisson_ratio: {}, body_force: "
       "[\"(2*pi^2*sin(pi*x)*cos(pi*y) - 2*pi^2*sin(pi*x)*sin(2*pi*y)) N/m^3\", \"(-2*pi^2*cos(pi*x)*sin(pi*y) + "
       "4*pi^2*cos(pi*x)*cos(2*pi*y)) N/m^3\"], boundary: {{left: {}, bottom: {}, right: {}, top: {{displacement_x: "
       "\"(-sin(pi*x)) m\", traction_y: \"(-2*pi*cos(pi*x)*cos(pi*y) - 2*pi*cos(pi*x)*sin(2*pi*y)) Pa\"}}}}}}}}, "
@@ -87,12 +93,12 @@ Errors closed_errors(const std::string& order, const std::string& shape, int cel
       "[{{type: biot, between: [pore, rock], biot_coefficient: 1}}], schedule: [{{solve: [pore, rock]}}], time: {{end: "
       "1 "
       "s, step: 1 s}}}}",
-      cells, cells, shape, order, u, u, u));
+      cells, cells, shape, half ? 1 / lambda : 0, order, 2 * (1 + poisson), poisson, u, u, u));
   EXPECT_TRUE(run.step());
   Vector p(run.mesh().cell_count());
   for (int c = 0; c < p.size(); ++c) {
     const Point& x = run.mesh().cell_center[c];
-    p[c] = 2 * pi * std::cos(pi * x[0]) * std::sin(2 * pi * x[1]);
+    p[c] = (half ? 1 : 2) * pi * std::cos(pi * x[0]) * std::sin(2 * pi * x[1]);
   }
   return {relative_error(areas(run.mesh()), run.field("pore.pressure"), p), displacement_error(run, [](const Point& x) {
             return Point(std::sin(pi * x[0]) * std::cos(pi * x[1]), -std::cos(pi * x[0]) * std::sin(pi * x[1]));
@@ -122,6 +128,21 @@ TEST(FemBiot, IsStableWhereNothingFlowsAndNothingIsCompressed) {
           << shape << " " << order << " " << coarse.displacement << " " << fine.displacement;
       EXPECT_LT(fine.pressure, 0.25) << shape << " " << order;
       EXPECT_LT(fine.displacement, 0.01) << shape << " " << order;
+    }
+}
+
+TEST(FemBiot, PressureOfNearlyIncompressibleRockIsThatOfTheClosedForm) {
+  for (const char* shape : {"triangles", "quadrilaterals"})
+    for (const char* order : {"first", "second"}) {
+      const Errors fluid = closed_errors(order, shape, 12);
+      const Errors both = closed_errors(order, shape, 12, Incompressible::rock_and_fluid);
+      const Errors fine = closed_errors(order, shape, 24, Incompressible::rock_and_fluid);
+      RecordProperty(fmt::format("{}_{}", shape, order),
+                     fmt::format("p {:.3g} {:.3g}; u {:.3g} {:.3g}", both.pressure, fine.pressure, both.displacement,
+                                 fine.displacement));
+      EXPECT_LT(both.pressure, 1.1 * fluid.pressure) << shape << " " << order << " " << fluid.pressure;
+      EXPECT_LT(both.displacement, 1.1 * fluid.displacement) << shape << " " << order << " " << fluid.displacement;
+      EXPECT_GT(std::log2(both.pressure / fine.pressure), 0.85) << shape << " " << order;
     }
 }
 

@@ -173,6 +173,6 @@ def failures(p, instants, history=None):
         for number in np.unique(numbers):
             own = fracture[numbers == number]
             margin = max(SCATTER * np.abs(own - p["initial"]).max(), 1e-8 * size)
-            if alternating_along(own, margin) > IN_A_ROW and not swaps.may_lock(p):
+            if alternating_along(own, margin) > IN_A_ROW:
                 found.append(f"alternating: along fracture {number} at t = {instant.time:.6g} s")
     return found

@@ -23,10 +23,5 @@ def contact(p):
     return p.get("contact", CONTACTS[0])
 
 
-def may_lock(p):
-    """Elements of first order lock in rock that is nearly incompressible, as docs/numerics/finite_elements.md and a note say."""
-    return p.get("rock") == "fem first" and p["poisson"] > 0.45
-
-
 def describe(p):
     return f"{p['discretization']}, {p['rock']}, {p['contact']}, " if p.get("swapped") else ""

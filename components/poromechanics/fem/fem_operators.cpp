@@ -1,7 +1,9 @@
 #include "components/poromechanics/fem/fem_operators.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "components/poromechanics/fem/volumetric_split.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::poromechanics {
@@ -24,9 +26,21 @@ void put(std::vector<Triplet>& entries, int row, int column, const Tensor& block
 struct RawStiffness {
   SparseMatrix matrix;
   std::vector<Tensor> of_face;            ///< N/m per m
-  std::vector<Tensor> of_face_in_shares;  ///< the same, times the number of faces of each of its cells
+  std::vector<Tensor> of_face_in_shares;  ///< the same, times stiffness_together of each of its cells
   std::vector<Eigen::Matrix2Xd> of_interior;
 };
+
+/// The largest work of displacements of faces together, over the sum of what each does alone: from 1 to the number of
+/// faces.
+double stiffness_together(const Eigen::MatrixXd& of_unknowns, int corners) {
+  const int size = dimension * corners;
+  const Eigen::MatrixXd of_faces = of_unknowns.bottomRightCorner(size, size);
+  Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(size, size);
+  for (int at = 0; at < size; at += dimension)
+    alone.block<dimension, dimension>(at, at) = of_faces.block<dimension, dimension>(at, at);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(of_faces, alone, Eigen::EigenvaluesOnly);
+  return modes.eigenvalues()[size - 1];
+}
 
 RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& tips,
                            const std::vector<Stiffness>& stiffness, ElementOrder order) {
@@ -42,11 +56,12 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j)
         put(entries, first[i], first[j], of_cell.of_unknowns.block<dimension, dimension>(dimension * i, dimension * j));
+    const double together = stiffness_together(of_cell.of_unknowns, corners);
     for (int k = 0; k < corners; ++k) {
       const int at = dimension * (corners + k), face = mesh.cell_faces[c][k];
       const Tensor own = of_cell.of_unknowns.block<dimension, dimension>(at, at);
       result.of_face[face] += own;
-      result.of_face_in_shares[face] += corners * own;
+      result.of_face_in_shares[face] += together * own;
     }
     result.of_interior.push_back(std::move(of_cell.of_interior));
   }
@@ -190,16 +205,51 @@ Vector compliance_of_walls(const Mesh& mesh, const std::vector<Tensor>& stiffnes
   return compliance;
 }
 
+SparseMatrix above(const SparseMatrix& top, const SparseMatrix& bottom) {
+  SparseMatrix both(top.rows() + bottom.rows(), top.cols());
+  both.middleRows(0, top.rows()) = top;
+  both.middleRows(top.rows(), bottom.rows()) = bottom;
+  return both;
+}
+
+SparseMatrix beside(const SparseMatrix& left, const SparseMatrix& right) {
+  return SparseMatrix(above(left.transpose(), right.transpose()).transpose());
+}
+
+/// Makes the volumetric stress q of cells an unknown: it acts where s does, with rows q + taken · (mean of div u).
+void add_volumetric_stress(const Mesh& mesh, const Vector& taken, FemOperators& operators) {
+  const int cells = mesh.cell_count();
+  for (LinearInFem* quantity : {&operators.all, &operators.momentum})
+    quantity->of_displacement = beside(quantity->of_displacement, quantity->of_stress);
+  Vector scale(cells);
+  for (int c = 0; c < cells; ++c) scale[c] = taken[c] / mesh.cell_measure[c];
+  const SparseMatrix mean = scale.asDiagonal() * operators.volume;
+  const LinearInFem& all = operators.all;
+  LinearInFem rows{mean * all.of_displacement, mean * all.of_stress, mean * all.of_traction, mean * all.of_force,
+                   mean * all.of_given};
+  SparseMatrix own(cells, all.of_displacement.cols());
+  for (int c = 0; c < cells; ++c) own.insert(c, static_cast<int>(own.cols()) - cells + c) = 1;
+  rows.of_displacement += own;
+  LinearInFem& momentum = operators.momentum;
+  momentum.of_displacement = above(momentum.of_displacement, rows.of_displacement);
+  momentum.of_stress = above(momentum.of_stress, rows.of_stress);
+  momentum.of_traction = above(momentum.of_traction, rows.of_traction);
+  momentum.of_force = above(momentum.of_force, rows.of_force);
+  momentum.of_given = above(momentum.of_given, rows.of_given);
+}
+
 }  // namespace
 
 FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const Held& held,
-                           ElementOrder order) {
+                           ElementOrder order, bool has_volumetric_stress) {
   SPREKK_EXPECT(static_cast<int>(stiffness.size()) == mesh.cell_count(), stiffness.size(), mesh.cell_count());
+  SPREKK_EXPECT(order == ElementOrder::first || !has_volumetric_stress);
+  const VolumetricSplit split = has_volumetric_stress ? split_volumetric(stiffness) : VolumetricSplit{stiffness, {}};
   const RawDisplacement raw{mesh};
   FemOperators result;
   // At first order nothing of second order stands beside the linear functions of a cell.
   if (order == ElementOrder::second) result.tips = tips_of_faces(mesh);
-  RawStiffness forces = raw_stiffness(raw, result.tips, stiffness, order);
+  RawStiffness forces = raw_stiffness(raw, result.tips, split.kept, order);
   result.volume = volume_of(raw, result.tips);
   result.jump = jump_of(raw, result.tips);
   result.wall_compliance = compliance_of_walls(mesh, forces.of_face);
@@ -215,6 +265,7 @@ FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiff
   result.momentum.of_force = SparseMatrix(to_rows * all.of_force) - rows.kept;
   result.momentum.of_given = SparseMatrix(to_rows * all.of_given) - rows.given;
   result.of_interior = std::move(forces.of_interior);
+  if (has_volumetric_stress) add_volumetric_stress(mesh, split.taken, result);
   return result;
 }
 

@@ -12,7 +12,8 @@
 namespace sprekk::poromechanics {
 
 /// A quantity as a linear function of
-/// - u, the unknown displacements: (x, y) of every node, at second order followed by (x, y) of every face, m;
+/// - u, the unknowns: displacements (x, y) of every node, m; at second order then (x, y) of every face, m; at first
+///   order, with a volumetric stress, then that of every cell, Pa;
 /// - s, the isotropic stress of every cell, Pa (sigma = C : grad u − s I);
 /// - T, the traction on the plus wall of every fracture cell, Pa, (normal, tangential); opposite on the minus wall;
 /// - F, the forces on all coefficients of the displacement (RawDisplacement), N/m;
@@ -23,10 +24,12 @@ struct LinearInFem {
 
 /// What the equations of the rock need.
 struct FemOperators {
-  LinearInFem momentum;  ///< a row for each unknown: stiffness · u − forces, N/m; rows that are held are k (u − g)
-  LinearInFem all;       ///< all coefficients of the displacement, m
-  SparseMatrix volume;   ///< div u integrated over every cell, of all coefficients, m^2
-  SparseMatrix jump;     ///< mean of u(minus) − u(plus) over every fracture cell, (normal, tangential), of all, m
+  /// A row for each unknown: stiffness · u − forces, N/m; rows that are held are k (u − g). With a volumetric stress q
+  /// of cells q + taken · (mean of div u), Pa.
+  LinearInFem momentum;
+  LinearInFem all;         ///< all coefficients of the displacement, m
+  SparseMatrix volume;     ///< div u integrated over every cell, of all coefficients, m^2
+  SparseMatrix jump;       ///< mean of u(minus) − u(plus) over every fracture cell, (normal, tangential), of all, m
   Vector wall_compliance;  ///< how a traction on walls moves the functions of their faces alone, m/Pa, as `jump`
   std::vector<Eigen::Matrix2Xd> of_interior;  ///< see CellStiffness
   std::vector<int> tips;                      ///< see tips_of_faces; empty at first order
@@ -34,11 +37,15 @@ struct FemOperators {
 
 /// Assembles the stiffness of a mesh. At second order every coefficient is an unknown. At first order those of faces
 /// are functions of the others, which stabilizes cellwise s and T: the residual forces on the function of a face, those
-/// of s, T and F among them, displace it as if it stood alone, its stiffness times the number of faces of a cell
-/// (Rodrigo, Hu, Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized discretizations for poroelasticity and the
-/// Stokes' equations, with the whole vector in place of its normal component). Nothing is displaced where displacements
-/// are linear and tractions agree, and what leaves one cell through a face enters the other.
+/// of s, T and F among them, displace it as if it stood alone. Its stiffness is made larger until it is at least that
+/// of all functions of faces of a cell together, so that what is left for the nodes is positive definite (Rodrigo, Hu,
+/// Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized discretizations for poroelasticity and the Stokes' equations,
+/// with the whole vector in place of its normal component). Nothing is displaced where displacements are linear and
+/// tractions agree, and what leaves one cell through a face enters the other.
+///
+/// `has_volumetric_stress`, at first order: what nearly incompressible cells hold against a change of volume (see
+/// VolumetricSplit) is a stress of their own, an unknown that acts as s does.
 FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const Held& held,
-                           ElementOrder order);
+                           ElementOrder order, bool has_volumetric_stress = false);
 
 }  // namespace sprekk::poromechanics

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/fem/volumetric_split.hpp"
 #include "components/poromechanics/notes.hpp"
 #include "components/poromechanics/principal_stress.hpp"
 #include "components/poromechanics/stress_without_displacement.hpp"
@@ -53,6 +54,14 @@ FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
                                             .role = Role::unknown(BlockKind::bulk_elastic),
                                             .unit = "m",
                                             .doc = "Displacement of middles of faces less the mean of their ends"});
+  else if (stiffness_.changes() || split_volumetric(stiffness_.of_cells()).taken.maxCoeff() > 0)
+    volumetric_ = &context.fields.add(mesh_, {.owner = context.name,
+                                              .name = "volumetric_stress",
+                                              .location = Location::cell,
+                                              .role = Role::unknown(BlockKind::bulk_elliptic),
+                                              .unit = "Pa",
+                                              .doc = "Part of the stress against a change of volume, compression "
+                                                     "positive"});
   if (mesh_.wall_count() > 0)
     wall_traction_ =
         &context.fields.add(mesh_, {.owner = context.name,
@@ -67,6 +76,7 @@ FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
 std::vector<Field*> FemRock::unknowns() const {
   std::vector<Field*> fields{&displacement_};
   if (of_faces_) fields.push_back(of_faces_);
+  if (volumetric_) fields.push_back(volumetric_);
   return fields;
 }
 
@@ -91,7 +101,7 @@ void FemRock::discretize() {
   discretized_mesh_ = mesh_.version;
   discretized_stiffness_ = stiffness_.version();
   ++discretizations_;
-  operators_ = fem_operators(mesh_, stiffness_.of_cells(), held_, order_);
+  operators_ = fem_operators(mesh_, stiffness_.of_cells(), held_, order_, volumetric_ != nullptr);
   used_alpha_ = 0;
   momentum_.clear();
   int first = 0;
@@ -100,7 +110,7 @@ void FemRock::discretize() {
     const auto rows = [&](const SparseMatrix& matrix) { return SparseMatrix(matrix.middleRows(first, field->size())); };
     momentum_.push_back(quantity_of(LinearInFem{rows(whole.of_displacement), rows(whole.of_stress),
                                                 rows(whole.of_traction), rows(whole.of_force), rows(whole.of_given)},
-                                    owned_values(mesh_, field->spec().location, dimension)));
+                                    owned_values(mesh_, field->spec().location, field->spec().components)));
     first += field->size();
   }
   std::vector<char> cells = owned_values(mesh_, Location::cell, 1);
@@ -334,23 +344,7 @@ std::vector<double> FemRock::switch_times() const {
   return merged_switch_times(data);
 }
 
-void FemRock::note_input(Notes& notes) const {
-  note_conditions(notes, options_, mesh_, name(), origin_);
-  constexpr double locks = 11;  // (lambda + 2 G)/G where nu = 0.45
-  if (order_ == ElementOrder::second) return;
-  double stiffest = 0;
-  for (int c = 0; c < mesh_.cell_count(); ++c) {
-    const Stiffness& cell = stiffness_.of_cells()[c];
-    if (mesh_.cell_nodes[c].size() == dimension + 1) stiffest = std::max(stiffest, cell(0, 0) / cell(2, 2));
-  }
-  if (stiffest < locks) return;
-  notes.add(
-      name() + " may lock",
-      fmt::format("'{}' is nearly incompressible: lambda + 2 G is {:.3g} times G (triangles of first order cannot keep "
-                  "their volume and bend: they are too stiff, and fluid that cannot leave alternates from cell to "
-                  "cell) write 'order: second', or take poromechanics/mpsa",
-                  name(), stiffest));
-}
+void FemRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
 
 void FemRock::note_step(Notes& notes, const StepTime&) const {
   const Vector all = coefficients();

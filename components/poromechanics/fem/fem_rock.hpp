@@ -28,7 +28,8 @@ struct FemOptions : Options {
 /// than the mean of its ends (CellPoint), from the reference state with the initial stress and pressure:
 ///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
 /// with C and alpha at the end of the step and p one value a cell. Each row balances the work of these stresses in the
-/// displacement of one function with that of the loads (N/m), or holds a prescribed displacement.
+/// displacement of one function with that of the loads (N/m), or holds a prescribed displacement. At first order, where
+/// rock is nearly incompressible, part of the stress against a change of volume is an unknown of every cell.
 class FemRock : public Component,
                 public PoroelasticRock,
                 public RockWalls,
@@ -102,6 +103,7 @@ class FemRock : public Component,
   Origin origin_;
   Field& displacement_;
   Field* of_faces_ = nullptr;       ///< at second order
+  Field* volumetric_ = nullptr;     ///< at first order, in nearly incompressible rock: see VolumetricSplit
   Field* wall_traction_ = nullptr;  ///< exists with fractures only
   RockStiffness stiffness_;
   Held held_;
