@@ -278,13 +278,16 @@ time: {{end: 2 s, step: 1 s}}
 
 class Growth(unittest.TestCase):
     """A vertical crack under a fluid without weight, whose pressure rises: the tip above, where the rock presses less, is the first to
-    grow, and goes on until K there is the toughness at that place, which rises with the distance from the middle."""
+    grow, and goes on until K there is the toughness at that place, which rises with the distance from the middle. With the state
+    held the load rests for the last hour: K of both tips is then that of a state in which all advances are known."""
 
     def check(self, tips, turn, update):
         frame = Frame(turn)
         least, slope = 2.6e6, 1.2e5  # Pa m^0.5, and per m
         toughness = f"'({least!r} + {slope!r}*(abs({frame.y}) - {A!r})) Pa*m^0.5'"
-        text = scene(tips, 90.0, turn, stress=-2e6, pressure=f"2.39e6 + 0.01e6*t/3600 + {1000 * GRAVITY!r}*{frame.y}", end="6 h",
+        is_within = update == "within_step"
+        end = "6 h" if is_within else "7 h"
+        text = scene(tips, 90.0, turn, stress=-2e6, pressure=f"2.39e6 + 0.01e6*min(t/3600, 6) + {1000 * GRAVITY!r}*{frame.y}", end=end,
                      growth=f", toughness: {toughness}, growth: {{increment: 0.5 m}}", update=f", update: {update}")
         row = run(text)
         self.assertEqual(row["tips.main_first.length"], 0)
@@ -293,13 +296,15 @@ class Growth(unittest.TestCase):
         # Nothing shears the crack: it goes straight up.
         height = row["tips.main_last.x"] * frame.up[0] + row["tips.main_last.y"] * frame.up[1]
         self.assertAlmostEqual(height, A + grown, delta=0.01 * grown)
-        # Where a crack has grown K is 2 to 3 % too small here, also without the weight, which makes 21 % between the tips.
-        a, middle, slope_of_stress = A + grown / 2, grown / 2, WEIGHT / 3
-        for end, sign in (("first", -1), ("last", 1)):
-            k = math.sqrt(math.pi * a) * (0.45e6 + slope_of_stress * (middle + sign * a / 2))
-            self.assertLess(abs(row[f"tips.main_{end}.K_I"] / k - 1), 0.05, end)
+        # The pressure is prescribed where the crack was at the start, so that the fluid weighs nothing there; in what has grown it rests
+        # on the middle of the last of these cells, and has its weight.
+        a, middle, last = A + grown / 2, grown / 2, A - 0.5
+        k = factors_of(lambda at: 0.45e6 + WEIGHT / 3 * (middle + at) - 1000 * GRAVITY * max(0, middle + at - last), a)
+        # With the state held the coarse level does not know up to half a cell of growth, which makes up to 1.2 % of the root of a.
+        for end, wanted in zip(("first", "last"), k):
+            self.assertLess(abs(row[f"tips.main_{end}.K_I"] / wanted - 1), 0.01 if is_within else 0.02, end)
         # Growth with the state held ends within an increment of where K is the toughness.
-        bound = 1e-6 if update == "within_step" else 0.05
+        bound = 1e-6 if is_within else 0.05
         self.assertLess(abs(row["tips.main_last.K_eq"] / (least + slope * grown) - 1), bound)
 
     def test_grows_upwards(self):

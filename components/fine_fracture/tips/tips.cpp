@@ -157,6 +157,9 @@ void Tips::note_start(const StepTime& step) {
   for (Joint& joint : joints_) joint.length_at_start = joint.grown;
 }
 
+/// By which part the load of a tip that has come to rest may exceed 1.
+double Tips::rest_tolerance() const { return options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0; }
+
 Growing::Load Tips::examine(const StepTime& step) {
   note_start(step);
   surroundings_->update();
@@ -187,9 +190,10 @@ Growing::Load Tips::examine(const StepTime& step) {
       tip.evaluated_for = surroundings_->version();
     }
     if (turns_sharply(tip)) tip.now.is_extendable = false;
-    // At the end of an increment the load is 1 within a tolerance; the tip must not grow again for that difference.
+    // At the end of an increment the load is 1 within a tolerance; the tip must not grow again for that difference. A
+    // tip that has not grown yet has no such rest: refused steps aim at the load 1 + overshoot/2, where it has to grow.
     if (is_followed(tip)) continue;
-    const double rest = options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0;
+    const double rest = tip.now.has_started ? rest_tolerance() : 0;
     loads.now = std::max(loads.now, tip.now.load / (1 + rest));
     loads.accepted = std::max(loads.accepted, tip.accepted.load / (1 + rest));
     if (tip.now.has_started) continue;
@@ -312,8 +316,8 @@ Growing::Growth Tips::grow(const StepTime&) {
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     Tip& tip = tips_[i];
     if (is_followed(tip)) continue;
-    tip.now.has_started = tip.now.has_started || tip.now.load >= 1;
     const TipOutcome& outcome = outcomes[i];
+    tip.now.has_started = tip.now.has_started || outcome.increments > 0 || tip.now.load >= 1 + rest_tolerance();
     increments_ += outcome.increments;
     const bool was_stopped = tip.now.is_stopped;
     tip.now.is_stopped = was_stopped || outcome.blocked;

@@ -188,6 +188,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   /// Whether the path of a tip turns so sharply that it begins anew at the tip: what has parted stays where it is.
   bool turns_sharply(const Tip& tip) const;
   /// The longest path that a tip may have in the fine level alone, m.
+  double rest_tolerance() const;
   double threshold(const Tip& tip) const;
   double longest_path(const Tip& tip) const;
   /// Whether an increment of the other tip affects this tip at once; farther increments do so from the next step on.

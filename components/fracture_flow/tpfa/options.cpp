@@ -6,7 +6,9 @@ namespace {
 
 void add_where(Spec& spec, FracturePlace& where) {
   spec.text("fracture", where.fracture, {.doc = "Name of the fracture; all fractures without it."});
-  spec.point("at", where.at, {.unit = "m", .doc = "The nearest cell to this point; the whole fracture without it."});
+  spec.point(
+      "at", where.at,
+      {.unit = "m", .doc = "The nearest cell to this point; without it the whole fracture, but for what grows."});
 }
 
 Spec injection_spec(Injection& injection) {
