@@ -24,9 +24,9 @@ FieldOutput FieldOutput::continued(const std::filesystem::path& folder, double t
 }
 
 void FieldOutput::write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields,
-                        const std::vector<OutputLine>& lines) {
+                        const std::vector<OutputLine>& lines, PointData points) {
   const std::string matrix_file = fmt::format("matrix_{:06}.vtu", step);
-  write_matrix_vtu(folder_ / matrix_file, mesh, fields);
+  write_matrix_vtu(folder_ / matrix_file, mesh, fields, points);
   matrix_.add(time, matrix_file);
   if (mesh.fracture_cells.empty()) return;
   const std::string fracture_file = fmt::format("fractures_{:06}.vtu", step);

@@ -19,7 +19,7 @@ class FieldOutput {
   static FieldOutput continued(const std::filesystem::path& folder, double time);
 
   void write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields,
-             const std::vector<OutputLine>& lines = {});
+             const std::vector<OutputLine>& lines = {}, PointData points = PointData::only_fields_on_nodes);
 
  private:
   FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures, TimeSeries paths);

@@ -3,6 +3,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "framework/field/cells_to_nodes.hpp"
 #include "framework/field/component_names.hpp"
 #include "framework/field/weights_in_cell.hpp"
 #include "framework/module/module.hpp"
@@ -60,6 +61,17 @@ void require_size(const OutputField& field, const Mesh& mesh) {
     throw std::logic_error("output of " + field.name + ": wrong number of values");
 }
 
+OutputField at_nodes(const SparseMatrix& to_nodes, OutputField field) {
+  Vector values(to_nodes.rows() * field.components);
+  for (int c = 0; c < field.components; ++c) {
+    const auto of_component = Eigen::seqN(c, to_nodes.cols(), field.components);
+    values(Eigen::seqN(c, to_nodes.rows(), field.components)) = to_nodes * Vector(field.values(of_component));
+  }
+  field.location = Location::node;
+  field.values = std::move(values);
+  return field;
+}
+
 }  // namespace
 
 OutputField output_field(const Field& field) {
@@ -70,8 +82,14 @@ std::string labelled(const std::string& quantity, const std::string& unit) {
   return quantity + "[" + (unit.empty() ? "1" : unit) + "]";
 }
 
-void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields) {
+void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields,
+                      PointData points) {
   GridData grid;
+  const SparseMatrix to_nodes = points == PointData::of_cells_too ? cells_to_nodes(mesh) : SparseMatrix();
+  const auto add_on_cells = [&](const OutputField& field) {
+    add_field(grid.on_cells, field, field.name);
+    if (points == PointData::of_cells_too) add_field(grid.on_points, at_nodes(to_nodes, field), field.name);
+  };
   for (const Point& node : mesh.nodes) add_point(grid, node);
   for (const Ring& nodes : mesh.cell_nodes) add_cell(grid, nodes);
   GridData::Array region = integers("region");
@@ -79,13 +97,13 @@ void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const
   grid.on_cells.push_back(std::move(region));
   for (const OutputField& field : fields) {
     require_size(field, mesh);
-    if (field.location == Location::cell) add_field(grid.on_cells, field, field.name);
+    if (field.location == Location::cell) add_on_cells(field);
     if (field.location == Location::node) add_field(grid.on_points, field, field.name);
     if (field.location == Location::face) {
       OutputField means = field;
       means.location = Location::cell;
       means.values = means_of_cells(mesh, field.location, field.components, field.values);
-      add_field(grid.on_cells, means, field.name);
+      add_on_cells(means);
     }
   }
   write(file, grid);

@@ -191,5 +191,41 @@ TEST_F(VtuWriter, AWrongSizeAndAnUnwritablePlaceAreErrors) {
   EXPECT_THROW(write_matrix_vtu(folder / "m.vtu", mesh, {field}), std::logic_error);
 }
 
+/// Values at points are exact for a linear field, at corners, on sides and on both sides of fractures, too. A field
+/// that jumps where a fracture lies has the value of its own side on each of the two nodes.
+TEST_F(VtuWriter, PointsHaveTheValuesOfCells) {
+  const auto linear = [](const Point& x) { return 2 * x.x() - x.y() + 3; };
+  const auto is_above = [](const Point& x) { return x.y() > 0.5; };
+  const auto field = [&](const char* name, int components, double jump) {
+    Vector values(mesh.cell_count() * components);
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      for (int k = 0; k < components; ++k)
+        values[c * components + k] = (k + 1) * linear(mesh.cell_center[c]) + (is_above(mesh.cell_center[c]) ? jump : 0);
+    return OutputField{name, "Pa", Location::cell, components, values};
+  };
+  write_matrix_vtu(folder / "p.vtu", mesh, {field("linear", 1, 0), field("pair", 2, 0), field("jump", 1, 10)},
+                   PointData::of_cells_too);
+  vtkUnstructuredGrid* grid = read(folder / "p.vtu");
+  vtkDataArray* values = grid->GetPointData()->GetArray("linear[Pa]");
+  vtkDataArray* pair = grid->GetPointData()->GetArray("pair[Pa]");
+  vtkDataArray* jump = grid->GetPointData()->GetArray("jump[Pa]");
+  ASSERT_TRUE(values && pair && jump);
+  ASSERT_TRUE(grid->GetCellData()->GetArray("linear[Pa]"));
+  ASSERT_EQ(pair->GetNumberOfComponents(), 3);
+  int on_walls = 0;
+  for (int i = 0; i < mesh.node_count(); ++i) {
+    const double exact = linear(mesh.nodes[i]);
+    EXPECT_NEAR(values->GetComponent(i, 0), exact, 1e-12) << i;
+    EXPECT_NEAR(pair->GetComponent(i, 0), exact, 1e-12) << i;
+    EXPECT_NEAR(pair->GetComponent(i, 1), 2 * exact, 1e-12) << i;
+    const auto& cells = mesh.node_cells[i];
+    const bool above = is_above(mesh.cell_center[*cells.begin()]);
+    if (std::abs(mesh.nodes[i].y() - 0.5) > 1e-9 || mesh.nodes[i].x() > 0.7) continue;  // off "long", or its tip
+    ++on_walls;
+    EXPECT_NEAR(jump->GetComponent(i, 0), exact + (above ? 10 : 0), 1e-12) << i;
+  }
+  EXPECT_EQ(on_walls, 6);  // three places, twice
+}
+
 }  // namespace
 }  // namespace sprekk
