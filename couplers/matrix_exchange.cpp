@@ -1,4 +1,7 @@
 // matrix_exchange: fluid passes between two flows in the same rock, as between blocks and the cracks around them.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "components/capabilities/matrix_fluid.hpp"
@@ -48,6 +51,10 @@ class MatrixExchange : public Coupler {
     in_both_.resize(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c)
       in_both_[c] = flows[0]->is_in_cell(c) && flows[1]->is_in_cell(c) ? mesh_.cell_measure[c] : 0;
+    if (std::ranges::count(in_both_, 0.0) == mesh_.cell_count())
+      throw InputError(context.origin, "coupler " + name() + " passes nothing",
+                       "no cell has both flows: it exchanges fluid within rock, not across the border of regions",
+                       "let both live in the same regions, or take one flow whose parameters differ by region");
     exchange_ = Property(options.exchange, cell_places(mesh_), context.start_time);
   }
 
@@ -81,6 +88,28 @@ class MatrixExchange : public Coupler {
 
   void hold_constants(ConstantModes& modes) const override {
     if (!exchange_.values().cwiseProduct(in_both_).isZero(0)) modes.tie(*pressures_[0], *pressures_[1]);
+  }
+
+  /// Flows in one rock between which nothing passes: each ends at the border of its regions.
+  static void note_absence(const std::vector<Component*>& components, Notes& notes) {
+    std::vector<std::pair<std::string, MatrixFluid*>> flows;
+    for (Component* component : components)
+      if (auto* flow = dynamic_cast<MatrixFluid*>(component); flow && flow->pressure().spec().role.is_unknown())
+        flows.emplace_back(component->name(), flow);
+    for (std::size_t i = 1; i < flows.size(); ++i) {
+      const auto& [first, one] = flows[i - 1];
+      const auto& [second, other] = flows[i];
+      bool share = false;
+      for (int c = 0; c < one->pressure().size() && !share; ++c) share = one->is_in_cell(c) && other->is_in_cell(c);
+      notes.add("nothing passes between " + first + " and " + second,
+                share ? fmt::format("no fluid passes between '{}' and '{}', which flow in the same rock (no coupler "
+                                    "stands between them) add matrix_exchange, unless that is meant",
+                                    first, second)
+                      : fmt::format("no fluid passes between '{}' and '{}' (each ends at the border of its regions, "
+                                    "which is sealed) take one flow whose parameters differ by region, unless that is "
+                                    "meant",
+                                    first, second));
+    }
   }
 
  private:

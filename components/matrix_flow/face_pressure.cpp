@@ -22,7 +22,8 @@ void MatrixFlow::start_face_pressure() {
       const Point& normal = mesh_.face_normal[f];
       return normal.dot(mobility_[c] * normal) / std::abs(normal.dot(mesh_.face_center[f] - mesh_.cell_center[c]));
     };
-    const double one = is_sealed_ ? 1 : conductance(cell), two = is_sealed_ ? 1 : conductance(other);
+    const bool flows = !is_sealed_ && is_in_cell(cell) && is_in_cell(other);
+    const double one = flows ? conductance(cell) : 1, two = flows ? conductance(other) : 1;
     values[f] += potential(cell) + two / (one + two) * (potential(other) - potential(cell));
   }
   SPREKK_ASSERT(is_finite(values), name());

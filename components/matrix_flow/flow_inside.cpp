@@ -6,6 +6,21 @@
 
 namespace sprekk::matrix_flow {
 
+namespace {
+
+/// Gives the faces without a row one by which they have the pressure of rest, of the size of the other rows.
+void keep_values(SparseMatrix& continuity, const std::vector<char>& keeps) {
+  const double largest = Vector(continuity.diagonal()).maxCoeff();
+  SparseMatrix rows(continuity.rows(), continuity.cols());
+  std::vector<Triplet> entries;
+  for (int face = 0; face < continuity.rows(); ++face)
+    if (!keeps[face]) entries.emplace_back(face, face, largest);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  continuity += rows;
+}
+
+}  // namespace
+
 FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, const Mesh& separated,
                                 const std::vector<char>& inside, const std::vector<char>& nodes) {
   const Mesh& mesh = flow.mesh;
@@ -45,6 +60,11 @@ FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, c
   for (SparseMatrix* of_faces :
        {&made.flux_boundary, &made.flux_change, &made.trace_boundary, &made.trace_change, &made.blended_nodes})
     reduce(*of_faces, true);
+  FacePressureOperators& faces = made.faces;
+  reduce(faces.continuity_cell, false);
+  for (SparseMatrix* of_faces : {&faces.flux, &faces.trace, &faces.continuity_face, &faces.continuity_boundary})
+    reduce(*of_faces, true);
+  if (faces.continuity_face.rows() > 0) keep_values(faces.continuity_face, keeps);
   for (OneSidedFluxOperators& one : made.limited) {
     reduce(one.cell, false);
     reduce(one.boundary, true);

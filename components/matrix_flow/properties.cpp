@@ -81,9 +81,6 @@ void MatrixFlow::check_sides() const {
 
 void MatrixFlow::find_regions() {
   if (options_.regions.empty()) return;
-  if (face_pressure_)
-    throw InputError(options_.regions_origin, "this type of flow lives in all regions",
-                     "its unknowns are on faces as well", "take matrix_flow/mpfa, tpfa or ntpfa");
   std::vector<char> is_named(mesh_.region_names.size(), 0);
   for (const std::string& region : options_.regions) {
     const auto found = std::find(mesh_.region_names.begin(), mesh_.region_names.end(), region);

@@ -1,20 +1,11 @@
 #!/usr/bin/python3
-"""exchange_twins_test.py SPREKK MPIEXEC: two flows in one rock (matrix_exchange) with a well, a side with a pressure and one with a
+"""exchange_twins_test.py SPREKK [MPIEXEC]: two flows in one rock (matrix_exchange) with a well, a side with a pressure and one with a
 flux: pressures and the rates of history.csv are the same when everything is turned, and on two processes, and hardly change with the
 exchange; what the exchange passes leaves one flow and enters the other."""
 
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK, MPIEXEC = Path(sys.argv[1]).resolve(), sys.argv[2]
-del sys.argv[1:]
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import SceneRuns, on_two_processes
 
 SCENE = """
 name: two_flows
@@ -48,49 +39,28 @@ output:
 """
 
 
-class ExchangeTwins(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(self.scratch.cleanup)
-        self.folder = Path(self.scratch.name)
-        (self.folder / "scene.yaml").write_text(SCENE, encoding="utf-8")
-
-    def history(self, name, *more, processes=1):
-        launcher = [MPIEXEC, "-n", str(processes)] if processes > 1 else []
-        subprocess.run([*launcher, str(SPREKK), "run", str(self.folder / "scene.yaml"), *more, "-q", "-o", str(self.folder / name)], check=True,
-                       capture_output=True)
-        return sprekk.read_table(self.folder / name / "history.csv")
-
-    def largest_difference(self, one, two):
-        self.assertEqual(list(one), list(two))
-        worst = 0
-        for column in one:
-            if "error" in column or column == "iterations[1]":
-                continue
-            scale = max(abs(value) for value in one[column])
-            worst = max(worst, *(abs(a - b) / scale for a, b in zip(one[column], two[column])))
-        return worst
-
+class ExchangeTwins(SceneRuns):
+    @on_two_processes
     def test_twins_agree(self):
-        one = self.history("one")
+        scene = self.write(SCENE)
+        one = self.run_scene(scene)
         for column, value in (("cracks.feed.rate[m^2/s]", 0.4), ("cracks.top.outflow[m^2/s]", 0.1)):
-            for rate in one[column]:
+            for rate in one.history[column]:
                 self.assertAlmostEqual(rate, value, delta=1e-12)
-        two = self.largest_difference(one, self.history("two", processes=2))
-        subprocess.run([ROOT / "tools/turn_scene", self.folder / "scene.yaml", self.folder / "turned", "--angle", "37", "--program", SPREKK],
-                       check=True, capture_output=True)
-        turned = self.largest_difference(one, self.history("t", str(self.folder / "turned/turned.yaml")))
-        disturbed = self.largest_difference(one, self.history("d", "--set", f"couplers.0.exchange={3 * (1 + 1e-9)!r} 1/(Pa*s)"))
+        two = self.largest_difference(self.run_scene(scene, processes=2), one)
+        turned = self.largest_difference(self.run_scene(self.turned(scene, 37)), one)
+        disturbed = self.largest_difference(self.run_scene(scene, f"couplers.0.exchange={3 * (1 + 1e-9)!r} 1/(Pa*s)"), one)
         print(f"two processes {two:.1e}, turned {turned:.1e}, exchange times 1 + 1e-9 {disturbed:.1e}")
         self.assertLess(two, 1e-10)
         self.assertLess(turned, 1e-10)
         self.assertLess(disturbed, 1e-8)
         self.assertGreater(disturbed, 0)
 
+    @on_two_processes
     def test_what_each_flow_stores_is_what_it_gets(self):
         """The blocks are sealed but for the left side: what they store beside has passed from the cracks, to the last digit of both."""
         for processes in (1, 2):
-            table = self.history(f"balance{processes}", processes=processes)
+            table = self.run_scene(self.write(SCENE), processes=processes).history
             stored = [0.1 * (a - 2) + 2 * (b - 4) for a, b in zip(table["in_cracks[Pa*m^2]"], table["in_blocks[Pa*m^2]"])]
             passed = 0
             for i, total in enumerate(stored):

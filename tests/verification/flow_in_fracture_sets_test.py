@@ -1,23 +1,14 @@
 #!/usr/bin/python3
-"""flow_in_fracture_sets_test.py SPREKK MPIEXEC: a flow that lives in some of the fractures; the others are dry.
+"""flow_in_fracture_sets_test.py SPREKK [MPIEXEC]: a flow that lives in some of the fractures; the others are dry.
 
 - Fluid that is injected stays in the fractures with a flow, also where dry ones cross them: p = Q t/(a L c).
 - A crack that fluid opens is that of Sneddon (1946), beside a dry one that is held closed.
 - In rock that conducts, a dry fracture is one that neither conducts nor lets anything through its walls.
 """
 
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK, MPIEXEC = Path(sys.argv[1]).resolve(), sys.argv[2]
-del sys.argv[1:]
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import SceneRuns, on_two_processes
 
 CROSSING = """
 name: crossing
@@ -78,6 +69,7 @@ output:
     u: {{of: rock.displacement, at: [5 m, 3 m]}}
 """
 LEVEL = {"one": "[[-1 m, 0 m], [1 m, 0 m]]", "two": "[[-0.5 m, 1.5 m], [0.5 m, 1.5 m]]"}
+MIRRORED = {"one": "[[-0.8 m, 0.6 m], [0.8 m, -0.6 m]]", "two": "[[-1.3 m, -0.9 m], [-0.5 m, -1.5 m]]"}
 SLANTED = {"one": "[[-0.8 m, -0.6 m], [0.8 m, 0.6 m]]", "two": "[[-1.3 m, 0.9 m], [-0.5 m, 1.5 m]]"}
 
 IN_ROCK = """
@@ -113,27 +105,14 @@ output:
 """
 
 
-class FlowInFractureSets(unittest.TestCase):
+class FlowInFractureSets(SceneRuns):
+    def run_text(self, text, *settings, processes=1):
+        return self.run_scene(self.write(text), *settings, processes=processes)
+
     def history(self, text, *settings, processes=1):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "scene.yaml"
-            path.write_text(text, encoding="utf-8")
-            launcher = [MPIEXEC, "-n", str(processes)] if processes > 1 else []
-            sets = [word for setting in settings for word in ("--set", setting)]
-            done = subprocess.run([*launcher, str(SPREKK), "run", str(path), "-q", "-o", f"{folder}/out", *sets], capture_output=True, text=True,
-                                  check=False)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            return sprekk.read_table(f"{folder}/out/history.csv")
+        return self.run_text(text, *settings, processes=processes).history
 
-    def largest_difference(self, one, two):
-        worst = 0
-        for column in one:
-            if "error" in column or column == "iterations[1]" or column not in two:
-                continue
-            scale = max(max(abs(value) for value in two[column]), 1e-30)
-            worst = max(worst, *(abs(a - b) / scale for a, b in zip(one[column], two[column])))
-        return worst
-
+    @on_two_processes
     def test_injected_fluid_stays_in_the_fractures_with_a_flow(self):
         main, branch, across = (1.4**2 + 0.7**2) ** 0.5, 0.85, (0.4**2 + 1.3**2) ** 0.5
         for names, length in (("main", main), ("[main, branch]", main + branch), ("[main, across, branch]", main + across + branch)):
@@ -150,42 +129,64 @@ class FlowInFractureSets(unittest.TestCase):
         exact = 4 * 2e6 * 1 * (1 - 0.25**2) / 10e9
         prescribed = "prescribed: {{inside: {{fracture: one, pressure: 3 MPa}}{more}}}"
         for place in (LEVEL, SLANTED):
-            wet = self.history(CRACKS.format(flow="fractures: one\n    " + prescribed.format(more=""), **place))
+            run = self.run_text(CRACKS.format(flow="fractures: one\n    " + prescribed.format(more=""), **place))
+            wet = run.history
             opening = wet["opening.n[m]"][-1]
             print(f"opening {opening:.4e} m, closed form {exact:.4e} m")
             self.assertAlmostEqual(opening / exact, 1, delta=0.02)
             self.assertLess(abs(wet["of_dry.n[m]"][-1]), 1e-12)
-            none = self.history(CRACKS.format(flow=prescribed.format(more=", outside: {fracture: two, pressure: 0 MPa}"), **place))
-            self.assertLess(self.largest_difference(wet, {key: none[key] for key in ("opening.n[m]", "opening.t[m]", "u.x[m]", "u.y[m]")}), 1e-10)
+            none = self.run_text(CRACKS.format(flow=prescribed.format(more=", outside: {fracture: two, pressure: 0 MPa}"), **place))
+            self.assertLess(self.largest_difference(run, none, ("opening.n[m]", "opening.t[m]", "u.x[m]", "u.y[m]")), 1e-10)
         # With fluid of the same pressure the other one opens, too.
         both = self.history(CRACKS.format(flow=prescribed.format(more=", outside: {fracture: two, pressure: 3 MPa}"), **LEVEL))
         self.assertGreater(both["of_dry.n[m]"][-1], 1e-4)
 
+    @on_two_processes
     def test_a_dry_fracture_in_rock_that_conducts_is_sealed(self):
         sealed = ("transmissivity: constant\n    transmissivity_value: {fractures: {wet: 1e-13 m^3, dry: 0 m^3}}\n    normal_permeability: constant\n"
                   "    normal_permeability_value: {fractures: {wet: 1e-8 m/(Pa*s), dry: 0 m/(Pa*s)}}")
-        zero = self.history(IN_ROCK.format(flow=sealed))
+        zero = self.run_text(IN_ROCK.format(flow=sealed))
         for processes in (1, 2):
-            dry = self.history(IN_ROCK.format(flow="fractures: [wet]\n    " + sealed.replace("dry: 0 ", "dry: 1 ")), processes=processes)
+            dry = self.run_text(IN_ROCK.format(flow="fractures: [wet]\n    " + sealed.replace("dry: 0 ", "dry: 1 ")), processes=processes)
             self.assertLess(self.largest_difference(dry, zero), 1e-10)
-        self.assertGreater(abs(dry["near[Pa]"][-1] - 2e6 + 0.45e6), 1e3)  # the barrier is felt
+        self.assertGreater(abs(dry.history["near[Pa]"][-1] - 2e6 + 0.45e6), 1e3)  # the barrier is felt
 
     def test_what_has_no_meaning_is_refused(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "scene.yaml"
-            path.write_text(CROSSING, encoding="utf-8")
-            for setting, words in (("fractures=[mian]", ("unknown fracture", "main")),
-                                   ("fractures=[across]", ("no flow at this place", "fractures")),
-                                   ("prescribed={a: {fracture: across, pressure: 1 Pa}}", ("no flow at this place",))):
-                more = ["--set", "components.conduit.fractures=main"] if "prescribed" in setting else []
-                done = subprocess.run([str(SPREKK), "check", str(path), *more, "--set", f"components.conduit.{setting}"], capture_output=True, text=True,
-                                      check=False)
-                self.assertEqual(done.returncode, 2, setting + done.stderr)
-                self.assertTrue(all(word in done.stderr for word in words), done.stderr)
-            done = subprocess.run([str(SPREKK), "check", str(path), "--set", "components.conduit.fractures=main", "--set",
-                                   "output.probes={q: {of: conduit.pressure, fracture: across, take: mean}}"], capture_output=True, text=True, check=False)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn("does not live on fracture 'across'", done.stderr)
+        scene = self.write(CROSSING)
+        for settings, words in ((["fractures=[mian]"], ("unknown fracture", "main")),
+                                (["fractures=[across]"], ("no flow at this place", "fractures")),
+                                (["fractures=main", "prescribed={a: {fracture: across, pressure: 1 Pa}}"], ("no flow at this place",))):
+            said = self.call("check", scene, *(f"components.conduit.{setting}" for setting in settings))
+            self.assertEqual(said.returncode, 2, said.stderr)
+            self.assertTrue(all(word in said.stderr for word in words), said.stderr)
+        said = self.call("check", scene, "components.conduit.fractures=main",
+                         "output.probes={q: {of: conduit.pressure, fracture: across, take: mean}}")
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("does not live on fracture 'across'", said.stderr)
+
+    def test_turned_mirrored_and_perturbed(self):
+        # All couplers are at work: a crack that fluid opens beside a dry one, and flow in rock around a dry fracture.
+        opened = "prescribed: {inside: {fracture: one, pressure: 3 MPa}}"
+        for text, mirrored, slightly in (
+                (CRACKS.format(flow="fractures: one\n    " + opened, **SLANTED),
+                 CRACKS.format(flow="fractures: one\n    " + opened, **MIRRORED), "components.conduit.prescribed.inside.pressure=3000000.003 Pa"),
+                (IN_ROCK.format(flow="fractures: [wet]"),
+                 IN_ROCK.format(flow="fractures: [wet]").replace("[0.3 m, 0.3 m], [1.1 m, 0.6 m]", "[0.3 m, 0.7 m], [1.1 m, 0.4 m]")
+                 .replace("[0.9 m, 0.2 m], [0.7 m, 0.9 m]", "[0.9 m, 0.8 m], [0.7 m, 0.1 m]").replace("[0.9 m, 0.7 m]", "[0.9 m, 0.3 m]")
+                 .replace("[1.5 m, 0.4 m]", "[1.5 m, 0.6 m]"), "components.pore.boundary.left.pressure=2000000.002 Pa")):
+            scene = self.write(text)
+            one = self.run_scene(scene)
+            columns = [column for column in one.history if column.startswith(("opening", "p[", "near", "far"))]
+            self.assertTrue(columns)
+            turned = self.largest_difference(self.run_scene(self.turned(scene, 37)), one, columns)
+            disturbed = self.largest_difference(self.run_scene(scene, slightly), one, columns)
+            other = self.run_text(mirrored)
+            mirror = max(abs(abs(other.history[column][-1]) / abs(one.history[column][-1]) - 1) for column in columns if not column.startswith("opening.t"))
+            print(f"turned {turned:.1e}, mirrored (on another mesh) {mirror:.1e}, times 1 + 1e-9 {disturbed:.1e}")
+            self.assertLess(turned, 1e-9)
+            self.assertLess(disturbed, 1e-7)
+            self.assertGreater(disturbed, 0)
+            self.assertLess(mirror, 0.01)
 
 
 if __name__ == "__main__":

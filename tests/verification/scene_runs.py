@@ -63,6 +63,30 @@ class SceneRuns(unittest.TestCase):
             raise AssertionError(f"exit code {run.returncode}: {run.stderr}")
         return sprekk.Results(folder)
 
+    @classmethod
+    def turned(cls, scene, angle, *settings):
+        """The files that make of the scene (a path) the same scene, turned by an angle (degrees; tools/turn_scene)."""
+        folder = cls.folder / f"turned_{next(cls.numbers)}"
+        done = subprocess.run([ROOT / "tools/turn_scene", scene, folder, "--angle", str(angle), "--program", SPREKK,
+                               *(word for setting in settings for word in ("--set", setting))], capture_output=True, text=True, check=False)
+        if done.returncode:
+            raise AssertionError(f"tools/turn_scene: {done.stderr}")
+        return [scene, folder / "turned.yaml"]
+
+    @staticmethod
+    def largest_difference(ours, other, columns=None):
+        """Of two histories, in the largest value of each column; of all columns but those of errors, iterations and seconds."""
+        worst = 0
+        for column in columns or other.history:
+            if columns is None and any(word in column for word in ("error", "iterations", "seconds")):
+                continue
+            one, two = ours.history[column], other.history[column]
+            if len(one) != len(two):
+                raise AssertionError(f"{len(one)} and {len(two)} steps")
+            scale = max(np.abs(two).max(), 1e-30)
+            worst = max(worst, np.abs(one - two).max() / scale)
+        return worst
+
     def assert_same_bits(self, ours, other):
         """All columns of two histories but those of seconds taken."""
         self.assertEqual(len(ours.times), len(other.times))

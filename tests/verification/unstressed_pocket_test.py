@@ -2,12 +2,10 @@
 """unstressed_pocket_test.py SPREKK: check says that rock which fractures enclose is held by nothing at the start, unless there is an
 initial stress, or no such rock."""
 
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
+import unittest
 
-program = sys.argv[1]
+from scene_runs import SceneRuns
+
 SCENE = """
 name: pocket
 geometry:
@@ -29,17 +27,21 @@ time: {end: 1 s, step: 1 s}
 """
 NOTE = "cut off 1 parts of the rock"
 
-with tempfile.TemporaryDirectory() as folder:
-    path = Path(folder) / "scene.yaml"
-    path.write_text(SCENE, encoding="utf-8")
 
-    def said(*settings):
-        more = [word for setting in settings for word in ("--set", setting)]
-        done = subprocess.run([program, "check", str(path), *more], capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done
+class UnstressedPocket(SceneRuns):
+    def said(self, *settings):
+        done = self.call("check", self.write(SCENE), *settings)
+        self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout + done.stderr
 
-    assert NOTE in said() and "initial_stress" in said(), said()
-    assert NOTE not in said("components.rock.initial_stress={xx: 0 MPa, yy: -10 MPa, xy: 0 MPa}")
-    assert NOTE not in said("geometry.fractures.three.points=[[2.1 m, 2.3 m], [1.9 m, 2.6 m]]")
-print("as it should be")
+    def test_check_tells_of_it(self):
+        self.assertIn(NOTE, self.said())
+        self.assertIn("initial_stress", self.said())
+
+    def test_not_with_an_initial_stress_nor_without_a_pocket(self):
+        self.assertNotIn(NOTE, self.said("components.rock.initial_stress={xx: 0 MPa, yy: -10 MPa, xy: 0 MPa}"))
+        self.assertNotIn(NOTE, self.said("geometry.fractures.three.points=[[2.1 m, 2.3 m], [1.9 m, 2.6 m]]"))
+
+
+if __name__ == "__main__":
+    unittest.main()

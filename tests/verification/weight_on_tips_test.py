@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""weight_on_tips_test.py SPREKK MPIEXEC: stress intensity factors, and growth, in rock that has weight.
+"""weight_on_tips_test.py SPREKK [MPIEXEC]: stress intensity factors, and growth, in rock that has weight.
 
 A crack of half-length a in a wide box. Without it the stress is linear in the height Y: s_YY = s + w Y and s_XX = s + k w Y, with the
 weight w = rho g; its walls are free, or carry the pressure of a fluid. So the crack is loaded by the traction t(s) along it, and
@@ -9,18 +9,9 @@ stress, or made by the weight and displacements of the sides. Errors are in w a 
 0.035 to 0.05 with the square of 30 m here."""
 
 import math
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SPREKK, MPIEXEC = Path(sys.argv[1]).resolve(), sys.argv[2]
-del sys.argv[1:3]
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tools/python"))
-import sprekk  # noqa: E402
+from scene_runs import SceneRuns, on_two_processes
 
 A, STRESS, YOUNG, POISSON, DENSITY, GRAVITY = 10.0, 0.3e6, 20e9, 0.25, 2500.0, 10.0
 WEIGHT = DENSITY * GRAVITY
@@ -151,27 +142,19 @@ def expected(angle=30.0, stress=STRESS, across=1 / 3, border=None, pressure=0.0,
     return list(zip(k_1, k_2))
 
 
-def run(text, processes=1):
-    with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "scene.yaml").write_text(text)
-        command = [SPREKK, "run", Path(folder) / "scene.yaml", "-q", "-o", Path(folder) / "results"]
-        if processes > 1:
-            command = [MPIEXEC, "-n", str(processes), *command]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=200)
-        if done.returncode:
-            raise AssertionError(done.stderr)
-        return sprekk.Results(Path(folder) / "results").rows[-1]
+class LastRow(SceneRuns):
+    def last_row(self, text, processes=1):
+        return self.run_scene(self.write(text), processes=processes).rows[-1]
 
-
-def factors(text, processes=1):
-    row = run(text, processes)
-    return [tuple(row[f"tips.main_{end}.K_{mode}"] for mode in ("I", "II")) for end in ("first", "last")]
+    def factors(self, text, processes=1):
+        row = self.last_row(text, processes)
+        return [tuple(row[f"tips.main_{end}.K_{mode}"] for mode in ("I", "II")) for end in ("first", "last")]
 
 
 FINE = ("quarter_point", "boundary_element")
 
 
-class WeightOnTips(unittest.TestCase):
+class WeightOnTips(LastRow):
     def check(self, found, wanted, bound=0.01):
         # What is left is the error of the coarse level, whose cells are a tenth of the half-length, and 3 m at the outline.
         for one, other in zip(found, wanted):
@@ -182,65 +165,66 @@ class WeightOnTips(unittest.TestCase):
         for tips in (*FINE, "jump_fit"):
             for is_initial in (True, False):
                 with self.subTest(tips=tips, is_initial=is_initial):
-                    self.check(factors(scene(tips, is_initial=is_initial)), expected())
+                    self.check(self.factors(scene(tips, is_initial=is_initial)), expected())
 
     def test_turned(self):
         for tips in FINE:
             for turn in (50.0, 180.0, -90.0):
                 with self.subTest(tips=tips, turn=turn):
-                    self.check(factors(scene(tips, turn=turn)), expected())
+                    self.check(self.factors(scene(tips, turn=turn)), expected())
 
     def test_mirrored_and_vertical(self):
         for tips in FINE:
             for angle in (-30.0, 90.0, 0.0):
                 with self.subTest(tips=tips, angle=angle):
-                    self.check(factors(scene(tips, angle=angle)), expected(angle))
+                    self.check(self.factors(scene(tips, angle=angle)), expected(angle))
 
     def test_small_square(self):
         for tips in FINE:
-            self.check(factors(scene(tips, square=12)), expected())
+            self.check(self.factors(scene(tips, square=12)), expected())
 
     def test_finite_elements(self):
         for tips in FINE:
-            self.check(factors(scene(tips, rock="fem")), expected())
+            self.check(self.factors(scene(tips, rock="fem")), expected())
 
     def test_layers_of_different_density(self):
         # Borders above the crack, and through its middle.
         for tips in FINE:
             for turn, border in ((0.0, 8.0), (0.0, 1.0), (110.0, 1.0)):
                 with self.subTest(tips=tips, turn=turn, border=border):
-                    self.check(factors(scene(tips, turn=turn, border=border, is_initial=False)), expected(border=border), 0.015)
+                    self.check(self.factors(scene(tips, turn=turn, border=border, is_initial=False)), expected(border=border), 0.015)
 
     def test_fluid_with_weight(self):
         # Rock under compression, and water in the fracture.
         for tips in FINE:
             for angle, turn in ((30.0, 0.0), (90.0, 40.0)):
                 with self.subTest(tips=tips, angle=angle):
-                    self.check(factors(scene(tips, angle, turn, stress=-1e6, pressure=1.3e6)),
+                    self.check(self.factors(scene(tips, angle, turn, stress=-1e6, pressure=1.3e6)),
                                expected(angle, stress=-1e6, pressure=1.3e6, fluid=1000 * GRAVITY))
 
     def test_meshes_by_an_error_estimate(self):
-        self.check(factors(scene("quarter_point, tolerance: 0.02")), expected())
+        self.check(self.factors(scene("quarter_point, tolerance: 0.02")), expected())
 
+    @on_two_processes
     def test_disturbed_and_on_two_processes(self):
         for tips in FINE:
-            whole = factors(scene(tips))
-            moved = factors(scene(tips, stress=STRESS * (1 + 1e-9)))
-            two = factors(scene(tips), 2)
+            whole = self.factors(scene(tips))
+            moved = self.factors(scene(tips, stress=STRESS * (1 + 1e-9)))
+            two = self.factors(scene(tips), 2)
             for other, bound in ((moved, 1e-8), (two, 1e-9)):
                 for one, another in zip(whole, other):
                     for k in range(2):
                         self.assertAlmostEqual(one[k] / SCALE, another[k] / SCALE, delta=bound)
 
 
-class Excavation(unittest.TestCase):
+class Excavation(LastRow):
     """A pit 1.5 half-lengths ahead of a tip, of whose initial stress a part is left, less from step to step. K is that of a square without
     the pit, but for what elements of a tenth of the square know of its outline; with all of the stress K_II would be off by 20 %."""
 
     def check(self, mirror):
         found = []
         for square in (2.2, 5):
-            row = run(f"""
+            row = self.last_row(f"""
 geometry:
   box: {{x: [-20 m, 20 m], y: [-20 m, 20 m]}}
   regions: {{pit: {{polygon: [[2.5 m, -1 m], [4.5 m, -1 m], [4.5 m, 1 m], [2.5 m, 1 m]]}}}}
@@ -276,7 +260,7 @@ time: {{end: 2 s, step: 1 s}}
         self.check(-1)
 
 
-class Growth(unittest.TestCase):
+class Growth(LastRow):
     """A vertical crack under a fluid without weight, whose pressure rises: the tip above, where the rock presses less, is the first to
     grow, and goes on until K there is the toughness at that place, which rises with the distance from the middle. With the state
     held the load rests for the last hour: K of both tips is then that of a state in which all advances are known."""
@@ -289,7 +273,7 @@ class Growth(unittest.TestCase):
         end = "6 h" if is_within else "7 h"
         text = scene(tips, 90.0, turn, stress=-2e6, pressure=f"2.39e6 + 0.01e6*min(t/3600, 6) + {1000 * GRAVITY!r}*{frame.y}", end=end,
                      growth=f", toughness: {toughness}, growth: {{increment: 0.5 m}}", update=f", update: {update}")
-        row = run(text)
+        row = self.last_row(text)
         self.assertEqual(row["tips.main_first.length"], 0)
         grown = row["tips.main_last.length"]
         self.assertGreater(grown, 1)

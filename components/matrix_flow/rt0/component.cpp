@@ -43,7 +43,7 @@ class Rt0 : public MatrixFlow {
     if (!is_lumped_) return note_uncorrected_tips(notes, name(), mesh(), mobility());
     int not_lumped = 0;
     for (int cell = 0; cell < mesh().cell_count(); ++cell)
-      not_lumped += lumped_flux_mass(mesh(), cell, mobility()[cell]).share < 1;
+      not_lumped += is_in_cell(cell) && lumped_flux_mass(mesh(), cell, mobility()[cell]).share < 1;
     if (not_lumped > 0)
       notes.add(
           name() + ": fluxes that are not lumped",

@@ -47,6 +47,50 @@ std::vector<int> sets_of_blocks(const LinearSystem& system, int& sets) {
 
 }  // namespace
 
+/// For every unknown whether its entity is lone: the rows and columns of all its unknowns have a diagonal entry alone.
+/// Empty where few are.
+std::vector<char> lone_unknowns(const LinearSystem& system) {
+  constexpr double worth_it = 0.1;  // of all unknowns
+  const SparseMatrix& a = system.local;
+  std::vector<int> entries(a.cols(), 0);
+  for (int row = 0; row < a.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
+      ++entries[entry.col()];
+      if (entry.col() != row) entries[row] = 2;
+    }
+  std::vector<char> lone(a.cols(), 0);
+  int count = 0;
+  for (const UnknownBlock& block : system.blocks)
+    for (int first = block.first; first < block.first + block.entities * block.components; first += block.components) {
+      const auto own = entries.begin() + first;
+      if (!std::all_of(own, own + block.components, [](int n) { return n == 1; })) continue;
+      std::fill_n(lone.begin() + first, block.components, 1);
+      count += block.components;
+    }
+  if (count < worth_it * static_cast<double>(a.cols()) || count == a.cols()) return {};
+  return lone;
+}
+
+/// The block without its lone entities, which begins at unknown `first` of a part.
+UnknownBlock without_lone(const UnknownBlock& block, const std::vector<char>& lone, int first) {
+  UnknownBlock rest = block;
+  rest.first = first;
+  if (lone.empty()) return rest;
+  rest.entities = 0;
+  rest.coordinates.clear();
+  std::vector<double> stabilization;
+  for (int i = 0; i < block.entities; ++i) {
+    if (lone[block.first + i * block.components]) continue;
+    ++rest.entities;
+    if (!block.coordinates.empty()) rest.coordinates.push_back(block.coordinates[i]);
+    if (block.stabilization.size() > 0)
+      for (int k = 0; k < block.components; ++k) stabilization.push_back(block.stabilization[i * block.components + k]);
+  }
+  if (block.stabilization.size() > 0)
+    rest.stabilization = Eigen::Map<Vector>(stabilization.data(), stabilization.size());
+  return rest;
+}
+
 bool SeparatedSolver::fits(const LinearSystem& system) const {
   const SparseMatrix& a = system.local;
   if (groups_.empty()) return false;
@@ -56,14 +100,16 @@ bool SeparatedSolver::fits(const LinearSystem& system) const {
          std::equal(inner_.begin(), inner_.end(), a.innerIndexPtr());
 }
 
-void SeparatedSolver::separate(const LinearSystem& system) {
+void SeparatedSolver::separate(const LinearSystem& system, Lone where) {
   const SparseMatrix& a = system.local;
   int sets = 1;
   std::vector<int> set_of_block(system.blocks.size(), 0);
   const bool can_separate = parallel::size() == 1 && a.isCompressed() && system.blocks.size() > 1;
   if (can_separate) set_of_block = sets_of_blocks(system, sets);
+  std::vector<char> lone;
+  if (where == Lone::apart && parallel::size() == 1 && a.isCompressed()) lone = lone_unknowns(system);
   // A single part keeps its solver, with its ordering, when the pattern changes.
-  if (groups_.size() != 1 || sets != 1) {
+  if (groups_.size() != 1 || sets != 1 || !lone.empty() || !lone_.empty()) {
     for (const Group& group : groups_) retired_ += group.solver->counts();
     groups_.clear();
     groups_.resize(std::max(1, sets));
@@ -71,23 +117,27 @@ void SeparatedSolver::separate(const LinearSystem& system) {
   }
   outer_.clear();
   inner_.clear();
-  if (groups_.size() == 1) return;
+  lone_.clear();
+  for (int unknown = 0; unknown < static_cast<int>(lone.size()); ++unknown)
+    if (lone[unknown]) lone_.push_back(unknown);
+  if (is_passed_on()) return;
 
   outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1);
   inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
   std::vector<int> place(a.cols(), 0);
   for (std::size_t b = 0; b < system.blocks.size(); ++b) {
     if (set_of_block[b] < 0) continue;
-    UnknownBlock block = system.blocks[b];
+    const UnknownBlock& block = system.blocks[b];
     Group& group = groups_[set_of_block[b]];
-    const int first = static_cast<int>(group.unknowns.size());
-    for (int i = 0; i < block.entities * block.components; ++i) {
-      place[block.first + i] = first + i;
-      group.unknowns.push_back(block.first + i);
+    UnknownBlock rest = without_lone(block, lone, static_cast<int>(group.unknowns.size()));
+    if (rest.entities > 0) group.system.blocks.push_back(std::move(rest));
+    for (int unknown = block.first; unknown < block.first + block.entities * block.components; ++unknown) {
+      if (!lone.empty() && lone[unknown]) continue;
+      place[unknown] = static_cast<int>(group.unknowns.size());
+      group.unknowns.push_back(unknown);
     }
-    block.first = first;
-    group.system.blocks.push_back(std::move(block));
   }
+  std::erase_if(groups_, [](const Group& group) { return group.unknowns.empty(); });
   for (Group& group : groups_) {
     std::vector<int> starts{0}, columns;
     for (const int row : group.unknowns) {
@@ -110,13 +160,23 @@ void SeparatedSolver::separate(const LinearSystem& system) {
   }
 }
 
+bool SeparatedSolver::take_lone(const SparseMatrix& a) {
+  of_lone_.resize(static_cast<Eigen::Index>(lone_.size()));
+  for (std::size_t i = 0; i < lone_.size(); ++i) {
+    of_lone_[i] = a.valuePtr()[a.outerIndexPtr()[lone_[i]]];
+    if (of_lone_[i] == 0 || !std::isfinite(of_lone_[i])) return false;
+  }
+  return true;
+}
+
 LinearReport SeparatedSolver::factor(const LinearSystem& system) {
   expect_sound(system);
-  if (!fits(system)) separate(system);
+  if (!fits(system)) separate(system, Lone::apart);
+  if (!take_lone(system.local)) separate(system, Lone::within);  // singular: the solver says where
   const bool is_same = system.number != 0 && system.number == number_;
   pattern_number_ = system.pattern_number;
   number_ = system.number;
-  if (groups_.size() == 1) return groups_[0].solver->factor(system);
+  if (is_passed_on()) return groups_[0].solver->factor(system);
   for (Group& group : groups_) {
     if (!is_same && take_values(group.system.local, system.local.valuePtr(), group.source))
       group.system.number = new_system_number();
@@ -134,10 +194,11 @@ LinearReport SeparatedSolver::factor(const LinearSystem& system) {
 
 LinearReport SeparatedSolver::solve(const Vector& b_rows, Vector& x) {
   if (groups_.empty()) return LinearReport::failure("solve was called before factor");
-  if (groups_.size() == 1) return groups_[0].solver->solve(b_rows, x);
+  if (is_passed_on()) return groups_[0].solver->solve(b_rows, x);
   x = Vector::Zero(b_rows.size());
+  if (!lone_.empty()) x(lone_) = b_rows(lone_).cwiseQuotient(of_lone_);
 #ifdef SPREKK_ASSERTIONS
-  Eigen::Index unknowns_of_groups = 0;
+  auto unknowns_of_groups = static_cast<Eigen::Index>(lone_.size());
   for (const Group& group : groups_) unknowns_of_groups += static_cast<Eigen::Index>(group.unknowns.size());
   SPREKK_ASSERT(unknowns_of_groups == b_rows.size(), unknowns_of_groups, b_rows.size());
 #endif

@@ -52,6 +52,53 @@ TEST(SeparatedSolver, SolvesBothParts) {
   EXPECT_EQ(solver->counts().solves, 2);
 }
 
+/// A Laplacian of 12 × 12 entities, every third of which has a diagonal entry alone, with two unknowns an entity in one
+/// block.
+LinearSystem with_lone_entities(double diagonal) {
+  constexpr int n = 12, components = 2;
+  const LinearSystem whole = test::poisson(n);
+  std::vector<Triplet> entries;
+  for (int row = 0; row < n * n; ++row)
+    for (SparseMatrix::InnerIterator entry(whole.local, row); entry; ++entry)
+      for (int k = 0; k < components; ++k) {
+        const auto column = static_cast<int>(entry.col());
+        const bool is_lone = row % 3 == 0 || column % 3 == 0;
+        if (is_lone && row != column) continue;
+        entries.emplace_back(components * row + k, components * column + k, is_lone ? diagonal : entry.value());
+        if (!is_lone && row == column) entries.emplace_back(components * row + k, components * row + 1 - k, 0.1);
+      }
+  return test::make_system(components * n * n, entries,
+                           {{"a", 0, n * n, components, BlockKind::bulk_elliptic, {}, {}}});
+}
+
+TEST(SeparatedSolver, SolvesLoneEntitiesApart) {
+  std::vector<int> sizes;
+  class Recorder final : public LinearSolver {
+   public:
+    explicit Recorder(std::vector<int>& sizes) : sizes_(sizes) {}
+    LinearReport factor(const LinearSystem& system) override {
+      sizes_.push_back(static_cast<int>(system.local.rows()));
+      return solver_->factor(system);
+    }
+    LinearReport solve(const Vector& b, Vector& x) override { return solver_->solve(b, x); }
+    std::string name() const override { return "recorder"; }
+
+   private:
+    std::vector<int>& sizes_;
+    std::unique_ptr<LinearSolver> solver_ = make();
+  };
+  SeparatedSolver solver([&] { return std::make_unique<Recorder>(sizes); });
+  for (const double diagonal : {5.0, 1e-12, 5.0}) {
+    const LinearSystem system = with_lone_entities(diagonal);
+    const Vector exact = test::random_vector(static_cast<int>(system.rows.size()), 4);
+    EXPECT_LT((solve(solver, system, system.local * exact) - exact).lpNorm<Eigen::Infinity>(), 1e-12);
+    EXPECT_EQ(sizes.back(), 2 * 96);
+  }
+  // A singular one is left to the solver, which says so.
+  EXPECT_FALSE(solver.factor(with_lone_entities(0)).solved);
+  EXPECT_EQ(sizes.back(), 2 * 144);
+}
+
 TEST(SeparatedSolver, FactorizesOnlyThePartThatChanged) {
   const LinearSystem first = two_problems(1), second = two_problems(3);
   const Vector exact = test::random_vector(static_cast<int>(first.rows.size()), 2);
