@@ -1,8 +1,8 @@
 // The properties of rock and fluid, what follows from them, and checks of them.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/linear_fit.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/separated_mesh.hpp"
@@ -123,7 +123,7 @@ void MatrixFlow::use_storage() {
 }
 
 double MatrixFlow::diffusivity(int cell) const {
-  const double best = Eigen::SelfAdjointEigenSolver<Tensor>(mobility_[cell]).eigenvalues().maxCoeff();
+  const double best = principal_axes(mobility_[cell]).values.maxCoeff();
   return best / storage_[cell];
 }
 

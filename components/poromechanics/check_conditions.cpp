@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk::poromechanics {
@@ -47,9 +48,9 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
   const std::string add =
       "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to 'boundary:', or "
       "'displacement_normal: 0 m' to two sides that are not parallel";
-  const Eigen::SelfAdjointEigenSolver<Tensor> shifts(Tensor(resistance.topLeftCorner<2, 2>()));
-  if (shifts.eigenvalues()[0] <= round_off * shifts.eigenvalues()[1]) {
-    const std::string free = direction_text(shifts.eigenvectors().col(0));
+  const PrincipalAxes shifts = principal_axes(resistance.topLeftCorner<2, 2>());
+  if (shifts.values[0] <= round_off * shifts.values[1]) {
+    const std::string free = direction_text(shifts.axes.col(0));
     throw InputError(where, "nothing holds the rock along " + free,
                      "no side has a displacement in " + free + ", so that it may move freely", add);
   }

@@ -1,7 +1,6 @@
 #include "couplers/two_level/nodal_values.hpp"
 
-#include <Eigen/Eigenvalues>
-
+#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::couplers {
@@ -48,13 +47,12 @@ NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from
       moment += weight[i] * centred * centred.transpose();
     }
     // One or two sources (in corners) say nothing about some direction: there b is zero, so that constants stay exact.
-    const Eigen::SelfAdjointEigenSolver<Tensor> directions(moment);
+    const PrincipalAxes directions = principal_axes(moment);
     Tensor inverse = Tensor::Zero();
     for (int k = 0; k < dimension; ++k) {
-      const Point along = directions.eigenvectors().col(k);
-      if (directions.eigenvalues()[k] > round_off * mean.squaredNorm() &&
-          directions.eigenvalues()[k] > round_off * moment.trace())
-        inverse += along * along.transpose() / directions.eigenvalues()[k];
+      const Point along = directions.axes.col(k);
+      if (directions.values[k] > round_off * mean.squaredNorm() && directions.values[k] > round_off * moment.trace())
+        inverse += along * along.transpose() / directions.values[k];
     }
     const Point slope = inverse * mean;
     for (int i = 0; i < count; ++i)

@@ -1,9 +1,9 @@
 #include "couplers/well_exchange/early_resistance.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "couplers/well_exchange/well_patch.hpp"
+#include "framework/dense/least_squares.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::couplers {
@@ -40,7 +40,7 @@ std::optional<EarlyResistance> early_resistance(const Mesh& mesh, const MatrixFl
     missing[i] = bore_hole(bore * std::sqrt(decay)) - patch.transformed_pressure(decay) - early.log_of_radii;
     for (int k = 0; k < early_terms; ++k) terms(i, k) = decay * early.scales[k] / (1 + decay * early.scales[k]);
   }
-  const Vector weights = terms.colPivHouseholderQr().solve(missing);
+  const Vector weights = solve_by_pivoted_qr(terms, missing);
   for (int k = 0; k < early_terms; ++k) early.weights[k] = weights[k];
   return early;
 }

@@ -1,9 +1,9 @@
 #include "couplers/well_exchange/equivalent_radius.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "couplers/well_exchange/well_patch.hpp"
+#include "framework/dense/symmetric_eigen.hpp"
 
 namespace sprekk::couplers {
 
@@ -15,7 +15,7 @@ std::optional<double> equivalent_radius(const Mesh& mesh, const MatrixFluxes& fl
 }
 
 double radius_of_bore_hole(double radius, const Tensor& mobility) {
-  const Point values = Eigen::SelfAdjointEigenSolver<Tensor>(mobility).eigenvalues();
+  const Point values = principal_axes(mobility).values;
   const double root = std::sqrt(std::sqrt(values[1] / values[0]));
   return radius * (root + 1 / root) / 2;
 }

@@ -1,7 +1,6 @@
 // well_exchange: fluid flows between wells and the rock or the fractures in which they are open.
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include "couplers/well_exchange/early_resistance.hpp"
 #include "couplers/well_exchange/equivalent_radius.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
@@ -271,7 +271,7 @@ class WellExchange : public Coupler {
   void use_rock(int k) {
     const Tensor& mobility = fluxes_->mobility()[cells_[k]];
     resistance_[k] = log_of_radii_[k] / conductance_of_rock(k);
-    const double largest = Eigen::SelfAdjointEigenSolver<Tensor>(mobility).eigenvalues()[1];
+    const double largest = principal_axes(mobility).values[1];
     diffusivity_[k] = rock_->diffusivity(cells_[k]) * std::sqrt(mobility.determinant()) / largest;
   }
 

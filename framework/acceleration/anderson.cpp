@@ -1,8 +1,9 @@
 // anderson: the last passes are combined so that the linearized residual is least.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <deque>
 
 #include "framework/acceleration/registry.hpp"
+#include "framework/dense/least_squares.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk {
@@ -49,7 +50,7 @@ Vector Anderson::next(const Vector& x, const Vector& image) {
   if (m == 0) return image;
   Eigen::MatrixXd differences(residual.size(), m);
   for (int j = 0; j < m; ++j) differences.col(j) = residual_differences_[j];
-  const Vector weights = differences.completeOrthogonalDecomposition().solve(residual);
+  const Vector weights = LeastSquares(differences).solve(residual);
   Vector next = image;
   for (int j = 0; j < m; ++j) next -= weights[j] * image_differences_[j];
   return next;

@@ -1,5 +1,5 @@
 // iqn_ils: interface quasi-Newton with the inverse Jacobian from a least-squares model.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "framework/acceleration/registry.hpp"

@@ -1,9 +1,10 @@
 // iqn_imvj: interface quasi-Newton with the inverse Jacobian from all time steps.
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "framework/acceleration/registry.hpp"
 #include "framework/acceleration/secants.hpp"
+#include "framework/dense/svd.hpp"
 
 namespace sprekk {
 
@@ -101,7 +102,7 @@ void IqnImvj::truncate() {
   const Eigen::MatrixXd small =
       of_a.matrixQR().topRows(count).triangularView<Eigen::Upper>() *
       Eigen::MatrixXd(of_b.matrixQR().topRows(count).triangularView<Eigen::Upper>()).transpose();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(small, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const DenseSvd svd(small, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::Index rank = std::min<Eigen::Index>(options_.rank, count);
   const Eigen::MatrixXd left = of_a.householderQ() * Eigen::MatrixXd::Identity(size, count);
   const Eigen::MatrixXd right = of_b.householderQ() * Eigen::MatrixXd::Identity(size, count);

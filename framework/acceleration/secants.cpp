@@ -1,6 +1,6 @@
 #include "framework/acceleration/secants.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 #include <vector>

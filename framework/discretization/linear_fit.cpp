@@ -1,9 +1,9 @@
 #include "framework/discretization/linear_fit.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <set>
 
+#include "framework/dense/least_squares.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/point_location.hpp"
 
@@ -28,9 +28,9 @@ std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
     const Point offset = (mesh.cell_center[cells[i]] - x) / scale;
     basis.row(i) << 1, offset[0], offset[1];
   }
-  const auto decomposition = basis.completeOrthogonalDecomposition();
-  if (decomposition.rank() < 3) return {{home, 1.0}};
-  const Eigen::MatrixXd inverse = decomposition.pseudoInverse();
+  const LeastSquares fit(basis);
+  if (fit.rank() < 3) return {{home, 1.0}};
+  const Eigen::MatrixXd inverse = fit.pseudo_inverse();
   std::vector<std::pair<int, double>> weights;
   for (std::size_t i = 0; i < cells.size(); ++i) weights.emplace_back(cells[i], inverse(0, i));
   return weights;

@@ -1,9 +1,9 @@
 #include "framework/field/weights_in_cell.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <stdexcept>
 
+#include "framework/dense/least_squares.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/corner_weights.hpp"
 
@@ -20,7 +20,7 @@ std::vector<std::pair<int, double>> face_weights(const Mesh& mesh, int cell, con
     basis(k, 0) = 1;
     basis.row(k).tail<dimension>() = (mesh.face_center[faces[k]] - x) / scale;
   }
-  const Eigen::MatrixXd inverse = basis.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = LeastSquares(basis).pseudo_inverse();
   std::vector<std::pair<int, double>> weights;
   for (int k = 0; k < faces.size(); ++k) weights.emplace_back(faces[k], inverse(0, k));
   return weights;

@@ -1,12 +1,14 @@
 #include "framework/results/cell_sampler.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 #include <utility>
+
+#include "framework/dense/least_squares.hpp"
 
 namespace sprekk {
 namespace {
@@ -229,9 +231,7 @@ Position SampledArray::gradient(int cell) const {
     directions.row(k) = step / step.norm();
     changes[k] = (own_[index_of(other)] - own_[index_of(cell)]) / step.norm();
   }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit;
-  fit.setThreshold(in_line);
-  const Eigen::Vector2d solved = fit.compute(directions).solve(changes);
+  const Eigen::Vector2d solved = LeastSquares(directions, in_line).solve(changes);
   found->second = {solved[0], solved[1]};
   return found->second;
 }

@@ -62,7 +62,7 @@ function(sprekk_program name)
   target_include_directories(${name} PRIVATE ${CMAKE_BINARY_DIR}/generated)
   # Plug-ins use what the program has: all that public headers declare is in it, and is seen from outside.
   set_target_properties(${name} PROPERTIES ENABLE_EXPORTS ON)
-  set(whole sprekk_config sprekk_plugin sprekk_mesh sprekk_meshing sprekk_discretization sprekk_parallel sprekk_linear sprekk_field
+  set(whole sprekk_config sprekk_plugin sprekk_dense sprekk_mesh sprekk_meshing sprekk_discretization sprekk_parallel sprekk_linear sprekk_field
             sprekk_assembly sprekk_output sprekk_schedule sprekk_scene)
   list(JOIN whole "," whole)
   set_target_properties(${name} PROPERTIES LINK_LIBRARY_OVERRIDE "WHOLE_ARCHIVE,${whole}")

@@ -102,7 +102,7 @@ Vector contact_forces(const Eigen::MatrixXd& compliance, const Vector& gaps) {
     if (!closed.empty()) {
       const Eigen::MatrixXd matrix = compliance(closed, closed);
       const Vector right = -gaps(closed);
-      f(closed) = Vector(matrix.partialPivLu().solve(right));
+      f(closed) = DenseLu(matrix).solve(right);
     }
     const Vector gap = gaps + compliance * f;
     bool is_found = true;
@@ -169,7 +169,7 @@ BoundaryModel::BoundaryModel(FineGeometry geometry, const BoundaryOptions& optio
     for (std::size_t e = 0; e < beyond_.size(); ++e)
       outline_by_beyond_.block<2, 2 * n>(2 * i, 2 * n * e) = outline_rows(place, ElementField(beyond_[e], rock_, z));
   }
-  fit_.compute(outline_by_regular);
+  fit_ = LeastSquares(outline_by_regular);
   walls_by_regular_.resize(size, regular_.count());
   walls_by_beyond_.resize(size, 2 * n * beyond_.size());
   matrix_.resize(size, size);
@@ -188,9 +188,9 @@ BoundaryModel::BoundaryModel(FineGeometry geometry, const BoundaryOptions& optio
     add(elements_, matrix_);
     add(beyond_, walls_by_beyond_);
   }
-  matrix_ -= walls_by_regular_ * fit_.solve(outline_by_jumps_);
+  matrix_ -= walls_by_regular_ * fit_.solve_columns(outline_by_jumps_);
   const ScopedTimer factorizing(*profile_, "factorization");
-  factorized_.compute(matrix_);
+  factorized_ = DenseLu(matrix_);
 }
 
 /// Makes stresses on the outline comparable with displacements.
@@ -346,7 +346,7 @@ Vector BoundaryModel::jumps(const FineLoads& loads, const Given& given) const {
     for (int j = 0; j < n; ++j)
       units.block<2, 1>(2 * (contact.first_node + j), i) = hat(i % 2, element_places()[j]) * contact.traction;
   }
-  const Eigen::MatrixXd by_units = factorized_.solve(units);
+  const Eigen::MatrixXd by_units = factorized_.solve_columns(units);
   const auto gaps = [&](const Vector& jumps, bool with_opening) {
     Vector gaps = Vector::Zero(count);
     for (Eigen::Index i = 0; i < count; ++i) {

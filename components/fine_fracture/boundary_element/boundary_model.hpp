@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -12,6 +10,8 @@
 #include "components/fine_fracture/boundary_element/offset_field.hpp"
 #include "components/fine_fracture/boundary_element/regular_field.hpp"
 #include "components/fine_fracture/fine_level/fine_level.hpp"
+#include "framework/dense/least_squares.hpp"
+#include "framework/dense/lu.hpp"
 #include "framework/output/profile.hpp"
 
 namespace sprekk::fine_fracture {
@@ -95,8 +95,8 @@ class BoundaryModel : public FineLevel {
   RegularField regular_;
   std::optional<OffsetField> offset_;
   Eigen::MatrixXd outline_by_jumps_, outline_by_beyond_, walls_by_beyond_, walls_by_regular_, matrix_;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factorized_;
+  LeastSquares fit_;
+  DenseLu factorized_;
 };
 
 }  // namespace sprekk::fine_fracture

@@ -19,7 +19,7 @@ OffsetField::OffsetField(const std::vector<Point>& places, const Elasticity& roc
     linear_.row(i) << 1, x[0], x[1];
     for (Eigen::Index k = 0; k < count; ++k) distances(i, k) = (places_[i] - places_[k]).norm();
   }
-  distances_.compute(distances);
+  distances_ = DenseLu(distances);
 }
 
 OffsetField::Solution OffsetField::solution(const Eigen::Matrix3Xd& offsets,
@@ -33,7 +33,7 @@ OffsetField::Solution OffsetField::solution(const Eigen::Matrix3Xd& offsets,
       const Point mean = rest.rowwise().mean();
       solution.mean_force_ += mean;
       rest.colwise() -= mean;
-      solution.force_weights_ = distances_.solve(rest.transpose()).transpose();
+      solution.force_weights_ = distances_.solve_columns(rest.transpose()).transpose();
     }
   }
   if (offsets.cols() == 0) {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <vector>
 
 #include "components/fine_fracture/boundary_element/crack_elements.hpp"
+#include "framework/dense/lu.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -53,7 +53,7 @@ class OffsetField {
   double size_;
   double along_;  ///< 1/(45 (1 − nu))
   Eigen::MatrixX3d linear_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> distances_;
+  DenseLu distances_;
 };
 
 }  // namespace sprekk::fine_fracture

@@ -1,11 +1,11 @@
 #include "components/fine_fracture/fine_level/quadrature.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
+#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::fine_fracture {
@@ -16,10 +16,10 @@ std::vector<LinePoint> gauss_legendre(int n) {
   SPREKK_EXPECT(n > 0, n);
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
   for (int i = 1; i < n; ++i) jacobi(i, i - 1) = jacobi(i - 1, i) = i / std::sqrt(4.0 * i * i - 1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
+  const SymmetricEigen eigen = symmetric_eigen(jacobi);
   std::vector<LinePoint> rule;
   for (int i = 0; i < n; ++i) {
-    rule.push_back({0.5 * (1 + eigen.eigenvalues()[i]), std::pow(eigen.eigenvectors()(0, i), 2)});
+    rule.push_back({0.5 * (1 + eigen.values[i]), std::pow(eigen.vectors(0, i), 2)});
   }
   return rule;
 }

@@ -1,11 +1,11 @@
 // The step from one trial of a search for a front to the next one.
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "components/fine_fracture/growth/front.hpp"
 #include "components/fine_fracture/growth/front_limits.hpp"
 #include "components/fine_fracture/growth/linear_front.hpp"
+#include "framework/dense/lu.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -37,12 +37,12 @@ Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::Ve
     return Eigen::MatrixXd(jacobian(free, free));
   };
   Eigen::MatrixXd matrix = matrix_of_front();
-  if (!matrix.fullPivLu().isInvertible()) {
+  if (!FullPivotingLu(matrix).is_invertible()) {
     // Loads that were once found not to depend on lengths would leave the tips where they are.
     forget();
     matrix = matrix_of_front();
   }
-  return matrix.fullPivLu().solve(-count_loads(residual, front)(free));
+  return FullPivotingLu(matrix).solve(-count_loads(residual, front)(free));
 }
 
 /// Whether a tip would turn further than any turn for which the slopes of K_II hold.
@@ -80,9 +80,9 @@ std::optional<Eigen::VectorXd> Front::step_to_linear_front(const std::vector<int
   for (const int unknown : free)
     if (std::ranges::find(lengths, unknown) == lengths.end()) others.push_back(unknown);
   const Eigen::MatrixXd& jacobian = slopes_.jacobian;
-  const Eigen::FullPivLU<Eigen::MatrixXd> factors(jacobian(others, others));
-  if (!factors.isInvertible()) return std::nullopt;
-  const Eigen::MatrixXd follow = -factors.solve(Eigen::MatrixXd(jacobian(others, lengths)));
+  const FullPivotingLu factors(jacobian(others, others));
+  if (!factors.is_invertible()) return std::nullopt;
+  const Eigen::MatrixXd follow = -factors.solve_columns(Eigen::MatrixXd(jacobian(others, lengths)));
   const Eigen::VectorXd own = -factors.solve(Eigen::VectorXd(residual(others)));
   const Eigen::VectorXd at = advances(tips);
   const auto advances = linear_front({residual(lengths) + jacobian(lengths, others) * own,
@@ -90,8 +90,9 @@ std::optional<Eigen::VectorXd> Front::step_to_linear_front(const std::vector<int
                                      options_.mesh_error);
   if (!advances) return std::nullopt;
   Eigen::VectorXd all = Eigen::VectorXd::Zero(residual.size());
-  all(lengths) = *advances - at;
-  all(others) = own + follow * (*advances - at);
+  const Eigen::VectorXd of_lengths = *advances - at, of_others = own + follow * of_lengths;
+  for (std::size_t i = 0; i < lengths.size(); ++i) all[lengths[i]] = of_lengths[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < others.size(); ++i) all[others[i]] = of_others[static_cast<Eigen::Index>(i)];
   return Eigen::VectorXd(all(free));
 }
 

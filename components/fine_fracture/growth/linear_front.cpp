@@ -1,9 +1,9 @@
 #include "components/fine_fracture/growth/linear_front.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "components/fine_fracture/growth/most_equal_front.hpp"
+#include "framework/dense/lu.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::fine_fracture {
@@ -41,8 +41,8 @@ class Search {
       for (Eigen::Index i = 0; i < left.size(); ++i)
         if (advances[i] > 0 || front.residual[i] > 0) free.push_back(i);
       const Eigen::MatrixXd jacobian = front.by_load * model_.slopes + front.by_advance;
-      const Eigen::FullPivLU<Eigen::MatrixXd> factors(jacobian(free, free));
-      if (!factors.isInvertible()) return false;
+      const FullPivotingLu factors(jacobian(free, free));
+      if (!factors.is_invertible()) return false;
       Eigen::VectorXd move = Eigen::VectorXd::Zero(left.size());
       move(free) = -factors.solve(left(free));
       double part = 1;

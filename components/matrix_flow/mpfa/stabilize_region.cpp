@@ -1,10 +1,10 @@
 // Interaction regions with quadrilaterals whose flow would gain energy.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
-#include "framework/linear/dense_svd.hpp"
+#include "framework/dense/svd.hpp"
+#include "framework/dense/symmetric_eigen.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
@@ -60,8 +60,7 @@ bool LocalFluxes::dissipates(const InteractionRegion& region, const std::vector<
   const Matrix power = dissipation(region, conditions);
   const Eigen::VectorXd scale = scale_of(power);
   const Eigen::MatrixXd scaled = scale.asDiagonal() * power * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] >= -round_off * columns_;
+  return symmetric_eigenvalues(scaled)[0] >= -round_off * columns_;
 }
 
 LocalFluxes::Matrix LocalFluxes::kinks(const Mesh& mesh, int node, const InteractionRegion& region) const {

@@ -1,11 +1,11 @@
 #include "components/matrix_flow/mpfa/tip_energy.hpp"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <map>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 #include "components/matrix_flow/mpfa/tip_correction.hpp"
+#include "framework/dense/cholesky.hpp"
 #include "framework/discretization/interaction_region.hpp"
 
 namespace sprekk::matrix_flow {
@@ -77,7 +77,7 @@ double dissipative_part(const Eigen::MatrixXd& linear, const Eigen::MatrixXd& ad
     const Eigen::MatrixXd whole = linear + part * added;
     Eigen::MatrixXd form = scale.asDiagonal() * (0.5 * (whole + whole.transpose())) * scale.asDiagonal();
     form.diagonal().array() += round_off * static_cast<double>(linear.rows());
-    if (Eigen::LLT<Eigen::MatrixXd>(form).info() == Eigen::Success) return part;
+    if (DenseCholesky(form).is_positive_definite()) return part;
   }
   return 0;
 }

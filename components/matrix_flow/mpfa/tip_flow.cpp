@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/linear/dense_svd.hpp"
+#include "framework/dense/svd.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {

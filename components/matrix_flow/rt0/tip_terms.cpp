@@ -1,9 +1,9 @@
 #include "components/matrix_flow/rt0/tip_terms.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "components/matrix_flow/mpfa/tip_energy.hpp"
+#include "framework/dense/cholesky.hpp"
 #include "framework/discretization/ends_nearby.hpp"
 
 namespace sprekk::matrix_flow {
@@ -71,9 +71,10 @@ class Power {
     for (const int k : given) fluxes(k, faces_.at(faces[k])) = 1;
     if (!free.empty()) {
       const Eigen::MatrixXd free_mass = mass(free, free), coupling = mass(free, given);
-      const Eigen::LLT<Eigen::MatrixXd> factors(free_mass);
-      const Eigen::MatrixXd of_free = factors.solve(drops(free, Eigen::all) - coupling * fluxes(given, Eigen::all));
-      const Eigen::MatrixXd of_modes = factors.solve(Eigen::MatrixXd(term.missing(free, Eigen::all)));
+      const DenseCholesky factors(free_mass);
+      const Eigen::MatrixXd of_free =
+          factors.solve_columns(drops(free, Eigen::all) - coupling * fluxes(given, Eigen::all));
+      const Eigen::MatrixXd of_modes = factors.solve_columns(term.missing(free, Eigen::all));
       fluxes(free, Eigen::all) = of_free;
       modes_of_fluxes(free, Eigen::all) = of_modes;
     }

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "framework/dense/cholesky.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::poromechanics {
@@ -55,7 +56,7 @@ CellStiffness cell_stiffness(const std::vector<CellPoint>& points, const Stiffne
     mass += point.weight * value * value.transpose();
     moments += point.weight * value * divergence(point, functions);
   }
-  const Eigen::MatrixXd projection = mass.llt().solve(moments);
+  const Eigen::MatrixXd projection = DenseCholesky(mass).solve_columns(moments);
 
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(columns, columns);
   for (const CellPoint& point : points) {

@@ -1,15 +1,15 @@
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "components/poromechanics/mpsa/tip_correction.hpp"
+#include "framework/dense/least_squares.hpp"
+#include "framework/dense/svd.hpp"
 #include "framework/invariants.hpp"
-#include "framework/linear/dense_svd.hpp"
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::poromechanics {
@@ -319,7 +319,7 @@ void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& regi
         matrix(row, i) = weight[open[i]];
         if (weight[open[i]] > 0) target.row(row) = weight[open[i]] / svd.singularValues()[open[i]] * along.row(open[i]);
       }
-      q += opened * matrix.completeOrthogonalDecomposition().solve(target);
+      q += opened * LeastSquares(matrix).solve_columns(target);
     }
   }
   system.rightCols(columns_) = of_cell + arms * gradient * q;

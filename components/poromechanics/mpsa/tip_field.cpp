@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "framework/linear/dense_svd.hpp"
+#include "framework/dense/svd.hpp"
 
 namespace sprekk::poromechanics {
 namespace {

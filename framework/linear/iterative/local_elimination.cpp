@@ -1,11 +1,11 @@
 #include "framework/linear/iterative/local_elimination.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
+#include "framework/dense/lu.hpp"
 #include "framework/invariants.hpp"
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/gather_entries.hpp"
@@ -64,8 +64,8 @@ Eigen::MatrixXd inverse_or_zero(Eigen::MatrixXd a) {
   const Vector column_size = a.cwiseAbs().colwise().maxCoeff();
   if (column_size.minCoeff() == 0) return Eigen::MatrixXd::Zero(a.rows(), a.cols());
   a = a * column_size.cwiseInverse().asDiagonal();
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(a);
-  if (!lu.isInvertible()) return Eigen::MatrixXd::Zero(a.rows(), a.cols());
+  const FullPivotingLu lu(a);
+  if (!lu.is_invertible()) return Eigen::MatrixXd::Zero(a.rows(), a.cols());
   return column_size.cwiseInverse().asDiagonal() * lu.inverse() * row_size.cwiseInverse().asDiagonal();
 }
 

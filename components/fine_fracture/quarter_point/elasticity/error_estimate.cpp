@@ -1,12 +1,12 @@
 #include "components/fine_fracture/quarter_point/elasticity/error_estimate.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/auxiliary_field.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
+#include "framework/dense/least_squares.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
 
@@ -112,7 +112,7 @@ class Recovery {
         values.row(row++) = components(solution_.elastic_stress_at({e, place.xi, place.eta})) - singular(patch.tip, x);
       }
     }
-    patch.coefficients = rows.completeOrthogonalDecomposition().solve(values);
+    patch.coefficients = LeastSquares(rows).solve_columns(values);
     return patch;
   }
 

@@ -1,12 +1,12 @@
 #include "components/fine_fracture/quarter_point/elasticity/sliding_walls.hpp"
 
-#include <Eigen/LU>
 #include <map>
 #include <stdexcept>
 
 #include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
+#include "framework/dense/lu.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -88,10 +88,7 @@ Vector SlidingContact::displacement(
     f = Vector::Zero(count_);
     const Eigen::MatrixXd matrix = compliance(closed, closed);
     const Vector right = -gaps_without(closed);
-    if (!closed.empty()) {
-      const Vector solved = matrix.partialPivLu().solve(right);
-      f(closed) = solved;
-    }
+    if (!closed.empty()) f(closed) = DenseLu(matrix).solve(right);
     const Vector gap = gaps_without + compliance * f;
     bool is_found = true;
     for (int i = 0; i < count_; ++i) {

@@ -1,3 +1,3 @@
-#include "framework/linear/dense_svd.hpp"
+#include "framework/dense/svd.hpp"
 
 template class Eigen::JacobiSVD<Eigen::MatrixXd>;

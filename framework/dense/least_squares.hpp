@@ -1,0 +1,30 @@
+// The least squares problem of a dense matrix of any rank.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+
+namespace sprekk {
+
+/// Minimizes |A x − b|, and |x| among all that do, by a complete orthogonal decomposition of A. Copies share it.
+class LeastSquares {
+ public:
+  LeastSquares() = default;
+  /// `threshold`: pivots below this part of the largest one count as zero; round-off without it.
+  explicit LeastSquares(const Eigen::MatrixXd& matrix, const std::optional<double>& threshold = {});
+  Eigen::Index rank() const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  /// For each column of `right`.
+  Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& right) const;
+  Eigen::MatrixXd pseudo_inverse() const;
+
+ private:
+  struct Factors;
+  std::shared_ptr<const Factors> factors_;
+};
+
+/// The same for a matrix of full rank, by QR with column pivoting.
+Eigen::VectorXd solve_by_pivoted_qr(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+}  // namespace sprekk

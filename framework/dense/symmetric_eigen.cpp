@@ -1,0 +1,25 @@
+#include "framework/dense/symmetric_eigen.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "framework/assert.hpp"
+
+namespace sprekk {
+
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix) {
+  SPREKK_EXPECT(matrix.rows() == matrix.cols(), matrix.rows(), matrix.cols());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
+  SPREKK_EXPECT(matrix.rows() == matrix.cols(), matrix.rows(), matrix.cols());
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+PrincipalAxes principal_axes(const Tensor& tensor) {
+  const Eigen::SelfAdjointEigenSolver<Tensor> solver(tensor);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+}  // namespace sprekk

@@ -1,0 +1,25 @@
+// Eigenvalues and eigenvectors of symmetric matrices.
+#pragma once
+
+#include "framework/types.hpp"
+
+namespace sprekk {
+
+/// Of a symmetric matrix of any size; only its lower triangle is read.
+struct SymmetricEigen {
+  Eigen::VectorXd values;   ///< in ascending order
+  Eigen::MatrixXd vectors;  ///< a column each, of length 1
+};
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
+
+/// In ascending order.
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
+
+/// Of a symmetric tensor.
+struct PrincipalAxes {
+  Point values;  ///< in ascending order
+  Tensor axes;   ///< a column each, of length 1
+};
+PrincipalAxes principal_axes(const Tensor& tensor);
+
+}  // namespace sprekk
