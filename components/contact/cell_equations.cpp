@@ -11,7 +11,7 @@ CellEquations equations_of(const Trial& t, const Point& traction, const CellSett
   SPREKK_EXPECT(settings.normal_stiffness > 0 && settings.tangential_stiffness > 0, settings.normal_stiffness,
                 settings.tangential_stiffness);
   const double f_n = traction[0], c_n = settings.normal_stiffness, c_t = settings.tangential_stiffness;
-  const bool has_present = settings.has_present;
+  const double gap_by_f = t.gap_by_traction - settings.normal_compliance;
   const TangentialVector f_t = traction.tail<dimension - 1>();
   CellEquations equations;
   Point& own = equations.residual;
@@ -28,22 +28,22 @@ CellEquations equations_of(const Trial& t, const Point& traction, const CellSett
     gap_by_u << 1, -t.slip_direction.transpose() * t.dilation;
     const auto gap_by_t = gap_by_u.template tail<tangents>();
     auto by_f_t = by_f.bottomRightCorner<tangents, tangents>();
-    own[0] = t.is_open() ? (f_n - t.tension) / c_n : has_present ? -t.gap : (f_n - t.normal) / c_n;
+    own[0] = t.is_open() ? (f_n - t.tension) / c_n : -t.gap;
     own.template tail<tangents>() = (f_t - returned.tangential) / c_t;
     if (t.is_open()) {
       by_f(0, 0) = 1 / c_n;
     } else {
-      by_f(0, 0) = (has_present ? 0 : 1 / c_n) - t.gap_by_traction;
+      by_f(0, 0) = -gap_by_f;
       by_u.row(0) = -gap_by_u;
     }
     by_u.bottomRightCorner<tangents, tangents>() = -returned.by_trial;
     by_f_t.setIdentity();
-    if (has_present) by_f_t -= returned.by_trial;
+    by_f_t -= (1 - c_t * settings.tangential_compliance) * returned.by_trial;
     by_f_t /= c_t;
     if (t.normal <= 0 && (t.at_rate || !t.sticks())) {
       const TangentialVector by_normal =
           (t.at_rate ? t.at_rate->by_pressure : TangentialVector(returned.by_bound * t.strength.friction)) / c_t;
-      by_f.bottomLeftCorner<tangents, 1>() = by_normal * (has_present + c_n * t.gap_by_traction);
+      by_f.bottomLeftCorner<tangents, 1>() = by_normal * (1 + c_n * gap_by_f);
       by_u.bottomLeftCorner<tangents, 1>() = by_normal * c_n;
       by_u.bottomRightCorner<tangents, tangents>() += by_normal * c_n * gap_by_t;
     }

@@ -18,9 +18,9 @@ struct CellEquations {
 
 /// What else the equations of a cell depend on.
 struct CellSettings {
-  double normal_stiffness, tangential_stiffness;  ///< c, Pa/m, positive
-  bool has_present;                               ///< whether the trial's traction is that of the iterate
-  bool weakens;                                   ///< whether strength depends on the path
+  double normal_stiffness, tangential_stiffness;    ///< c, Pa/m, positive
+  double normal_compliance, tangential_compliance;  ///< of springs between the walls, m/Pa; 0 where there are none
+  bool weakens;                                     ///< whether strength depends on the path
 };
 
 /// The equations of a cell with this traction, Pa, whose trial is given (FrictionalContact has the formulas).

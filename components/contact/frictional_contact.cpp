@@ -94,7 +94,7 @@ std::vector<double> FrictionalContact::switch_times() const {
 }
 
 void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
-  stiffness_of_walls_ = stiffness_factor_ * stiffness;
+  stiffness_of_walls_ = stiffness;
   stiffness_of_fractures_ = stiffness_of_walls_;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
@@ -266,7 +266,6 @@ std::uint64_t FrictionalContact::discrete_state() const {
 void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
   if (!assembly.has_row(traction_)) return;
   const int count = mesh_.fracture_cell_count();
-  const bool has_present = trial_has_present();
   const bool guesses = assembly.wants_derivatives() && !follows_pieces_;
   Vector residual(dimension * count);
   SPREKK_ASSERT(residual.size() == traction_.size(), residual.size(), traction_.size());
@@ -281,8 +280,9 @@ void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
       cell.residual = bonded_jump_.segment<dimension>(row) - jump_.now().segment<dimension>(row);
       cell.by_jump.diagonal().setConstant(-1);
     } else {
+      const Point springs = compliance(i);
       cell = equations_of(guesses ? trial_of_update(i) : trial(i), traction_.now().segment<dimension>(row),
-                          {stiffness()[row], stiffness()[row + 1], has_present, path_ != nullptr});
+                          {stiffness()[row], stiffness()[row + 1], springs[0], springs[1], path_ != nullptr});
     }
     residual.segment<dimension>(row) = cell.residual;
     by_traction.push_back(cell.by_traction);

@@ -67,7 +67,7 @@ class FrictionalContact : public Component,
                           public LivesInPart,
                           public LimitsStep {
  public:
-  /// `stiffness_factor`: c over the stiffness of the rock against a jump of the cell.
+  /// `stiffness_factor`: of springs between the walls over the rock against a jump of the cell (Multiplier).
   FrictionalContact(const ComponentContext& context, const Options& options,
                     Multiplier multiplier = Multiplier::present, double stiffness_factor = 1);
   ~FrictionalContact() override;
@@ -131,18 +131,19 @@ class FrictionalContact : public Component,
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
-  /// By penalty the stiffness is part of the answer, which may not depend on how Newton's method finds it.
-  const Vector& stiffness() const {
-    return is_without_shortcuts_ && multiplier_ != Multiplier::none ? stiffness_of_walls_ : stiffness_of_fractures_;
-  }
+  /// c of the trial, which decides how Newton's method finds the answer and not the answer.
+  const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
+  /// The compliance of the springs between the walls of a cell, m/Pa, (normal, tangential); 0 without springs. By
+  /// penalty it is part of the answer, which may not depend on how Newton's method finds it.
+  Point compliance(int cell) const;
   Trial trial(int cell) const;
   /// What friction at a slip rate makes of the trial.
   Trial::AtRate at_rate(int cell, const Trial& trial) const;
-  Vector slips() const;  ///< m, now, along the tangents of each cell
-  /// Whether the trial's traction is that of the iterate.
-  bool trial_has_present() const;
-  double multiplier(int cell) const;                       ///< Pa, normal
-  TangentialVector tangential_multiplier(int cell) const;  ///< Pa
+  Vector slips() const;                                    ///< m, now, along the tangents of each cell
+  double multiplier(int cell) const;                       ///< Pa, normal, where the springs hold nothing
+  TangentialVector tangential_multiplier(int cell) const;  ///< Pa, likewise
+  /// What springs add to the gap, m: negative where they are pressed together.
+  double overlap(int cell) const;
   /// The opening by dilation, m, after slip of this size, and its derivative.
   double dilated(int cell, double slip) const;
   double dilation_at(int cell, double slip) const;
@@ -176,7 +177,7 @@ class FrictionalContact : public Component,
   std::optional<double> dilation_limit_;  ///< m
   Weakening weakening_;
   Multiplier multiplier_;
-  double stiffness_factor_;
+  double stiffness_factor_;           ///< of the springs over c
   Vector last_;                       ///< Pa, the traction of the iterate before; empty at the start of a step
   std::unique_ptr<Closure> closure_;  ///< null for hard walls
   std::unique_ptr<RateAndStateWalls> rate_and_state_;  ///< null where friction does not depend on the rate

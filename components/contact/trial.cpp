@@ -15,9 +15,12 @@ TangentialVector FrictionalContact::tangential(const Vector& values, int i) {
   return values.segment<dimension - 1>(dimension * i + 1);
 }
 
-bool FrictionalContact::trial_has_present() const {
-  return multiplier_ == Multiplier::present ||
-         (multiplier_ == Multiplier::last && (is_without_shortcuts_ || last_.size() == 0));
+Point FrictionalContact::compliance(int i) const {
+  const bool has_springs = multiplier_ == Multiplier::none ||
+                           (multiplier_ == Multiplier::last && !is_without_shortcuts_ && last_.size() > 0);
+  if (!has_springs) return Point::Zero();
+  const Vector& rock = multiplier_ == Multiplier::last ? stiffness_of_walls_ : stiffness_of_fractures_;
+  return (stiffness_factor_ * rock.segment<dimension>(dimension * i)).cwiseInverse();
 }
 
 double FrictionalContact::dynamic_friction(int i) const {
@@ -45,13 +48,16 @@ double FrictionalContact::path(int i, double gap) const {
 }
 
 double FrictionalContact::multiplier(int i) const {
-  if (trial_has_present()) return traction_.now()[dimension * i];
   return multiplier_ == Multiplier::last ? last_[dimension * i] : 0.0;
 }
 
 TangentialVector FrictionalContact::tangential_multiplier(int i) const {
-  if (trial_has_present()) return tangential(traction_.now(), i);
   return tangential(multiplier_ == Multiplier::last ? last_ : traction_.accepted(), i);
+}
+
+double FrictionalContact::overlap(int i) const {
+  const double compliance = this->compliance(i)[0];
+  return compliance > 0 ? compliance * (traction_.now()[dimension * i] - multiplier(i)) : 0.0;
 }
 
 Trial FrictionalContact::trial(int i) const {
@@ -76,11 +82,16 @@ Trial FrictionalContact::trial(int i) const {
   }
   t.tension = t.strength.tension;
   t.holds_open = t.strength.cohesion > 0;
-  t.normal = multiplier(i) + c_n * t.gap;
-  t.tangential = tangential_multiplier(i) + c_t * (u_t - tangential(jump_.accepted(), i));
+  t.gap -= overlap(i);
+  const TangentialVector f_t = tangential(traction_.now(), i);
+  TangentialVector slipped = u_t - tangential(jump_.accepted(), i);
+  if (const double compliance = this->compliance(i)[1]; compliance > 0)
+    slipped -= compliance * (f_t - tangential_multiplier(i));
+  t.normal = traction_.now()[row] + c_n * t.gap;
+  t.tangential = f_t + c_t * slipped;
   if (path_) {
-    const TangentialVector slipped = u_t - tangential(jump_.accepted(), i);
-    t.path_by_slip = direction_of<dimension - 1>(magnitude<dimension - 1>(slipped) > 0 ? slipped : t.tangential);
+    const TangentialVector moved = u_t - tangential(jump_.accepted(), i);
+    t.path_by_slip = direction_of<dimension - 1>(magnitude<dimension - 1>(moved) > 0 ? moved : t.tangential);
   }
   t.bound = t.strength.cohesion - t.strength.friction * std::min(0.0, t.normal);
   // Friction that depends on the slip rate has no cone.
@@ -140,10 +151,10 @@ Trial FrictionalContact::trial_of_update(int i) const {
   // The linear function on the other side of the kink, at the same slip: the opening by dilation has the other sign.
   const double slip = t.slip_direction.dot(tangential(jump_.now(), i));
   t.gap = jump_.now()[dimension * i] - std::copysign(dilated(i, std::abs(slip)), slip) +
-          closure(traction_.now()[dimension * i]);
+          closure(traction_.now()[dimension * i]) - overlap(i);
   // The walls touch, whatever the sign of the normal trial traction: the linear function passes through the values
   // beyond the kink.
-  const double normal = multiplier(i) + stiffness()[dimension * i] * t.gap;
+  const double normal = traction_.now()[dimension * i] + stiffness()[dimension * i] * t.gap;
   t.bound = t.strength.cohesion - t.strength.friction * normal;
   t.normal = std::min(normal, 0.0);
   return t;

@@ -11,7 +11,7 @@ namespace {
 
 /// A crack of 0.1 m under 15 MPa across and 5 MPa along it, at 45 degrees to both, with a friction of 0.5, whose fluid
 /// has 12 MPa in the first second and another pressure in the second one.
-std::string scene(double pressure, double angle, int cells, double dilation) {
+std::string scene(double pressure, double angle, int cells, double dilation, const char* type = "coulomb") {
   const double c = std::cos(2 * (angle - 45) * M_PI / 180), s = std::sin(2 * (angle - 45) * M_PI / 180);
   const double xx = -15e6 - 5e6 * c, yy = -15e6 + 5e6 * c, xy = -5e6 * s;
   return fmt::format(
@@ -22,10 +22,10 @@ std::string scene(double pressure, double angle, int cells, double dilation) {
       "{{displacement_y: 0 m, traction_x: {5:.17g} Pa}}, right: {{traction: [{2:.17g} Pa, {4:.17g} Pa]}}, top: "
       "{{traction: [{4:.17g} Pa, {3:.17g} Pa]}}}}}}, conduit: {{type: fracture_flow/tpfa, viscosity: 1.0e-4 Pa*s, "
       "fluid_compressibility: 4.0e-10 1/Pa, initial_aperture: 1 mm, prescribed: {{everywhere: {{fracture: main, "
-      "pressure: '12e6 + ({6:.17g} * 1e6 - 12e6) * max(0, t - 1)'}}}}}}, contact: {{type: contact/coulomb, "
+      "pressure: '12e6 + ({6:.17g} * 1e6 - 12e6) * max(0, t - 1)'}}}}}}, contact: {{type: contact/{8}, "
       "friction: 0.5, dilation_angle: {7} deg}}}}, couplers: [{{type: wall_traction, between: [rock, contact, "
       "conduit]}}], schedule: [{{solve: [rock, conduit, contact]}}], time: {{end: 2 s, step: 1 s}}}}",
-      angle, 0.1 / cells * (1 + 1e-9), xx, yy, xy, -xy, pressure, dilation);
+      angle, 0.1 / cells * (1 + 1e-9), xx, yy, xy, -xy, pressure, dilation, type);
 }
 
 class Unloading : public ::testing::TestWithParam<double> {};
@@ -48,6 +48,25 @@ TEST_P(Unloading, SticksAtOnce) {
       EXPECT_EQ(run.quantity("contact.cells_stick"), cells);
       EXPECT_LT((run.field("contact.jump") - slipped).lpNorm<Eigen::Infinity>(),
                 1e-9 * slipped.lpNorm<Eigen::Infinity>());
+    }
+}
+
+// With springs between the walls, too: the stiffness of the springs is that of the answer, and not that by which a cell
+// is told to stick.
+TEST_P(Unloading, SticksSoonWithSprings) {
+  for (const char* type : {"augmented_lagrangian", "penalty"})
+    for (const double dilation : {0.0, 2.0}) {
+      SceneRun run = SceneRun::from_text(scene(2, GetParam(), 40, dilation, type));
+      ASSERT_TRUE(run.step());
+      const Vector slipped = run.field("contact.jump");
+      ASSERT_TRUE(run.step());
+      RecordProperty(fmt::format("{}_{}", type, dilation), run.iterations());
+      EXPECT_LE(run.iterations(), 10) << type << " " << dilation;
+      EXPECT_EQ(run.quantity("contact.cells_stick"), 40);
+      // Elastic slip is that of springs a hundred times as stiff as the rock.
+      const double elastic = type == std::string("penalty") ? 0.02 : 1e-9;
+      EXPECT_LT((run.field("contact.jump") - slipped).lpNorm<Eigen::Infinity>(),
+                elastic * slipped.lpNorm<Eigen::Infinity>());
     }
 }
 
