@@ -2,14 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
 #include "components/capabilities/rock_stress.hpp"
+#include "couplers/found_modulus.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/field/ownership.hpp"
@@ -44,14 +48,18 @@ struct BiotOptions {
                    .doc = "The stabilization fixed_stress of split schemes is this times alpha^2/K, with the modulus "
                           "K of `fixed_stress_modulus`.",
                    .source = "Kim, Tchelepi, Juanes 2011"});
-    spec.choice("fixed_stress_modulus", fixed_stress_modulus,
-                {{"bulk", "the drained bulk modulus"},
-                 {"uniaxial", "lambda + 2 G: one pass is enough where the displacement is irrotational"},
-                 {"optimal",
-                  "the harmonic mean of lambda + 2 G and the bulk modulus in the plane, lambda + G: the middle of what "
-                  "pressures of any shape displace"}},
-                {.doc = "The modulus of the stabilization fixed_stress.",
-                 .source = "Kim, Tchelepi, Juanes 2011; Storvik, Both, Kumar, Nordbotten, Radu 2019"});
+    spec.choice(
+        "fixed_stress_modulus", fixed_stress_modulus,
+        {{"bulk", "the drained bulk modulus"},
+         {"uniaxial", "lambda + 2 G: one pass is enough where the displacement is irrotational"},
+         {"optimal",
+          "the harmonic mean of lambda + 2 G and the bulk modulus in the plane, lambda + G: the middle of what "
+          "pressures of any shape displace"},
+         {"found",
+          "between lambda + 2 G and lambda + G, as the volume of the rock has followed the pressure in the first "
+          "passes of each time step"}},
+        {.doc = "The modulus of the stabilization fixed_stress.",
+         .source = "Kim, Tchelepi, Juanes 2011; Storvik, Both, Kumar, Nordbotten, Radu 2019"});
     spec.quantity("fixed_stress_value", fixed_stress_value,
                   {.unit = "1/Pa",
                    .range = positive(),
@@ -83,7 +91,11 @@ struct BiotOptions {
 ///
 /// alpha and the compressibility of the grains are taken at the end of the step. They multiply changes of the state: a
 /// change of alpha or of the compressibility alone moves no fluid.
-class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals, public CountsFromHere {
+class Biot : public Coupler,
+             public StabilizesPreconditioner,
+             public KeepsTotals,
+             public CountsFromHere,
+             public HoldsAmounts {
  public:
   Biot(const CouplerContext& context, const BiotOptions& options)
       : Coupler(context.name),
@@ -124,7 +136,19 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   }
 
   bool allows_stages() const override { return true; }
-  void begin_step(const StepTime&) override {}
+  void begin_step(const StepTime&) override { found_.begin_step(); }
+  void accepted() override { found_.accepted(); }
+  void rewound() override { found_.rewound(); }
+  void carry_over(const Part& before, const MeshChange&) override {
+    found_.restore(dynamic_cast<const Biot&>(before).found_.share());
+  }
+  void save(std::map<std::string, Vector>& state) const override {
+    if (finds_modulus()) state[key_of_found()] = Vector::Constant(1, found_.share());
+  }
+  void restore(const std::map<std::string, Vector>& state) override {
+    if (const auto kept = state.find(key_of_found()); kept != state.end() && kept->second.size() == 1)
+      found_.restore(kept->second[0]);
+  }
 
   void assemble(Assembly& assembly, const StepTime&) const override {
     const Field& pressure = fluid_.pressure();
@@ -148,7 +172,10 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
 
   void after_solve(const std::vector<Field*>& solved, const StepTime&) override {
     const Field& pressure = fluid_.pressure();
-    if (std::find(solved.begin(), solved.end(), &pressure) == solved.end()) return;
+    if (std::find(solved.begin(), solved.end(), &pressure) == solved.end()) {
+      if (finds_modulus()) look_at_rock(solved);
+      return;
+    }
     Vector stored = stored_.accepted() + grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted());
     if (!decoupled_ && !options_.one_way) {
       Vector volume = rock_.volume_change().now();
@@ -229,7 +256,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   std::vector<double> switch_times() const override { return options_.biot_coefficient.switch_times(); }
 
   std::vector<std::string> stabilizations() const override {
-    return options_.one_way ? std::vector<std::string>{} : std::vector<std::string>{"fixed_stress"};
+    return options_.one_way ? std::vector<std::string>{} : std::vector<std::string>{"fixed_stress", undrained};
   }
   void stabilize(const std::string& scheme, Stabilization& stabilization) const override {
     if (decoupled_ || options_.one_way || scheme != "fixed_stress") return;
@@ -243,11 +270,25 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
     const auto [place, fresh] = stabilization.try_emplace(&fluid_.pressure(), diagonal);
     if (!fresh) place->second += diagonal;
   }
+  /// The undrained split (Kim, Tchelepi and Juanes 2011): the rock is solved for with the mass of fluid in each cell
+  /// held, so its stiffness is the undrained one.
+  std::vector<const Field*> holds_amounts_of(const std::string& scheme) const override {
+    if (decoupled_ || options_.one_way || scheme != undrained) return {};
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      if (fluid_.is_in_cell(c) && alpha_[c] > 0 && std::isinf(fluid_.diffusivity(c)) && grain_capacity_[c] == 0)
+        throw InputError(origin_, "'stabilize: undrained' needs fluid that is stored",
+                         "without storage rock whose fluid stays in it would not change its volume: cell at " +
+                             to_text(mesh_.cell_center[c]),
+                         "give a storage, or use 'stabilize: fixed_stress' in the solve of the flow");
+    return {&fluid_.pressure()};
+  }
   void stabilize_preconditioner(Stabilization& stabilization) const override {
     stabilize("fixed_stress", stabilization);
   }
 
  private:
+  static constexpr const char* undrained = "undrained";  ///< the name of a stabilization
+
   FieldSpec counted_field(const CouplerContext& context, const char* name, const char* doc) const {
     return {.owner = context.name,
             .name = name,
@@ -269,11 +310,38 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   /// What alpha p has to overcome to change the volume of a cell, Pa.
   double fixed_stress_modulus(int cell) const {
     if (options_.fixed_stress_modulus == "bulk") return rock_.bulk_modulus()[cell];
-    const LameParameters stiffness = *state_->stiffness(cell);
-    const double uniaxial = stiffness.lambda + 2 * stiffness.shear;
+    const auto [uniaxial, in_plane] = moduli(cell);
     if (options_.fixed_stress_modulus == "uniaxial") return uniaxial;
-    const double in_plane = stiffness.lambda + 2 * stiffness.shear / dimension;
-    return 2 / (1 / uniaxial + 1 / in_plane);
+    const double share = finds_modulus() ? found_.share() : 0.5;
+    return 1 / ((1 - share) / uniaxial + share / in_plane);
+  }
+  /// Of rock that shortens along one axis, and of rock under a pressure that is the same everywhere, Pa.
+  std::pair<double, double> moduli(int cell) const {
+    const LameParameters stiffness = *state_->stiffness(cell);
+    return {stiffness.lambda + 2 * stiffness.shear, stiffness.lambda + 2 * stiffness.shear / dimension};
+  }
+
+  bool finds_modulus() const { return !decoupled_ && !options_.one_way && options_.fixed_stress_modulus == "found"; }
+  std::string key_of_found() const { return name() + ".found_modulus"; }
+
+  /// The modulus shows where the rock has been solved for while the flow waits.
+  void look_at_rock(const std::vector<Field*>& solved) {
+    const LinearExpression& volume = rock_.volume_change();
+    if (std::ranges::none_of(volume.terms, [&](const LinearExpression::Term& term) {
+          return std::ranges::find(solved, term.field) != solved.end();
+        }))
+      return;
+    Vector stored = volume.now();
+    replicate(mesh_, Location::cell, 1, stored);
+    Vector least(mesh_.cell_count()), most(mesh_.cell_count());
+    for (int c = 0; c < mesh_.cell_count(); ++c) {
+      const double alpha = alpha_in_fluid_[c], square = alpha * alpha * mesh_.cell_measure[c];
+      const auto [uniaxial, in_plane] = moduli(c);
+      stored[c] *= alpha;
+      least[c] = square / uniaxial;
+      most[c] = square / in_plane;
+    }
+    found_.rock_is_solved(fluid_.pressure().now(), stored, least, most);
   }
 
   void use_grains() {
@@ -307,6 +375,7 @@ class Biot : public Coupler, public StabilizesPreconditioner, public KeepsTotals
   Field& stored_;
   Origin origin_;
   BiotOptions options_;
+  FoundModulus found_;
   Property alpha_;
   Vector alpha_in_fluid_;  ///< the same where there is a flow, 0 elsewhere
   Vector grain_capacity_;  ///< (alpha − phi)/K V

@@ -100,13 +100,14 @@ StepTime StepAttempts::next_step() const {
   return step;
 }
 
-/// False when the step is as small as allowed.
+/// False when the step is as small as allowed, or a smaller one is known to fail.
 bool StepAttempts::cut() {
   state_.model->rewind();
   effort_.rejected();
   // A step that asks for another size has not failed.
   const bool has_failed = status_.retry_dt <= 0;
   reason_ = fmt::format("{} {}: {}", name(), has_failed ? "did not converge" : "is too long", status_.reason);
+  if (status_.is_hopeless) return false;
   if (!state_.controller.rejected(step_, status_.retry_dt)) {
     reason_ += " (the step is as small as allowed)";
     return false;

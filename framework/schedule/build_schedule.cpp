@@ -102,11 +102,14 @@ bool has_substeps(const Node& steps) {
 ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   IterateOptions options;
   const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading, [&](ScheduleReading& inner) {
+    options.newton = inner.newton;
+    options.linear = inner.linear;
     inner.is_iterated = true;
     inner.tightest_until = std::min(inner.tightest_until, options.until.tightest());
     // Steps inside of an iteration must be solved more accurately than the iteration asks for, or it would stall.
     constexpr double tighter = 0.1;
     inner.newton.residual = std::min(inner.newton.residual, tighter * options.until.tightest());
+    options.newton.residual = inner.newton.residual;
     const Node* steps = node.find("iterate")->find("steps");
     options.has_substeps = has_substeps(*steps);
     inner.is_in_stages = reading.is_in_stages || !options.has_substeps;
@@ -114,6 +117,10 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   });
   const Node& steps = *node.find("iterate")->find("steps");
   if (options.has_substeps) options.until.require_changes();
+  if (const Node* fallback = node.find("iterate")->find("fallback");
+      fallback && options.has_substeps && options.fallback != "none")
+    throw InputError(fallback->origin, "'fallback: " + options.fallback + "' has no effect",
+                     "the steps inside take substeps, which no system of the whole step replaces", "remove it");
   if (options.order == "jacobi" && (!steps.is_list() || steps.items.size() < 2))
     throw InputError(node.find("iterate")->find("order")->origin, "'order: jacobi' has no effect",
                      "there is one step inside", "remove it, or split the step");

@@ -11,7 +11,8 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/invariants.hpp"
-#include "framework/schedule/stalled_acceleration.hpp"
+#include "framework/schedule/passes/pass_changes.hpp"
+#include "framework/schedule/passes/stalled_acceleration.hpp"
 
 namespace sprekk {
 
@@ -22,6 +23,13 @@ Spec IterateOptions::spec() {
               {{"gauss_seidel", "each step takes what those before it in the pass have found"},
                {"jacobi", "each step takes what the others have found in the pass before"}},
               {.doc = "What the steps of a pass know of one another."});
+  spec.choice("fallback", fallback,
+              {{"monolithic",
+                "it is solved once for all unknowns of the iteration together, which has the answer that passes "
+                "converge to; a note says why and in how many steps"},
+               {"none", "it is refused, and tried again with a shorter step"}},
+              {.doc = "What is done with a time step whose passes do not converge. Passes over substeps have no "
+                      "fallback."});
   spec.section("accelerate", acceleration.spec(), {.doc = "Acceleration of the fixed-point iteration."});
   return spec;
 }
@@ -48,6 +56,8 @@ IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<Schedule
       accelerator_(options.acceleration.build()),
       pass_(std::move(pass)) {
   inside_->iterate_with(inside_->unknowns());
+  if (options_.fallback == "monolithic" && !options_.has_substeps)
+    fallback_.emplace(fields_, options_.newton, options_.linear, context);
   std::vector<std::string> names;
   for (const Field* field : fields_) names.push_back(field->name());
   const std::vector<std::string>& over = options_.acceleration.over;
@@ -77,36 +87,6 @@ void IterateStep::restore(const std::map<std::string, Vector>& state) {
     if (name.starts_with(history_)) own[name.substr(history_.size())] = values;
   accelerator_->restore(own);
 }
-
-/// The changes of the fields by the passes of one step, and whether they only grow.
-class IterateStep::Changes {
- public:
-  /// `change`: of all fields by a pass, scaled.
-  void add(const Vector& change) { sizes_.push_back(change.norm()); }
-  bool only_grow() const {
-    if (sizes_.size() <= watched || !(sizes_.back() > clearly * sizes_[sizes_.size() - 1 - watched])) return false;
-    return std::is_sorted(sizes_.end() - watched - 1, sizes_.end());
-  }
-  /// Whether they are small and fall no more.
-  bool are_round_off() const {
-    return sizes_.size() > begin_ + watched && *std::max_element(sizes_.end() - watched, sizes_.end()) < smallest &&
-           sizes_.back() > hardly_less * sizes_[sizes_.size() - 1 - watched];
-  }
-  /// From here on passes are others, with or without acceleration: those until now do not tell that they fall no more.
-  void begin_again() { begin_ = sizes_.size(); }
-  bool have_a_factor() const { return sizes_.size() > last && sizes_.back() > 0; }
-  /// The mean factor by which changes grow from pass to pass, over the last passes, in which the fastest growing part
-  /// dominates.
-  double factor() const { return std::pow(sizes_.back() / sizes_[sizes_.size() - 1 - last], 1.0 / last); }
-
- private:
-  static constexpr int watched = 10;      // passes
-  static constexpr double clearly = 1.5;  // over all of them
-  static constexpr double smallest = 1e-8, hardly_less = 0.9;
-  static constexpr int last = 3;  // passes, of the factor
-  std::vector<double> sizes_;
-  std::size_t begin_ = 0;
-};
 
 std::string IterateStep::most_changed(const Vector& change) const {
   std::size_t most = 0;
@@ -181,6 +161,47 @@ void IterateStep::choose_scales() {
   }
 }
 
+double IterateStep::relative_change(const Vector& change, const Vector& before) const {
+  const auto part = [&](const Vector& of, std::size_t u) {
+    const auto values = of.segment(system_.first(static_cast<int>(u)), fields_[u]->size());
+    return values.size() > 0 ? scales_[u] * values.lpNorm<Eigen::Infinity>() : 0.0;
+  };
+  std::map<std::string, double> largest;
+  for (std::size_t u = 0; u < fields_.size(); ++u) {
+    double& l = largest[fields_[u]->spec().unit];
+    l = std::max({l, part(before, u), part(before + change, u)});
+  }
+  double relative = 0;
+  for (std::size_t u = 0; u < fields_.size(); ++u)
+    if (const double l = largest[fields_[u]->spec().unit]; l > 0) relative = std::max(relative, part(change, u) / l);
+  return relative;
+}
+
+StepStatus IterateStep::without_end(const StepTime& step, const std::string& what, double factor, int pass) {
+  StepStatus status{
+      false,
+      what + " (the steps inside act on one another too strongly) solve them in one 'solve'" +
+          (accelerator_ ? ", or stabilize the first" : ", stabilize the first, or accelerate with 'anderson'"),
+      pass};
+  status.is_hopeless = is_no_better(step, factor);
+  if (!status.is_hopeless) return status;
+  status.reason += "; shorter steps do no better";
+  constexpr double clearly_less = 0.5;  // a factor that is bounded by other equations says little
+  if (factor < clearly_less * divergence_->largest)
+    status.reason += fmt::format(", and in longer ones each pass changed {:.3g} times as much as the one before",
+                                 divergence_->largest);
+  return status;
+}
+
+bool IterateStep::is_no_better(const StepTime& step, double factor) {
+  constexpr double much_shorter = 0.3, better = 0.9;  // two cuts by half
+  const bool is_same = divergence_ && divergence_->step.start == step.start && step.dt < divergence_->step.dt;
+  const double largest = is_same ? std::max(divergence_->largest, factor) : factor;
+  if (is_same && factor > better * divergence_->factor) return step.dt < much_shorter * divergence_->step.dt;
+  divergence_ = {step, factor, largest};
+  return false;
+}
+
 ResidualCheck IterateStep::check_changes(const std::vector<Vector>& before) const {
   std::map<std::string, double> largest;
   for (const Field* field : fields_)
@@ -214,6 +235,7 @@ bool hardly_fall(const std::vector<double>& values, std::size_t last_passes) {
   return *std::min_element(last, values.end()) > hardly_less * *std::min_element(values.begin(), last);
 }
 constexpr std::size_t without_progress = 25, without_better_balance = 10;  // passes
+constexpr std::size_t patience = 10, patience_accelerated = 20;            // passes whose changes stay large
 
 /// Whether errors of balances fall no more but scatter. Those of passes that converge slowly fall in each.
 bool are_round_off_of_balances(const std::vector<double>& imbalances) {
@@ -242,7 +264,7 @@ bool is_error_below(double bound, double change, double change_before) {
 
 StepStatus IterateStep::converged(const StepTime& step, const StepStatus& status) {
   // Each substep has added its exchange to the cumulative balances already.
-  if (options_.has_substeps) return status;
+  if (options_.has_substeps || !status.converged) return status;
   for (Part* part : parts_) part->after_solve(fields_, step);
   return status;
 }
@@ -254,9 +276,28 @@ ResidualCheck IterateStep::coupled_residual(const StepTime& step) const {
 }
 
 StepStatus IterateStep::run(const StepTime& step) {
+  if (!fallback_) return make_passes(step);
+  fallback_->begin(step);
+  const StepStatus status = make_passes(step);
+  if (status.converged) return status;
+  if (accelerator_) accelerator_->rewound();
+  return converged(step, fallback_->solve(step, status));
+}
+
+void IterateStep::add_counts(LinearCounts& counts) const {
+  inside_->add_counts(counts);
+  if (fallback_) fallback_->add_counts(counts);
+}
+
+void IterateStep::note_step(Notes& notes, const StepTime& step) const {
+  inside_->note_step(notes, step);
+  if (fallback_) fallback_->note_step(notes, step);
+}
+
+StepStatus IterateStep::make_passes(const StepTime& step) {
   scales_.assign(fields_.size(), 1);
   ResidualCheck check;
-  Changes changes;
+  PassChanges changes;
   StalledAcceleration stalled;
   bool is_plain = false;
   Vector unaccelerated;  // the values at the start of the plain passes
@@ -309,7 +350,7 @@ StepStatus IterateStep::run(const StepTime& step) {
       accelerate(accelerated);
       continue;
     }
-    changes.add(change);
+    changes.add(change.norm(), relative_change(change, before));
     last_change = change;
     // If passes change no more than round-off, the imbalance that is left is round-off of the fields.
     if (check.rows_hold && changes.are_round_off()) return converged(step, {true, "", pass, 0, of_newton});
@@ -326,13 +367,20 @@ StepStatus IterateStep::run(const StepTime& step) {
                       pass, check.equation, check.largest, most_changed(change), changes.factor(),
                       owner_of(check.equation), looser(check.largest)),
           pass};
-    if (changes.only_grow())
-      return {false,
-              fmt::format("the iteration diverges: each pass changes {} {:.3g} times as much as the one before (the "
-                          "steps inside act on one another too strongly) solve them in one 'solve', stabilize the "
-                          "first, or accelerate with 'anderson'",
-                          most_changed(change), changes.factor()),
-              pass};
+    if (const bool explode = !accelerator_ && changes.explode(); explode || changes.only_grow()) {
+      const double factor = explode ? changes.last_factor() : changes.factor();
+      return without_end(step,
+                         fmt::format("the iteration diverges: each pass changes {} {:.3g} times as much as the one "
+                                     "before",
+                                     most_changed(change), factor),
+                         factor, pass);
+    }
+    if (changes.stay_large(accelerator_ ? patience_accelerated : patience))
+      return without_end(step,
+                         fmt::format("the iteration does not converge: after {} passes each one still changes {} by "
+                                     "{:.2g} of its largest value, {:.3g} times as much as the one before",
+                                     pass, most_changed(change), changes.last_relative(), changes.factor()),
+                         changes.factor(), pass);
     // Passes may cycle between discrete states, like Newton's method. Then a pass that changes the state is halved, and
     // passes are not accelerated.
     if (state != last_state) {
@@ -367,13 +415,13 @@ StepStatus IterateStep::run(const StepTime& step) {
     else if (!was_plain)
       unaccelerated = scaled_values();
   }
-  std::string reason = fmt::format("no convergence in {} passes ({} of {} is {:.2g} of its {}", options_.until.at_most,
+  std::string reason = fmt::format("no convergence in {} passes: {} of {} is {:.2g} of its {}", options_.until.at_most,
                                    options_.has_substeps ? "the last change" : "the residual", check.equation,
                                    check.largest, options_.has_substeps ? "largest value" : "terms");
   if (last_change.size() > 0 && changes.have_a_factor())
-    reason += fmt::format("; a pass changes {} most, {:.3g} times as much as the one before", most_changed(last_change),
-                          changes.factor());
-  return {false, reason + ")", options_.until.at_most};
+    reason += fmt::format(", and a pass changes {} most, {:.3g} times as much as the one before",
+                          most_changed(last_change), changes.factor());
+  return {false, reason, options_.until.at_most};
 }
 
 }  // namespace sprekk

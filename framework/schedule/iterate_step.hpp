@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/acceleration/registry.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/schedule/convergence_criteria.hpp"
+#include "framework/schedule/fallback_solve.hpp"
 #include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/step_history.hpp"
@@ -20,7 +22,10 @@ namespace sprekk {
 struct IterateOptions {
   UntilOptions until;
   std::string order = "gauss_seidel";
+  std::string fallback = "monolithic";
   AccelerationOptions acceleration;
+  NewtonOptions newton;  ///< of the fallback
+  LinearOptions linear;
   bool has_substeps = false;  ///< whether steps inside take substeps
   Spec spec();
 };
@@ -29,7 +34,11 @@ struct IterateOptions {
 /// the residual of all equations that are solved inside, without stabilization, is small against their own terms; small
 /// updates do not count. Where steps inside take substeps the equations of a whole step are not fulfilled, and the
 /// estimated error of all fields takes the place of the residual: what a pass changes them by, times ρ/(1 − ρ), with ρ
-/// the factor from the last pass to this one. A step is refused early where the changes of passes only grow.
+/// the factor from the last pass to this one. Passes end early where their changes only grow.
+///
+/// Where passes do not converge, the step is solved for all of the unknowns at once, unless the scene says otherwise
+/// (FallbackSolve). Only where that does not converge either is it refused. An iteration over substeps has no such
+/// system.
 class IterateStep : public ScheduleStep, public StepHistory {
  public:
   /// `pass`: receives the number of the pass, for those who log what happens in it. Throws InputError for a field to
@@ -42,14 +51,15 @@ class IterateStep : public ScheduleStep, public StepHistory {
   void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
   std::string describe() const override { return "iterate"; }
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
-  void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
+  void add_counts(LinearCounts& counts) const override;
+  void note_step(Notes& notes, const StepTime& step) const override;
   void accepted() override;
   void rewound() override;
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
 
  private:
-  class Changes;
+  StepStatus make_passes(const StepTime& step);
   /// Counts what was exchanged with the fields of all solves together, whose equations hold: a solve has counted what
   /// it knew of the others when it was its turn.
   StepStatus converged(const StepTime& step, const StepStatus& status);
@@ -61,6 +71,12 @@ class IterateStep : public ScheduleStep, public StepHistory {
   Vector accelerated_values() const;
   /// The largest change of each field by a pass over the largest value of any field of its unit.
   ResidualCheck check_changes(const std::vector<Vector>& before) const;
+  /// The largest change of any field over the largest value of a field of its unit, before or after; both are scaled.
+  double relative_change(const Vector& change, const Vector& before) const;
+  /// The status of passes that lead nowhere. `what` they do; `factor`: from pass to pass.
+  StepStatus without_end(const StepTime& step, const std::string& what, double factor, int pass);
+  /// Whether a step that diverges by this factor is much shorter than one from the same start that diverged no faster.
+  bool is_no_better(const StepTime& step, double factor);
   std::string most_changed(const Vector& change) const;  ///< the field whose part of a scaled change is largest
   Vector scaled_values() const;
   void set_scaled_values(const Vector& values);
@@ -78,6 +94,13 @@ class IterateStep : public ScheduleStep, public StepHistory {
   Vector acceleration_scale_;                 ///< one for each of their values
   std::shared_ptr<int> pass_;                 ///< the number of the pass, for the log
   std::string history_;                       ///< what its values in a checkpoint begin with
+  std::optional<FallbackSolve> fallback_;
+  struct Divergence {
+    StepTime step;
+    double factor;
+    double largest;  ///< factor of any step from its start
+  };
+  std::optional<Divergence> divergence_;  ///< the longest step from its start that has diverged no faster
 };
 
 }  // namespace sprekk

@@ -54,6 +54,10 @@ class ScheduleStep {
   }
   /// Tells the unknowns of an iteration around the step: those that it does not solve for itself wait meanwhile.
   virtual void iterate_with(const std::vector<const Field*>& /*unknowns*/) {}
+  /// Adds notes on a step that is about to be accepted: how it was solved, where that is not what the scene says.
+  virtual void note_step(Notes& notes, const StepTime& step) const {
+    for (const ScheduleStep* child : children()) child->note_step(notes, step);
+  }
   /// One line for the graph and for messages.
   virtual std::string describe() const = 0;
   virtual std::vector<const ScheduleStep*> children() const { return {}; }

@@ -14,8 +14,12 @@ StepStatus SequenceStep::run_until(const StepTime& step, const std::function<boo
     const StepStatus inner_status = inner->run(step);
     status.iterations = std::max(status.iterations, inner_status.iterations);
     status.of_newton = std::max(status.of_newton, inner_status.effort());
-    if (!inner_status.converged)
-      return {false, inner->describe() + ": " + inner_status.reason, status.iterations, inner_status.retry_dt};
+    if (!inner_status.converged) {
+      StepStatus failed = inner_status;
+      failed.reason = inner->describe() + ": " + inner_status.reason;
+      failed.iterations = status.iterations;
+      return failed;
+    }
     if (is_enough()) break;
   }
   return status;

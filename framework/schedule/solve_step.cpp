@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/invariants.hpp"
 
@@ -150,10 +151,23 @@ ResponseOptions SolveStep::wanted_responses() const {
           settled * options_.newton.residual};
 }
 
+std::vector<const Field*> SolveStep::held_amounts() const {
+  std::vector<const Field*> held;
+  if (options_.stabilization == "none" || options_.stabilization == response) return held;
+  const std::vector<const Field*> waits = waiting();
+  for (const Part* part : parts_)
+    if (const auto* holds = dynamic_cast<const HoldsAmounts*>(part))
+      for (const Field* field : holds->holds_amounts_of(options_.stabilization))
+        if (std::ranges::count(waits, field) > 0 && std::ranges::count(held, field) == 0) held.push_back(field);
+  return held;
+}
+
 const Responses& SolveStep::responses(const StepTime& step) {
   static const Responses none;
   if (!is_response_made_) {
     is_response_made_ = true;
+    if (std::vector<const Field*> held = held_amounts(); !held.empty())
+      amounts_ = std::make_unique<HeldAmounts>(mesh_, std::move(held), unknowns(), parts_);
     ResponseOptions wanted = wanted_responses();
     const std::vector<const Field*> waits = waiting();
     if (!wanted.pairs.empty() && !waits.empty()) {
@@ -165,6 +179,10 @@ const Responses& SolveStep::responses(const StepTime& step) {
         newton_->iterate_at_least_once();
       }
     }
+  }
+  if (amounts_) {
+    of_amounts_.terms = amounts_->update(step);
+    return of_amounts_;
   }
   return response_ ? response_->update(step) : none;
 }
@@ -196,6 +214,17 @@ void SolveStep::check() const {
   Stabilization stabilization;
   for (const Part* part : parts_) part->stabilize(options_.stabilization, stabilization);
   const auto is_solved = [&](const auto& entry) { return std::ranges::count(fields_, entry.first) > 0; };
+  for (const Part* part : parts_)
+    if (const auto* holds = dynamic_cast<const HoldsAmounts*>(part))
+      for (const Field* field : holds->holds_amounts_of(options_.stabilization)) {
+        const std::string& owner = field->spec().owner;
+        if (std::ranges::count(waiting(), field) == 0)
+          throw InputError(options_.stabilization_origin,
+                           "'stabilize: " + options_.stabilization + "' has no effect here",
+                           "it takes the amounts that " + field->name() +
+                               " stores to stay while it waits, and this step solves for it, or nobody does",
+                           "give it to a 'solve' without '" + owner + "', in an 'iterate' that solves for both");
+      }
   if (stabilization.empty() || std::ranges::any_of(stabilization, is_solved)) return;
   if (!followers(options_.stabilization, parts_, fields_).empty()) return;
   throw InputError(options_.stabilization_origin, "'stabilize: " + options_.stabilization + "' has no effect here",

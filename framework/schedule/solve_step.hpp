@@ -2,6 +2,7 @@
 #pragma once
 
 #include "framework/config/spec.hpp"
+#include "framework/schedule/held_amounts.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/waiting_response.hpp"
 
@@ -45,6 +46,8 @@ class SolveStep : public ScheduleStep {
   ResponseOptions wanted_responses() const;
   std::vector<const Field*> waiting() const;
   const Responses& responses(const StepTime& step);
+  /// The waiting fields whose balances keep their amounts by the stabilization.
+  std::vector<const Field*> held_amounts() const;
   /// Without bounds of the response, which are far from linear, and with them where that does not converge.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization, const Responses& of_waiting);
   /// Whether a solve that has used up its iterations is as good as any to go on with.
@@ -61,6 +64,8 @@ class SolveStep : public ScheduleStep {
   std::vector<const Field*> iterated_;         ///< in the iteration around the step
   std::unique_ptr<WaitingResponse> response_;  ///< of a stabilization that contains one; made when data are known
   bool is_response_made_ = false;
+  std::unique_ptr<HeldAmounts> amounts_;  ///< of a stabilization that holds some
+  Responses of_amounts_;
   StepTime inexact_in_;  ///< the time step in which solves were inexact
   int inexact_ = 0;      ///< how many of them in a row
 };

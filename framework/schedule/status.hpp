@@ -15,6 +15,8 @@ struct StepStatus {
   /// those.
   int of_newton = -1;
 
+  bool is_hopeless = false;  ///< shorter steps from the same start are known to fail as well
+
   /// The measure for adaptive steps. Passes are none: where systems are split, shorter steps need as many, or more.
   int effort() const { return of_newton >= 0 ? of_newton : iterations; }
 };

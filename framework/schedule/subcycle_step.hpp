@@ -43,6 +43,7 @@ class SubcycleStep : public ScheduleStep {
   void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
   std::string describe() const override;
   std::vector<const ScheduleStep*> children() const override;
+  void note_step(Notes& notes, const StepTime& step) const override { inside_->note_step(notes, step); }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
 
  private:

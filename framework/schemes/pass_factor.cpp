@@ -7,6 +7,8 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/block_system.hpp"
+#include "framework/assembly/holds_amounts.hpp"
+#include "framework/schedule/held_amounts.hpp"
 
 namespace sprekk {
 
@@ -28,13 +30,25 @@ class PassFactor::Group {
 PassFactor::~PassFactor() = default;
 
 PassFactor::PassFactor(const Model& model, const StepTime& step)
-    : model_(model), unknowns_(model.schedule().unknowns()) {
+    : model_(model), step_(step), unknowns_(model.schedule().unknowns()) {
   Assembly assembly(unknowns_, Assembly::Request::residual_and_derivatives);
   assemble_all(assembly, model.parts(), step);
   BlockSystem system(model.mesh(), unknowns_);
   for (std::size_t u = 0; u <= unknowns_.size(); ++u)
     first_.push_back(u < unknowns_.size() ? system.first(static_cast<int>(u)) : system.size());
   matrix_ = system.matrix(assembly).local;
+}
+
+std::vector<ResponseTerm> PassFactor::terms_of_held_amounts(const std::vector<std::string>& components,
+                                                            const std::string& stabilization) const {
+  std::vector<const Field*> solved, held;
+  for (const Field* field : unknowns_)
+    if (std::ranges::count(components, field->spec().owner) > 0) solved.push_back(field);
+  for (const Part* part : model_.parts())
+    if (const auto* holds = dynamic_cast<const HoldsAmounts*>(part); holds && !stabilization.empty())
+      for (const Field* field : holds->holds_amounts_of(stabilization))
+        if (std::ranges::count(solved, field) == 0) held.push_back(field);
+  return HeldAmounts(model_.mesh(), held, solved, model_.parts()).update(step_);
 }
 
 const PassFactor::Group* PassFactor::group(const std::vector<std::string>& components,
@@ -68,6 +82,14 @@ const PassFactor::Group* PassFactor::group(const std::vector<std::string>& compo
     for (SparseMatrix::InnerIterator entry(matrix_, row); entry; ++entry)
       if (place[entry.col()] >= 0) entries.emplace_back(i, place[entry.col()], entry.value());
     if (more[row] != 0) entries.emplace_back(i, i, more[row]);
+  }
+  for (const ResponseTerm& term : terms_of_held_amounts(components, stabilization)) {
+    const auto first = [&](const Field* field) {
+      return first_[std::ranges::find(unknowns_, field) - unknowns_.begin()];
+    };
+    for (int r = 0; r < term.matrix.outerSize(); ++r)
+      for (SparseMatrix::InnerIterator entry(term.matrix, r); entry; ++entry)
+        entries.emplace_back(place[first(term.row) + r], place[first(term.column) + entry.col()], entry.value());
   }
   Eigen::SparseMatrix<double> block(size, size);
   block.setFromTriplets(entries.begin(), entries.end());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/schedule/waiting_response.hpp"
 #include "framework/schemes/scheme.hpp"
 
 namespace sprekk {
@@ -26,7 +27,12 @@ class PassFactor {
   class Group;
   const Group* group(const std::vector<std::string>& components, const std::string& stabilization);
 
+  /// What a stabilization that holds amounts adds to the equations of a group.
+  std::vector<ResponseTerm> terms_of_held_amounts(const std::vector<std::string>& components,
+                                                  const std::string& stabilization) const;
+
   const Model& model_;
+  StepTime step_;
   std::vector<const Field*> unknowns_;
   std::vector<int> first_;
   SparseMatrix matrix_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "framework/assembly/holds_amounts.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -82,6 +84,22 @@ std::vector<std::vector<Group>> orders(const std::vector<Group>& groups) {
   return all;
 }
 
+/// Whether a stabilization lets a balance keep its amount while a group of the coupler's components waits for nothing
+/// else: these are solved apart from the owner of the balance.
+bool holds_amounts_for(const Coupler& coupler, const std::vector<std::string>& between, const std::string& name,
+                       const Group& group) {
+  const auto* holds = dynamic_cast<const HoldsAmounts*>(&coupler);
+  if (!holds) return false;
+  const auto is_in_group = [&](const std::string& component) { return std::ranges::count(group, component) > 0; };
+  try {
+    return std::ranges::any_of(holds->holds_amounts_of(name), [&](const Field* field) {
+      return !is_in_group(field->spec().owner) && std::ranges::any_of(between, is_in_group);
+    });
+  } catch (const InputError&) {  // there are none to be held in this scene
+    return false;
+  }
+}
+
 /// The scheme with each stabilization that helps one of its groups: the coupler that offers it stands between groups.
 std::vector<Scheme> stabilized(const Model& model, const Scheme& scheme) {
   std::vector<Scheme> all;
@@ -96,7 +114,8 @@ std::vector<Scheme> stabilized(const Model& model, const Scheme& scheme) {
         };
         const bool has_field =
             std::ranges::any_of(diagonals, [&](const auto& entry) { return is_in(entry.first->spec().owner); });
-        if (!has_field || std::ranges::all_of(couplers[k].between, is_in)) continue;
+        const bool holds = holds_amounts_for(*model.couplers()[k], couplers[k].between, name, scheme.groups[g]);
+        if (!(has_field || holds) || std::ranges::all_of(couplers[k].between, is_in)) continue;
         all.push_back(scheme);
         all.back().stabilizations[g] = name;
       }
@@ -192,9 +211,10 @@ std::string Scheme::schedule(double until, int at_most, const std::vector<std::s
     solves += "}";
   }
   if (!is_monolithic())
-    solves =
-        fmt::format("{{iterate: {{until: {{relative: {}, at_most: {}}}, order: {}, accelerate: {{{}}}, steps: [{}]}}}}",
-                    until, at_most, is_jacobi ? "jacobi" : "gauss_seidel", acceleration, solves);
+    solves = fmt::format(
+        "{{iterate: {{until: {{relative: {}, at_most: {}}}, fallback: none, order: {}, accelerate: {{{}}}, "
+        "steps: [{}]}}}}",
+        until, at_most, is_jacobi ? "jacobi" : "gauss_seidel", acceleration, solves);
   for (const std::string& step : behind) solves += ", " + step;
   return "[" + solves + "]";
 }

@@ -25,6 +25,7 @@ struct Scheme {
   std::string name() const;                            ///< of a folder: "a_b-c_d=STABILIZATION=anderson_5"
   std::string split() const;                           ///< "a b (STABILIZATION) → c d"
   /// The value of `schedule:` as YAML on one line. `until`: of the coupled residual; `behind`: steps that follow.
+  /// A step whose passes do not converge is refused.
   std::string schedule(double until, int at_most, const std::vector<std::string>& behind) const;
 };
 

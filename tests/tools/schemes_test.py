@@ -130,9 +130,9 @@ class Schemes(unittest.TestCase):
         together = [one for one in plain if one["stabilization"] and any({"pore", "rock"} <= set(group) for group in one["groups"])]
         self.assertEqual(together, [])
         # With it: contact, fracture flow, both together or each for itself, beside pore + rock (4 partitions in 2 orders); beside pore and rock
-        # apart, with what is left in either (4 of three groups in 2 orders, 1 of four in 6), each also with fixed stress.
+        # apart, with what is left in either (4 of three groups in 2 orders, 1 of four in 6), each also with fixed stress and undrained.
         response = [one for one in found["schemes"] if "response" in one["stabilization"]]
-        self.assertEqual(len(response), 8 + 2 * (4 * 2 + 6))
+        self.assertEqual(len(response), 8 + 3 * (4 * 2 + 6))
         for one in response:
             self.assertTrue(any(set(group) <= {"conduit", "contact"} for group in one["groups"]), one["groups"])
             self.assertTrue(one["order"] == "gauss_seidel" and all("rock" in g or "contact" not in g or set(g) <= {"conduit", "contact"} for g in one["groups"]))

@@ -19,7 +19,7 @@ FIXED_STRESS = "[{solve: [pore, conduit], stabilize: fixed_stress}, {solve: [roc
 
 
 def iterated(accelerator, steps, relative=1e-9, at_most=100):
-    return f"schedule=[{{iterate: {{until: {{relative: {relative}, at_most: {at_most}}}, accelerate: {{{accelerator}}}, steps: {steps}}}}}]"
+    return f"schedule=[{{iterate: {{fallback: none, until: {{relative: {relative}, at_most: {at_most}}}, accelerate: {{{accelerator}}}, steps: {steps}}}}}]"
 
 
 class Accelerators(SceneRuns):

@@ -23,7 +23,7 @@ COLUMN = (f"components.pore.storage={0.5 / FACTOR!r} 1/Pa", "components.pore.per
 
 
 def iterated(until, order="gauss_seidel", steps="[{solve: pore}, {solve: rock}]"):
-    return f"schedule=[{{iterate: {{until: {{{until}}}, order: {order}, steps: {steps}}}}}]"
+    return f"schedule=[{{iterate: {{fallback: none, until: {{{until}}}, order: {order}, steps: {steps}}}}}]"
 
 
 class ConvergenceCriteria(unittest.TestCase):

@@ -49,7 +49,7 @@ TEST(PropertiesInTime, WholeSystemAndSplitSchemeGiveTheSameAnswer) {
   SceneRun split(
       "paper/onset_coarse.yaml",
       in_time({{"schedule",
-                "[{iterate: {until: {relative: 1e-11, at_most: 200}, steps: [{solve: [pore, conduit], stabilize: "
+                "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 200}, steps: [{solve: [pore, conduit], stabilize: "
                 "fixed_stress}, {solve: [rock, contact]}]}}]"}}));
   for (SceneRun* each : {&run, &whole, &split}) each->run_until(9 * hour);
   expect_same_fields(run, whole, 1e-8);

@@ -38,7 +38,7 @@ class FixedStressModulus(unittest.TestCase):
         """Rows of coupling.csv, by step, of the iteration."""
         self.runs += 1
         folder = self.folder / str(self.runs)
-        schedule = (f"schedule=[{{iterate: {{until: {{relative: {until}, at_most: 60}}, "
+        schedule = (f"schedule=[{{iterate: {{fallback: none, until: {{relative: {until}, at_most: 60}}, "
                     "steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}]")
         run = self.call(["run", "-q", "-o", folder], scene, schedule, f"couplers=[{{type: biot, between: [pore, rock], {coupler}}}]", *settings)
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -53,6 +53,33 @@ class FixedStressModulus(unittest.TestCase):
             # In the first step the flow is solved before the rock has seen the load.
             self.assertEqual([row["iteration[1]"] for row in rows], ["1", "2", *["1"] * 9], coupler)
         self.assertGreater(len(self.iterated("terzaghi", one + "fixed_stress_value: 0.6 1/Pa", 1e-7, fem)), 20)
+
+    def test_the_modulus_is_found_in_the_first_passes(self):
+        # The column has one modulus for all pressures: two passes of the first step show it, and each later step takes one pass.
+        rows = self.iterated("terzaghi", "biot_coefficient: 1, fixed_stress_modulus: found", 1e-7, "components.rock.type=poromechanics/fem")
+        passes = [int(row["iteration[1]"]) for row in rows]
+        print(f"    column: {passes}", flush=True)
+        self.assertLessEqual(max(passes), 4)
+        self.assertEqual(passes[max(passes):], [1] * (len(passes) - max(passes)))
+        # In a block no factor is worse than that of the least favourable bound of L, and the last ones are near to the best.
+        rows = self.iterated("mandel", "fixed_stress_modulus: found", 1e-10, "time.end=1079 s")
+        changes = [float(row["update[1]"]) for row in rows[1:]]
+        factors = [after / before for before, after in zip(changes, changes[1:])]
+        print(f"    block: {[f'{factor:.3f}' for factor in factors]}, at most {bound(UNIAXIAL):.3f}", flush=True)
+        self.assertLessEqual(max(factors), bound(UNIAXIAL))
+
+    def test_a_restart_finds_what_was_found(self):
+        found = ("couplers=[{type: biot, between: [pore, rock], fixed_stress_modulus: found}]", "mesh.size=0.1 m",
+                 "schedule=[{iterate: {steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}]")
+        histories = []
+        for name, ends in (("whole", ("4316 s",)), ("parts", ("2158 s", "4316 s"))):
+            for i, end in enumerate(ends):
+                how = ["run", "-q", *(("--restart", self.folder / name / "checkpoint.h5") if i else ("-o", self.folder / name))]
+                run = self.call(how, "mandel", *found, f"time.end={end}")
+                self.assertEqual(run.returncode, 0, run.stderr)
+            with open(self.folder / name / "history.csv", newline="", encoding="utf-8") as file:
+                histories.append([{key: value for key, value in row.items() if "seconds" not in key} for row in csv.DictReader(file)])
+        self.assertEqual(*histories)
 
     def test_factors_in_a_block(self):
         self.assertAlmostEqual(bound(UNIAXIAL), 0.160, delta=5e-4)

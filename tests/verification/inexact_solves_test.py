@@ -24,7 +24,7 @@ SETTINGS = ("time.end=12 h",)
 
 
 def schedule(until, newton=", newton: {at_most: 1}"):
-    return (f"schedule=[{{iterate: {{until: {{{until}}}, steps: [{{solve: [pore, conduit], stabilize: fixed_stress{newton}}}, "
+    return (f"schedule=[{{iterate: {{fallback: none, until: {{{until}}}, steps: [{{solve: [pore, conduit], stabilize: fixed_stress{newton}}}, "
             f"{{solve: [rock, contact]{newton}}}]}}}}]")
 
 

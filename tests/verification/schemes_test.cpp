@@ -10,10 +10,10 @@ namespace sprekk::testing {
 namespace {
 
 const char* const fixed_stress_mandel =
-    "[{iterate: {until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: "
+    "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: "
     "[rock]}]}}]";
 const char* const fixed_stress_onset =
-    "[{iterate: {until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore, conduit], stabilize: fixed_stress}, "
+    "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore, conduit], stabilize: fixed_stress}, "
     "{solve: [rock, contact]}]}}]";
 
 /// The scene of sec. 5.1 of the paper on a mesh that a test can afford: 10 cells on the fracture.
@@ -42,7 +42,7 @@ TEST(Schemes, FixedStressAgreesWithMonolithicOnInjection) {
 TEST(Schemes, AndersonNeedsFewerPasses) {
   const auto passes = [](int depth) {
     SceneRun run("verification/mandel.yaml",
-                 {{"schedule", "[{iterate: {until: {relative: 1e-9, at_most: 100}, accelerate: {anderson: " +
+                 {{"schedule", "[{iterate: {fallback: none, until: {relative: 1e-9, at_most: 100}, accelerate: {anderson: " +
                                    std::to_string(depth) +
                                    "}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: [rock]}]}}]"}});
     EXPECT_TRUE(run.step());
@@ -58,7 +58,7 @@ TEST(Schemes, FixedStressContractsAsTheorySays) {
   const auto config = std::string("verification/mandel.yaml");
   for (int passes = 4; passes <= 7; ++passes) {
     SceneRun run(config,
-                 {{"schedule", "[{iterate: {until: {relative: 1e-30, at_most: " + std::to_string(passes) +
+                 {{"schedule", "[{iterate: {fallback: none, until: {relative: 1e-30, at_most: " + std::to_string(passes) +
                                    "}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: [rock]}]}}]"}});
     const StepStatus status = run.model().attempt({0, 1079, 1079});
     EXPECT_FALSE(status.converged);
@@ -87,7 +87,7 @@ TEST(Schemes, SplitWithoutIterationConvergesInTime) {
 
 TEST(Schemes, OneSubstepChangesNothing) {
   const auto subcycled = [](int count) {
-    return "[{iterate: {until: {relative: 1e-11, at_most: 100}, steps: [{subcycle: {count: " + std::to_string(count) +
+    return "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{subcycle: {count: " + std::to_string(count) +
            ", steps: [{solve: [pore], stabilize: fixed_stress}]}}, {solve: [rock]}]}}]";
   };
   SceneRun plain("verification/mandel.yaml", {{"schedule", fixed_stress_mandel}, {"time.end", "3237 s"}});

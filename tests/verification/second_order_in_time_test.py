@@ -31,7 +31,7 @@ PLATE = 'components.rock.boundary.top={displacement_y: "(-1e-4*sin(pi*t/20000)^2
 
 
 def iterated(steps, accelerate="anderson: 5", relative=1e-10):
-    return f"schedule=[{{iterate: {{until: {{relative: {relative}, at_most: 100}}, accelerate: {{{accelerate}}}, steps: {steps}}}}}]"
+    return f"schedule=[{{iterate: {{fallback: none, until: {{relative: {relative}, at_most: 100}}, accelerate: {{{accelerate}}}, steps: {steps}}}}}]"
 
 
 class SecondOrderInTime(SceneRuns):

@@ -55,7 +55,7 @@ SPLITS_OF_CRACK = (
 
 
 def iterated(steps):
-    return f"schedule=[{{iterate: {{until: {{relative: 1e-10, at_most: 60}}, steps: [{steps}]}}}}]"
+    return f"schedule=[{{iterate: {{fallback: none, until: {{relative: 1e-10, at_most: 60}}, steps: [{steps}]}}}}]"
 
 
 class SplitFractures(SceneRuns):
@@ -138,7 +138,7 @@ class SplitFractures(SceneRuns):
             run = self.call("check", PAPER, iterated(steps))
             self.assertEqual(run.returncode, 2, steps)
             self.assertIn(said, run.stderr)
-        apart = "schedule=[{iterate: {steps: [{solve: [pore, conduit]}, {solve: contact, stabilize: response}]}}, {solve: rock}]"
+        apart = "schedule=[{iterate: {fallback: none, steps: [{solve: [pore, conduit]}, {solve: contact, stabilize: response}]}}, {solve: rock}]"
         self.assertIn("let the same 'iterate' solve for both", self.call("check", PAPER, apart).stderr)
         run = self.call("check", NETWORK, "schedule=[{solve: pore}, {solve: conduit, stabilize: response}]")
         self.assertIn("'stabilize' stands outside of an 'iterate'", run.stderr)

@@ -9,7 +9,7 @@ import unittest
 from scene_runs import SceneRuns, on_two_processes
 
 TOGETHER = "[{{solve: [{all}]}}]"
-IN_TURN = ("[{{iterate: {{until: {{relative: {until}, at_most: 60}}, accelerate: {{anderson: {anderson}}}, steps: "
+IN_TURN = ("[{{iterate: {{fallback: none, until: {{relative: {until}, at_most: 60}}, accelerate: {{anderson: {anderson}}}, steps: "
            "[{{solve: [{flow}], stabilize: {stabilize}}}, {{solve: [rock, contact]}}]}}}}]")
 
 LENGTH, RATE, STEP, MODULUS = 1.0, 1e-6, 10.0, 32e9  # half-length, m; m^2/s; s; E', Pa

@@ -73,7 +73,7 @@ class WaveformIteration(SceneRuns):
         answer = self.call(["run", "-q", "-o", self.folder / "stops"], MANDEL, *SMOOTH, schedule(4, 1, "linear", "relative: 1e-9").replace("at_most: 100", "at_most: 3"),
                            "time.smallest=900 s", "time.step=1000 s")
         self.assertEqual(answer.returncode, 1)
-        self.assertIn("no convergence in 3 passes (the last change of ", answer.stderr)
+        self.assertIn("no convergence in 3 passes: the last change of ", answer.stderr)
 
 
 if __name__ == "__main__":

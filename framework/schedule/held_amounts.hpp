@@ -1,0 +1,37 @@
+// The stabilization of a solve by balances that keep their amounts while their fields wait.
+#pragma once
+
+#include <vector>
+
+#include "framework/assembly/part.hpp"
+#include "framework/schedule/waiting_response.hpp"
+
+namespace sprekk {
+
+/// A field p waits while a solve finds c; its balance stores s p + b c in each cell, besides what cells exchange. If it
+/// kept this amount, p would follow by dp = −b dc/s. So each equation R of the solve that contains p gets the term
+/// −(dR/dp)(b/s) dc, local in c, which vanishes with convergence. With s the row sums of what leaves all balances
+/// together or stays (Operator::leaving), which is what a change of p that is the same everywhere stores.
+class HeldAmounts {
+ public:
+  /// `held`: the fields p; `solved`: those of the solve.
+  HeldAmounts(const Mesh& mesh, std::vector<const Field*> held, std::vector<const Field*> solved,
+              std::vector<Part*> parts);
+  /// The terms at the present values of the fields, with products of matrices that are kept while these stay.
+  /// Collective.
+  const std::vector<ResponseTerm>& update(const StepTime& step);
+
+ private:
+  /// The factors of one product (dR/dp)(b/s), as they were when it was made.
+  struct Factors {
+    SparseMatrix by_held, following;
+  };
+  std::vector<const Field*> held_, solved_, all_;  ///< all: the solved ones, then the held ones
+  std::vector<Part*> parts_;
+  BlockSystem system_;  ///< of all, for who owns which rows
+  Products products_;
+  std::vector<Factors> factors_;
+  std::vector<ResponseTerm> terms_;
+};
+
+}  // namespace sprekk
