@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/capabilities/overshoots.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
-#include "components/matrix_flow/overshoots.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 

@@ -1,13 +1,17 @@
 #include "components/matrix_heat/matrix_heat.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "components/capabilities/overshoots.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
+#include "framework/mesh/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_heat {
@@ -210,6 +214,23 @@ void MatrixHeat::balance(std::map<std::string, Balance>& balances) const {
     heat.outflow += cumulative_.now()[3 * c + 2];
     heat.throughput += cumulative_.now().segment<3>(3 * c).lpNorm<1>();
   }
+}
+
+void MatrixHeat::note_step(Notes& notes, const StepTime& step) const {
+  const Overshoots found =
+      find_overshoots({mesh_, conditions_, temperature_.now(), temperature_.accepted(), boundary_values_,
+                       boundary_changes_, face_heat_fluxes(), capacity_, step.dt});
+  if (found.cells == 0) return;
+  notes.add(
+      temperature_.name() + " beyond its surroundings",
+      fmt::format("{} is higher or lower than all around it in {} cells without a source, by up to {:.3g} K, {:.2g} "
+                  "% of the range of temperatures, at {} (where cells are flat or the conductivity is "
+                  "anisotropic, multi-point fluxes keep no bounds); use smaller cells of better shape there, or "
+                  "matrix_heat/tpfa, which keeps bounds and is exact where faces are at right angles to the "
+                  "lines between centres",
+                  temperature_.name(), found.cells, found.largest, 100 * found.largest / found.range,
+                  to_text(mesh_.cell_center[found.cell])),
+      found.largest);
 }
 
 std::vector<double> MatrixHeat::switch_times() const {

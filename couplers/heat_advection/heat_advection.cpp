@@ -67,10 +67,11 @@ using Mixtures = std::vector<std::optional<WellMixture>>;
 class HeatAdvection : public Coupler, public KeepsTotals {
  public:
   HeatAdvection(const CouplerContext& context, const HeatAdvectionOptions& options)
-      : Coupler(context.name), mesh_(context.mesh), options_(options) {
+      : Coupler(context.name), mesh_(context.mesh), options_(options), start_(context.start_time) {
     matrix_ = context.find<MatrixFluxes>();
     fracture_ = context.find<FractureFluxes>();
     walls_ = context.find<MatrixWalls>();
+    flow_in_rock_ = context.find<MatrixFluid>();
     rock_.heat = context.find<MatrixTemperature>();
     fracture_heat_ = context.find<FractureTemperature>();
     wells_ = context.find<WellPressures>();
@@ -103,9 +104,12 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     check_names();
     check_wells();
   }
-  void begin_step(const StepTime&) override {}
+  void begin_step(const StepTime& step) override { has_flowed_ = starts_from_state_ || step.start > start_; }
 
   void assemble(Assembly& assembly, const StepTime& step) const override {
+    if (!has_flowed_ &&
+        std::ranges::none_of(flow_fields(), [&](const Field* field) { return assembly.has_row(*field); }))
+      return;
     if (rock_.temperature && assembly.has_row(*rock_.temperature))
       add(assembly, rock_, streams_of_rock(sources()), step);
     if (fractures_.temperature && assembly.has_row(*fractures_.temperature))
@@ -116,11 +120,17 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     const auto has = [&](const Field* field) {
       return field && std::find(solved.begin(), solved.end(), field) != solved.end();
     };
+    if (std::ranges::any_of(flow_fields(), has)) {
+      has_flowed_ = true;
+      starts_from_state_ = starts_from_state_ || step.end <= start_;  // it is settled
+    }
+    if (!has_flowed_) return;
     if (has(rock_.temperature)) count(rock_, streams_of_rock(sources()), step);
     if (has(fractures_.temperature)) count(fractures_, streams_of_fractures(sources()), step);
   }
 
   void begin_totals() override {
+    starts_from_state_ = true;
     for (const Medium* place : {&rock_, &fractures_})
       if (place->temperature) place->cumulative->set_both(Vector::Zero(place->cumulative->size()));
   }
@@ -240,6 +250,16 @@ class HeatAdvection : public Coupler, public KeepsTotals {
                                     .is_amount = true});
   }
 
+  /// What the fluxes follow from. As long as no solve has found it, heat that is solved before the flow is not carried:
+  /// the fluxes of initial values are no flow, and may drain a cell of many times what it holds.
+  std::vector<const Field*> flow_fields() const {
+    std::vector<const Field*> fields;
+    if (flow_in_rock_) fields.push_back(&flow_in_rock_->pressure());
+    if (walls_ && mesh_.wall_count() > 0 && walls_->wall_flux().is_solved()) fields.push_back(&walls_->wall_flux());
+    if (fracture_) fields.push_back(&fracture_->flux());
+    return fields;
+  }
+
   StreamSources sources() const {
     StreamSources sources{mesh_, matrix_, walls_};
     if (walls_ && mesh_.wall_count() > 0 && walls_->wall_flux().is_solved()) sources.wall_flux = &walls_->wall_flux();
@@ -351,7 +371,8 @@ class HeatAdvection : public Coupler, public KeepsTotals {
       if (stream.is_outside) through_sides[stream.cell] += std::abs(amount);
       largest = std::max(largest, std::abs(amount));
       largest_rate = std::max(largest_rate, stream.rate);
-      if (stream.flux == Stream::Flux::face) largest_difference = std::max(largest_difference, std::abs(difference));
+      if (stream.flux == Stream::Flux::face || stream.flux == Stream::Flux::wall)
+        largest_difference = std::max(largest_difference, std::abs(difference));
       own.emplace_back(stream.cell, stream.cell, scale * stream.rate);
       if (stream.from == Stream::From::rock_cell) of_rock.emplace_back(stream.cell, stream.index, -scale * stream.rate);
       if (stream.from == Stream::From::fracture_cell)
@@ -375,7 +396,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     assembly.add(temperature, carried);
     assembly.compare_with(temperature, largest);
     assembly.compare_round_off(temperature, scale * largest_rate * temperature.now().lpNorm<Eigen::Infinity>());
-    if (largest_difference > 0)  // fluxes through faces are differences of larger numbers
+    if (largest_difference > 0)  // fluxes through faces and walls are differences of larger numbers
       assembly.compare_round_off(temperature, scale * largest_difference * matrix_->round_off_base_of_fluxes());
     BalanceRows(assembly, temperature).add_throughput(through_sides);
     if (!assembly.wants_derivatives()) return;
@@ -433,6 +454,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
   HeatAdvectionOptions options_;
   MatrixFluxes* matrix_ = nullptr;
   FractureFluxes* fracture_ = nullptr;
+  MatrixFluid* flow_in_rock_ = nullptr;
   MatrixWalls* walls_ = nullptr;
   FractureTemperature* fracture_heat_ = nullptr;
   WellPressures* wells_ = nullptr;
@@ -440,6 +462,9 @@ class HeatAdvection : public Coupler, public KeepsTotals {
   const Field* fracture_pressure_ = nullptr;
   Medium rock_, fractures_;
   std::vector<std::pair<std::string, double>> injected_;  ///< K, in this step
+  double start_;                                          ///< s
+  bool starts_from_state_ = false;                        ///< whether flow was solved for before the first step
+  bool has_flowed_ = false;                               ///< whether the fluxes are those of a solve
 };
 
 const RegisterCoupler<HeatAdvection, HeatAdvectionOptions> registration("heat_advection");

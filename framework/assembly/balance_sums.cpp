@@ -31,17 +31,58 @@ void for_entries(const Assembly::Block& block, const SparseMatrix& entries, cons
 
 }  // namespace
 
-bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_coupled) {
+namespace {
+
+/// Whether an unknown is a balance of the same quantity as those that are summed.
+bool is_beside(const Assembly& assembly, const Balances::Quantity& summed, int unknown) {
+  return std::ranges::any_of(assembly.balances().quantities(), [&](const Balances::Quantity& quantity) {
+    return quantity.has(unknown) && quantity.has(summed.unknowns.front());
+  });
+}
+
+/// The conductances by which unknowns on interfaces join the summed balances to others: at most this much, added up.
+double held_through_interfaces(const Assembly& assembly, const Balances::Quantity& summed) {
+  double held = 0;
+  for (std::size_t w = 0; w < assembly.unknowns().size(); ++w) {
+    const int flux = static_cast<int>(w);
+    if (is_bulk(assembly.unknowns()[w]->spec().role.kind()) || is_beside(assembly, summed, flux)) continue;
+    Vector own = Vector::Zero(assembly.unknowns()[w]->size());
+    double amount = 0, answer = 0;
+    for (const Assembly::Block& block : assembly.blocks()) {
+      const auto sum_or_largest = [&](bool sum) {
+        if (block.matrix->nonZeros() == 0) return 0.0;
+        const Eigen::Map<const Vector> values(block.matrix->valuePtr(), block.matrix->nonZeros());
+        return largest_weight(block) * (sum ? values.lpNorm<1>() : values.lpNorm<Eigen::Infinity>());
+      };
+      if (summed.has(block.row) && block.column == flux) amount += sum_or_largest(true);
+      if (block.row == flux && summed.has(block.column)) answer += sum_or_largest(false);
+      if (block.row == flux && block.column == flux)
+        for_entries(block, *block.matrix, std::vector<char>(own.size(), 1), [&](int row, int column, double value) {
+          if (row == column) own[row] += value;
+        });
+    }
+    if (amount > 0 && answer > 0) held += amount * answer / own.cwiseAbs().minCoeff();
+  }
+  return held;
+}
+
+}  // namespace
+
+bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool also_coupled) {
   constexpr double weak = 1e-6;
+  SPREKK_EXPECT(!summed.unknowns.empty(), summed.name);
   for (const Assembly::Fixed& fixed : assembly.fixed())
-    if (quantity.has(fixed.unknown)) return false;
+    if (summed.has(fixed.unknown)) return false;
   double exchanged = 0;
-  bool is_coupled = false;
+  bool is_coupled = false, is_part = false;
+  for (const Balances::Quantity& quantity : assembly.balances().quantities())
+    is_part = is_part || (quantity.has(summed.unknowns.front()) && quantity.unknowns.size() > summed.unknowns.size());
   for (const Assembly::Block& block : assembly.blocks()) {
-    if (!quantity.has(block.row)) continue;
-    if (quantity.has(block.column)) {
+    if (!summed.has(block.row)) continue;
+    if (summed.has(block.column)) {
       if (block.largest_exchange > 0) exchanged = std::max(exchanged, largest_weight(block) * block.largest_exchange);
-    } else if (is_bulk(assembly.unknowns()[block.column]->spec().role.kind())) {
+    } else if (is_bulk(assembly.unknowns()[block.column]->spec().role.kind()) &&
+               !is_beside(assembly, summed, block.column)) {
       const double* values = block.matrix->valuePtr();
       is_coupled =
           is_coupled || std::any_of(values, values + block.matrix->nonZeros(), [](double v) { return v != 0; });
@@ -51,10 +92,15 @@ bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool 
   exchanged = parallel::max(exchanged);
   if (exchanged == 0) return false;
   double held = 0;
-  for (const Assembly::Block& block : assembly.blocks())
-    if (quantity.has(block.row) && quantity.has(block.column) && block.in_sum->nonZeros() > 0)
-      held += largest_weight(block) *
-              Eigen::Map<const Vector>(block.in_sum->valuePtr(), block.in_sum->nonZeros()).lpNorm<1>();
+  for (const int unknown : summed.unknowns) {
+    Vector by_constant = Vector::Zero(assembly.unknowns()[unknown]->size());
+    for (const Assembly::Block& block : assembly.blocks())
+      if (block.row == unknown && summed.has(block.column))
+        for_entries(block, *block.in_sum, std::vector<char>(by_constant.size(), 1),
+                    [&](int row, int, double value) { by_constant[row] += value; });
+    held += by_constant.lpNorm<1>();
+  }
+  if (is_part) held += held_through_interfaces(assembly, summed);
   return parallel::sum(held) <= weak * exchanged;
 }
 
@@ -119,14 +165,33 @@ double sum_of_residuals(const Assembly& assembly, int unknown, const std::vector
   return parallel::sum(sum);
 }
 
+std::vector<Balances::Quantity> BalanceSums::sums_of(const Assembly& assembly,
+                                                     const std::vector<std::vector<char>>& owned,
+                                                     const std::vector<int>& first) const {
+  std::vector<Balances::Quantity> sums;
+  if (!are_used) return sums;
+  for (const Balances::Quantity& quantity : assembly.balances().quantities()) {
+    const bool is_whole = is_weak(assembly, quantity, are_used_where_coupled);
+    if (is_whole) sums.push_back(quantity);
+    if (quantity.unknowns.size() == 1) continue;
+    // The sum of all has the place of a row of one of them; the others may need one of their own.
+    const int row = is_whole ? row_to_replace(assembly, quantity, owned, first) : -1;
+    for (const int unknown : quantity.unknowns) {
+      if (row >= first[unknown] && row < first[unknown] + assembly.unknowns()[unknown]->size()) continue;
+      const Balances::Quantity own{quantity.name, {unknown}};
+      if (is_weak(assembly, own, are_used_where_coupled)) sums.push_back(own);
+    }
+  }
+  return sums;
+}
+
 void BalanceSums::put_into(const LinearSystem& plain, const Assembly& assembly,
                            const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
   replaced_.clear();
   if (!are_used) return;
   std::map<int, SumRow> rows;  // by their place
   std::vector<int> sums;
-  for (const Balances::Quantity& quantity : assembly.balances().quantities()) {
-    if (!replace_a_row(assembly, quantity)) continue;
+  for (const Balances::Quantity& quantity : sums_of(assembly, owned, first)) {
     SumRow sum = sum_of_rows(assembly, quantity, owned, first);
     if (sum.columns.empty()) continue;  // nothing determines this mode: the solver will report it
     const int row = row_to_replace(assembly, quantity, owned, first);

@@ -8,13 +8,14 @@
 
 namespace sprekk {
 
-/// Whether the balances of a quantity are near-singular for a constant: whether the derivatives without exchanges (the
-/// sum of their absolute entries) are at most 1e-6 of the largest exchange. The derivatives that determine the constant
-/// are then lost in the round-off of the rows, but not in the sum of the rows without exchanges. Where other unknowns
-/// of the bulk respond to the constant, how much these hold is known only with the solution: there `also_coupled`
-/// decides; a caller sets it after an attempt in which the constant was lost. Never true where values are fixed in
-/// place of balances. Collective; needs the derivatives.
-bool is_weak(const Assembly& assembly, const Balances::Quantity& quantity, bool also_coupled = false);
+/// Whether balances are near-singular for a constant: whether what the derivatives without exchanges make of the
+/// constant (the sum of the absolute values in the rows) is at most 1e-6 of the largest exchange. The derivatives that
+/// determine the constant are then lost in the round-off of the rows, but not in the sum of the rows without exchanges.
+/// `summed`: all balances of a quantity, or those of one of its fields; what joins these to the others through
+/// interfaces counts then. Where other unknowns of the bulk respond to the constant, how much these hold is known only
+/// with the solution: there `also_coupled` decides; a caller sets it after an attempt in which the constant was lost.
+/// Never true where values are fixed in place of balances. Collective; needs the derivatives.
+bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool also_coupled = false);
 
 /// A row of the Jacobian that is the sum of all rows of a quantity's balances.
 struct SumRow {
@@ -44,10 +45,11 @@ class BalanceSums {
   /// has entries in the columns of all these unknowns.
   bool are_used_where_coupled = false;
 
-  /// Whether the sum of these balances takes the place of one of them. Collective.
-  bool replace_a_row(const Assembly& assembly, const Balances::Quantity& quantity) const {
-    return are_used && is_weak(assembly, quantity, are_used_where_coupled);
-  }
+  /// The balances whose sums take the place of one of them: those of a quantity, and of single fields of it that have a
+  /// constant of their own, as rock and fractures whose walls let hardly anything through. Arguments as of
+  /// `sum_of_rows`. Collective.
+  std::vector<Balances::Quantity> sums_of(const Assembly& assembly, const std::vector<std::vector<char>>& owned,
+                                          const std::vector<int>& first) const;
   /// Makes the system that `with_sums` returns from the `plain` one of an assembly. Collective.
   void put_into(const LinearSystem& plain, const Assembly& assembly, const std::vector<std::vector<char>>& owned,
                 const std::vector<int>& first);

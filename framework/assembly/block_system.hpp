@@ -28,6 +28,10 @@ class BlockSystem {
   Vector residual(const Assembly& assembly) const;
   /// Sums of balances in the place of one of them, where that is allowed and needed.
   const BalanceSums& sums() const { return sums_; }
+  /// The balances whose sums the system of an assembly has. Collective.
+  std::vector<Balances::Quantity> sums_of(const Assembly& assembly) const {
+    return sums_.sums_of(assembly, owned_, first_);
+  }
   void use_sums(bool wanted) { sums_.are_used = wanted; }
   void use_coupled_sums(bool wanted);
   /// The sum over all processes of the residuals of balances, without the round-off of what rows exchange. Collective.

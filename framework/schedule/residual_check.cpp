@@ -23,8 +23,7 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   check.magnitudes.resize(2 * unknowns, 0);
   check.fixed_errors.resize(2 * unknowns, 0);
   const Balances& balances = assembly.balances();
-  for (const Balances::Quantity& quantity : balances.quantities()) {
-    if (!system.sums().replace_a_row(assembly, quantity)) continue;
+  for (const Balances::Quantity& quantity : system.sums_of(assembly)) {
     for (const int u : quantity.unknowns) {
       const double value = std::abs(system.residual_of_sum(assembly, u));
       const double magnitude = parallel::max(balances.magnitude(u));

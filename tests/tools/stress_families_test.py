@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 from stress_state import P, at_rest, change
-from stress_suite import check_growing, check_heat, check_wells, growing, heat, limited_wells, physics, ranges, written
+from stress_suite import check_balance, check_growing, check_heat, check_wells, growing, heat, limited_wells, physics, ranges, written
 
 
 class Growing(unittest.TestCase):
@@ -137,6 +137,26 @@ class Heat(unittest.TestCase):
             instant.matrix.cell_data["heat.temperature[K]"][2] = 299.6  # of 20 K between rock and fracture, 10 K in the rock
             self.assertEqual(len(check_heat.bounds({**self.P, "conduction": conduction}, [instant])), count)
 
+    def test_the_side_counts_as_rock_around(self):
+        """The first short step beside a side of 250 K: cells have hardly cooled, and one is 1 K too warm."""
+        for sides, count in (("right", 0), ("none", 1)):
+            instant = self.state()
+            instant.matrix.cell_data["heat.temperature[K]"][:] = 300.0
+            instant.matrix.cell_data["heat.temperature[K]"][2] = 301.0
+            instant.fractures.cell_data["water.temperature[K]"][:] = 300.0
+            p = {**self.P, "conduction": "mpfa", "heat_sides": sides, "well": "none"}
+            self.assertEqual(len(check_heat.bounds(p, [instant])), count)
+
+    def test_a_short_step_moves_less_than_the_last_digit_of_what_is_stored(self):
+        """2e6 x 16 x 310 J/m of rock: the last digit is 2e-6 J/m."""
+        for wrong, count in ((1e-6, 0), (1e-5, 1)):
+            history = self.history()
+            for name in ("stored", "injected", "outflow"):
+                history[f"heat_{name}[J/m]"] = np.array([0.0])
+            history["heat_balance_error[J/m]"] = np.array([wrong])
+            failures = check_heat.balances({**self.P, "conductivity": 1e-12, "fluid_heat_capacity": 1.0, "alpha": 1.0, "well": "none"}, [self.state()], history)
+            self.assertEqual(sum("the balance" in failure for failure in failures), count, failures)
+
     def test_the_least_viscosity(self):
         """Of water at 400 K: 0.218 mPa s (IAPWS 2008), within 3 % by the law."""
         self.assertAlmostEqual(heat.least_viscosity({**self.P, "viscosity_law": "water"}), 0.218e-3, delta=0.03 * 0.218e-3)
@@ -192,8 +212,25 @@ class Wells(unittest.TestCase):
         history, instant = self.history(), self.at_rest()
         brought = check_wells.sources(self.P, history, instant)
         step = physics.end(self.P)
-        self.assertAlmostEqual(brought(0, step, np.ones(4, bool)) / (history["wells.feed.rate[m^2/s]"][0] * step), 1)
-        self.assertEqual(brought(0, step, np.array([True, False, False, True])), 0)
+        self.assertAlmostEqual(brought(0, step, np.ones(4, bool))[0] / (history["wells.feed.rate[m^2/s]"][0] * step), 1)
+        self.assertEqual(brought(0, step, np.array([True, False, False, True]))[0], 0)
+
+    def test_what_one_well_draws_of_another_leaves_its_round_off(self):
+        """A fracture at rest whose sum of rates is wrong by 1e-10 of what it stores: round-off of 1e6 times that alone."""
+        instant, volume = self.at_rest(), physics.length(self.P) * self.P["aperture"]
+        moved = check_balance.fracture_mass(self.P, [instant], 0, lambda *_: (1e-3 * volume, 1e-3 * volume))
+        self.assertEqual(len(moved), 1)
+        for gross, count in ((0.0, 1), (1e6, 0)):
+            self.assertEqual(len(check_balance.fracture_mass(self.P, [instant], 0, self.nearly(instant, gross))), count)
+
+    def nearly(self, instant, gross):
+        """What wells bring, to 1e-8 of the fluid in the fracture."""
+        walls, length = instant.fractures.cell_data, 0.5
+        opened = length * (walls["conduit.aperture[m]"] - self.P["aperture"])
+        pressed = length * walls["conduit.aperture[m]"] * self.P["compressibility"] * (walls["conduit.pressure[Pa]"] - self.P["initial"])
+        out = instant.time * length * (walls["pore.wall_flux.plus[m/s]"] + walls["pore.wall_flux.minus[m/s]"])
+        exact, volume = (opened + pressed + out).sum(), physics.length(self.P) * self.P["aperture"]
+        return lambda *_: (exact + 1e-8 * volume, gross)
 
     def test_scenes_have_what_the_family_promises(self):
         drawn = [ranges.draw(1, number, "wells") for number in range(200)]

@@ -78,6 +78,43 @@ time: {{end: 4 s, step: {} s}}
   }
 }
 
+/// Reference: a closed fracture in tight rock, in which the pressure has long been the same everywhere: it rises by
+/// what the well has brought over what the fluid stores, Q t/(a c L), up to the limit of the well. Its fluid alone,
+/// 1e-16 of what the fracture conducts in a step, holds the pressure while the rate is given.
+TEST(WellsInFractures, RaiseThePressureOfAClosedOne) {
+  for (const char* solver : {"umfpack", "mumps", "{type: umfpack, condense: false}"})
+    for (const char* well : {"", ", index: 1e-4 m^2/(Pa*s)"})
+      for (const bool is_limited : {false, true}) {
+        SCOPED_TRACE(fmt::format("{}{}{}", solver, well, is_limited ? ", limited" : ""));
+        const double length = std::hypot(40, 30), rise = 8e6;
+        const double rate = 1e-3 * 4e-10 * length * rise / 4e13;
+        SceneRun run =
+            SceneRun::from_text(fmt::format(R"(
+geometry:
+  box: {{x: [-50 m, 50 m], y: [-40 m, 40 m]}}
+  fractures: {{f: {{points: [[-20 m, -15 m], [20 m, 15 m]]}}}}
+mesh: {{size: 20 m, fracture_size: 5 m}}
+materials: {{viscosity: 1 mPa*s, fluid_compressibility: 4e-10 1/Pa}}
+components:
+  conduit: {{type: fracture_flow/tpfa, initial_aperture: 1 mm, initial_pressure: 2 MPa}}
+  wells: {{type: wells/limited, wells: {{w: {{at: [4 m, 3 m], fracture: f, rate: {:.17g} m^2/s{}{}}}}}}}
+couplers: [{{type: well_exchange, between: [wells, conduit]}}]
+schedule: [{{solve: [conduit, wells]}}]
+solver: {}
+time: {{end: 4e13 s, step: 1e13 s}}
+)",
+                                            rate, is_limited ? ", highest_pressure: 7 MPa" : "", well,
+                                            solver[0] == '{' ? solver : fmt::format("{{type: {}}}", solver)));
+        run.run();
+        EXPECT_EQ(run.steps(), 4);
+        const double expected = is_limited ? 5e6 : rise;
+        const Vector& pressure = run.field("conduit.pressure");
+        EXPECT_NEAR(pressure.minCoeff() - 2e6, expected, 1e-9 * expected);
+        EXPECT_NEAR(pressure.maxCoeff() - 2e6, expected, 1e-9 * expected);
+        EXPECT_LT(balance_error(run), 1e-9);
+      }
+}
+
 /// A map of the plane by whole right angles and mirrors, and the side that it takes the left one to.
 struct Twin {
   double xx, xy, yx, yy;

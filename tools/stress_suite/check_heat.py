@@ -10,18 +10,35 @@ import numpy as np
 from . import check_balance, check_pressure, heat, physics
 
 PRECISION = 1e-8
+LAST_DIGIT = 2.2e-16  # of a number in double precision
+
+
+def missing_fluid(p, instants, instant, where):
+    """The heat of the fluid by which the balance of each cell may be wrong, over what the cell holds: of fluxes that are round-off
+    of pressures the sum is round-off, too, and a cell that passes for drained of more than it holds may have any temperature."""
+    _, level = check_balance.flows(p, instant)
+    if where == "rock":
+        heat_of_cells = p["heat_capacity"] * check_balance.cell_areas(instant.matrix)
+    else:
+        ends = instant.fractures.points[instant.fractures.cells]
+        heat_of_cells = p["fluid_heat_capacity"] * p["aperture"] * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    return p["fluid_heat_capacity"] * check_balance.ROUND_OFF * level * physics.time_step(p) * len(instants) / heat_of_cells
 
 
 def bounds(p, instants):
-    """Temperatures between those given. Conduction by MPFA may miss them by a part of the differences around."""
+    """Temperatures between those given. Conduction by MPFA may miss them by a part of the differences around, or in all of the
+    rock, whose sides have the given temperatures: in the first short steps cells differ by much less than from their side, and a
+    flux from there with the wrong sign is a part of the flux that the side makes."""
     least, most = min(heat.given(p)), max(heat.given(p))
+    on_sides = list(heat.sides(p).values())
     found = []
     for instant in instants:
         rock, fracture = instant.cell("heat.temperature[K]"), instant.on_fractures("water.temperature", "K")
         around = check_pressure.differences_around(instant, rock, fracture)
-        in_rock = rock.max() - rock.min()
+        in_rock = max(rock.max(), *on_sides) - min(rock.min(), *on_sides) if on_sides else rock.max() - rock.min()
         for name, values, near in (("rock", rock, around[0]), ("fractures", fracture, around[1])):
             slack = PRECISION * most + (check_pressure.MISSED * np.maximum(near, in_rock) if p["conduction"] == "mpfa" else 0)
+            slack = slack + missing_fluid(p, instants, instant, name) * (most - least)
             over = np.maximum(values - most, least - values) - slack
             worst = int(np.argmax(over))
             if over[worst] > 0:
@@ -59,7 +76,8 @@ def row(history, time):
 
 def allowed_exchange(p, instants):
     """J/m that all cells together may be wrong by, in all steps: a residual of the largest heat that conduction and fluid
-    exchange between two cells, and round-off of the temperatures from which heat that flows is computed."""
+    exchange between two cells, round-off of the temperatures from which heat that flows is computed, and the last digit of those
+    from which the heat of cells is: in a short step it may hold more than all that moves."""
     allowed = 0.0
     for instant in instants:
         rock, water = instant.cell("heat.temperature[K]"), instant.on_fractures("water.temperature", "K")
@@ -68,6 +86,7 @@ def allowed_exchange(p, instants):
         flow, flow_level = check_balance.flows(p, instant)
         residual = conductance * difference + p["fluid_heat_capacity"] * level * flow
         digits = conductance * level + p["fluid_heat_capacity"] * (level * flow + difference * flow_level)
+        allowed += LAST_DIGIT * level * p["heat_capacity"] * check_balance.cell_areas(instant.matrix).sum()
         allowed += (check_balance.RESIDUAL * residual + check_balance.ROUND_OFF * digits) * physics.time_step(p) * len(rock)
     return allowed
 

@@ -70,6 +70,62 @@ std::vector<int> columns_outside(const SparseMatrix& a, int first, int end, std:
   return found;
 }
 
+/// Whether the flux at a row leads from the rows [first, end) to local unknowns whose own rows do not resist a change
+/// of theirs, such as the pressure of a well whose rate is given: these follow, and hold nothing.
+bool leads_to_what_follows(const SparseMatrix& a, int flux, int first, int end, const std::vector<char>& is_local) {
+  bool leads = false;
+  for (SparseMatrix::InnerIterator entry(a, flux); entry; ++entry) {
+    const int at = static_cast<int>(entry.col());
+    if (entry.value() == 0 || at == flux || (at >= first && at < end)) continue;
+    if (!is_local[at] || a.coeff(at, at) != 0) return false;
+    leads = true;
+  }
+  return leads;
+}
+
+/// Whether adding `factor` times a row to a sum of rows leaves no entry of that row.
+bool cancels(const SparseMatrix& a, int row, double factor, const std::map<int, double>& sum) {
+  constexpr double round_off = 1e-15;
+  for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
+    if (entry.value() == 0) continue;
+    const auto own = sum.find(static_cast<int>(entry.col()));
+    const double added = factor * entry.value();
+    if (own == sum.end() || std::abs(own->second + added) > round_off * std::abs(added)) return false;
+  }
+  return true;
+}
+
+/// Takes fluxes that other rows give, such as the rate of a well, out of a sum: beside them, in one row, what is stored
+/// has no digits. Returns these rows with the factors by which they are added.
+std::vector<std::pair<int, double>> take_out_given_fluxes(const SparseMatrix& a, const std::vector<int>& group,
+                                                          const std::vector<char>& is_local,
+                                                          std::map<int, double>& sum) {
+  std::vector<std::pair<int, double>> added;
+  const std::map<int, double> whole = sum;
+  for (const auto& [flux, value] : whole) {
+    if (!is_local[flux] || sum.find(flux) == sum.end() || !std::isfinite(value) || value == 0) continue;
+    if (!leads_to_what_follows(a, flux, group.front(), group.back() + 1, is_local)) continue;
+    for (SparseMatrix::InnerIterator entry(a, flux); entry; ++entry) {
+      const int giving = static_cast<int>(entry.col());
+      if (giving == flux || std::binary_search(group.begin(), group.end(), giving) || entry.value() == 0) continue;
+      const double given = a.coeff(giving, flux);
+      if (given == 0 || !cancels(a, giving, -value / given, sum)) continue;
+      added.emplace_back(giving, -value / given);
+      for (SparseMatrix::InnerIterator out(a, giving); out; ++out) sum.erase(static_cast<int>(out.col()));
+      break;
+    }
+  }
+  return added;
+}
+
+std::vector<char> rows_of_interfaces(const std::vector<UnknownBlock>& blocks, Eigen::Index size) {
+  std::vector<char> is_local(size, 0);
+  for (const UnknownBlock& block : blocks)
+    if (block.kind == BlockKind::interface)
+      std::fill_n(is_local.begin() + block.first, block.entities * block.components, 1);
+  return is_local;
+}
+
 int root_of(std::vector<int>& parent, int row) {
   while (parent[row] != row) row = parent[row] = parent[parent[row]];
   return row;
@@ -101,6 +157,7 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
   constexpr double weak = 1e-6, closed = 1e-3;
   SPREKK_EXPECT(rows.rows() == rows.cols(), rows.rows(), rows.cols());
   std::vector<std::vector<int>> groups;
+  const std::vector<char> is_local = rows_of_interfaces(blocks, rows.cols());
   std::vector<Column> columns(rows.cols());
   for (const UnknownBlock& block : blocks) {
     if (block.kind != BlockKind::interface || !block.may_store) continue;
@@ -122,7 +179,7 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
         if (joins) {
           weakest[row - first] = std::min(weakest[row - first], conductance(row));
           strongest[row - first] = std::max(strongest[row - first], conductance(row));
-        } else {
+        } else if (!leads_to_what_follows(rows, at, first, first + size, is_local)) {
           outwards[row - first] = std::max(outwards[row - first], conductance(row));
         }
       }
@@ -153,6 +210,7 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
   const SparseMatrix gathered = is_alone ? SparseMatrix() : local_rows(system);
   const SparseMatrix& rows = is_alone ? system.local : gathered;
   std::map<int, std::map<int, double>> replaced;
+  std::vector<char> is_local;
   for (std::vector<int>& group : exchanging_rows(rows, system.blocks)) {
     Sum sum;
     for (const int row : group) {
@@ -161,7 +219,15 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
       sum.owned.push_back(static_cast<int>(found - system.rows.begin()));
       if (row == group.front()) sum.replaced = sum.owned.back();
     }
-    if (sum.replaced >= 0) replaced[sum.replaced] = sum_of(rows, group);
+    if (is_local.empty()) is_local = rows_of_interfaces(system.blocks, rows.cols());
+    std::map<int, double> entries = sum_of(rows, group);
+    sum.given = take_out_given_fluxes(rows, group, is_local, entries);
+    for (const auto& [row, factor] : sum.given) {
+      const auto found = std::lower_bound(system.rows.begin(), system.rows.end(), row);
+      if (found != system.rows.end() && *found == row)
+        sum.owned_given.emplace_back(static_cast<int>(found - system.rows.begin()), factor);
+    }
+    if (sum.replaced >= 0) replaced[sum.replaced] = std::move(entries);
     sum.rows = std::move(group);
     sums_.push_back(std::move(sum));
   }
@@ -193,8 +259,10 @@ LinearReport SummedBalances::solve(const Vector& b_rows, Vector& x) {
 #ifdef SPREKK_ASSERTIONS
   for (const Sum& sum : sums_) SPREKK_ASSERT(are_indices(sum.owned, b_rows.size()), b_rows.size());
 #endif
-  for (std::size_t s = 0; s < sums_.size(); ++s)
+  for (std::size_t s = 0; s < sums_.size(); ++s) {
     for (const int place : sums_[s].owned) totals[s] += b_rows[place];
+    for (const auto& [place, factor] : sums_[s].owned_given) totals[s] += factor * b_rows[place];
+  }
   parallel::sum(totals);
   Vector b = b_rows;
   for (std::size_t s = 0; s < sums_.size(); ++s)
@@ -214,6 +282,7 @@ bool SummedBalances::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
     SPREKK_ASSERT(are_indices(sum.rows, columns.rows()), columns.rows());
     Eigen::RowVectorXd total = Eigen::RowVectorXd::Zero(columns.cols());
     for (const int row : sum.rows) total += columns.row(row);
+    for (const auto& [row, factor] : sum.given) total += factor * columns.row(row);
     columns.row(sum.rows.front()) = total;
   }
   return solver_->solve_columns(columns);

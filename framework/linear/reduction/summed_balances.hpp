@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "framework/linear/linear_solver.hpp"
@@ -14,8 +15,9 @@ namespace sprekk {
 /// entries that cancel to the bit, as what leaves one row enters the other. Where C is above S/eps, the sum of the rows
 /// determines the constant mode of the potentials well, but elimination adds S to C and loses S. Here the sum of such
 /// rows, in which D is absent, takes the place of the first of them: the equations are equivalent, and S keeps its
-/// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A sum that is
-/// zero belongs to a singular matrix, whose constant mode nothing holds.
+/// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A flux out of
+/// the rows that another row gives, such as the rate of a well, does not count for that, and is taken out of the sum by
+/// adding a multiple of that row. A sum that is zero belongs to a singular matrix, whose constant mode nothing holds.
 class SummedBalances final : public LinearSolver {
  public:
   explicit SummedBalances(std::unique_ptr<LinearSolver> solver);
@@ -35,6 +37,7 @@ class SummedBalances final : public LinearSolver {
   struct Sum {
     std::vector<int> rows, owned;
     int replaced = -1;  ///< place of the first row in the right-hand side, if it is this process's
+    std::vector<std::pair<int, double>> given, owned_given;  ///< rows that give fluxes out of these, and their factors
   };
   std::unique_ptr<LinearSolver> solver_;
   std::vector<Sum> sums_;

@@ -1,5 +1,5 @@
 // Pressures that leave the bounds of their surroundings are found, and no others are.
-#include "components/matrix_flow/overshoots.hpp"
+#include "components/capabilities/overshoots.hpp"
 
 #include <gtest/gtest.h>
 

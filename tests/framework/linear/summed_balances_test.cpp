@@ -96,6 +96,49 @@ TEST(ExchangingRows, DoNotLeadOut) {
   EXPECT_THAT(exchanging_rows(open.local, open.blocks), testing::IsEmpty());
 }
 
+/// A chain with a well in its second content: the rate q of the well, with R q = p_w - p, and its pressure p_w, for
+/// which the rate or the pressure is given.
+LinearSystem with_well(double resistance, bool is_rate_given) {
+  const LinearSystem chain = test::Exchange{30, 1e-14, 1e4}.build();
+  std::vector<Triplet> entries;
+  for (int row = 0; row < chain.local.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(chain.local, row); entry; ++entry)
+      entries.emplace_back(row, static_cast<int>(entry.col()), entry.value());
+  const int rate = static_cast<int>(chain.local.cols()), pressure = rate + 1;
+  entries.insert(entries.end(), {{1, rate, -3e7}, {rate, rate, resistance}, {rate, pressure, -1}, {rate, 1, 1}});
+  entries.emplace_back(pressure, is_rate_given ? rate : pressure, 1);
+  std::vector<UnknownBlock> blocks = chain.blocks;
+  for (std::size_t k = 0; k < 2; ++k) {
+    blocks.push_back(
+        {k == 0 ? "wells.rate" : "wells.pressure", rate + static_cast<int>(k), 1, 1, BlockKind::interface, {}, {}});
+    blocks.back().may_store = false;
+  }
+  return test::make_system(pressure + 1, entries, blocks);
+}
+
+// A well whose rate is given follows the pressure of its cell, and does not hold it, whatever its resistance.
+TEST_P(SummedBalancesOf, HoldsTheLevelBesideAWellOfGivenRate) {
+  for (const double resistance : {0.0, 1e-12, 1.0}) {
+    const LinearSystem system = with_well(resistance, true);
+    EXPECT_THAT(exchanging_rows(system.local, system.blocks), testing::SizeIs(1)) << resistance;
+    const auto solver = make();
+    const LinearReport factored = solver->factor(system);
+    ASSERT_TRUE(factored.solved) << factored.reason;
+    Vector b = Vector::Zero(system.local.cols()), x;
+    b[b.size() - 1] = 1e-16;  // the rate
+    ASSERT_TRUE(solver->solve(b, x).solved);
+    const double level = 3e7 * 1e-16 / (30 * 1e-14);  // what it brings, over all that is stored
+    EXPECT_NEAR(x.head(30).minCoeff(), level, 1e-9 * level) << resistance;
+    EXPECT_NEAR(x.head(30).maxCoeff(), level, 1e-9 * level) << resistance;
+    EXPECT_NEAR(x[x.size() - 1], level + resistance * 1e-16, 1e-9 * level) << resistance;
+  }
+}
+
+TEST(ExchangingRows, DoNotLeadToAWellOfGivenPressure) {
+  const LinearSystem system = with_well(0, false);
+  EXPECT_THAT(exchanging_rows(system.local, system.blocks), testing::IsEmpty());
+}
+
 // Where three cells meet, two fluxes depend on stored amounts, and the third one on these two fluxes.
 TEST(ExchangingRows, AreJoinedByWhatAnswersToContents) {
   LinearSystem three = test::Exchange{3, 1e-12, 1}.build();

@@ -1,4 +1,4 @@
-#include "components/matrix_flow/overshoots.hpp"
+#include "components/capabilities/overshoots.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "framework/parallel/parallel.hpp"
 
-namespace sprekk::matrix_flow {
+namespace sprekk {
 namespace {
 
 constexpr double least_share_of_range = 0.01;
@@ -69,12 +69,15 @@ Overshoots find_overshoots(const FlowStep& step) {
       if (above <= least_share_of_range * found.range || sign * share_of_source(step, cell) > least_share_of_source)
         continue;
       ++cells;
+      if (above > found.largest) found.cell = cell;
       found.largest = std::max(found.largest, above);
     }
   }
   found.cells = std::lround(parallel::sum(cells));
-  found.largest = parallel::max(found.largest);
+  const double largest = parallel::max(found.largest);
+  found.cell = static_cast<int>(parallel::max(found.largest == largest ? found.cell : none));
+  found.largest = largest;
   return found;
 }
 
-}  // namespace sprekk::matrix_flow
+}  // namespace sprekk

@@ -1,13 +1,14 @@
-// Finds pressures that violate a discrete maximum principle.
+// Finds pressures, or temperatures, that violate a discrete maximum principle.
 #pragma once
 
 #include <vector>
 
-#include "components/matrix_flow/flux_operators.hpp"
+#include "components/capabilities/flux_discretization.hpp"
 
-namespace sprekk::matrix_flow {
+namespace sprekk {
 
-/// The state of the flow at the end of a step. A potential is a pressure without that of a fluid column at rest.
+/// The state of the flow at the end of a step. A potential is a pressure without that of a fluid column at rest. The
+/// same for conducted heat: with temperatures in K, W/m for m^2/s, and J/(m K) for m^2/Pa.
 struct FlowStep {
   const Mesh& mesh;
   const std::vector<FlowCondition>& conditions;
@@ -24,6 +25,7 @@ struct Overshoots {
   long cells = 0;
   double largest = 0;  ///< Pa
   double range = 0;    ///< of all potentials, Pa
+  int cell = none;     ///< where it is largest
 };
 
 /// Finds cells that overshoot. A cell overshoots if its potential is higher than before, higher than in all cells
@@ -34,4 +36,4 @@ struct Overshoots {
 /// Collective.
 Overshoots find_overshoots(const FlowStep& step);
 
-}  // namespace sprekk::matrix_flow
+}  // namespace sprekk
