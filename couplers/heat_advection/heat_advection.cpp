@@ -1,6 +1,4 @@
 // heat_advection: flowing fluid carries heat through the matrix, along fractures and through their walls.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,8 +13,6 @@
 
 namespace sprekk::couplers {
 namespace {
-
-constexpr double noticeable_part_of_rates = 1e-6;  // of the largest of all rates of wells: less is round-off
 
 /// Fluid that is injected at a place of the scene.
 struct Injected {
@@ -56,8 +52,6 @@ struct HeatAdvectionOptions {
   }
 };
 
-using Mixtures = std::vector<std::optional<WellMixture>>;
-
 /// Adds to the heat balance of each cell what streams of fluid carry (Stream). With the fluid m that has entered the
 /// cell since the start (m^2), by the same streams, it stores c (m T − m_old T_old), and what enters is c dt q T of
 /// where it comes from. Together with m = m_old + dt (sum of q) this is
@@ -74,19 +68,14 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     flow_in_rock_ = context.find<MatrixFluid>();
     rock_.heat = context.find<MatrixTemperature>();
     fracture_heat_ = context.find<FractureTemperature>();
-    wells_ = context.find<WellPressures>();
     if (!(matrix_ && rock_.heat) && !(fracture_ && fracture_heat_))
       throw InputError(context.origin, "coupler " + name() + " has no flow that carries heat",
                        "it needs the flow and the heat of the matrix, of the fractures, or of both",
                        "name such components in `between`, or remove the coupler for conduction alone");
-    const std::string wells = context.left_out<WellPressures>();
-    if (!wells.empty())
-      throw InputError(context.origin, "coupler " + name() + " leaves out '" + wells + "'",
-                       "the fluid of these wells carries heat, too", "name '" + wells + "' in 'between'");
-    if (wells_) look_for_pressures(context);
     if (rock_.heat && matrix_) add_fields(context, rock_, rock_.heat->temperature(), Location::cell, "rock");
     if (fracture_heat_ && fracture_)
       add_fields(context, fractures_, fracture_heat_->temperature(), Location::fracture_cell, "fractures");
+    find_wells(context);
   }
 
   /// Heat that is carried through the walls in a step is the same for both sides.
@@ -102,7 +91,8 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     for (const auto& [name, given] : options_.injected)
       injected_.emplace_back(name, value_in_step(given.temperature, Place{}, step));
     check_names();
-    check_wells();
+    wells_.injected = injected_by_wells();
+    wells_.check(name());
   }
   void begin_step(const StepTime& step) override { has_flowed_ = starts_from_state_ || step.start > start_; }
 
@@ -160,12 +150,11 @@ class HeatAdvection : public Coupler, public KeepsTotals {
       }
       quantities.push_back({name() + "." + place + ".temperature", "K", rate > 0 ? sum / rate : 0.0});
     };
-    if (wells_) {
-      const Mixtures fluid = fluid_of_wells();
-      for (std::size_t well = 0; well < fluid.size(); ++well)
-        if (fluid[well])
-          quantities.push_back({name() + "." + wells_->names()[well] + ".temperature", "K", fluid[well]->temperature});
-    }
+    const Mixtures fluid = wells_.mixtures();
+    for (std::size_t well = 0; well < fluid.size(); ++well)
+      if (fluid[well])
+        quantities.push_back(
+            {name() + "." + wells_.wells->names()[well] + ".temperature", "K", fluid[well]->temperature});
     if (rock_.temperature)
       for (const FluidSource& source : matrix_->fluid_sources())
         if (source.name != "source") mean(source.name, rock_.temperature->now(), source.rates);
@@ -181,20 +170,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     }
   }
 
-  void note_step(Notes& notes, const StepTime&) const override {
-    if (!wells_) return;
-    const Vector& rates = wells_->rate().now();
-    Vector net = Vector::Zero(static_cast<int>(wells_->names().size()));
-    for (std::size_t k = 0; k < wells_->places().size(); ++k)
-      if (has_heat(wells_->surroundings()[k])) net[wells_->places()[k].well] += rates[static_cast<int>(k)];
-    for (int well = 0; well < net.size(); ++well)
-      if (!injected_by(well) && net[well] > noticeable_part_of_rates * rates.lpNorm<Eigen::Infinity>())
-        notes.add(name() + ": fluid of " + wells_->names()[well] + " without a temperature",
-                  fmt::format("well '{}' injects {:.3g} m^2/s of fluid that has no temperature (it enters with that of "
-                              "what flows into the well elsewhere, or of the cell) give one under 'injected' of {}",
-                              wells_->names()[well], net[well], name()),
-                  net[well]);
-  }
+  void note_step(Notes& notes, const StepTime&) const override { wells_.note(name(), notes); }
 
   std::vector<double> switch_times() const override {
     std::vector<const Data*> data;
@@ -267,57 +243,32 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     sources.matrix_heat = rock_.temperature ? rock_.heat : nullptr;
     sources.fracture_heat = fractures_.temperature ? fracture_heat_ : nullptr;
     sources.injected = injected_;
-    sources.wells = wells_;
-    if (rock_.temperature) sources.rock_pressure = rock_pressure_;
-    if (fractures_.temperature) sources.fracture_pressure = fracture_pressure_;
+    sources.wells = wells_.wells;
+    sources.rock_pressure = wells_.rock.pressure;
+    sources.fracture_pressure = wells_.fractures.pressure;
     return sources;
   }
 
-  void look_for_pressures(const CouplerContext& context) {
-    if (auto* fluid = context.find<MatrixFluid>()) rock_pressure_ = &fluid->pressure();
-    if (auto* fluid = context.find<FractureFluid>()) fracture_pressure_ = &fluid->pressure();
+  void find_wells(const CouplerContext& context) {
+    const std::string left_out = context.left_out<WellPressures>();
+    if (!left_out.empty())
+      throw InputError(context.origin, "coupler " + name() + " leaves out '" + left_out + "'",
+                       "the fluid of these wells carries heat, too", "name '" + left_out + "' in 'between'");
+    wells_.wells = context.find<WellPressures>();
+    if (!wells_.wells) return;
+    if (auto* fluid = context.find<MatrixFluid>()) wells_.rock = {&fluid->pressure(), rock_.temperature};
+    if (auto* fluid = context.find<FractureFluid>()) wells_.fractures = {&fluid->pressure(), fractures_.temperature};
   }
 
-  /// Of what comes into a well from outside.
-  std::optional<double> injected_by(int well) const {
-    for (const auto& [name, temperature] : injected_)
-      if (name == wells_->names()[well]) return temperature;
-    return std::nullopt;
-  }
-
-  Mixtures fluid_of_wells() const {
-    if (!wells_) return {};
-    std::vector<std::optional<double>> given;
-    for (int well = 0; well < static_cast<int>(wells_->names().size()); ++well) given.push_back(injected_by(well));
-    return mixtures(*wells_, {rock_pressure_, rock_.temperature}, {fracture_pressure_, fractures_.temperature}, given);
-  }
-
-  bool has_heat(const AroundWell& around) const {
-    return (rock_.temperature && around.pressure == rock_pressure_) ||
-           (fractures_.temperature && around.pressure == fracture_pressure_);
-  }
-
-  /// Throws DataError where the fluid that a well brings has no temperature.
-  void check_wells() const {
-    if (!wells_) return;
-    std::vector<char> has_known(wells_->names().size(), false), has_unknown = has_known;
-    for (std::size_t k = 0; k < wells_->places().size(); ++k) {
-      const WellPlace& place = wells_->places()[k];
-      (has_heat(wells_->surroundings().at(k)) ? has_known : has_unknown)[place.well] = true;
-    }
-    for (const WellPlace& place : wells_->places()) {
-      const std::string& well = wells_->names()[place.well];
-      if (has_known[place.well] && has_unknown[place.well])
-        throw DataError(InputError(place.origin, "the temperature of the fluid in well '" + well + "' is not known",
-                                   "one of the places to which it is open has no temperature in " + name(),
-                                   "name the flow and the heat there in 'between', or make two wells of it")
-                            .what());
-      if (has_known[place.well] && wells_->is_to_inject(place.well) && !injected_by(place.well))
-        throw DataError(InputError(place.origin, "the fluid that well '" + well + "' injects has no temperature",
-                                   "coupler " + name() + " carries heat",
-                                   "write 'injected: {" + well + ": {temperature: 300 K}}' in " + name())
-                            .what());
-    }
+  /// Of what comes into wells from outside.
+  std::vector<std::optional<double>> injected_by_wells() const {
+    std::vector<std::optional<double>> temperatures;
+    if (wells_.wells)
+      for (const std::string& well : wells_.wells->names()) {
+        const auto given = std::ranges::find(injected_, well, &std::pair<std::string, double>::first);
+        temperatures.push_back(given == injected_.end() ? std::nullopt : std::optional(given->second));
+      }
+    return temperatures;
   }
 
   /// Throws DataError for a temperature of a place that the flow does not have.
@@ -329,7 +280,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
       for (const FluidSource& source : fracture_->fluid_sources()) known.push_back(source.name);
       for (const FluidReservoir& reservoir : fracture_->fluid_reservoirs()) known.push_back(reservoir.name);
     }
-    if (wells_) known.insert(known.end(), wells_->names().begin(), wells_->names().end());
+    if (wells_.wells) known.insert(known.end(), wells_.wells->names().begin(), wells_.wells->names().end());
     for (const auto& [name, given] : options_.injected)
       if (!std::ranges::count(known, name))
         throw DataError(unknown_name(given.origin, "place where the flow lets fluid in", name, known).what());
@@ -361,7 +312,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     double largest = 0, largest_rate = 0, largest_difference = 0;
     std::vector<Triplet> own, of_rock, of_fractures;
     std::array<std::vector<Triplet>, 4> by_flux;  // by Stream::Flux
-    const Mixtures wells = fluid_of_wells();
+    const Mixtures wells = wells_.mixtures();
     for (const Stream& stream : streams) {
       SPREKK_ASSERT(std::isfinite(stream.rate), stream.cell, stream.rate);
       if (stream.rate <= 0 || stream.from == Stream::From::own) continue;
@@ -425,12 +376,12 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     if (const auto& entries = entries_of(Stream::Flux::fracture_point); !entries.empty())
       assembly.derivative(temperature, fracture_->flux(), block(entries, fracture_->flux().size()));
     if (const auto& entries = entries_of(Stream::Flux::well); !entries.empty())
-      assembly.derivative(temperature, wells_->rate(), block(entries, wells_->rate().size()));
+      assembly.derivative(temperature, wells_.wells->rate(), block(entries, wells_.wells->rate().size()));
   }
 
   void count(Medium& place, const std::vector<Stream>& streams, const StepTime& step) {
     const Vector& temperature = place.temperature->now();
-    const Mixtures wells = fluid_of_wells();
+    const Mixtures wells = wells_.mixtures();
     Vector sums = place.cumulative->accepted(), received = place.received->accepted();
     for (const Stream& stream : streams) {
       received[stream.cell] += step.dt * stream.rate;
@@ -457,9 +408,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
   MatrixFluid* flow_in_rock_ = nullptr;
   MatrixWalls* walls_ = nullptr;
   FractureTemperature* fracture_heat_ = nullptr;
-  WellPressures* wells_ = nullptr;
-  const Field* rock_pressure_ = nullptr;  ///< of the flows; found where there are wells
-  const Field* fracture_pressure_ = nullptr;
+  HeatOfWells wells_;
   Medium rock_, fractures_;
   std::vector<std::pair<std::string, double>> injected_;  ///< K, in this step
   double start_;                                          ///< s

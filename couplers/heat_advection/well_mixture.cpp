@@ -1,11 +1,18 @@
 #include "couplers/heat_advection/well_mixture.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "framework/config/data.hpp"
+#include "framework/config/input_error.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::couplers {
 namespace {
+
+constexpr double noticeable_part_of_rates = 1e-6;  // of the largest of all rates of wells: less is round-off
 
 /// What a well is open to, with the temperatures there.
 struct Opening {
@@ -14,16 +21,16 @@ struct Opening {
   double rate, temperature;
 };
 
-std::vector<Opening> openings(const WellPressures& wells, const HeatOfCells& rock, const HeatOfCells& fractures,
-                              int well) {
+std::vector<Opening> openings(const HeatOfWells& heat, int well) {
+  const WellPressures& wells = *heat.wells;
   std::vector<Opening> openings;
   for (int k = 0; k < static_cast<int>(wells.places().size()); ++k) {
     if (wells.places()[k].well != well) continue;
     const AroundWell& around = wells.surroundings()[k];
-    for (const HeatOfCells* medium : {&rock, &fractures})
+    for (const HeatOfCells* medium : {&heat.rock, &heat.fractures})
       if (medium->temperature && medium->pressure == around.pressure)
-        openings.push_back(
-            {k, around.cell, medium == &fractures, wells.rate().now()[k], medium->temperature->now()[around.cell]});
+        openings.push_back({k, around.cell, medium == &heat.fractures, wells.rate().now()[k],
+                            medium->temperature->now()[around.cell]});
   }
   return openings;
 }
@@ -54,18 +61,56 @@ WellMixture mixture(const std::vector<Opening>& openings, std::optional<double> 
 
 }  // namespace
 
-std::vector<std::optional<WellMixture>> mixtures(const WellPressures& wells, const HeatOfCells& rock,
-                                                 const HeatOfCells& fractures,
-                                                 const std::vector<std::optional<double>>& given) {
-  const int count = static_cast<int>(wells.names().size());
-  SPREKK_EXPECT(static_cast<int>(given.size()) == count, given.size(), count);
-  SPREKK_EXPECT(wells.surroundings().size() == wells.places().size(), wells.surroundings().size());
-  std::vector<std::optional<WellMixture>> mixtures(count);
-  for (int well = 0; well < count; ++well) {
-    const std::vector<Opening> open = openings(wells, rock, fractures, well);
-    if (!open.empty()) mixtures[well] = mixture(open, given[well]);
+bool HeatOfWells::is_known(const AroundWell& around) const {
+  return (rock.temperature && around.pressure == rock.pressure) ||
+         (fractures.temperature && around.pressure == fractures.pressure);
+}
+
+Mixtures HeatOfWells::mixtures() const {
+  if (!wells) return {};
+  SPREKK_EXPECT(injected.size() == wells->names().size(), injected.size());
+  SPREKK_EXPECT(wells->surroundings().size() == wells->places().size(), wells->surroundings().size());
+  Mixtures mixtures(injected.size());
+  for (std::size_t well = 0; well < mixtures.size(); ++well) {
+    const std::vector<Opening> open = openings(*this, static_cast<int>(well));
+    if (!open.empty()) mixtures[well] = mixture(open, injected[well]);
   }
   return mixtures;
+}
+
+void HeatOfWells::check(const std::string& coupler) const {
+  if (!wells) return;
+  std::vector<char> has_known(wells->names().size(), false), has_unknown = has_known;
+  for (std::size_t k = 0; k < wells->places().size(); ++k)
+    (is_known(wells->surroundings().at(k)) ? has_known : has_unknown)[wells->places()[k].well] = true;
+  for (const WellPlace& place : wells->places()) {
+    const std::string& well = wells->names()[place.well];
+    if (has_known[place.well] && has_unknown[place.well])
+      throw DataError(InputError(place.origin, "the temperature of the fluid in well '" + well + "' is not known",
+                                 "one of the places to which it is open has no temperature in " + coupler,
+                                 "name the flow and the heat there in 'between', or make two wells of it")
+                          .what());
+    if (has_known[place.well] && wells->is_to_inject(place.well) && !injected[place.well])
+      throw DataError(InputError(place.origin, "the fluid that well '" + well + "' injects has no temperature",
+                                 "coupler " + coupler + " carries heat",
+                                 "write 'injected: {" + well + ": {temperature: 300 K}}' in " + coupler)
+                          .what());
+  }
+}
+
+void HeatOfWells::note(const std::string& coupler, Notes& notes) const {
+  if (!wells) return;
+  const Vector& rates = wells->rate().now();
+  Vector net = Vector::Zero(static_cast<int>(wells->names().size()));
+  for (std::size_t k = 0; k < wells->places().size(); ++k)
+    if (is_known(wells->surroundings()[k])) net[wells->places()[k].well] += rates[static_cast<int>(k)];
+  for (int well = 0; well < net.size(); ++well)
+    if (!injected[well] && net[well] > noticeable_part_of_rates * rates.lpNorm<Eigen::Infinity>())
+      notes.add(coupler + ": fluid of " + wells->names()[well] + " without a temperature",
+                fmt::format("well '{}' injects {:.3g} m^2/s of fluid that has no temperature (it enters with that of "
+                            "what flows into the well elsewhere, or of the cell) give one under 'injected' of {}",
+                            wells->names()[well], net[well], coupler),
+                net[well]);
 }
 
 }  // namespace sprekk::couplers

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "components/capabilities/wells.hpp"
+#include "framework/assembly/notes.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk::couplers {
@@ -29,10 +31,21 @@ struct WellMixture {
   std::vector<Derivative> by_rate, by_rock, by_fractures;
 };
 
-/// One a well; empty for a well that is open to nothing whose temperature is known. `given`: the temperature of what
-/// comes from outside, one a well.
-std::vector<std::optional<WellMixture>> mixtures(const WellPressures& wells, const HeatOfCells& rock,
-                                                 const HeatOfCells& fractures,
-                                                 const std::vector<std::optional<double>>& given);
+using Mixtures = std::vector<std::optional<WellMixture>>;
+
+/// Wells, and the temperatures around them.
+struct HeatOfWells {
+  const WellPressures* wells = nullptr;
+  HeatOfCells rock, fractures;
+  std::vector<std::optional<double>> injected;  ///< K, of what comes from outside, one a well
+
+  bool is_known(const AroundWell& around) const;
+  /// One a well; empty for a well that is open to nothing whose temperature is known.
+  Mixtures mixtures() const;
+  /// Throws DataError where the fluid that a well brings has no temperature. `coupler`: its name.
+  void check(const std::string& coupler) const;
+  /// Notes wells that let fluid in without a temperature.
+  void note(const std::string& coupler, Notes& notes) const;
+};
 
 }  // namespace sprekk::couplers
