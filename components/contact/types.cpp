@@ -69,10 +69,10 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                 {.range = positive(),
                  .doc = "A note tells of a jump above this share of the length of its fracture: the model keeps places "
                         "and shapes of fractures."});
-  spec.texts(
-      "fractures", fractures,
-      {.doc = "Fractures with this contact; all by default. Each fracture needs one contact: others are given to "
-              "other components of this kind, beside it."});
+  spec.texts("fractures", fractures,
+             {.doc = "Fractures with this contact, `joints_*` for all that begin so; all by default. Each fracture "
+                     "needs one contact: others are given to "
+                     "other components of this kind, beside it."});
   return spec;
 }
 

@@ -4,15 +4,26 @@
 
 namespace sprekk {
 
+namespace {
+
+bool stands_for(const std::string& key, const std::string& name) {
+  const bool is_beginning = key.size() > 1 && key.back() == '*';
+  return is_beginning ? name.starts_with(key.substr(0, key.size() - 1)) : key == name;
+}
+
+}  // namespace
+
 std::vector<char> fracture_set(const Mesh& mesh, const std::vector<std::string>& names, const Origin& origin) {
   if (names.empty()) return {};
   std::vector<std::string> known;
   for (const Fracture& fracture : mesh.fractures) known.push_back(fracture.name);
   for (const std::string& name : names)
-    if (std::ranges::count(known, name) == 0) throw unknown_name(origin, "fracture", name, known);
+    if (std::ranges::none_of(known, [&](const std::string& one) { return stands_for(name, one); }))
+      throw unknown_name(origin, "fracture", name, known);
   std::vector<char> flags(mesh.fracture_cell_count());
   for (int i = 0; i < mesh.fracture_cell_count(); ++i)
-    flags[i] = std::ranges::count(names, known[mesh.fracture_cells[i].fracture]) > 0;
+    flags[i] = std::ranges::any_of(
+        names, [&](const std::string& name) { return stands_for(name, known[mesh.fracture_cells[i].fracture]); });
   if (std::ranges::count(flags, 0) == 0) return {};
   return flags;
 }

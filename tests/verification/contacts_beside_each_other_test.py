@@ -152,6 +152,15 @@ class ContactsBesideEachOther(SceneRuns):
                     counts = [beside.history[f"{name}.cells_{states}[1]"] for name in ("faults", "joints")]
                     self.assertTrue(np.array_equal(sum(counts), alone.history[f"contact.cells_{states}[1]"]))
 
+    def test_a_beginning_stands_for_names(self):
+        renamed = two(POINTS).replace("branch", "set_1").replace("joint:", "set_2:").replace("fracture: joint,", "fracture: set_2,")
+        self.assertIn("[set_1,joint]", renamed)
+        listed = self.run_text(renamed.replace("[set_1,joint]", "[set_1,set_2]"))
+        self.assert_same_bits(self.run_text(renamed.replace("[set_1,joint]", "['set_*']").replace("[fault, set_1]", "[fault, 'set_1*']")), listed)
+        said = self.call("check", self.write(renamed.replace("[set_1,joint]", "['sett_*']")))
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("unknown fracture 'sett_*'", said.stderr)
+
     @on_two_processes
     def test_on_two_processes(self):
         alone = self.run_text(one(POINTS))

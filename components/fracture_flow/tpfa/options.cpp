@@ -131,7 +131,8 @@ Spec Options::spec() {
                  .doc = "Density of the fluid; matters with gravity, and with the inertia of `law`, only.",
                  .material = true});
   spec.texts("fractures", fractures,
-             {.doc = "Fractures in which there is a flow; all by default. The others are dry: nothing flows in them or "
+             {.doc = "Fractures in which there is a flow, `joints_*` for all that begin so; all by default. The others "
+                     "are dry: nothing flows in them or "
                      "passes through their walls, and no pressure pushes them open."});
   static Injection example_injection;
   spec.named_sections("injection", injection_spec(example_injection),
