@@ -30,10 +30,11 @@ class Excavation {
 
   bool is_empty() const { return regions_.empty(); }
   void evaluate(const StepTime& step);
-  bool is_excavated(int cell) const { return !regions_.empty() && region_of_cell_[cell] != none; }  ///< once
+  /// Whether the cell is taken away at some time of the run.
+  bool is_excavated(int cell) const { return !regions_.empty() && region_of_cell_[cell] != none; }
   bool is_removed(int cell) const { return support(cell) < 1; }
   double support(int cell) const { return is_excavated(cell) ? support_[region_of_cell_[cell]] : 1; }
-  double stiffness(int cell) const { return is_removed(cell) ? left_stiffness : 1; }  ///< of that before
+  double stiffness(int cell) const { return is_removed(cell) ? left_stiffness : 1; }  ///< over that of the rock
   std::uint64_t version() const { return version_; }                                  ///< grows with what is removed
   std::vector<const Data*> data() const;
   /// `alpha` (one a cell) without the cells that are removed.
@@ -42,7 +43,7 @@ class Excavation {
   std::vector<char> left() const;
 
  private:
-  /// Displacements around change by about this part; those inside stay determined.
+  /// Not zero, so that displacements inside stay determined; those around change by about this part.
   static constexpr double left_stiffness = 1e-6;
   std::vector<const ExcavatedRegion*> regions_;
   std::vector<int> region_of_cell_;  ///< empty without regions

@@ -12,7 +12,7 @@ namespace sprekk::poromechanics {
 struct PrincipalStress {
   double most_compressive, least_compressive;  ///< Pa, the smallest and the largest eigenvalue
   /// Unit, of the most compressive one; the larger of its components is positive, the first one if they are equal. So
-  /// its sign does not hang on round-off where it lies along an axis. Zero where all directions are alike.
+  /// its sign does not depend on round-off where it lies along an axis. Zero where all directions are alike.
   Point direction;
 };
 

@@ -9,7 +9,7 @@
 namespace sprekk {
 
 /// Of a field in the coordinates of the scene, by the number of its components: x, y of a vector, xx, yy, xy of a
-/// symmetric tensor (the diagonal first), 1, 2, … of others; nothing of a number.
+/// symmetric tensor (the diagonal first), 1, 2, … of others; none of a scalar.
 inline std::vector<std::string> component_names(int components) {
   static const char* const axes[] = {"x", "y", "z"};
   std::vector<std::string> names;

@@ -18,7 +18,7 @@ struct Frame {
   int step;     ///< accepted steps so far; 0 at the start
   const Mesh& mesh;
   const std::vector<OutputField>& fields;  ///< unknowns and inputs, then what parts write beside their fields
-  const std::vector<OutputLine>& lines;    ///< by which fractures are longer than the mesh has them
+  const std::vector<OutputLine>& lines;    ///< parts of fractures that the mesh does not have yet
 };
 
 /// Where an output writes, and from when on.

@@ -8,7 +8,7 @@ namespace sprekk::fine_fracture {
 
 /// The derivative of (load, direction) by (advance in increments, angle in rad), per tip, with updates of least change
 /// (Broyden, Math. Comput. 19 (1965) 577). The change of an entry is measured by how uncertain the entry is: the
-/// direction of a tip hangs on its own segment, for example, and hardly on another one. What was learnt from other
+/// direction of a tip depends on its own segment, for example, and hardly on another one. What was learnt from other
 /// moves stays. So each row is a Kalman filter (J. Basic Engng 82 (1960) 35) whose measurements are the moves. Their
 /// errors are the squares of moves, which no Jacobian has.
 class LearntSlopes {
