@@ -237,7 +237,10 @@ time: {{end: 400 s, step: 100 s}}
         const double mean = areas(run.mesh()).dot(run.field("pore.pressure"));
         run.run();
         EXPECT_EQ(run.steps(), 4) << mesh << angle;
-        EXPECT_LT((run.field("pore.pressure").array() - mean).abs().maxCoeff(), 1e-6) << mesh << angle;
+        // No mode falls slower than with the least permeability along a side, and half of 1 Pa is the first deviation.
+        const Vector deviation = run.field("pore.pressure").array() - mean;
+        EXPECT_LT(std::sqrt(areas(run.mesh()).dot(deviation.cwiseAbs2())), 0.5 * std::pow(1 + pi * pi, -4))
+            << mesh << angle;
       }
 }
 
