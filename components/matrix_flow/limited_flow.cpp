@@ -1,5 +1,7 @@
 // The nonlinear part of fluxes, where the discretization has one.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/limited_fluxes.hpp"
@@ -30,10 +32,33 @@ void MatrixFlow::add_limited(Flow& flow, const Vector& potential, const Vector& 
     if (excess.size() > 0)
       sides[side] += buoyancy_->limited()[side].cells * excess + buoyancy_->limited()[side].of_boundaries;
   }
-  LimitedFluxes limited = limit(sides[0], sides[1]);
+  largest_limited_ = std::max(sides[0].lpNorm<Eigen::Infinity>(), sides[1].lpNorm<Eigen::Infinity>());
+  LimitedFluxes limited = limit(sides[0], sides[1], rounding_);
   flow.fluxes += limited.value;
   flow.by_first = std::move(limited.by_first);
   flow.by_second = std::move(limited.by_second);
+}
+
+void MatrixFlow::round_limited(double rounding) {
+  if (rounding == rounding_) return;
+  rounding_ = rounding;
+  forget_flow();
+}
+
+void MatrixFlow::set_search_mode(SearchMode mode) {
+  if (!is_limited_ || is_sealed_) return;
+  round_limited(mode == SearchMode::piecewise_linear ? std::numeric_limits<double>::infinity() : 0);
+  rounding_at_first_ = 0;
+}
+
+void MatrixFlow::release_coefficients(double share) {
+  if (!is_limited_ || is_sealed_) return;
+  constexpr double decades = 14;  // from the largest flux to its round-off
+  if (rounding_at_first_ == 0) {
+    flow(State::now);
+    rounding_at_first_ = parallel::max(largest_limited_);
+  }
+  round_limited(share == 1 ? 0 : rounding_at_first_ * std::pow(10, -decades * share));
 }
 
 SparseMatrix MatrixFlow::limited_derivative(const Flow& flow, const SparseMatrix& first, const SparseMatrix& second) {

@@ -6,8 +6,41 @@
 
 namespace sprekk::matrix_flow {
 
-LimitedFluxes limit(const Vector& first, const Vector& second) {
+namespace {
+
+/// x+ and its derivative, with all digits for x < 0.
+struct RoundedPart {
+  RoundedPart(double x, double rounding) {
+    const double root = std::hypot(x, rounding);
+    value = x > 0 ? (x + root) / 2 : rounding * (rounding / (2 * (root - x)));
+    slope = value / root;
+  }
+  double value, slope;
+};
+
+void add_rounded(double a, double b, double rounding, double sign, Eigen::Index i, LimitedFluxes& limited) {
+  const RoundedPart first(sign * a, rounding), second(sign * b, rounding);
+  const double share = second.value / (first.value + second.value);
+  limited.value[i] += sign * 2 * share * first.value;
+  limited.by_first[i] += 2 * share * share * first.slope;
+  limited.by_second[i] += 2 * (1 - share) * (1 - share) * second.slope;
+}
+
+LimitedFluxes rounded(const Vector& first, const Vector& second, double rounding) {
+  LimitedFluxes limited{Vector::Zero(first.size()), Vector::Zero(first.size()), Vector::Zero(first.size())};
+  for (Eigen::Index i = 0; i < first.size(); ++i)
+    for (const double sign : {1.0, -1.0}) add_rounded(first[i], second[i], rounding, sign, i, limited);
+  return limited;
+}
+
+}  // namespace
+
+LimitedFluxes limit(const Vector& first, const Vector& second, double rounding) {
   SPREKK_EXPECT(first.size() == second.size(), first.size(), second.size());
+  SPREKK_EXPECT(rounding >= 0, rounding);
+  if (std::isinf(rounding))
+    return {(first + second) / 2, Vector::Constant(first.size(), 0.5), Vector::Constant(first.size(), 0.5)};
+  if (rounding > 0) return rounded(first, second, rounding);
   LimitedFluxes limited{Vector::Zero(first.size()), Vector::Zero(first.size()), Vector::Zero(first.size())};
   for (Eigen::Index i = 0; i < first.size(); ++i) {
     const double a = first[i], b = second[i];

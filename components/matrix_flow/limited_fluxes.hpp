@@ -13,6 +13,9 @@ struct LimitedFluxes {
   Vector value;                ///< m^2/s, one a face
   Vector by_first, by_second;  ///< derivatives
 };
-LimitedFluxes limit(const Vector& first, const Vector& second);
+///
+/// `rounding` (m^2/s) makes it a smooth function, for Newton's method alone: with x+ = (x + sqrt(x² + rounding²))/2 the
+/// mean of both a+ and b+ less that of both (−a)+ and (−b)+. 0 is the function itself, infinity (a + b)/2.
+LimitedFluxes limit(const Vector& first, const Vector& second, double rounding = 0);
 
 }  // namespace sprekk::matrix_flow

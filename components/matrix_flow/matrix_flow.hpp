@@ -15,6 +15,7 @@
 #include "components/matrix_flow/rediscretize.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
+#include "framework/assembly/nonlinear_in_pieces.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
@@ -75,7 +76,8 @@ class MatrixFlow : public Component,
                    public MatrixFluxes,
                    public BuoyantMatrix,
                    public KeepsTotals,
-                   public LivesInPart {
+                   public LivesInPart,
+                   public NonlinearInPieces {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
@@ -94,6 +96,12 @@ class MatrixFlow : public Component,
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
+  /// Limited fluxes are held as the linear mean of both sides, and become smooth functions (`rounding` of `limit`) that
+  /// come ever nearer to the limited ones.
+  void set_search_mode(SearchMode mode) override;
+  void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
+  void release_coefficients(double share) override;
+  bool is_nonlinear_in_pieces() const override { return is_limited_ && !is_sealed_; }
   std::vector<double> switch_times() const override;
   void hold_constants(ConstantModes& modes) const override;
   /// The rates of wells, and the outflow through each side with a condition, at the end of the step.
@@ -177,6 +185,7 @@ class MatrixFlow : public Component,
   void use_limited();
   /// `excess`: of the density, empty if it is constant.
   void add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& excess) const;
+  void round_limited(double rounding);
   static SparseMatrix limited_derivative(const Flow& flow, const SparseMatrix& first, const SparseMatrix& second);
   void assemble_limited(Assembly& assembly, const Flow& flow, double dt) const;
   /// Of a density that varies: what it gives in this step; the derivatives of balances and of the equations on faces.
@@ -240,6 +249,8 @@ class MatrixFlow : public Component,
   Vector boundary_fluxes_;               ///< the flux through each face by boundary values alone, m^2/s
   std::array<SparseMatrix, 2> limited_of_wall_flux_;  ///< faces × walls, one for each side
   std::array<Vector, 2> limited_constant_;            ///< m^2/s, one a face: from boundary values
+  double rounding_ = 0, rounding_at_first_ = 0;       ///< m^2/s, see `limit`; 0 but in last attempts of Newton's method
+  mutable double largest_limited_ = 0;                ///< m^2/s, of both sides, at the flow that was found last
   LinearExpression wall_pressure_;
   Vector source_;                     ///< m^2/s, one a cell
   std::vector<FluidSource> sources_;  ///< the same by name

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "framework/assembly/iterate_dependent.hpp"
+#include "framework/assembly/nonlinear_in_pieces.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -268,7 +269,11 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     status = attempt(step, 0);
     status.iterations += before;
   }
-  if (status.converged || !state_has_changed_ || options_.pieces == 0) return status;
+  const bool is_nonlinear = std::ranges::any_of(parts_, [](const Part* part) {
+    const auto* nonlinear = dynamic_cast<const NonlinearInPieces*>(part);
+    return nonlinear && nonlinear->is_nonlinear_in_pieces();
+  });
+  if (status.converged || !(state_has_changed_ || is_nonlinear) || options_.pieces == 0) return status;
   const bool is_used_up = is_used_up_;
   const std::vector<Vector> tried = values();
   constexpr double much_shorter = 1.0 / 2;

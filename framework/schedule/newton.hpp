@@ -31,15 +31,16 @@ struct NewtonOptions {
 /// relative residuals. If the first attempt fails, a second one from the same start asks for descent from its first
 /// iteration: full steps may have led to a place from which no descent leads back.
 ///
-/// If the second attempt fails, and the discrete state has changed, a third attempt follows a path. Contact is
-/// piecewise linear, so residual(x) = s residual(x0) is a polygonal line that bends where the discrete state changes.
-/// The path is followed from s = 1 down to 0, each piece with its own derivatives up to the end of that piece. Where
-/// the determinant changes its sign from one piece to the next, s grows until the path turns again. Full steps and
-/// descent can cycle or end in a minimum; the path can only run to a solution, to infinity, or back to its start
-/// (Katzenelson 1965 for monotone functions; Ralph 1994, "path search"; the turns are those of Lemke's method, with
-/// which Klarbring (1986) solved frictional contact). Coefficients that are not constant within a piece (the cubic law)
-/// are held, and ordinary iterations from the end of the path correct them. If these do not converge, the path is
-/// followed with all derivatives, as far as it goes.
+/// If the second attempt fails, and the discrete state has changed or a part is NonlinearInPieces, a third attempt
+/// follows a path. Contact is piecewise linear, so residual(x) = s residual(x0) is a polygonal line that bends where
+/// the discrete state changes. The path is followed from s = 1 down to 0, each piece with its own derivatives up to the
+/// end of that piece. Where the determinant changes its sign from one piece to the next, s grows until the path turns
+/// again. Full steps and descent can cycle or end in a minimum; the path can only run to a solution, to infinity, or
+/// back to its start (Katzenelson 1965 for monotone functions; Ralph 1994, "path search"; the turns are those of
+/// Lemke's method, with which Klarbring (1986) solved frictional contact). Coefficients that are not constant within a
+/// piece (the cubic law) are held, and ordinary iterations from the end of the path correct them. If these do not
+/// converge, the coefficients are released in shares, and then the path is followed with all derivatives, as far as it
+/// goes.
 ///
 /// A step may have several solutions, and Newton's method may jump over the one to which the step's start leads
 /// continuously. So where parts say that cells have left their states by a jump (Part::keep_states), the step is solved

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <cmath>
 #include <functional>
 
@@ -119,6 +121,27 @@ TEST(LimitedFluxes, AreAHarmonicMeanWithItsDerivatives) {
   EXPECT_LT((by_first - at.by_first).lpNorm<Eigen::Infinity>(), 1e-5);
   EXPECT_LT((by_second - at.by_second).lpNorm<Eigen::Infinity>(), 1e-5);
   EXPECT_EQ(limit(Vector::Zero(1), Vector::Zero(1)).by_first[0], 0.5);
+}
+
+TEST(LimitedFluxes, AreSmoothWhereRoundedAndTendToThemselves) {
+  const Vector first = Vector::Random(200), second = Vector::Random(200);
+  const Vector exact = limit(first, second).value;
+  for (const double rounding : {1e-12, 1e-3, 1.0, 1e3}) {
+    const LimitedFluxes at = limit(first, second, rounding);
+    // x+ is off by at most rounding/2, and slopes of the mean are at most 2.
+    EXPECT_LT((at.value - exact).lpNorm<Eigen::Infinity>(), 4 * rounding);
+    const Vector step = Vector::Constant(200, 1e-6);
+    const Vector by_first =
+        (limit(first + step, second, rounding).value - limit(first - step, second, rounding).value) / 2e-6;
+    const Vector by_second =
+        (limit(first, second + step, rounding).value - limit(first, second - step, rounding).value) / 2e-6;
+    if (rounding < 1e-3) continue;  // the difference quotient passes the kink
+    EXPECT_LT((by_first - at.by_first).lpNorm<Eigen::Infinity>(), 1e-5) << rounding;
+    EXPECT_LT((by_second - at.by_second).lpNorm<Eigen::Infinity>(), 1e-5) << rounding;
+  }
+  const Vector mean = (first + second) / 2;
+  EXPECT_LT((limit(first, second, 1e3).value - mean).lpNorm<Eigen::Infinity>(), 1e-2);
+  EXPECT_EQ(limit(first, second, std::numeric_limits<double>::infinity()).value, mean);
 }
 
 }  // namespace
