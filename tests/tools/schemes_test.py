@@ -44,7 +44,7 @@ class Schemes(unittest.TestCase):
             found, said = self.atlas(TERZAGHI, "--accelerate", "none", "--steps", "1", "--at-most", "300", "--until", "1e-10",
                                      settings=(*TIGHT, f"components.pore.storage={storage} 1/Pa"))
             schemes = {one["name"]: one for one in found["schemes"]}
-            self.assertEqual(len(schemes), 7, list(schemes))
+            self.assertEqual(len(schemes), 10, list(schemes))
             drained = 1 / (P_WAVE * storage)
             for name, factor in (("pore-rock", drained), ("rock-pore", drained), ("jacobi-pore-rock", drained ** 0.5)):
                 self.assertAlmostEqual(schemes[name]["predicted"] / factor, 1, delta=0.02, msg=name)
@@ -53,10 +53,15 @@ class Schemes(unittest.TestCase):
             for name in ("pore-rock=fixed_stress", "rock-pore=fixed_stress"):
                 self.assertGreater(schemes[name]["predicted"], 0.98 * smooth, name)
                 self.assertLess(schemes[name]["predicted"], 0.5, name)
+            # Smooth modes of the undrained split have none where no fluid moves: what is left are modes of the size of a cell, too.
+            for name in ("pore-rock=undrained", "rock-pore=undrained"):
+                self.assertLess(schemes[name]["predicted"], 0.5, name)
+                self.assertLessEqual(schemes[name]["passes"][0], 10, name)
             for name, one in schemes.items():
                 self.assertTrue(one["converged"], one)
                 self.assertLess(one["difference"], 1e-6, name)
-                if name not in ("pore_rock", "jacobi-pore-rock=fixed_stress"):  # the changes of the latter oscillate
+                # Changes of Jacobi's order with a stabilization oscillate; the few passes of the undrained split do not show its slowest mode.
+                if name not in ("pore_rock", "jacobi-pore-rock=fixed_stress") and "undrained" not in name:
                     self.assertAlmostEqual(one["measured"] / one["predicted"], 1, delta=0.02, msg=name)
             self.assertIn("cheapest", said)
 

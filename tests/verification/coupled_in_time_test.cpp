@@ -46,11 +46,10 @@ TEST(PropertiesInTime, FluidIsConserved) {
 TEST(PropertiesInTime, WholeSystemAndSplitSchemeGiveTheSameAnswer) {
   SceneRun run("paper/onset_coarse.yaml", in_time());
   SceneRun whole("paper/onset_coarse.yaml", in_time({{"solver", "{condense: false}"}}));
-  SceneRun split(
-      "paper/onset_coarse.yaml",
-      in_time({{"schedule",
-                "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 200}, steps: [{solve: [pore, conduit], stabilize: "
-                "fixed_stress}, {solve: [rock, contact]}]}}]"}}));
+  SceneRun split("paper/onset_coarse.yaml", in_time({{"schedule",
+                                                      "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: "
+                                                      "200}, steps: [{solve: [pore, conduit], stabilize: "
+                                                      "fixed_stress}, {solve: [rock, contact]}]}}]"}}));
   for (SceneRun* each : {&run, &whole, &split}) each->run_until(9 * hour);
   expect_same_fields(run, whole, 1e-8);
   expect_same_fields(run, split, 1e-8);

@@ -10,10 +10,12 @@ namespace sprekk::testing {
 namespace {
 
 const char* const fixed_stress_mandel =
-    "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: "
+    "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore], stabilize: "
+    "fixed_stress}, {solve: "
     "[rock]}]}}]";
 const char* const fixed_stress_onset =
-    "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore, conduit], stabilize: fixed_stress}, "
+    "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{solve: [pore, conduit], stabilize: "
+    "fixed_stress}, "
     "{solve: [rock, contact]}]}}]";
 
 /// The scene of sec. 5.1 of the paper on a mesh that a test can afford: 10 cells on the fracture.
@@ -41,10 +43,11 @@ TEST(Schemes, FixedStressAgreesWithMonolithicOnInjection) {
 
 TEST(Schemes, AndersonNeedsFewerPasses) {
   const auto passes = [](int depth) {
-    SceneRun run("verification/mandel.yaml",
-                 {{"schedule", "[{iterate: {fallback: none, until: {relative: 1e-9, at_most: 100}, accelerate: {anderson: " +
-                                   std::to_string(depth) +
-                                   "}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: [rock]}]}}]"}});
+    SceneRun run(
+        "verification/mandel.yaml",
+        {{"schedule", "[{iterate: {fallback: none, until: {relative: 1e-9, at_most: 100}, accelerate: {anderson: " +
+                          std::to_string(depth) +
+                          "}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: [rock]}]}}]"}});
     EXPECT_TRUE(run.step());
     return run.iterations();
   };
@@ -57,9 +60,9 @@ TEST(Schemes, FixedStressContractsAsTheorySays) {
   std::vector<double> residuals;
   const auto config = std::string("verification/mandel.yaml");
   for (int passes = 4; passes <= 7; ++passes) {
-    SceneRun run(config,
-                 {{"schedule", "[{iterate: {fallback: none, until: {relative: 1e-30, at_most: " + std::to_string(passes) +
-                                   "}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: [rock]}]}}]"}});
+    SceneRun run(config, {{"schedule",
+                           "[{iterate: {fallback: none, until: {relative: 1e-30, at_most: " + std::to_string(passes) +
+                               "}, steps: [{solve: [pore], stabilize: fixed_stress}, {solve: [rock]}]}}]"}});
     const StepStatus status = run.model().attempt({0, 1079, 1079});
     EXPECT_FALSE(status.converged);
     residuals.push_back(run.model().fields().at("pore.pressure").now().norm());
@@ -87,8 +90,8 @@ TEST(Schemes, SplitWithoutIterationConvergesInTime) {
 
 TEST(Schemes, OneSubstepChangesNothing) {
   const auto subcycled = [](int count) {
-    return "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{subcycle: {count: " + std::to_string(count) +
-           ", steps: [{solve: [pore], stabilize: fixed_stress}]}}, {solve: [rock]}]}}]";
+    return "[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 100}, steps: [{subcycle: {count: " +
+           std::to_string(count) + ", steps: [{solve: [pore], stabilize: fixed_stress}]}}, {solve: [rock]}]}}]";
   };
   SceneRun plain("verification/mandel.yaml", {{"schedule", fixed_stress_mandel}, {"time.end", "3237 s"}});
   SceneRun one("verification/mandel.yaml", {{"schedule", subcycled(1)}, {"time.end", "3237 s"}});

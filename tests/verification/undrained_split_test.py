@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""undrained_split_test.py SPREKK: rock that is solved for with the mass of fluid in its cells held, then the flow. An irrotational mode of the
+"""undrained_split_test.py SPREKK: the undrained split, and answers of fixed stress with the modulus that passes show. Rock that is solved for with the mass of fluid in its cells held, then the flow. An irrotational mode of the
 wave number q contracts by alpha^2 D/((S + D)(S M_v + alpha^2)) with D = (k/mu) dt q^2 (Kim, Tchelepi and Juanes 2011), below 1 for any
 storage; the answer is the monolithic one."""
 
@@ -71,6 +71,15 @@ class UndrainedSplit(SceneRuns):
                                        (PAPER, SMALL_PAPER, "{solve: [rock, contact], stabilize: undrained}, {solve: [pore, conduit]}")):
             truth, ours = self.run_scene(scene, *settings), self.run_scene(scene, *settings, iterated(steps))
             print(f"    {scene.stem}: {[int(value) for value in ours['iterations[1]']]} passes", flush=True)
+            self.expect_same(ours, truth)
+
+    def test_answers_with_the_modulus_that_passes_show(self):
+        flow_first, found = "{{solve: {}, stabilize: fixed_stress}}, {{solve: {}}}", "couplers.0.fixed_stress_modulus=found"
+        for scene, settings, groups in ((TERZAGHI, (), ("pore", "rock")), (MANDEL, SMALL_MANDEL, ("pore", "rock")),
+                                        (PAPER, SMALL_PAPER, ("[pore, conduit]", "[rock, contact]"))):
+            truth = self.run_scene(scene, *settings)
+            ours = self.run_scene(scene, *settings, found, iterated(flow_first.format(*groups)))
+            print(f"    found, {scene.stem}: {[int(value) for value in ours['iterations[1]']]} passes", flush=True)
             self.expect_same(ours, truth)
 
     @on_two_processes
