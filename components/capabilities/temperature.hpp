@@ -15,6 +15,9 @@ class MatrixTemperature {
   virtual ~MatrixTemperature() = default;
   /// K, one a cell. Its equation is the heat that the cell stores during the step, less what entered (J/m).
   virtual Field& temperature() = 0;
+  /// J/(m K), one a cell: what a cell stores by its own heat capacity, without the fluid that has entered or left it;
+  /// empty where the temperature is given and no heat is stored.
+  virtual const Vector& heat_capacity() const = 0;
   /// K, one a cell: the temperature of the reference state, without thermal stress.
   virtual const Vector& initial_temperature() const = 0;
   /// The temperature that is prescribed at the centre of an outer face in this step, K.
@@ -39,6 +42,8 @@ class FractureTemperature {
   virtual ~FractureTemperature() = default;
   /// K, one a fracture cell. Its equation is the heat that the cell stores during the step, less what entered (J/m).
   virtual Field& temperature() = 0;
+  /// J/(m K), one a fracture cell, as MatrixTemperature has it.
+  virtual const Vector& heat_capacity() const = 0;
   /// The temperature that is prescribed in this step where a fracture ends on a side, at a fracture point, K.
   virtual std::optional<double> end_temperature(int point) const = 0;
   /// By how much heat is conducted between the middle of the fracture and each of its walls, W/(m^2 K).

@@ -44,6 +44,7 @@ class FractureHeat : public Component, public FractureTemperature, public KeepsT
   std::vector<double> switch_times() const override;
 
   Field& temperature() override { return temperature_; }
+  const Vector& heat_capacity() const override { return capacity_; }
   std::optional<double> end_temperature(int point) const override;
   const Vector& wall_conductance() const override { return wall_conductance_; }
 

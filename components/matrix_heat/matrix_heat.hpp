@@ -49,6 +49,7 @@ class MatrixHeat : public Component, public MatrixTemperature, public HeatWalls,
   std::vector<double> switch_times() const override;
 
   Field& temperature() override { return temperature_; }
+  const Vector& heat_capacity() const override { return capacity_; }
   const Vector& initial_temperature() const override { return initial_temperature_; }
   std::optional<double> side_temperature(int face) const override;
   Field& wall_heat_flux() override { return *wall_heat_flux_; }

@@ -1,4 +1,6 @@
 // heat_advection: flowing fluid carries heat through the matrix, along fractures and through their walls.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -73,6 +75,14 @@ class HeatAdvection : public Coupler, public KeepsTotals {
                        "it needs the flow and the heat of the matrix, of the fractures, or of both",
                        "name such components in `between`, or remove the coupler for conduction alone");
     if (rock_.heat && matrix_) add_fields(context, rock_, rock_.heat->temperature(), Location::cell, "rock");
+    if (rock_.temperature)
+      solved_flux_ = &context.fields.add(mesh_, {.owner = context.name,
+                                                 .name = "flux_in_rock",
+                                                 .location = Location::face,
+                                                 .role = Role::derived(),
+                                                 .unit = "m^2/s",
+                                                 .doc = "Flux of fluid through each face as the flow was last solved",
+                                                 .accepted_with = flow_in_rock_->pressure().name()});
     if (fracture_heat_ && fracture_)
       add_fields(context, fractures_, fracture_heat_->temperature(), Location::fracture_cell, "fractures");
     find_wells(context);
@@ -93,6 +103,8 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     check_names();
     wells_.injected = injected_by_wells();
     wells_.check(name());
+    if (rock_.temperature) check_capacity(rock_, rock_.heat->heat_capacity());
+    if (fractures_.temperature) check_capacity(fractures_, fracture_heat_->heat_capacity());
   }
   void begin_step(const StepTime& step) override { has_flowed_ = starts_from_state_ || step.start > start_; }
 
@@ -100,8 +112,10 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     if (!has_flowed_ &&
         std::ranges::none_of(flow_fields(), [&](const Field* field) { return assembly.has_row(*field); }))
       return;
-    if (rock_.temperature && assembly.has_row(*rock_.temperature))
-      add(assembly, rock_, streams_of_rock(sources()), step);
+    if (rock_.temperature && assembly.has_row(*rock_.temperature)) {
+      const bool flows = assembly.has_row(flow_in_rock_->pressure());
+      add(assembly, rock_, streams_of_rock(sources(), flows ? matrix_->face_fluxes() : flux_in_rock()), step);
+    }
     if (fractures_.temperature && assembly.has_row(*fractures_.temperature))
       add(assembly, fractures_, streams_of_fractures(sources()), step);
   }
@@ -114,9 +128,26 @@ class HeatAdvection : public Coupler, public KeepsTotals {
       has_flowed_ = true;
       starts_from_state_ = starts_from_state_ || step.end <= start_;  // it is settled
     }
+    if (rock_.temperature && has(&flow_in_rock_->pressure())) {
+      Vector fluxes = matrix_->face_fluxes();
+      replicate(mesh_, Location::face, 1, fluxes);
+      solved_flux_->set(std::move(fluxes));
+      has_solved_flux_ = true;
+    }
     if (!has_flowed_) return;
-    if (has(rock_.temperature)) count(rock_, streams_of_rock(sources()), step);
+    if (has(rock_.temperature)) count(rock_, streams_of_rock(sources(), flux_in_rock()), step);
     if (has(fractures_.temperature)) count(fractures_, streams_of_fractures(sources()), step);
+  }
+
+  /// On another mesh fluxes through new faces are those of the pressures that have been found there.
+  void carry_over(const Part&, const MeshChange&) override { has_solved_flux_ = had_solved_flux_ = false; }
+  void accepted() override { had_solved_flux_ = has_solved_flux_; }
+  void rewound() override { has_solved_flux_ = had_solved_flux_; }
+  void save(std::map<std::string, Vector>& state) const override {
+    if (rock_.temperature) state["has_solved_flux"] = Vector::Constant(1, had_solved_flux_ ? 1 : 0);
+  }
+  void restore(const std::map<std::string, Vector>& state) override {
+    if (rock_.temperature) has_solved_flux_ = had_solved_flux_ = state.at("has_solved_flux")[0] != 0;
   }
 
   void begin_totals() override {
@@ -236,6 +267,11 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     return fields;
   }
 
+  /// Through each face of the rock, m^2/s, where the flow is held: as its last solve found it. With the data of the
+  /// step, as a viscosity that follows the temperature or a pressure that is prescribed now, the fluxes of the same
+  /// pressures would balance no more: cells would gain or lose many times the fluid that they hold.
+  const Vector& flux_in_rock() const { return has_solved_flux_ ? solved_flux_->now() : matrix_->face_fluxes(); }
+
   StreamSources sources() const {
     StreamSources sources{mesh_, matrix_, walls_};
     if (walls_ && mesh_.wall_count() > 0 && walls_->wall_flux().is_solved()) sources.wall_flux = &walls_->wall_flux();
@@ -284,6 +320,23 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     for (const auto& [name, given] : options_.injected)
       if (!std::ranges::count(known, name))
         throw DataError(unknown_name(given.origin, "place where the flow lets fluid in", name, known).what());
+  }
+
+  /// Throws DataError where the fluid that has left a cell since the start could store more heat than the cell could:
+  /// the balance of heat says nothing about the temperature there.
+  void check_capacity(const Medium& place, const Vector& capacity) const {
+    const Vector& received = place.received->accepted();
+    if (capacity.size() != received.size()) return;
+    Eigen::Index cell = 0;
+    const double left = (capacity + options_.fluid_heat_capacity * received).minCoeff(&cell);
+    if (left > 0) return;
+    throw DataError(
+        fmt::format("{}: the heat capacity of cell {} of {} is {:.3g} J/(m K), and that of the fluid that has left it "
+                    "{:.3g} J/(m K). "
+                    "The heat capacity is that of the cell with its fluid at the start, which cannot be less: give "
+                    "'{}.heat_capacity' and 'fluid_heat_capacity' of one porosity, storage and compressibility",
+                    name(), cell, place.temperature->name(), capacity[cell],
+                    -options_.fluid_heat_capacity * received[cell], place.temperature->spec().owner));
   }
 
   double temperature_of(const Medium& place, const Stream& stream, const Mixtures& wells) const {
@@ -410,6 +463,10 @@ class HeatAdvection : public Coupler, public KeepsTotals {
   FractureTemperature* fracture_heat_ = nullptr;
   HeatOfWells wells_;
   Medium rock_, fractures_;
+  Field* solved_flux_ = nullptr;  ///< m^2/s
+  /// False before the first solve, and after the mesh has changed until the next one; now, and when the last step was
+  /// accepted.
+  bool has_solved_flux_ = false, had_solved_flux_ = false;
   std::vector<std::pair<std::string, double>> injected_;  ///< K, in this step
   double start_;                                          ///< s
   bool starts_from_state_ = false;                        ///< whether flow was solved for before the first step

@@ -64,11 +64,10 @@ void append_wells(const StreamSources& sources, const Field* pressure, bool only
 
 }  // namespace
 
-std::vector<Stream> streams_of_rock(const StreamSources& sources) {
+std::vector<Stream> streams_of_rock(const StreamSources& sources, const Vector& fluxes) {
   std::vector<Stream> streams;
   if (!sources.matrix || !sources.matrix_heat) return streams;
   const Mesh& mesh = sources.mesh;
-  const Vector& fluxes = sources.matrix->face_fluxes();
   for (int c = 0; c < mesh.cell_count(); ++c) {
     if (mesh.cell_rank[c] != parallel::rank()) continue;
     for (const int f : mesh.cell_faces[c]) {

@@ -50,8 +50,8 @@ struct StreamSources {
   }
 };
 
-/// The streams of cells of the rock that the process owns, at the present fluxes.
-std::vector<Stream> streams_of_rock(const StreamSources& sources);
+/// The streams of cells of the rock that the process owns. `fluxes`: through each face, m^2/s, out of face_cells[f][0].
+std::vector<Stream> streams_of_rock(const StreamSources& sources, const Vector& fluxes);
 /// The streams of all fracture cells. A reservoir supplies what its cells lose to others, and takes what they gain.
 std::vector<Stream> streams_of_fractures(const StreamSources& sources);
 

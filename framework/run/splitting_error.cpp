@@ -65,14 +65,20 @@ void SplittingError::before_acceptance(const Model& model, const StepTime& step)
 
 namespace {
 
-/// The fields that the first system of a step finds from the step before: those that are solved later.
+/// The fields that the first system of a step finds from the step before: those that are solved later, and what is kept
+/// of their solution.
 std::vector<std::size_t> waiting_fields(const Model& model, const StepTime& step) {
   const std::vector<const Field*> first = model.schedule().solved_first(step), all = model.schedule().unknowns();
   std::vector<std::size_t> waiting;
   const auto& fields = model.fields().all();
+  const auto waits = [&](const Field* field) {
+    return std::ranges::count(all, field) > 0 && std::ranges::count(first, field) == 0;
+  };
+  const auto waits_by_name = [&](const std::string& name) {
+    return std::ranges::any_of(fields, [&](const auto& field) { return field->name() == name && waits(field.get()); });
+  };
   for (std::size_t i = 0; i < fields.size(); ++i)
-    if (std::ranges::count(all, fields[i].get()) > 0 && std::ranges::count(first, fields[i].get()) == 0)
-      waiting.push_back(i);
+    if (waits(fields[i].get()) || waits_by_name(fields[i]->spec().accepted_with)) waiting.push_back(i);
   return waiting;
 }
 

@@ -229,6 +229,31 @@ TEST(Heat, StaysWithinItsDataInAnySchedule) {
   }
 }
 
+/// Reference: as before. The viscosity of a cell becomes up to 55 times larger from one step to the next, and a side
+/// has another pressure after five days: fluxes of the earlier pressures with these data would balance no more.
+TEST(Heat, IsCarriedByTheFluxesThatTheFlowWasSolvedFor) {
+  const std::string viscosity =
+      "  - {type: thermal_viscosity, between: [pore, conduit, heat, water], law: exponential, reference_viscosity: "
+      "1 mPa*s, reference_temperature: 350 K, decay: 0.2 1/K}";
+  Vector expected;
+  for (const std::string& schedule :
+       {in_turn, std::string("[{solve: [heat, water]}, {solve: [pore, conduit]}]"),
+        std::string("[{solve: [pore, conduit]}, {subcycle: {count: 4, steps: [{solve: [heat, water]}]}}]")})
+    for (const Twin& at : {same, turned, mirrored}) {
+      std::string scene = network(at, viscosity, schedule);
+      const std::string constant = "{pressure: 0.2 MPa}";
+      scene.replace(scene.find(constant), constant.size(),
+                    "{pressure: [{value: 0.2 MPa, to: 5 day}, {value: 2 MPa, from: 5 day}]}");
+      scene.replace(scene.find("end: 10 day"), 11, "end: 40 day");
+      const Vector all = solution(scene, at);
+      EXPECT_GT(all.minCoeff(), 330 - 1e-9) << schedule;
+      EXPECT_LT(all.maxCoeff(), 350 + 1e-9) << schedule;
+      EXPECT_GT(all.maxCoeff() - all.minCoeff(), 5) << schedule;
+      if (expected.size() == 0) expected = all;
+      EXPECT_LT(largest(all - expected), 0.5) << schedule;  // of first order in the step
+    }
+}
+
 /// All derivatives of heat by temperatures and fluxes, against differences; fractures cross, touch and end in the rock
 /// and on sides.
 TEST(Heat, Derivatives) {
@@ -327,6 +352,11 @@ TEST(Heat, MistakesAreRefused) {
       "'heat' is solved without 'water'");
   has(network(same, "  - {type: heat_advection, between: [heat, water], fluid_heat_capacity: 1 J/(m^3*K)}", in_turn),
       "has no flow that carries heat");
+  // Fluid that leaves could store more heat than the rock with all of its fluid.
+  std::string drained = network(same, "", in_turn);
+  drained.replace(drained.find("heat_capacity: 2.2e6"), 20, "heat_capacity: 2.2e0");
+  drained.replace(drained.find("    porosity: 0.1"), 17, "    initial_pressure: 10 MPa\n    porosity: 0.1");
+  has(drained, "that of the fluid that has left it");
   std::string unknown = network(same, "", in_turn);
   unknown.replace(unknown.find("{inlet: {temperature"), 7, "{inlat:");
   has(unknown, "inlat");

@@ -45,13 +45,14 @@ class PrescribedTemperature : public Component, public MatrixTemperature {
   std::vector<double> switch_times() const override { return switch_times_; }
 
   Field& temperature() override { return temperature_; }
+  const Vector& heat_capacity() const override { return nothing_stored_; }
   const Vector& initial_temperature() const override { return initial_temperature_; }
   std::optional<double> side_temperature(int) const override { return std::nullopt; }
 
  private:
   Field& temperature_;
   Property values_;
-  Vector initial_temperature_;
+  Vector initial_temperature_, nothing_stored_;
   std::vector<double> switch_times_;
 };
 
