@@ -1,7 +1,5 @@
 #include "couplers/two_level/nodal_values.hpp"
 
-#include <algorithm>
-
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
 
@@ -17,7 +15,6 @@ constexpr double round_off = 1e-12;
 
 NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from) {
   std::vector<Triplet> cells, faces;
-  std::vector<char> is_linear(mesh.node_count(), 0);  // whether linear fields are exact at a node
   for (int node = 0; node < mesh.node_count(); ++node) {
     const Point& x = mesh.nodes[node];
     std::vector<std::pair<int, Point>> sources;  // cells first, then faces
@@ -52,15 +49,11 @@ NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from
     // One or two sources (in corners) say nothing about some direction: there b is zero, so that constants stay exact.
     const PrincipalAxes directions = principal_axes(moment);
     Tensor inverse = Tensor::Zero();
-    int determined = 0;  // directions along which the gradient is known
     for (int k = 0; k < dimension; ++k) {
       const Point along = directions.axes.col(k);
-      if (directions.values[k] > round_off * mean.squaredNorm() && directions.values[k] > round_off * moment.trace()) {
+      if (directions.values[k] > round_off * mean.squaredNorm() && directions.values[k] > round_off * moment.trace())
         inverse += along * along.transpose() / directions.values[k];
-        ++determined;
-      }
     }
-    is_linear[node] = determined == dimension;
     const Point slope = inverse * mean;
     for (int i = 0; i < count; ++i)
       (i < static_cast<int>(cell_count) ? cells : faces)
@@ -70,32 +63,11 @@ NodalValues::NodalValues(const Mesh& mesh, From from) : mesh_(&mesh), from_(from
   from_cells_.setFromTriplets(cells.begin(), cells.end());
   from_faces_.resize(mesh.node_count(), mesh.face_count());
   from_faces_.setFromTriplets(faces.begin(), faces.end());
-  if (from != From::cells) return;
-  // Cells at nodes where linear fields are not exact correct nothing.
-  std::vector<Triplet> means;
-  has_mean_ = Vector::Zero(mesh.cell_count());
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    if (!std::ranges::all_of(mesh.cell_nodes[cell], [&](int node) { return is_linear[node] != 0; })) continue;
-    has_mean_[cell] = 1;
-    const Place centre = place(cell, mesh.cell_center[cell]);  // of a triangle; nearly that of a quadrilateral
-    for (int i = 0; i < 3; ++i) means.emplace_back(cell, centre.nodes[i], centre.share[i]);
-  }
-  mean_of_nodes_.resize(mesh.cell_count(), mesh.node_count());
-  mean_of_nodes_.setFromTriplets(means.begin(), means.end());
 }
 
 void NodalValues::set(int components, const Vector& cells, const Vector& faces) {
   using Table = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-  const Table of_cells(cells.data(), mesh_->cell_count(), components);
-  values_ = from_cells_ * of_cells;
-  // A field that is curved, as the pressure beside a wall that fluid leaves through, would have other means than the
-  // cells. What is missing is added in the same way (Van Cittert 1931). Two corrections leave the smallest error; many
-  // would enlarge what differs from cell to cell.
-  constexpr int corrections = 2;
-  for (int i = 0; from_ == From::cells && i < corrections; ++i) {
-    const Eigen::MatrixXd missing = has_mean_.asDiagonal() * Eigen::MatrixXd(of_cells) - mean_of_nodes_ * values_;
-    values_ += from_cells_ * missing;
-  }
+  values_ = from_cells_ * Table(cells.data(), mesh_->cell_count(), components);
   if (from_ == From::cells_and_faces) values_ += from_faces_ * Table(faces.data(), mesh_->face_count(), components);
 }
 

@@ -16,8 +16,7 @@ class NodalValues {
   enum class From {
     cells_and_faces,  ///< a linear fit to the cells, and faces with one cell, around the node (least squares, weights
                       ///< 1/distance^2): exact for linear fields
-    cells,            ///< the same with cells alone; with less than three around a node, the least gradient that fits.
-                      ///< Then corrected, so that the means over cells come near to the values of the cells
+    cells,            ///< the same with cells alone; with less than three around a node, the least gradient that fits
     mean_of_cells  ///< the area-weighted mean of the cells (Eq. 17 of the paper): at a wall, its error is the gradient
                    ///< times the distance to the cell centres
   };
@@ -53,8 +52,6 @@ class NodalValues {
   const Mesh* mesh_;
   From from_;
   SparseMatrix from_cells_, from_faces_;  ///< nodes × entities
-  SparseMatrix mean_of_nodes_;            ///< cells × nodes, the mean of the field over a cell; for From::cells
-  Vector has_mean_;                       ///< of each cell, 1 where it is known, else 0
   Eigen::MatrixXd values_;                ///< nodes × components
 };
 
