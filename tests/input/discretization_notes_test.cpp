@@ -10,16 +10,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(DiscretizationNotes, TrianglesOfFirstOrderInIncompressibleRockAreTold) {
-  const auto notes = [](const std::string& order, const std::string& poisson) {
-    return notes_of_check("rock.yaml", {"components.rock.type=poromechanics/fem", "components.rock.order=" + order,
-                                        "components.rock.poisson_ratio=" + poisson, "mesh={size: 0.3 m}"});
-  };
-  EXPECT_THAT(notes("first", "0.46"), HasSubstr("nearly incompressible"));
-  EXPECT_THAT(notes("first", "0.44"), Not(HasSubstr("nearly incompressible")));
-  EXPECT_THAT(notes("second", "0.499"), Not(HasSubstr("nearly incompressible")));
-}
-
 /// Rock that conducts 10,000 times better at 30 degrees to the x axis than across; `mirrored`: at -30 degrees.
 std::string anisotropic(bool mirrored = false) {
   return std::string("components.pore.permeability={xx: 7.50025e-14 m^2, yy: 2.50075e-14 m^2, xy: ") +

@@ -110,7 +110,7 @@ class ClosedWings(SceneRuns):
 class WithinSteps(SceneRuns):
     def test_a_sheared_wing_at_rest_leaves_what_has_parted_where_it_is(self):
         changes = """
-components: {conduit: {injection: {well: {rate: [{value: 1.5e-9 m^2/s, from: 0 s, to: 985 s}, {value: -8.0e-10 m^2/s, from: 985 s, to: 4000 s}]}}},
+components: {conduit: {injection: {well: {rate: [{value: 1.5e-9 m^2/s, from: 0 s, to: 1010 s}, {value: -8.0e-10 m^2/s, from: 1010 s, to: 4000 s}]}}},
   rock: {boundary: {right: {normal_stress: "(t < 5400 ? -10 : -10 - 8*(t-5400)/1800) MPa"}}}}
 couplers: [{type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]},
   {type: two_level, between: [rock, conduit, tips], propagation_threshold: 0.25}]

@@ -84,7 +84,7 @@ class LagFront(unittest.TestCase):
         without = self.run_of("without", gamma, [])
         bound = self.run_of("bound", gamma, [BOUND + "-1 GPa"])
         self.assertEqual(np.max(bound["conduit.empty_volume"]), 0)
-        self.assert_same(without, bound, 1e-9)
+        self.assert_same(without, bound, 1e-7)  # as K at the front is solved for
 
 
 if __name__ == "__main__":

@@ -157,7 +157,6 @@ void Tips::note_start(const StepTime& step) {
   for (Joint& joint : joints_) joint.length_at_start = joint.grown;
 }
 
-/// By which part the load of a tip that has come to rest may exceed 1.
 double Tips::rest_tolerance() const { return options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0; }
 
 Growing::Load Tips::examine(const StepTime& step) {

@@ -187,9 +187,10 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   }
   /// Whether the path of a tip turns so sharply that it begins anew at the tip: what has parted stays where it is.
   bool turns_sharply(const Tip& tip) const;
-  /// The longest path that a tip may have in the fine level alone, m.
+  /// By which part the load of a tip that has come to rest may exceed 1.
   double rest_tolerance() const;
   double threshold(const Tip& tip) const;
+  /// The longest path that a tip may have in the fine level alone, m.
   double longest_path(const Tip& tip) const;
   /// Whether an increment of the other tip affects this tip at once; farther increments do so from the next step on.
   bool is_near(const Tip& tip, const Tip& other) const;
