@@ -8,7 +8,6 @@ namespace sprekk::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// Rock that conducts 10,000 times better at 30 degrees to the x axis than across; `mirrored`: at -30 degrees.
 std::string anisotropic(bool mirrored = false) {

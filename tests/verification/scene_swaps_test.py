@@ -24,8 +24,8 @@ ROLES = {
 # Swaps without a meaning: the type, a piece of the reason, and in which scenes.
 REFUSED = {
     "fine_fracture/jump_fit": ("does not grow", lambda text: "grow: tips" in text),
-    "matrix_flow/rt0": ("unknowns on faces", lambda text: "type: well_exchange" in text and "index:" not in text),
-    "matrix_flow/ntpfa": ("not linear in the pressures", lambda text: "type: well_exchange" in text and "index:" not in text),
+    "matrix_flow/rt0": ("unknowns on faces", lambda text: "type: well_exchange" in text and "radius:" in text and "index:" not in text),
+    "matrix_flow/ntpfa": ("not linear in the pressures", lambda text: "type: well_exchange" in text and "radius:" in text and "index:" not in text),
     "poromechanics/fem first": ("stabilized by more than the stress of their cells", lambda text: "\nstart: {settle:" in text),
     "contact/penalty": ("its walls slip elastically", lambda text: "rate_and_state:" in text),
 }
