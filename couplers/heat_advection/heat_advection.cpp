@@ -1,11 +1,12 @@
 // heat_advection: flowing fluid carries heat through the matrix, along fractures and through their walls.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "components/capabilities/fracture_fluid.hpp"
+#include "couplers/heat_advection/carried_heat.hpp"
+#include "couplers/heat_advection/held_flux.hpp"
+#include "couplers/heat_advection/options.hpp"
 #include "couplers/heat_advection/streams.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/keeps_totals.hpp"
@@ -15,44 +16,6 @@
 
 namespace sprekk::couplers {
 namespace {
-
-/// Fluid that is injected at a place of the scene.
-struct Injected {
-  Origin origin;
-  Data temperature;  ///< K
-};
-
-struct HeatAdvectionOptions {
-  double fluid_heat_capacity = 0;  ///< J/(m^3 K)
-  std::map<std::string, Injected> injected;
-  Spec spec() {
-    Spec spec("heat_advection",
-              "Flowing fluid carries heat, with the temperature of the cell that it comes from (upwind): through the "
-              "matrix, along fractures and through their walls, where the coupler stands between flow and heat.");
-    spec.ignore("type").ignore("between");
-    spec.quantity("fluid_heat_capacity", fluid_heat_capacity,
-                  {.unit = "J/(m^3*K)",
-                   .range = positive(),
-                   .doc = "Heat capacity of the fluid per volume (water: 4.2e6 J/(m^3*K)).",
-                   .required = true,
-                   .material = true});
-    static Injected example;
-    const auto injected_spec = [](Injected& at) {
-      Spec inner("injected fluid", "The fluid that a well, an injection or a prescribed pressure lets in.");
-      inner.data("temperature", at.temperature,
-                 {.unit = "K", .doc = "Its temperature.", .required = true, .in_time = true});
-      return inner;
-    };
-    spec.named_sections("injected", injected_spec(example),
-                        [this, injected_spec](const std::string& key, const Origin& origin) {
-                          injected[key].origin = origin;
-                          return injected_spec(injected[key]);
-                        },
-                        {.doc = "Temperatures by the name of the place in the flow; fluid without one enters with the "
-                                "temperature of the cell."});
-    return spec;
-  }
-};
 
 /// Adds to the heat balance of each cell what streams of fluid carry (Stream). With the fluid m that has entered the
 /// cell since the start (m^2), by the same streams, it stores c (m T − m_old T_old), and what enters is c dt q T of
@@ -68,23 +31,17 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     fracture_ = context.find<FractureFluxes>();
     walls_ = context.find<MatrixWalls>();
     flow_in_rock_ = context.find<MatrixFluid>();
-    rock_.heat = context.find<MatrixTemperature>();
+    rock_heat_ = context.find<MatrixTemperature>();
     fracture_heat_ = context.find<FractureTemperature>();
-    if (!(matrix_ && rock_.heat) && !(fracture_ && fracture_heat_))
+    if (!(matrix_ && rock_heat_) && !(fracture_ && fracture_heat_))
       throw InputError(context.origin, "coupler " + name() + " has no flow that carries heat",
                        "it needs the flow and the heat of the matrix, of the fractures, or of both",
                        "name such components in `between`, or remove the coupler for conduction alone");
-    if (rock_.heat && matrix_) add_fields(context, rock_, rock_.heat->temperature(), Location::cell, "rock");
-    if (rock_.temperature)
-      solved_flux_ = &context.fields.add(mesh_, {.owner = context.name,
-                                                 .name = "flux_in_rock",
-                                                 .location = Location::face,
-                                                 .role = Role::derived(),
-                                                 .unit = "m^2/s",
-                                                 .doc = "Flux of fluid through each face as the flow was last solved",
-                                                 .accepted_with = flow_in_rock_->pressure().name()});
+    const double c = options_.fluid_heat_capacity;
+    if (rock_heat_ && matrix_) rock_ = {context, rock_heat_->temperature(), Location::cell, "rock", c};
+    if (rock_.temperature && flow_in_rock_) held_flux_.emplace(context, *matrix_, flow_in_rock_->pressure());
     if (fracture_heat_ && fracture_)
-      add_fields(context, fractures_, fracture_heat_->temperature(), Location::fracture_cell, "fractures");
+      fractures_ = {context, fracture_heat_->temperature(), Location::fracture_cell, "fractures", c};
     find_wells(context);
   }
 
@@ -103,8 +60,8 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     check_names();
     wells_.injected = injected_by_wells();
     wells_.check(name());
-    if (rock_.temperature) check_capacity(rock_, rock_.heat->heat_capacity());
-    if (fractures_.temperature) check_capacity(fractures_, fracture_heat_->heat_capacity());
+    if (rock_.temperature) rock_.check(rock_heat_->heat_capacity(), name());
+    if (fractures_.temperature) fractures_.check(fracture_heat_->heat_capacity(), name());
   }
   void begin_step(const StepTime& step) override { has_flowed_ = starts_from_state_ || step.start > start_; }
 
@@ -113,8 +70,8 @@ class HeatAdvection : public Coupler, public KeepsTotals {
         std::ranges::none_of(flow_fields(), [&](const Field* field) { return assembly.has_row(*field); }))
       return;
     if (rock_.temperature && assembly.has_row(*rock_.temperature)) {
-      const bool flows = assembly.has_row(flow_in_rock_->pressure());
-      add(assembly, rock_, streams_of_rock(sources(), flows ? matrix_->face_fluxes() : flux_in_rock()), step);
+      const bool is_held = held_flux_ && !assembly.has_row(flow_in_rock_->pressure());
+      add(assembly, rock_, streams_of_rock(sources(), is_held ? held_flux_->now() : matrix_->face_fluxes()), step);
     }
     if (fractures_.temperature && assembly.has_row(*fractures_.temperature))
       add(assembly, fractures_, streams_of_fractures(sources()), step);
@@ -128,47 +85,40 @@ class HeatAdvection : public Coupler, public KeepsTotals {
       has_flowed_ = true;
       starts_from_state_ = starts_from_state_ || step.end <= start_;  // it is settled
     }
-    if (rock_.temperature && has(&flow_in_rock_->pressure())) {
-      Vector fluxes = matrix_->face_fluxes();
-      replicate(mesh_, Location::face, 1, fluxes);
-      solved_flux_->set(std::move(fluxes));
-      has_solved_flux_ = true;
-    }
+    if (held_flux_ && has(&flow_in_rock_->pressure())) held_flux_->take();
     if (!has_flowed_) return;
-    if (has(rock_.temperature)) count(rock_, streams_of_rock(sources(), flux_in_rock()), step);
+    if (has(rock_.temperature))
+      count(rock_, streams_of_rock(sources(), held_flux_ ? held_flux_->now() : matrix_->face_fluxes()), step);
     if (has(fractures_.temperature)) count(fractures_, streams_of_fractures(sources()), step);
   }
 
-  /// On another mesh fluxes through new faces are those of the pressures that have been found there.
-  void carry_over(const Part&, const MeshChange&) override { has_solved_flux_ = had_solved_flux_ = false; }
-  void accepted() override { had_solved_flux_ = has_solved_flux_; }
-  void rewound() override { has_solved_flux_ = had_solved_flux_; }
+  void carry_over(const Part&, const MeshChange&) override {
+    if (held_flux_) held_flux_->forget();
+  }
+  void accepted() override {
+    if (held_flux_) held_flux_->accepted();
+  }
+  void rewound() override {
+    if (held_flux_) held_flux_->rewound();
+  }
   void save(std::map<std::string, Vector>& state) const override {
-    if (rock_.temperature) state["has_solved_flux"] = Vector::Constant(1, had_solved_flux_ ? 1 : 0);
+    if (held_flux_) held_flux_->save(state);
   }
   void restore(const std::map<std::string, Vector>& state) override {
-    if (rock_.temperature) has_solved_flux_ = had_solved_flux_ = state.at("has_solved_flux")[0] != 0;
+    if (held_flux_) held_flux_->restore(state);
   }
 
   void begin_totals() override {
     starts_from_state_ = true;
-    for (const Medium* place : {&rock_, &fractures_})
+    for (const CarriedHeat* place : {&rock_, &fractures_})
       if (place->temperature) place->cumulative->set_both(Vector::Zero(place->cumulative->size()));
   }
 
   void balance(std::map<std::string, Balance>& balances) const override {
     Balance& heat = balances["heat"];
     heat.unit = "J/m";
-    for (const Medium* place : {&rock_, &fractures_}) {
-      if (!place->temperature) continue;
-      const Vector& sums = place->cumulative->now();
-      for (int i = 0; i < place->temperature->size(); ++i) {
-        heat.stored += sums[3 * i];
-        heat.injected += sums[3 * i + 1];
-        heat.outflow += sums[3 * i + 2];
-        heat.throughput += sums.segment<3>(3 * i).lpNorm<1>();
-      }
-    }
+    for (const CarriedHeat* place : {&rock_, &fractures_})
+      if (place->temperature) place->add_to(heat);
   }
 
   /// The temperature of the fluid that leaves at each named place of the flow, or of that which enters.
@@ -224,39 +174,6 @@ class HeatAdvection : public Coupler, public KeepsTotals {
   }
 
  private:
-  /// The rock, or the fractures.
-  struct Medium {
-    MatrixTemperature* heat = nullptr;
-    Field* temperature = nullptr;  ///< nullptr without flow or heat there
-    Field* received = nullptr;     ///< m, m^2
-    Field* cumulative = nullptr;   ///< (stored, injected, outflow) since the start, J/m
-    Location location = Location::cell;
-  };
-
-  void add_fields(const CouplerContext& context, Medium& place, Field& temperature, Location location,
-                  const std::string& where) {
-    place.temperature = &temperature;
-    place.location = location;
-    place.received = &context.fields.add(mesh_, {.owner = context.name,
-                                                 .name = "received_in_" + where,
-                                                 .location = location,
-                                                 .role = Role::derived(),
-                                                 .unit = "m^2",
-                                                 .doc = "Fluid that has entered each cell, as its heat is counted",
-                                                 .accepted_with = temperature.name(),
-                                                 .is_amount = true});
-    place.cumulative =
-        &context.fields.add(mesh_, {.owner = context.name,
-                                    .name = "cumulative_in_" + where,
-                                    .location = location,
-                                    .components = 3,
-                                    .role = Role::derived(),
-                                    .unit = "J/m",
-                                    .doc = "Heat of received fluid, and what fluid carried in from outside and out",
-                                    .accepted_with = temperature.name(),
-                                    .is_amount = true});
-  }
-
   /// What the fluxes follow from. As long as no solve has found it, heat that is solved before the flow is not carried:
   /// the fluxes of initial values are no flow, and may drain a cell of many times what it holds.
   std::vector<const Field*> flow_fields() const {
@@ -267,16 +184,11 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     return fields;
   }
 
-  /// Through each face of the rock, m^2/s, where the flow is held: as its last solve found it. With the data of the
-  /// step, as a viscosity that follows the temperature or a pressure that is prescribed now, the fluxes of the same
-  /// pressures would balance no more: cells would gain or lose many times the fluid that they hold.
-  const Vector& flux_in_rock() const { return has_solved_flux_ ? solved_flux_->now() : matrix_->face_fluxes(); }
-
   StreamSources sources() const {
     StreamSources sources{mesh_, matrix_, walls_};
     if (walls_ && mesh_.wall_count() > 0 && walls_->wall_flux().is_solved()) sources.wall_flux = &walls_->wall_flux();
     sources.fracture = fracture_;
-    sources.matrix_heat = rock_.temperature ? rock_.heat : nullptr;
+    sources.matrix_heat = rock_.temperature ? rock_heat_ : nullptr;
     sources.fracture_heat = fractures_.temperature ? fracture_heat_ : nullptr;
     sources.injected = injected_;
     sources.wells = wells_.wells;
@@ -322,24 +234,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
         throw DataError(unknown_name(given.origin, "place where the flow lets fluid in", name, known).what());
   }
 
-  /// Throws DataError where the fluid that has left a cell since the start could store more heat than the cell could:
-  /// the balance of heat says nothing about the temperature there.
-  void check_capacity(const Medium& place, const Vector& capacity) const {
-    const Vector& received = place.received->accepted();
-    if (capacity.size() != received.size()) return;
-    Eigen::Index cell = 0;
-    const double left = (capacity + options_.fluid_heat_capacity * received).minCoeff(&cell);
-    if (left > 0) return;
-    throw DataError(
-        fmt::format("{}: the heat capacity of cell {} of {} is {:.3g} J/(m K), and that of the fluid that has left it "
-                    "{:.3g} J/(m K). "
-                    "The heat capacity is that of the cell with its fluid at the start, which cannot be less: give "
-                    "'{}.heat_capacity' and 'fluid_heat_capacity' of one porosity, storage and compressibility",
-                    name(), cell, place.temperature->name(), capacity[cell],
-                    -options_.fluid_heat_capacity * received[cell], place.temperature->spec().owner));
-  }
-
-  double temperature_of(const Medium& place, const Stream& stream, const Mixtures& wells) const {
+  double temperature_of(const CarriedHeat& place, const Stream& stream, const Mixtures& wells) const {
     const double own = place.temperature->now()[stream.cell];
     if (stream.rate <= 0) return own;
     switch (stream.from) {
@@ -357,7 +252,8 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     return own;
   }
 
-  void add(Assembly& assembly, const Medium& place, const std::vector<Stream>& streams, const StepTime& step) const {
+  void add(Assembly& assembly, const CarriedHeat& place, const std::vector<Stream>& streams,
+           const StepTime& step) const {
     const Field& temperature = *place.temperature;
     const double scale = options_.fluid_heat_capacity * step.dt;
     const Vector capacity = options_.fluid_heat_capacity * place.received->accepted();
@@ -432,26 +328,12 @@ class HeatAdvection : public Coupler, public KeepsTotals {
       assembly.derivative(temperature, wells_.wells->rate(), block(entries, wells_.wells->rate().size()));
   }
 
-  void count(Medium& place, const std::vector<Stream>& streams, const StepTime& step) {
-    const Vector& temperature = place.temperature->now();
+  void count(CarriedHeat& place, const std::vector<Stream>& streams, const StepTime& step) {
     const Mixtures wells = wells_.mixtures();
-    Vector sums = place.cumulative->accepted(), received = place.received->accepted();
-    for (const Stream& stream : streams) {
-      received[stream.cell] += step.dt * stream.rate;
-      if (!stream.is_outside) continue;
-      const double heat = options_.fluid_heat_capacity * step.dt * stream.rate * temperature_of(place, stream, wells);
-      if (stream.rate > 0)
-        sums[3 * stream.cell + 1] += heat;
-      else
-        sums[3 * stream.cell + 2] -= heat;
-    }
-    replicate(mesh_, place.location, 1, received);
-    for (int i = 0; i < received.size(); ++i)
-      sums[3 * i] += options_.fluid_heat_capacity *
-                     (received[i] * temperature[i] - place.received->accepted()[i] * place.temperature->accepted()[i]);
-    replicate(mesh_, place.location, 3, sums);
-    place.received->set(std::move(received));
-    place.cumulative->set(std::move(sums));
+    std::vector<double> temperatures;
+    for (const Stream& stream : streams) temperatures.push_back(temperature_of(place, stream, wells));
+    const Vector& capacity = &place == &rock_ ? rock_heat_->heat_capacity() : fracture_heat_->heat_capacity();
+    place.count(streams, temperatures, capacity, matrix_ ? matrix_->round_off_base_of_fluxes() : 0, step.dt);
   }
 
   const Mesh& mesh_;
@@ -460,13 +342,11 @@ class HeatAdvection : public Coupler, public KeepsTotals {
   FractureFluxes* fracture_ = nullptr;
   MatrixFluid* flow_in_rock_ = nullptr;
   MatrixWalls* walls_ = nullptr;
+  MatrixTemperature* rock_heat_ = nullptr;
   FractureTemperature* fracture_heat_ = nullptr;
   HeatOfWells wells_;
-  Medium rock_, fractures_;
-  Field* solved_flux_ = nullptr;  ///< m^2/s
-  /// False before the first solve, and after the mesh has changed until the next one; now, and when the last step was
-  /// accepted.
-  bool has_solved_flux_ = false, had_solved_flux_ = false;
+  CarriedHeat rock_, fractures_;
+  std::optional<HeldFlux> held_flux_;
   std::vector<std::pair<std::string, double>> injected_;  ///< K, in this step
   double start_;                                          ///< s
   bool starts_from_state_ = false;                        ///< whether flow was solved for before the first step

@@ -71,7 +71,7 @@ def networks(instant):
 
 def fracture_mass(p, instants, main, brought=None):
     """`main`: the number of the fracture that has the wells; or `brought`, a function (start, stop, cells) -> m^2 that wells
-    bring into these cells, and m^2 that all wells bring and draw."""
+    bring into these cells."""
     found = []
     before = None
     for instant in instants:
@@ -90,15 +90,15 @@ def fracture_mass(p, instants, main, brought=None):
             fracture = networks(instant)
             for number in np.unique(fracture):
                 own = fracture == number
-                source = gross = injected(p, before[0], instant.time) if number == main and not brought else 0.0
                 if brought:
-                    source, gross = brought(before[0], instant.time, own)
+                    source = brought(before[0], instant.time, own)
+                else:
+                    source = injected(p, before[0], instant.time) if number == main else 0.0
                 error = opened[own].sum() + pressed[own].sum() + out[own].sum() - source
                 # Much may enter through one wall and leave through the other. A row of the program's balances holds where its residual is
-                # the round-off of the fluid in the fullest cell, or of what passes through a cell with a well: at rest, fluxes stay that
-                # are less than that.
+                # the round-off of the fluid in the fullest cell: at rest, fluxes stay that are less than that.
                 volume = length * np.abs(aperture) * (1 + p["compressibility"] * np.abs(pressure))
-                digits = 100e-15 * (volume + np.abs(plus) + np.abs(minus))[own].sum() + ROUND_OFF * (volume.max() + abs(gross)) * own.sum()
+                digits = 100e-15 * (volume + np.abs(plus) + np.abs(minus))[own].sum() + ROUND_OFF * volume.max() * own.sum()
                 size = max(np.abs(opened).max(), np.abs(pressed).max(), np.abs(out).max(), abs(source))
                 if abs(error) > PRECISION * size + digits:
                     found.append(f"mass: fracture {number} is wrong by {error:.3g} of {size:.3g} m^2 "
@@ -136,7 +136,7 @@ def allowed_flow(p, instant):
 
 
 def matrix_mass(p, instants, brought=None):
-    """`brought`: as of fracture_mass, for None those into the rock."""
+    """`brought`: a function (start, stop, None) -> m^2 that wells bring into the rock."""
     if p["alpha"] > 0 or p["boundary"] != "none":
         return []
     found = []
@@ -150,25 +150,25 @@ def matrix_mass(p, instants, brought=None):
             received = (instant.time - before[0]) * length * (walls["pore.wall_flux.plus[m/s]"] +
                                                               walls["pore.wall_flux.minus[m/s]"])
             stored = p["storage"] * area * (pressure - before[1])
-            source, gross = brought(before[0], instant.time, None) if brought else (0.0, 0.0)
+            source = brought(before[0], instant.time, None) if brought else 0.0
             error = stored.sum() - received.sum() - source
             size = max(np.abs(stored).max(), np.abs(received).max(), abs(source))
-            digits = 1e-13 * (p["storage"] * area * np.abs(pressure)).sum() + ROUND_OFF * gross
+            digits = 1e-13 * (p["storage"] * area * np.abs(pressure)).sum()
             if abs(error) > PRECISION * size + digits + allowed_flow(p, instant):
                 found.append(f"mass: the matrix is wrong by {error:.3g} of {size:.3g} m^2 at t = {instant.time:.6g} s")
         before = (instant.time, pressure)
     return found
 
 
-def cumulative_balance(p, instants, history, brought=None):
+def cumulative_balance(p, instants, history):
     """The error of the program's cumulative balance against what moved in one cell in the largest step, or against round-off of
-    the fluid in the rock and fractures and of what wells bring and draw, and what the residuals of flow allow."""
+    the fluid in the rock and fractures, and what the residuals of flow allow."""
     error = np.abs(history["fluid_balance_error[m^2]"]).max()
     size = np.abs(history["fluid_stored[m^2]"]).max() + np.abs(history["fluid_injected[m^2]"]).max() + \
         np.abs(history["fluid_outflow[m^2]"]).max()
     before = p["initial"]
     bulk = physics.bulk_modulus(p)
-    digits = ROUND_OFF * brought(0, np.inf, None)[1] if brought else 0.0
+    digits = 0.0
     for instant in instants:
         aperture, in_fracture = instant.on_fractures("conduit.aperture", "m"), instant.on_fractures("conduit.pressure", "Pa")
         length = np.linalg.norm(np.diff(instant.fractures.points[instant.fractures.cells], axis=1)[:, 0], axis=1)
@@ -192,4 +192,4 @@ def relative_error_of_balance(history):
 
 def failures(p, instants, history, main, brought=None):
     return momentum(p, instants) + fracture_mass(p, instants, main, brought) + matrix_mass(p, instants, brought) + \
-        cumulative_balance(p, instants, history, brought)
+        cumulative_balance(p, instants, history)

@@ -13,18 +13,6 @@ PRECISION = 1e-8
 LAST_DIGIT = 2.2e-16  # of a number in double precision
 
 
-def missing_fluid(p, instants, instant, where):
-    """The heat of the fluid by which the balance of each cell may be wrong, over what the cell holds: of fluxes that are round-off
-    of pressures the sum is round-off, too, and a cell that passes for drained of more than it holds may have any temperature."""
-    _, level = check_balance.flows(p, instant)
-    if where == "rock":
-        heat_of_cells = p["heat_capacity"] * check_balance.cell_areas(instant.matrix)
-    else:
-        ends = instant.fractures.points[instant.fractures.cells]
-        heat_of_cells = p["fluid_heat_capacity"] * p["aperture"] * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    return p["fluid_heat_capacity"] * check_balance.ROUND_OFF * level * physics.time_step(p) * len(instants) / heat_of_cells
-
-
 def bounds(p, instants):
     """Temperatures between those given. Conduction by MPFA may miss them by a part of the differences around, or in all of the
     rock, whose sides have the given temperatures: in the first short steps cells differ by much less than from their side, and a
@@ -38,7 +26,6 @@ def bounds(p, instants):
         in_rock = max(rock.max(), *on_sides) - min(rock.min(), *on_sides) if on_sides else rock.max() - rock.min()
         for name, values, near in (("rock", rock, around[0]), ("fractures", fracture, around[1])):
             slack = PRECISION * most + (check_pressure.MISSED * np.maximum(near, in_rock) if p["conduction"] == "mpfa" else 0)
-            slack = slack + missing_fluid(p, instants, instant, name) * (most - least)
             over = np.maximum(values - most, least - values) - slack
             worst = int(np.argmax(over))
             if over[worst] > 0:

@@ -103,8 +103,7 @@ def amount(p, instants, history):
 
 
 def sources(p, history, instant):
-    """A function (start, stop, cells of fractures) -> m^2 that wells bring into these, or into the rock for None, and what all
-    wells bring and draw: one may draw what another one brings."""
+    """A function (start, stop, cells of fractures) -> m^2 that wells bring into these, or into the rock for None."""
     ends, steps = np.asarray(history["time[s]"]), np.asarray(history["step[s]"])
     cells = {name: cell_around(p, well, instant)[0] for name, well in p["wells"].items() if well["in_fracture"]}
 
@@ -113,9 +112,7 @@ def sources(p, history, instant):
 
     def brought(start, stop, own):
         rows = (ends > start + 1e-9 * ends[-1]) & (ends <= stop + 1e-9 * ends[-1])
-        amounts = {name: (steps * column(history, name, "rate", "m^2/s"))[rows] for name in p["wells"]}
-        return (sum(amount.sum() for name, amount in amounts.items() if is_counted(name, own)),
-                sum(np.abs(amount).sum() for amount in amounts.values()))
+        return sum((steps * column(history, name, "rate", "m^2/s"))[rows].sum() for name in p["wells"] if is_counted(name, own))
     return brought
 
 
