@@ -15,6 +15,7 @@ struct Injected {
   Data temperature;  ///< K
 };
 
+/// The parameters of heat_advection.
 struct HeatAdvectionOptions {
   double fluid_heat_capacity = 0;            ///< J/(m^3 K)
   std::map<std::string, Injected> injected;  ///< by the name of the place in the flow
