@@ -13,7 +13,7 @@ namespace {
 
 constexpr double round_off_of_fluxes = 1e-14;  // of the products whose sum a flux is, for all fluxes of a cell
 constexpr double small_part = 1e-9;            // of what flows through a cell
-constexpr double noticeable_capacity = 1e-6;   // of that of a cell
+constexpr double noticeable_capacity = 1e-2;   // of that of a cell
 
 }  // namespace
 
