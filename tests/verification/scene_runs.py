@@ -64,10 +64,11 @@ class SceneRuns(unittest.TestCase):
         return sprekk.Results(folder)
 
     @classmethod
-    def turned(cls, scene, angle, *settings):
-        """The files that make of the scene (a path) the same scene, turned by an angle (degrees; tools/turn_scene)."""
+    def turned(cls, scene, angle, *settings, mirror=False):
+        """The files that make of the scene (a path) the same scene, turned by an angle (degrees; tools/turn_scene), with `mirror` after
+        left and right have changed places."""
         folder = cls.folder / f"turned_{next(cls.numbers)}"
-        done = subprocess.run([ROOT / "tools/turn_scene", scene, folder, "--angle", str(angle), "--program", SPREKK,
+        done = subprocess.run([ROOT / "tools/turn_scene", scene, folder, "--angle", str(angle), "--program", SPREKK, *(["--mirror"] if mirror else []),
                                *(word for setting in settings for word in ("--set", setting))], capture_output=True, text=True, check=False)
         if done.returncode:
             raise AssertionError(f"tools/turn_scene: {done.stderr}")
