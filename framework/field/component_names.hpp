@@ -8,8 +8,8 @@
 
 namespace sprekk {
 
-/// Of a field in the coordinates of the scene, by the number of its components: x, y of a vector, xx, yy, xy of a
-/// symmetric tensor (the diagonal first), 1, 2, … of others; none of a scalar.
+/// Names of the components of a field in the coordinates of the scene, by their number: x, y for a vector, xx, yy, xy
+/// for a symmetric tensor (the diagonal first), 1, 2, … for other fields, none for a scalar.
 inline std::vector<std::string> component_names(int components) {
   static const char* const axes[] = {"x", "y", "z"};
   std::vector<std::string> names;
@@ -25,10 +25,11 @@ inline std::vector<std::string> component_names(int components) {
   return names;
 }
 
-/// The same on fractures, in the frame of their cells: n, t of a pair.
+/// The names of components in the frame of a fracture cell: n, t of a vector (n, t1, t2 in three dimensions).
 inline std::vector<std::string> component_names_on_fractures(int components) {
-  if (components == 2) return {"n", "t"};
-  return component_names(components);
+  if (components != dimension) return component_names(components);
+  if (dimension == 2) return {"n", "t"};
+  return {"n", "t1", "t2"};
 }
 
 }  // namespace sprekk

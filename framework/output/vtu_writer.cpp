@@ -40,7 +40,9 @@ void add_cell(GridData& grid, const Points& points) {
 }
 
 void add_point(GridData& grid, const Point& position) {
-  grid.points.insert(grid.points.end(), {position.x(), position.y(), 0});
+  Eigen::Vector3d in_space = Eigen::Vector3d::Zero();
+  in_space.head<dimension>() = position;
+  grid.points.insert(grid.points.end(), in_space.begin(), in_space.end());
 }
 
 void write(const std::filesystem::path& file, const GridData& grid) {
@@ -49,10 +51,13 @@ void write(const std::filesystem::path& file, const GridData& grid) {
 
 void add_on_fracture_cells(GridData& grid, const OutputField& field) {
   if (field.components != dimension) return add_field(grid.on_cells, field, field.name);
-  OutputField numbers = field;  // as two numbers a cell instead of a pair
+  OutputField numbers = field;  // as `dimension` numbers a cell instead of a vector
   numbers.components = 1;
   add_field(grid.on_cells, numbers, field.name + ".normal", 0, dimension);
-  add_field(grid.on_cells, numbers, field.name + ".tangential", 1, dimension);
+  for (int k = 1; k < dimension; ++k) {
+    const std::string which = dimension == 2 ? "" : std::to_string(k);
+    add_field(grid.on_cells, numbers, field.name + ".tangential" + which, k, dimension);
+  }
 }
 
 void require_size(const OutputField& field, const Mesh& mesh) {

@@ -130,7 +130,7 @@ std::string tip_section(const RunResults& results) {
   });
   std::vector<Panel> drawn;
   for (const TipGroup& group : groups) drawn.push_back(history_panel(group.title, group.unit, group.curves));
-  return html_section("tips", "By tip, well and side", html_panels(drawn));
+  return html_section("tips", "By tip, side and other place", html_panels(drawn));
 }
 
 }  // namespace sprekk

@@ -11,7 +11,7 @@ namespace {
 
 const SectionTitles sections = {{"summary", "Summary"},
                                 {"history", "Against time"},
-                                {"tips", "By tip, well and side"},
+                                {"tips", "By tip, side and other place"},
                                 {"maps", "Fields"},
                                 {"fractures", "Along the fractures"},
                                 {"convergence", "Convergence"},

@@ -19,10 +19,8 @@ Spec CriterionOptions::spec() {
             "A bound of the coupled residual, of that of one equation, or of the change of a field by a pass.");
   spec.quantity("residual", residual, {.range = strictly_between(0, 1), .doc = residual_doc});
   spec.text("change_of", change_of, {.doc = "A field that is solved inside, by its whole name."});
-  spec.text(
-      "residual_of", residual_of,
-      {.doc = "A field that is solved inside, by its whole name: bounds the residual of its equation, such as that of "
-              "contact."});
+  spec.text("residual_of", residual_of,
+            {.doc = "A field that is solved inside, by its whole name: bounds the residual of its equation alone."});
   spec.quantity("relative", relative,
                 {.range = strictly_between(0, 1),
                  .doc = "Largest change of the field over its largest value, or largest residual of its equation over "

@@ -48,6 +48,16 @@ Spec GrowOptions::spec() {
 
 namespace {
 
+/// What to write instead of a component that cannot grow.
+std::string growing_in(const ScheduleContext& context) {
+  std::string names;
+  for (const auto& [name, part] : context.named)
+    if (dynamic_cast<const Growing*>(part)) names += (names.empty() ? "'" : ", '") + name + "'";
+  return names.empty()
+             ? "add a component that can grow ('sprekk list' shows what each type does), or leave the step out"
+             : "of the components of this scene these can grow: " + names;
+}
+
 Growing* find_growing(const GrowOptions& options, const ScheduleContext& context) {
   const auto found = context.named.find(options.component);
   auto* growing = found == context.named.end() ? nullptr : dynamic_cast<Growing*>(found->second);
@@ -57,8 +67,7 @@ Growing* find_growing(const GrowOptions& options, const ScheduleContext& context
                        "name a component of another type, or leave the step out");
   if (!growing)
     throw InputError(options.origin, "component '" + options.component + "' does not grow",
-                     std::string("a 'grow' step needs a component that ") + Growing::promise,
-                     "name a component of type fine_fracture/…");
+                     std::string("a 'grow' step needs a component that ") + Growing::promise, growing_in(context));
   return growing;
 }
 

@@ -239,7 +239,8 @@ std::string refusal(const std::string& schedule) {
 }
 
 TEST(GrowStep, RefusesAComponentThatDoesNotGrow) {
-  EXPECT_THAT(refusal("- {grow: rock, settle: [rock]}"), HasSubstr("component 'rock' does not grow"));
+  EXPECT_THAT(refusal("- {grow: rock, settle: [rock]}"),
+              AllOf(HasSubstr("component 'rock' does not grow"), HasSubstr("these can grow: 'tips'")));
 }
 
 TEST(GrowStep, RefusesUnknownNames) {
