@@ -1,4 +1,4 @@
-// The stabilization fixed_stress from what the first passes of an iteration show.
+// The modulus of the stabilization fixed_stress, found from the first passes of an iteration.
 #pragma once
 
 #include <algorithm>
@@ -9,16 +9,18 @@ namespace sprekk::couplers {
 
 /// Rock answers a change dp of the pressure by a change of volume alpha dV = b V dp with b between alpha^2/(lambda + 2
 /// G) (irrotational displacements) and alpha^2/(lambda + G) (a pressure that is the same everywhere). Two solves of the
-/// rock in one step show where between: the share of the second one that makes alpha dV and L V dp do the same work on
-/// dp (Rayleigh's quotient). Any L between both bounds converges, so what is found can only be quicker or slower.
+/// rock in one step show where b lies between these bounds: L is the value for which alpha dV and L V dp do the same
+/// work on dp (a Rayleigh quotient), given as a share of the way from the first bound to the second. Any L between the
+/// bounds converges, so the choice changes the number of passes alone.
 class FoundModulus {
  public:
-  /// Share of the second bound; half before anything is known.
+  /// L as a share of the way from the first bound to the second; one half before anything is known.
   double share() const { return share_; }
-  /// A step, or a stage of one, begins: changes until now are those of loads.
+  /// To be called when a step, or a stage of one, begins: the first change of the pressure in it is due to loads, and
+  /// does not count.
   void begin_step() { passes_ = 0; }
   /// The rock has been solved for with this pressure (Pa); `stored`: alpha times the volume of each cell (m^2); `least`
-  /// and `most`: both bounds of b V (m^2/Pa). All on all processes.
+  /// and `most`: both bounds of b V (m^2/Pa). All processes need all values.
   void rock_is_solved(const Vector& pressure, const Vector& stored, const Vector& least, const Vector& most) {
     constexpr int looked_at = 2;        // pairs of passes; later ones change little but round-off
     constexpr double round_off = 1e-6;  // of the largest pressure
@@ -34,7 +36,7 @@ class FoundModulus {
     stored_ = stored;
   }
 
-  /// Steps begin with what accepted ones have shown.
+  /// A step begins with the share that the last accepted step has found.
   void accepted() { accepted_share_ = share_; }
   void rewound() { share_ = accepted_share_; }
   void restore(double share) { share_ = accepted_share_ = share; }

@@ -30,7 +30,8 @@ class MatrixFluxes {
   /// The present flux through every face, out of face_cells[f][0], integrated over it, m^2/s; right on the faces of
   /// the cells that the process owns.
   virtual const Vector& face_fluxes() const = 0;
-  /// m^2/s: what the sizes of the products add up to whose sum is a flux, at most. Fluxes have round-off of this size.
+  /// The largest sum of the absolute values of the products that make up a flux, m^2/s. The round-off of fluxes is
+  /// relative to this number.
   virtual double round_off_base_of_fluxes() const = 0;
   /// A derivative of face_fluxes: faces × values of the field. It stays until the next step begins.
   struct Derivative {

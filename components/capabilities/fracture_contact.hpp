@@ -34,7 +34,8 @@ class FractureContact {
   /// The stiffness of the rock against a jump of one cell, Pa/m, (normal, tangential) of each fracture cell. It scales
   /// the method of solution; the solution does not depend on it.
   virtual void set_wall_stiffness(const Vector& stiffness) = 0;
-  /// Whether the law has the shear modulus of the rock in it. Then set_shear_modulus is called before each step.
+  /// Whether the law depends on the shear modulus of the rock. If it does, set_shear_modulus is called before each
+  /// step.
   virtual bool needs_shear_modulus() const { return false; }
   /// The shear modulus of the rock beside each fracture cell, Pa.
   virtual void set_shear_modulus(const Vector& /*modulus*/) {}

@@ -7,8 +7,8 @@
 
 namespace sprekk {
 
-/// The state of the flow at the end of a step. A potential is a pressure without that of a fluid column at rest. The
-/// same for conducted heat: with temperatures in K, W/m for m^2/s, and J/(m K) for m^2/Pa.
+/// The state of the flow at the end of a step. A potential is a pressure minus that of a fluid column at rest. For
+/// conducted heat, potentials are temperatures in K, fluxes are in W/m, and storage is in J/(m K).
 struct FlowStep {
   const Mesh& mesh;
   const std::vector<FlowCondition>& conditions;

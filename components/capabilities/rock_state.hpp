@@ -25,7 +25,8 @@ class RockState {
   virtual Vector outer_displacement() const = 0;
   /// The stress −alpha (p − p_0) that the pore pressure adds to xx and yy, for each cell, Pa.
   virtual Vector pore_stress() const = 0;
-  /// What is there of the initial stress of a cell at a point x, Pa, (xx, yy, xy); part of it where rock is taken away.
+  /// The initial stress at a point x of a cell, Pa, (xx, yy, xy); where rock is taken away, the part of it that still
+  /// acts.
   virtual SymmetricTensor initial_stress(int cell, const Point& x) const = 0;
   /// Whether the initial stress at a place may become another one in the run.
   virtual bool initial_stress_changes() const = 0;

@@ -15,8 +15,8 @@ class MatrixTemperature {
   virtual ~MatrixTemperature() = default;
   /// K, one a cell. Its equation is the heat that the cell stores during the step, less what entered (J/m).
   virtual Field& temperature() = 0;
-  /// J/(m K), one a cell: what a cell stores by its own heat capacity, without the fluid that has entered or left it;
-  /// empty where the temperature is given and no heat is stored.
+  /// The heat that each cell stores per kelvin, J/(m K), by its own heat capacity and without the fluid that has
+  /// entered or left it; empty where the temperature is given and no heat is stored.
   virtual const Vector& heat_capacity() const = 0;
   /// K, one a cell: the temperature of the reference state, without thermal stress.
   virtual const Vector& initial_temperature() const = 0;
@@ -42,7 +42,7 @@ class FractureTemperature {
   virtual ~FractureTemperature() = default;
   /// K, one a fracture cell. Its equation is the heat that the cell stores during the step, less what entered (J/m).
   virtual Field& temperature() = 0;
-  /// J/(m K), one a fracture cell, as MatrixTemperature has it.
+  /// The heat that each fracture cell stores per kelvin, J/(m K), as in MatrixTemperature.
   virtual const Vector& heat_capacity() const = 0;
   /// The temperature that is prescribed in this step where a fracture ends on a side, at a fracture point, K.
   virtual std::optional<double> end_temperature(int point) const = 0;

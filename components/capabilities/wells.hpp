@@ -40,12 +40,11 @@ class WellPressures {
   virtual const Field& rate() const = 0;
   virtual const std::vector<WellPlace>& places() const = 0;
   virtual const std::vector<std::string>& names() const = 0;
-  /// Whether a well has a rate in this step with which it injects.
+  /// Whether the rate that a well is to have in this step injects fluid.
   virtual bool is_to_inject(int well) const = 0;
-  /// What surrounds the places, one each. To be given by the coupler that determines the rates, while the scene is
-  /// built.
+  /// The coupler that determines the rates tells what surrounds each place, while the scene is built.
   virtual void accept_surroundings(std::vector<AroundWell> around) = 0;
-  /// Empty as long as nothing has been given. Mind that couplers are built in any order.
+  /// What accept_surroundings was given; empty before that, and couplers are built in any order.
   virtual const std::vector<AroundWell>& surroundings() const = 0;
   /// Whether the pressure of some well is given, whatever its rate.
   virtual bool holds_pressure() const = 0;

@@ -5,22 +5,23 @@
 
 namespace sprekk::contact {
 
-/// What friction compares with the accepted jump: the path of slip since then, or the rate of slip (FieldSpec).
+/// What friction depends on, which decides how traction and jump go on in a time scheme of two stages: the slip since
+/// the accepted state, or the slip rate (FieldSpec).
 enum class Friction { of_path, of_rate };
 
-/// f, Pa, (normal, tangential) of each fracture cell.
+/// Adds the contact traction f, Pa, (normal, tangential) of each fracture cell.
 Field& add_traction(const ComponentContext& context, Friction friction);
-/// [u], m, (normal, tangential) of each fracture cell.
+/// Adds the jump [u], m, (normal, tangential) of each fracture cell.
 Field& add_jump(const ComponentContext& context, Friction friction);
-/// q, m, of each fracture cell.
+/// Adds the length q of the path of slip, m, of each fracture cell.
 Field& add_path(const ComponentContext& context);
-/// theta, s, of each fracture cell.
+/// Adds the state theta of friction, s, of each fracture cell.
 Field& add_state(const ComponentContext& context);
-/// V, m/s, along the tangents of each fracture cell.
+/// Adds the slip rate V, m/s, along the tangents of each fracture cell.
 Field& add_slip_rate(const ComponentContext& context);
-/// m, the slip of each fracture cell, along its tangents, before the event that goes on.
+/// Adds the slip of each fracture cell, m, along its tangents, before the current event.
 Field& add_slip_before_event(const ComponentContext& context);
-/// m/s, the greatest slip rate of each fracture cell in the event that goes on.
+/// Adds the greatest slip rate of each fracture cell in the current event, m/s.
 Field& add_peak_slip_rate(const ComponentContext& context);
 
 }  // namespace sprekk::contact

@@ -57,8 +57,8 @@ struct Options;
 /// between sticking and a state where the slip has the wrong direction. The state in balance lies beyond the kink of
 /// |[u]_t| at zero. Therefore a cell for which sliding back has led to slip in the wrong direction takes the
 /// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
-/// Cells without friction never take that piece: they have no opening to lose, and the direction of f_t = 0, in which
-/// they are about to slide at the start of a step, is round-off.
+/// Cells without friction never take that piece: they do not dilate, and their f_t is zero up to round-off, so it has
+/// no direction in which they could be about to slide.
 class FrictionalContact : public Component,
                           public FractureContact,
                           public IterateDependent,
@@ -67,7 +67,8 @@ class FrictionalContact : public Component,
                           public LivesInPart,
                           public LimitsStep {
  public:
-  /// `stiffness_factor`: of springs between the walls over the rock against a jump of the cell (Multiplier).
+  /// `stiffness_factor`: the stiffness of the springs between the walls over that of the rock against a jump of the
+  /// cell (Multiplier).
   FrictionalContact(const ComponentContext& context, const Options& options,
                     Multiplier multiplier = Multiplier::present, double stiffness_factor = 1);
   ~FrictionalContact() override;
@@ -81,7 +82,7 @@ class FrictionalContact : public Component,
   /// friction would not be undone.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
-  /// Jumps go on, since friction and dilation depend on them; a note tells of walls that have slid.
+  /// Jumps are not reset, since friction and dilation depend on them; a note tells of walls that have slid.
   void count_from_here() override;
   void observe_iterate(const std::vector<Field*>& unknowns) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
@@ -131,18 +132,18 @@ class FrictionalContact : public Component,
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
-  /// c of the trial, which decides how Newton's method finds the answer and not the answer.
+  /// The stiffness c of the trial. It decides how Newton's method finds the answer, and does not change the answer.
   const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
-  /// The compliance of the springs between the walls of a cell, m/Pa, (normal, tangential); 0 without springs. By
-  /// penalty it is part of the answer, which may not depend on how Newton's method finds it.
+  /// The compliance of the springs between the walls of a cell, m/Pa, (normal, tangential); 0 without springs. With a
+  /// penalty, the compliance is part of the answer; so it must not depend on the stiffness c of the trial.
   Point compliance(int cell) const;
   Trial trial(int cell) const;
-  /// What friction at a slip rate makes of the trial.
+  /// The traction that friction of rate and state gives for the trial.
   Trial::AtRate at_rate(int cell, const Trial& trial) const;
-  Vector slips() const;                                    ///< m, now, along the tangents of each cell
-  double multiplier(int cell) const;                       ///< Pa, normal, where the springs hold nothing
-  TangentialVector tangential_multiplier(int cell) const;  ///< Pa, likewise
-  /// What springs add to the gap, m: negative where they are pressed together.
+  Vector slips() const;               ///< m, now, along the tangents of each cell
+  double multiplier(int cell) const;  ///< the normal traction m at which the springs carry nothing, Pa
+  TangentialVector tangential_multiplier(int cell) const;  ///< the tangential traction m, Pa
+  /// The change of length of the springs, m, which adds to the gap: negative where they are pressed together.
   double overlap(int cell) const;
   /// The opening by dilation, m, after slip of this size, and its derivative.
   double dilated(int cell, double slip) const;

@@ -1,17 +1,17 @@
-// What the three types of contact differ in.
+// What distinguishes the three types of contact.
 #pragma once
 
 namespace sprekk::contact {
 
-/// What is between the walls. `present`: nothing; the conditions hold for gap and slip. `none`: springs of stiffness c,
-/// so f = Pi(m + c (gap, slip)), with m = 0 in the normal direction and the traction from before the step along the
-/// walls. `last`: the same springs, with m the traction of the iterate before, held while the next one is found, so
-/// that the springs hold nothing in the end.
+/// How the contact conditions are enforced. `present`: exactly, for gap and slip themselves. `none`, a penalty method:
+/// springs of stiffness c lie between the walls, so f = Pi(m + c (gap, slip)), where m is 0 in the normal direction and
+/// the traction before the step along the walls. `last`, an augmented Lagrangian method: the same springs, with m the
+/// traction of the previous iterate, which stays while the next one is found; at convergence the springs carry nothing.
 ///
 /// Springs are a compliance in series: f = Pi(m + c g) is the same as f = Pi(f + c' (g − (f − m)/c)) for every c' > 0.
-/// Newton's method takes this form, with c' the stiffness of the rock as without springs. With the first form the walls
-/// of a cell that slides back would pass from slip to slip in the other direction, since they stick only over the slip
-/// that takes the friction from the stiff springs.
+/// Newton's method takes this form, with c' the stiffness of the rock as without springs. In the first form, walls
+/// whose slip turns round would jump from slip in one direction to slip in the other: stiff springs lose their friction
+/// over a very short slip, and only over that slip do the walls stick.
 enum class Multiplier { present, last, none };
 
 }  // namespace sprekk::contact

@@ -8,8 +8,9 @@
 
 namespace sprekk::contact {
 
-/// The place of each fracture cell that the contact is on (`here`, one flag a cell; none for all). The others, whose
-/// values are not used, have that of the first of these: the scene need not say anything about them.
+/// The place of each fracture cell that the contact is on (`here`, one flag a cell; none for all). All other fracture
+/// cells get the place of the first of these, and their values are not used: so a scene need not give parameters for
+/// fractures without this contact.
 inline std::vector<Place> places_of_parameters(const Mesh& mesh, const std::vector<char>& here) {
   std::vector<Place> places = fracture_cell_places(mesh);
   if (here.empty()) return places;

@@ -16,8 +16,8 @@
 
 namespace sprekk::contact {
 
-/// Keeps the state theta and the slip rate V of every fracture cell, bounds steps by their slip, and records events.
-/// Both follow from the traction and the jump of the step, by RateAndStateLaw.
+/// Keeps the state theta and the slip rate V of every fracture cell, which follow from the traction and the jump of the
+/// step by RateAndStateLaw; bounds steps by their slip, and records events.
 class RateAndStateWalls {
  public:
   /// `here`: one flag a fracture cell, of those that the contact is on; none for all. Throws InputError where a
@@ -28,10 +28,10 @@ class RateAndStateWalls {
   /// Throws DataError where a friction f_0 is zero.
   void evaluate_data(const Property& friction) const;
   void begin_step(const StepTime& step) { step_ = step; }
-  /// Whether a step has begun: before, there is no slip rate to solve for.
+  /// Whether a step has begun. Before the first step there is no slip rate to solve for.
   bool has_step() const { return step_.dt > 0; }
 
-  /// What a cell holds under this trial traction and pressure, Pa, with the stiffness c, Pa/m.
+  /// The traction of a cell under this trial traction and pressure, Pa, with the stiffness c, Pa/m.
   RateAndStateLaw::Returned returned(int cell, double friction, double trial, double pressure, double stiffness) const;
   /// Takes the slip rates, m/s, `dimension` − 1 of each cell, and lets states age.
   void set_slip_rates(Vector rates);
@@ -39,10 +39,10 @@ class RateAndStateWalls {
   /// Whether a cell slips faster than V_0.
   bool slips(int cell) const { return slip_rate(cell) > options_.reference_rate; }
 
-  /// Of the rock beside each fracture cell, Pa.
+  /// Takes the shear modulus of the rock beside each fracture cell, Pa.
   void set_shear_modulus(const Vector& modulus) { shear_modulus_ = modulus; }
 
-  /// s, for LimitsStep.
+  /// The longest next step, s, for LimitsStep.
   double longest_step() const;
   /// Whether the step, whose slips (m) are given, was too long for the rates or slips at its end, for LimitsStep.
   std::optional<StepTooLong> too_long(const Vector& slip, const StepTime& step) const;

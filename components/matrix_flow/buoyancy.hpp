@@ -11,8 +11,8 @@
 
 namespace sprekk::matrix_flow {
 
-/// What the excess d of a density over a constant one adds to the fluxes and traces of FluxOperators. Each row of them
-/// is applied to pressures without that of a fluid at rest around a place y,
+/// What the excess d of a density over a constant one adds to the fluxes and traces of FluxOperators. Each row of these
+/// matrices is applied to pressures minus that of a fluid at rest around a place y,
 ///   P(x) = (d(y) + d(x))/2 g·(x − y),
 /// whose density is linear between y and x. y is the middle between the centres of the two cells at a face, or the
 /// centre of its only cell; d(y) is the mean of these cells. So a fluid at rest whose density is linear with height
@@ -23,16 +23,16 @@ class Buoyancy {
   Buoyancy(const Mesh& mesh, const VectorData& gravity, double constant_density, const FluidDensity& in_rock,
            const FluidDensity* in_fractures);
 
-  /// Makes the matrices for new operators.
+  /// Makes the matrices anew, for operators that have changed.
   void discretize(const FluxOperators& operators, const std::vector<FlowCondition>& conditions);
-  /// Takes the densities at sides whose pressures are given (one a face, Pa).
+  /// Evaluates the density at sides whose pressures are given (one a face, Pa).
   void begin_step(const std::vector<FlowCondition>& conditions, const Vector& boundary_pressure);
 
-  /// What is added to a quantity of faces: cells · d + of_boundaries.
+  /// What the excess d adds to a quantity on faces: cells · d + of_boundaries.
   struct Rows {
     SparseMatrix cells;         ///< faces × cells
-    SparseMatrix boundaries;    ///< faces × faces: by d at prescribed pressures
-    SparseMatrix walls;         ///< faces × fracture cells: by d at walls
+    SparseMatrix boundaries;    ///< faces × faces, applied to d at prescribed pressures
+    SparseMatrix walls;         ///< faces × fracture cells, applied to d at walls
     Vector of_boundaries = {};  ///< boundaries · d, in this step
   };
   const Rows& flux() const { return flux_; }                       ///< m^2/s
@@ -43,8 +43,8 @@ class Buoyancy {
   FluidDensity::Version version(FluidDensity::State state) const { return in_rock_.version(state); }
   std::vector<FluidDensity::Derivative> derivatives() const { return in_rock_.derivatives(); }
 
-  /// Adds the pressure at walls to an expression of it (one a wall): its tangent at the present state, so that values
-  /// and derivatives are right as long as `wall_versions` stays the same.
+  /// Adds what the density contributes to the pressure at walls (one a wall), linearized about the current state:
+  /// values and derivatives are right as long as `wall_versions` stays the same.
   void add_to_walls(LinearExpression& expression) const;
   std::array<FluidDensity::Version, 2> wall_versions() const;
 

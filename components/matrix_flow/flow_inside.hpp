@@ -1,4 +1,4 @@
-// A discretization of the flux in some of the cells, whose outer boundary lets nothing through.
+// A discretization of the flux in some of the cells, with an impermeable boundary around them.
 #pragma once
 
 #include <vector>

@@ -183,12 +183,13 @@ class MatrixFlow : public Component,
   void assemble_face_pressure(Assembly& assembly, const StepTime& step) const;
   /// Of limited fluxes.
   void use_limited();
-  /// `excess`: of the density, empty if it is constant.
+  /// `excess`: of the density over the constant one, kg/m^3; empty if the density is constant.
   void add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& excess) const;
   void round_limited(double rounding);
   static SparseMatrix limited_derivative(const Flow& flow, const SparseMatrix& first, const SparseMatrix& second);
   void assemble_limited(Assembly& assembly, const Flow& flow, double dt) const;
-  /// Of a density that varies: what it gives in this step; the derivatives of balances and of the equations on faces.
+  /// Terms of a density that varies: its values in this step, and the derivatives of balances and of the equations on
+  /// faces.
   void use_density();
   /// Notes steps in which heavy fluid stays above lighter one because backward Euler damps what would grow.
   void note_heavy_above(Notes& notes, const StepTime& step) const;
@@ -211,8 +212,8 @@ class MatrixFlow : public Component,
   Field* wall_flux_ = nullptr;      ///< exists with fractures only
   Field* face_pressure_ = nullptr;  ///< exists with Unknowns::on_cells_and_faces only
   Field& cumulative_;               ///< (stored, injected, outflow) of each cell since the start, m^2
-  std::vector<char> inside_;        ///< one flag a cell: there is a flow; none where there is one everywhere
-  std::optional<Mesh> separated_;   ///< the mesh cut around these cells
+  std::vector<char> inside_;       ///< one flag a cell: whether there is a flow; empty where there is a flow everywhere
+  std::optional<Mesh> separated_;  ///< the mesh cut around these cells
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, 3> permeability_;  ///< xx, yy, xy
   Property viscosity_, porosity_, compressibility_, storage_;
@@ -270,10 +271,11 @@ class MatrixFlow : public Component,
   /// Of limited fluxes at the last state for which face_flux_derivatives was called.
   mutable SparseMatrix limited_by_pressure_, limited_by_wall_flux_;
 
-  std::unique_ptr<Buoyancy> buoyancy_;                              ///< nullptr for a constant density
-  std::uint64_t operators_made_ = 0, operators_of_buoyancy_ = 0;    ///< how often
-  mutable LinearExpression wall_pressure_by_density_;               ///< wall_pressure_ and what the density adds
-  mutable std::array<FluidDensity::Version, 2> versions_at_walls_;  ///< for which it was made
+  std::unique_ptr<Buoyancy> buoyancy_;                            ///< nullptr for a constant density
+  std::uint64_t operators_made_ = 0, operators_of_buoyancy_ = 0;  ///< how often operators and buoyancy were made
+  mutable LinearExpression wall_pressure_by_density_;             ///< wall_pressure_ and what the density adds
+  /// Versions of the densities for which that expression was made.
+  mutable std::array<FluidDensity::Version, 2> versions_at_walls_;
   mutable std::vector<std::pair<const Field*, SparseMatrix>> fluxes_by_density_;  ///< of face_flux_derivatives
 };
 

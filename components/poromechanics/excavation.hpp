@@ -11,10 +11,10 @@
 
 namespace sprekk::poromechanics {
 
-/// When a region is taken away.
+/// When and how a region is taken away.
 struct ExcavatedRegion {
   Origin origin;
-  Data support;  ///< part of its initial stress that acts on what is around it; 1 as long as it is there
+  Data support;  ///< share of its initial stress that still acts on the rock around it; 1 before it is taken away
   Spec spec();
 };
 using ExcavatedRegions = std::map<std::string, ExcavatedRegion>;  ///< by the name of the region
@@ -34,19 +34,21 @@ class Excavation {
   bool is_excavated(int cell) const { return !regions_.empty() && region_of_cell_[cell] != none; }
   bool is_removed(int cell) const { return support(cell) < 1; }
   double support(int cell) const { return is_excavated(cell) ? support_[region_of_cell_[cell]] : 1; }
-  double stiffness(int cell) const { return is_removed(cell) ? left_stiffness : 1; }  ///< over that of the rock
-  std::uint64_t version() const { return version_; }                                  ///< grows with what is removed
+  /// Stiffness of the cell over that of its rock.
+  double stiffness(int cell) const { return is_removed(cell) ? left_stiffness : 1; }
+  std::uint64_t version() const { return version_; }  ///< grows whenever a region is taken away or its support changes
   std::vector<const Data*> data() const;
-  /// `alpha` (one a cell) without the cells that are removed.
+  /// `alpha`, one value a cell, set to zero in cells that are removed.
   Vector of_rock(Vector alpha) const;
-  /// One flag a cell: whether it is not removed.
+  /// One flag a cell: whether the cell is still there.
   std::vector<char> left() const;
 
  private:
-  /// Not zero, so that displacements inside stay determined; those around change by about this part.
+  /// The stiffness that is left, over that of the rock: not zero, so that displacements inside stay determined.
+  /// Displacements around change by about this share.
   static constexpr double left_stiffness = 1e-6;
   std::vector<const ExcavatedRegion*> regions_;
-  std::vector<int> region_of_cell_;  ///< empty without regions
+  std::vector<int> region_of_cell_;  ///< the index of each cell's region; empty where no region is taken away
   std::vector<double> support_;
   std::uint64_t version_ = 0;
 };

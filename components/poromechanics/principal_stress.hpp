@@ -11,12 +11,13 @@ namespace sprekk::poromechanics {
 /// The principal values of a stress (tension positive) and the direction of its largest compression.
 struct PrincipalStress {
   double most_compressive, least_compressive;  ///< Pa, the smallest and the largest eigenvalue
-  /// Unit, of the most compressive one; the larger of its components is positive, the first one if they are equal. So
-  /// its sign does not depend on round-off where it lies along an axis. Zero where all directions are alike.
+  /// The unit vector along the most compressive stress. Its larger component is positive (the first one if both are
+  /// equal), so that its sign does not depend on round-off where it lies along an axis. Zero where all directions are
+  /// alike.
   Point direction;
 };
 
-/// Of the components (xx, yy, xy).
+/// The principal stress of a tensor with the components (xx, yy, xy).
 PrincipalStress principal_stress(const SymmetricTensor& stress);
 
 /// Appends OWNER.stress, its principal values OWNER.principal_stress.most_compressive and .least_compressive, and

@@ -99,12 +99,12 @@ class Rock : public Component,
   /// Tractions, and what is left on the walls beside them, Pa, (normal, tangential) of each fracture cell.
   Vector wall_load() const { return wall_traction_->now() + wall_remainder_->now(); }
   /// The traction of the initial stress of the cell on the given side (0 or 1) of a face, on the normal of the face,
-  /// Pa; of a cell that is taken away what is left of it.
+  /// The initial stress of a cell, Pa; where rock is taken away, the part that still acts.
   Point initial_traction(int face, int side) const;
   /// The load on a face from different initial stresses of the two regions at it, N/m; zero if they are in equilibrium.
   Point initial_load(int face) const;
   bool may_have_initial_load(int face) const;
-  /// Lets pore pressures load what is left of the rock.
+  /// Lets pore pressures load the rock that is still there.
   void use_excavation();
   /// The mean stress of each cell from forces on all faces, and their moments about the centres of the faces, Pa.
   Vector stress_of(const Vector& forces, const Vector& moments) const;

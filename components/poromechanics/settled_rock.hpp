@@ -1,4 +1,4 @@
-// The state that rock has been settled into at the start, from which its displacements are counted.
+// The equilibrium at the start (start: settle), from which displacements are counted.
 #pragma once
 
 #include <map>
@@ -13,12 +13,12 @@ namespace sprekk::poromechanics {
 struct SettledRock {
   Vector forces;         ///< total forces on faces, N/m, (x, y); or those of the stress of each cell (FemRock)
   Vector stress;         ///< total stress of each cell, Pa, (xx, yy, xy)
-  Vector displacements;  ///< prescribed ones, m, from the state before
+  Vector displacements;  ///< m, prescribed displacements, counted from the state before
   Vector jumps;          ///< m, (normal, tangential) of each fracture cell
 
-  /// Named values of the component `name`, for checkpoints.
+  /// The state as named values of the component `name`, for checkpoints.
   void save(const std::string& name, std::map<std::string, Vector>& state) const;
-  /// None where the values are not there.
+  /// Nothing where a checkpoint does not have these values.
   static std::optional<SettledRock> restored(const std::string& name, const std::map<std::string, Vector>& state);
 };
 

@@ -6,9 +6,9 @@
 
 namespace sprekk::poromechanics {
 
-/// The initial stress plus what pore pressures add to it, of each cell, Pa, (xx, yy, xy): the stress where the
-/// displacement is zero, also before anything has been discretized, when sides and walls have no load yet.
-/// `pore_stress`: what is added to xx and yy, Pa.
+/// The total stress of each cell where the displacement is zero: the initial stress plus that of the pore pressures,
+/// Pa, (xx, yy, xy). It is known before anything has been discretized, when sides and walls have no load yet.
+/// `pore_stress`: what pore pressures add to xx and yy, Pa.
 Vector stress_without_displacement(const Mesh& mesh, const Options& options, const Vector& pore_stress);
 
 }  // namespace sprekk::poromechanics

@@ -32,9 +32,10 @@ struct Control {
 Binding binding(const Control& control, double pressure, double rate, double resistance);
 
 /// Unknown: the pressure p of every well, one for all of its places. Its equation is the branch of `binding` in which
-/// the values are, divided by the rate or the pressure that the well is to have: a well is judged by its own figures,
-/// also beside one that brings a million times as much. Newton's method with it is an active-set method, which changes
-/// branches within a solve. The rates are given by a coupler (WellPressures::rate), which knows what is around.
+/// the values are, divided by the rate or the pressure that the well is to have: so the residual of a well is judged by
+/// its own rate and pressure, also beside a well with a million times the rate. Newton's method with it is an
+/// active-set method, which changes branches within a solve. The equations of the rates come from a coupler
+/// (WellPressures::rate), which knows the cells around the places.
 class LimitedWells : public Component, public WellPressures, public KeepsTotals {
  public:
   LimitedWells(const ComponentContext& context, const Options& options);
@@ -77,10 +78,10 @@ class LimitedWells : public Component, public WellPressures, public KeepsTotals 
   Field& rate_;
   Field& injected_;                ///< m^2, at each place since the start
   SparseMatrix of_places_;         ///< wells × places: ones
-  std::vector<Control> now_;       ///< in this step, one a well
+  std::vector<Control> now_;       ///< which limit holds in this step, one a well
   Vector resistance_;              ///< Pa s/m^2, one a well
-  Vector scale_of_rates_;          ///< m^2/s, one a well: what its equation is divided by where it is one of rates
-  double scale_of_pressures_ = 1;  ///< Pa, where it is one of pressures
+  Vector scale_of_rates_;          ///< m^2/s, one a well: divisor of its equation where that prescribes a rate
+  double scale_of_pressures_ = 1;  ///< Pa, divisor of equations that prescribe a pressure
 };
 
 }  // namespace sprekk::wells

@@ -10,7 +10,7 @@
 
 namespace sprekk::couplers {
 
-/// Of the rock, or of the fractures; empty without flow or heat there.
+/// The cells of the rock, or of the fractures; empty without flow or heat there.
 class CarriedHeat {
  public:
   CarriedHeat() = default;

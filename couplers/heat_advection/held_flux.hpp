@@ -7,14 +7,14 @@
 
 namespace sprekk::couplers {
 
-/// The flux through each face of the rock, m^2/s, as the last solve of the flow found it. With the data of a new step,
-/// as a viscosity that follows the temperature or a pressure that is prescribed now, the same pressures have fluxes
-/// that do not balance: cells would gain or lose many times the fluid that they hold.
+/// The flux through each face of the rock, m^2/s, as the last solve of the flow found it. Evaluated with the data of a
+/// new step (a viscosity that follows the temperature, a prescribed pressure that has changed), the same pressures
+/// would give fluxes that do not balance: cells would gain or lose many times the fluid that they hold.
 class HeldFlux {
  public:
   HeldFlux(const CouplerContext& context, const MatrixFluxes& fluxes, const Field& pressure);
 
-  /// After each solve of the flow.
+  /// To be called after each solve of the flow.
   void take();
   const Vector& now() const { return is_taken_ ? flux_->now() : fluxes_->face_fluxes(); }
 

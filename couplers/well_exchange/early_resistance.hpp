@@ -1,4 +1,4 @@
-// What a well resists before the flow around it is steady on the scale of its cell.
+// The resistance of a well before the flow around it is steady on the scale of its cell.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace sprekk::couplers {
 /// The number of terms of a resistance that changes with time.
 constexpr int early_terms = 12;
 
-/// How the difference of the pressures of a well and of its cell answers a rate q that begins at the time 0:
+/// The difference of the pressures of a well and of its cell after a rate q has begun at the time 0:
 ///   p_well − p_cell = q/(2 pi sqrt(det M)) (ln(r_e/r_w) + sum over k of weight_k exp(−c t/scale_k)),
 /// with the diffusivity c in the metric of rho (WellPatch). A mesh does not resolve a flow that has not left the cell
 /// of the well, so that its pressure with the steady index alone is late by about h^2/(8 c) on squares. The terms

@@ -28,7 +28,7 @@ class WellPatch {
   double transformed_pressure(double decay) const;
 
  private:
-  /// A pressure outside of the patch, `weight` of which flows into a cell of it.
+  /// A cell outside of the patch, whose pressure times `weight` enters the balance of a cell of the patch.
   struct Outside {
     int row;
     double weight, distance;
@@ -38,11 +38,12 @@ class WellPatch {
 
   std::vector<int> cells_;
   std::vector<double> areas_;
-  std::vector<Triplet> entries_;  ///< of the steady equations, m^2/(Pa s)
+  std::vector<Triplet> entries_;  ///< entries of the steady equations, m^2/(Pa s)
   std::vector<Outside> outside_;
-  int middle_ = none;                                                             ///< among cells_
-  double size_;                                                                   ///< sqrt(det M)
-  mutable std::shared_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> solver_;  ///< with the ordering of the first
+  int middle_ = none;  ///< index of the cell with the source in cells_
+  double size_;        ///< sqrt(det M)
+  /// Keeps the ordering of its first matrix.
+  mutable std::shared_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> solver_;
 };
 
 }  // namespace sprekk::couplers

@@ -8,12 +8,12 @@
 
 namespace sprekk {
 
-/// Whether balances are near-singular for a constant: whether what the derivatives without exchanges make of the
-/// constant (the sum of the absolute values in the rows) is at most 1e-6 of the largest exchange. The derivatives that
+/// Whether balances are near-singular for a constant mode: whether the derivatives without exchanges, applied to the
+/// constant (sum of the absolute values in the rows), are at most 1e-6 of the largest exchange. The derivatives that
 /// determine the constant are then lost in the round-off of the rows, but not in the sum of the rows without exchanges.
 /// `summed`: all balances of a quantity, or those of one of its fields; what joins these to the others through
-/// interfaces counts then. Where other unknowns of the bulk respond to the constant, how much these hold is known only
-/// with the solution: there `also_coupled` decides; a caller sets it after an attempt in which the constant was lost.
+/// interfaces counts then. Where other unknowns of the bulk respond to the constant, only the solution shows how far
+/// they determine it: there `also_coupled` decides; a caller sets it after an attempt in which the constant was lost.
 /// Never true where values are fixed in place of balances. Collective; needs the derivatives.
 bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool also_coupled = false);
 

@@ -28,7 +28,7 @@ class BlockSystem {
   Vector residual(const Assembly& assembly) const;
   /// Sums of balances in the place of one of them, where that is allowed and needed.
   const BalanceSums& sums() const { return sums_; }
-  /// The balances whose sums the system of an assembly has. Collective.
+  /// The balances whose sums are in the linear system of an assembly. Collective.
   std::vector<Balances::Quantity> sums_of(const Assembly& assembly) const {
     return sums_.sums_of(assembly, owned_, first_);
   }

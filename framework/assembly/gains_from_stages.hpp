@@ -9,8 +9,8 @@ namespace sprekk {
 class GainsFromStages {
  public:
   virtual ~GainsFromStages() = default;
-  /// What one stage costs in accuracy, as the rest of a sentence that begins with "with backward_euler"; empty for
-  /// nothing that is worth a note.
+  /// What one stage costs in accuracy, as the rest of a sentence that begins with "with backward_euler"; empty where
+  /// one stage costs too little for a note.
   virtual std::string loss_of_one_stage() const = 0;
 };
 

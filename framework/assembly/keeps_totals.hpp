@@ -1,4 +1,4 @@
-// Parts that add up what has been stored, injected or flowed out.
+// The interface of a part that adds up what has been stored, injected or flowed out.
 #pragma once
 
 namespace sprekk {

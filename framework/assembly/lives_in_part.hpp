@@ -5,12 +5,12 @@
 
 namespace sprekk {
 
-/// A component whose fields mean something in some of the cells, or of the fracture cells, only. The others have values
-/// without a meaning, which files and probes do not show.
+/// A component whose fields have a meaning in some of the cells, or of the fracture cells, only. Elsewhere their values
+/// mean nothing, and files and probes do not show them.
 class LivesInPart {
  public:
   virtual ~LivesInPart() = default;
-  /// One flag a cell, or fracture cell; none where it lives everywhere.
+  /// One flag a cell, or fracture cell: whether the component lives there; empty where it lives everywhere.
   virtual const std::vector<char>& inhabited_cells() const = 0;
   virtual bool lives_on_fractures() const { return false; }
 };

@@ -19,7 +19,7 @@ struct DataRequest {
   const ReadContext& context;
 };
 
-/// Forms of a datum that other folders read: maps with a key of their own, by this key.
+/// Forms of a datum that are read in other folders: each is a map with a key of its own, and is found by this key.
 using DataForms = std::map<std::string, std::function<Data(const Node&, const DataRequest&)>>;
 DataForms& data_forms();
 
@@ -65,7 +65,7 @@ struct NamedPlaces {
 std::vector<const Node*> values_by_name(const Node& node, const DataRequest& request, const NamedPlaces& places,
                                         const std::vector<std::string>& names);
 
-/// The form of data_forms that the map has, or nullptr.
+/// The reader of the form that this map has, or nullptr.
 const DataForms::value_type* other_form(const Node& node);
 
 /// Whether the map has the key `key`, so that its form is known.

@@ -19,9 +19,9 @@ struct Table {
   double at(std::span<const double> place) const;
 };
 
-/// The file and columns of a table. The column of values is given by name or by number from 1; "" is the one that is no
-/// variable, where there is only one. Columns of variables have the names of these; of a single variable it may also be
-/// the first column.
+/// The file and columns of a table. The column of values is given by name or by number from 1; "" is the only column
+/// that is no variable. Columns of variables have the names of these; of a single variable it may also be the first
+/// column.
 struct TableRequest {
   std::string file;  ///< as the user gave it
   std::string folder;

@@ -11,7 +11,7 @@ class DenseCholesky {
  public:
   explicit DenseCholesky(const Eigen::MatrixXd& matrix);
   bool is_positive_definite() const;
-  /// For each column of `right`.
+  /// Solves A x = b for each column b of `right`.
   Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& right) const;
 
  private:

@@ -11,11 +11,11 @@ namespace sprekk {
 class LeastSquares {
  public:
   LeastSquares() = default;
-  /// `threshold`: pivots below this part of the largest one count as zero; round-off without it.
+  /// `threshold`: pivots below this share of the largest one count as zero. Without it the bound is round-off.
   explicit LeastSquares(const Eigen::MatrixXd& matrix, const std::optional<double>& threshold = {});
   Eigen::Index rank() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
-  /// For each column of `right`.
+  /// The minimizer for each column b of `right`.
   Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& right) const;
   Eigen::MatrixXd pseudo_inverse() const;
 

@@ -5,17 +5,17 @@
 
 namespace sprekk {
 
-/// Of a symmetric matrix of any size; only its lower triangle is read.
+/// Eigenvalues and eigenvectors of a symmetric matrix of any size, of which only the lower triangle is read.
 struct SymmetricEigen {
   Eigen::VectorXd values;   ///< in ascending order
   Eigen::MatrixXd vectors;  ///< a column each, of length 1
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
-/// In ascending order.
+/// The eigenvalues of a symmetric matrix, in ascending order.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// Of a symmetric tensor.
+/// Principal values and axes of a symmetric tensor.
 struct PrincipalAxes {
   Point values;  ///< in ascending order
   Tensor axes;   ///< a column each, of length 1

@@ -12,7 +12,7 @@ namespace sprekk {
 
 struct OutputLine;
 
-/// The state at a time of output, whole.
+/// The whole state at a time of output, with all processes' values.
 struct Frame {
   double time;  ///< s
   int step;     ///< accepted steps so far; 0 at the start
@@ -21,13 +21,13 @@ struct Frame {
   const std::vector<OutputLine>& lines;    ///< parts of fractures that the mesh does not have yet
 };
 
-/// Where an output writes, and from when on.
+/// Where an output writes, and from which time on.
 struct OutputPlace {
-  std::filesystem::path folder;          ///< of the run; it exists
-  std::optional<double> continued_from;  ///< s, of a run that goes on: what is later in files of before is replaced
+  std::filesystem::path folder;          ///< results folder of the run; it exists
+  std::optional<double> continued_from;  ///< s, where a run is continued: later rows in existing files are replaced
 };
 
-/// One output of a run. It exists on the first process only, and calls nothing that all processes take part in.
+/// One output of a run. It exists on the first process only, and must not call anything collective.
 class FrameOutput {
  public:
   virtual ~FrameOutput() = default;

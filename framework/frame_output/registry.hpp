@@ -13,7 +13,7 @@
 
 namespace sprekk {
 
-/// What a scene says of one output, once it has been read.
+/// The parameters of one output in a scene.
 struct FrameOutputChoice {
   std::string name;
   std::function<bool()> is_chosen;
@@ -23,7 +23,7 @@ struct FrameOutputChoice {
   std::function<void(const Frame& start)> check;
 };
 
-/// The list of all outputs, one for the program.
+/// All outputs of the program.
 class FrameOutputRegistry {
  public:
   /// An output by its key in a scene; `declare` adds the key to the spec of `output:`.

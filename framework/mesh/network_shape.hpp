@@ -1,4 +1,4 @@
-// How the fractures of a mesh lie to one another.
+// Angles between the fractures of a mesh, and the parts of the matrix that they enclose.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct Pocket {
   int cells;
   double measure;              ///< m^2
   Point center;                ///< m
-  std::vector<int> fractures;  ///< around it, indices into Mesh::fractures, in ascending order
+  std::vector<int> fractures;  ///< the fractures around the part: indices into Mesh::fractures, in ascending order
 };
 
 /// All pockets, the one with the fewest cells first.

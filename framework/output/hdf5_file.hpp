@@ -53,8 +53,8 @@ class Hdf5Reader {
   std::vector<double> doubles(const std::string& path) const;
   std::vector<int> integers(const std::string& path) const;
   std::string text(const std::string& path) const;
-  std::vector<std::string> texts(const std::string& path) const;  ///< a text that is a list of texts in JSON
-  bool has(const std::string& path) const;                        ///< of a path whose group exists
+  std::vector<std::string> texts(const std::string& path) const;  ///< reads a text that is a list of texts in JSON
+  bool has(const std::string& path) const;                        ///< whether the path exists; its group must exist
 
  private:
   template <class Value>

@@ -1,4 +1,4 @@
-// A line of the table of where the time of a run went.
+// One row of the table that shows where the time of a run went.
 #pragma once
 
 #include <string>

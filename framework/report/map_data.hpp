@@ -20,12 +20,12 @@ struct MapField {
 /// What can be shown, scalar fields first. A vector gives its components and its length, a tensor its components.
 std::vector<MapField> map_fields(const RunResults& results);
 
-/// What fractures can be coloured by: the numbers on their cells.
+/// The fields on fracture cells by which a map can colour fractures.
 std::vector<MapField> fracture_map_fields(const RunResults& results);
 
 /// The map as JSON: meshes, each once as long as it does not change, fields with their ranges, and the values at each
-/// time as 16-bit fractions of the range; the same of the cells of fractures, with the fracture of each and the names.
-/// The text has at most `most_bytes`: longer runs are shown at fewer times.
+/// time as 16-bit fractions of the range; the same for fracture cells, with the number of the fracture of each cell and
+/// the names of fractures. The text has at most `most_bytes`: longer runs are shown at fewer times.
 std::string map_json(const RunResults& results, std::size_t most_bytes = 24'000'000);
 
 }  // namespace sprekk

@@ -21,7 +21,7 @@ class CsvTable {
 
   /// The place of a column given as "quantity[unit]" or as "quantity" alone; -1 when there is none.
   int find(const std::string& column) const;
-  /// The values of a column; NaN for an empty cell or a text.
+  /// The values of a column; NaN where a cell is empty or is no number.
   std::vector<double> numbers(int column) const;
   std::vector<std::string> texts(int column) const;
   /// The values of a column, or nothing when there is none.

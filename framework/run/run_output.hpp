@@ -41,7 +41,7 @@ class RunOutput {
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
   /// `equations`: the names of all that have a column.
   void write_iteration(const IterationRecord& record, const std::vector<std::string>& equations);
-  /// By all outputs.
+  /// Writes the state by all outputs.
   void write_frame(double time, int step, const Model& model, const std::vector<OutputField>& fields);
   Rows rows() const;  ///< of the tables now; 0 on processes other than the first
   /// `rows`: those of the tables at the state of the checkpoint.
@@ -59,7 +59,7 @@ class RunOutput {
   OutputFolder folder_;
   std::optional<RunLock> lock_;
   std::optional<TableWriter> history_, coupling_;
-  std::vector<std::unique_ptr<FrameOutput>> outputs_;  ///< on the first process
+  std::vector<std::unique_ptr<FrameOutput>> outputs_;  ///< empty on all but the first process
 };
 
 }  // namespace sprekk

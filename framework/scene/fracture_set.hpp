@@ -9,10 +9,9 @@
 
 namespace sprekk {
 
-/// One flag a fracture cell: whether its fracture has one of these names, of which `joints_*` stands for all that begin
-/// so. What has grown belongs to the fracture that
-/// it continues. Empty where `names` is empty or has all fractures: then the set is all of them. Throws InputError at
-/// `origin` for a name that no fracture has.
+/// One flag a fracture cell: whether its fracture has one of these names; `joints_*` stands for all names that begin
+/// with `joints_`. What has grown belongs to the fracture that it continues. Empty where the set has all fractures, as
+/// with empty `names`. Throws InputError at `origin` for a name that no fracture has.
 std::vector<char> fracture_set(const Mesh& mesh, const std::vector<std::string>& names, const Origin& origin);
 
 }  // namespace sprekk

@@ -67,13 +67,13 @@ class Model {
   void make_start(const ScheduleContext& context);
   void check_probes() const;
   void check_outputs() const;
-  /// Sets NaN where a component does not live (LivesInPart).
+  /// Sets values to NaN where a component does not live (LivesInPart).
   void hide_uninhabited(std::vector<OutputField>& fields) const;
   void check_determined() const;
   void check_stages() const;
   void check_data();
   void check_constant_modes() const;
-  /// A step that a part takes for too long (LimitsStep) has not converged.
+  /// Turns the status of a step that a part finds too long (LimitsStep) into "not converged".
   void refuse_too_long(const StepTime& step, StepStatus& status) const;
   std::vector<OutputField> derived_output() const;  ///< what parts write beside their fields
 
@@ -86,7 +86,7 @@ class Model {
   std::vector<GrowStep*> growing_;
   std::vector<StepHistory*> histories_;
   std::unique_ptr<ScheduleStep> schedule_;
-  std::unique_ptr<SolveStep> settle_;  ///< of the state at the start, if the scene has it settled
+  std::unique_ptr<SolveStep> settle_;  ///< solves for the state at the start, where the scene has `start: settle`
   std::vector<Probe> probes_;
 };
 

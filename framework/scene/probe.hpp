@@ -46,7 +46,7 @@ class Probe {
   void set_domain_weights(const Mesh& mesh, const ProbeOptions& options);
 
   std::string name_, take_, of_;
-  const Field* field_ = nullptr;  ///< or nullptr for an output
+  const Field* field_ = nullptr;  ///< nullptr where the probe measures an output
   Location location_;
   int components_;
   std::string unit_;

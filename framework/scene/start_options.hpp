@@ -13,7 +13,7 @@ namespace sprekk {
 struct StartOptions {
   Origin origin;
   std::optional<std::string> from;  ///< a folder of results, or a checkpoint in it; relative to the working directory
-  std::vector<std::string> settle;  ///< names of components
+  std::vector<std::string> settle;  ///< names of the components that are brought to equilibrium
   Spec spec();
 };
 

@@ -5,8 +5,9 @@
 
 namespace sprekk {
 
-/// Puts a model that has just been built into the state of its scene's `start:`, and accepts it. Nothing without that
-/// section. Throws InputError for a run whose state does not fit, and std::runtime_error where no equilibrium is found.
+/// Puts a model that has just been built into the state of its scene's `start:`, and accepts it. Does nothing without
+/// that section. Throws InputError for a run whose state does not fit this model, and std::runtime_error where no
+/// equilibrium is found.
 void take_start(Model& model);
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// The last resort of an iteration: its unknowns are found together.
+// What an iteration does when its passes fail: it solves for all of its unknowns together.
 #pragma once
 
 #include <memory>
@@ -11,18 +11,19 @@
 
 namespace sprekk {
 
-/// Solves for all unknowns of an iteration at once, by Newton's method, where passes have not converged. The solution
-/// of all equations is what passes would have converged to, so it is no other answer. It stays visible: a note says
-/// why and in how many steps, and coupling.csv has the iterations under "fallback".
+/// Solves for all unknowns of an iteration at once, by Newton's method, where passes have not converged. Passes would
+/// have converged to the same solution, so the answer is no other. The user is told: a note says why and in how many
+/// steps, and coupling.csv has the iterations under "fallback".
 class FallbackSolve {
  public:
   FallbackSolve(std::vector<Field*> unknowns, const NewtonOptions& newton, const LinearOptions& linear,
                 const ScheduleContext& context);
 
-  /// The iteration begins a time step; what is known of this step and of later ones is forgotten.
+  /// To be called when the iteration begins a time step. Forgets what earlier attempts at this step and at later ones
+  /// have shown.
   void begin(const StepTime& step);
-  /// From the values that the unknowns had at begin(). `failed`: how the passes have ended. The status counts their
-  /// iterations as well.
+  /// Solves, from the values that the unknowns had at begin(). `failed`: the status with which the passes have ended;
+  /// the result counts their iterations, too.
   StepStatus solve(const StepTime& step, const StepStatus& failed);
   void note_step(Notes& notes, const StepTime& step) const;
   void add_counts(LinearCounts& counts) const;

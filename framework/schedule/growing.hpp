@@ -54,8 +54,8 @@ class Growing {
     double accepted = 0;        ///< the same at the start of the step
     double onset = 0;           ///< the largest of those tips that have not grown yet
     double onset_accepted = 0;  ///< the same at the start of the step
-    double unsettled =
-        0;  ///< largest relative change over the step of the state at the tips that a growth event disturbs
+    /// Largest relative change over the step of the state at the tips that a growth event disturbs.
+    double unsettled = 0;
   };
   virtual Load examine(const StepTime& step) = 0;
   /// The growth of all tips in a step.
@@ -72,14 +72,17 @@ class Growing {
   virtual bool may_grow_within_steps() const = 0;
   /// To be called once, where growth is to be found within steps (search_front) as far as the mesh can follow it.
   virtual void grow_within_steps() = 0;
-  /// With growth within steps: whether all tips grow by grow() from now on, and none by search_front().
+  /// Where growth belongs to the steps: from now on all tips grow by grow() if `is_held`, and by search_front()
+  /// otherwise.
   virtual void hold(bool is_held) = 0;
-  /// Whether a tip is so far above its toughness that its growth is no continuous one. After examine().
+  /// Whether the load of a tip is so far above that of growth that its growth is not continuous in time. To be called
+  /// after examine().
   virtual bool is_far_above() const = 0;
-  /// Whether tips that grew in the last step are to be taken to grow in this one, so that it need not be solved without
-  /// growth first.
+  /// Whether tips that grew in the last step are assumed to grow in this one, so that this step need not be solved
+  /// without growth first.
   virtual bool grows_on() const = 0;
-  /// s, the longest step over which growth at the speed of the last one is followed; infinity where nothing grew.
+  /// The longest step, s, over which the search follows growth at the speed of the last step; infinity where nothing
+  /// grew.
   virtual double longest_step() const = 0;
   /// The search for growth within a step, or none when no tip is to grow. `goes_on`: the present state is that at the
   /// start of the step, and tips that grew in the last step grow in the first trial (grows_on()); otherwise the step

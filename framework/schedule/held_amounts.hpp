@@ -28,7 +28,7 @@ class HeldAmounts {
   };
   std::vector<const Field*> held_, solved_, all_;  ///< all: the solved ones, then the held ones
   std::vector<Part*> parts_;
-  BlockSystem system_;  ///< of all, for who owns which rows
+  BlockSystem system_;  ///< rows of all fields, and which process owns them
   Products products_;
   std::vector<Factors> factors_;
   std::vector<ResponseTerm> terms_;

@@ -73,7 +73,8 @@ class IterateStep : public ScheduleStep, public StepHistory {
   ResidualCheck check_changes(const std::vector<Vector>& before) const;
   /// The largest change of any field over the largest value of a field of its unit, before or after; both are scaled.
   double relative_change(const Vector& change, const Vector& before) const;
-  /// The status of passes that lead nowhere. `what` they do; `factor`: from pass to pass.
+  /// The status of passes that do not converge. `what`: what they do instead; `factor`: by which changes grow from pass
+  /// to pass.
   StepStatus without_end(const StepTime& step, const std::string& what, double factor, int pass);
   /// Whether a step that diverges by this factor is much shorter than one from the same start that diverged no faster.
   bool is_no_better(const StepTime& step, double factor);
@@ -98,7 +99,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   struct Divergence {
     StepTime step;
     double factor;
-    double largest;  ///< factor of any step from its start
+    double largest;  ///< largest factor of any step from the same start
   };
   std::optional<Divergence> divergence_;  ///< the longest step from its start that has diverged no faster
 };

@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// Why a step that has converged is to be repeated with a shorter one.
+/// The refusal of a step that has converged: the reason, and the shorter step to try instead.
 struct StepTooLong {
   double retry_dt;  ///< s, shorter than the step
   std::string why;

@@ -40,7 +40,7 @@ struct ScheduleReading {
   bool is_in_stages = false;       ///< whether a step around it takes the stages of the scheme
   std::string waiting = "linear";  ///< course of the waiting fields during the stages of a step
   bool is_iterated = false;        ///< whether the step that is being read is inside an `iterate`
-  bool may_be_inexact = false;     ///< whether that `iterate` looks at the residuals of all equations inside
+  bool may_be_inexact = false;     ///< whether the `iterate` around checks the residuals of all equations inside
   double tightest_until = 1;       ///< of the `iterate` around it: its `until: relative`
   bool is_substep = false;         ///< whether it is inside a `subcycle` of several substeps
   bool is_followed = false;        ///< whether a step that solves or grows stands behind it

@@ -17,7 +17,7 @@ struct SolveOptions {
   NewtonOptions newton;  ///< those of the scene, with what the step overrides
   LinearOptions linear;
   bool overrides_newton = false, overrides_linear = false;
-  bool may_be_inexact = false;  ///< an iteration around the step looks at the residuals of its equations
+  bool may_be_inexact = false;  ///< whether an iteration around the step checks the residuals of its equations
   Spec spec();
 };
 
@@ -42,7 +42,7 @@ class SolveStep : public ScheduleStep {
 
  private:
   void check_response() const;
-  /// For which fields the stabilization adds the Schur complement of the waiting unknowns.
+  /// The pairs of fields for which the stabilization adds the Schur complement of the waiting unknowns.
   ResponseOptions wanted_responses() const;
   std::vector<const Field*> waiting() const;
   const Responses& responses(const StepTime& step);
@@ -50,7 +50,7 @@ class SolveStep : public ScheduleStep {
   std::vector<const Field*> held_amounts() const;
   /// Without bounds of the response, which are far from linear, and with them where that does not converge.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization, const Responses& of_waiting);
-  /// Whether a solve that has used up its iterations is as good as any to go on with.
+  /// Whether the values of a solve that has used up its iterations may be used by the iteration around it.
   bool is_good_enough(const StepTime& step);
   std::unique_ptr<Newton> newton_for(const std::vector<Field*>& unknowns) const;
 
@@ -64,7 +64,7 @@ class SolveStep : public ScheduleStep {
   std::vector<const Field*> iterated_;         ///< in the iteration around the step
   std::unique_ptr<WaitingResponse> response_;  ///< of a stabilization that contains one; made when data are known
   bool is_response_made_ = false;
-  std::unique_ptr<HeldAmounts> amounts_;  ///< of a stabilization that holds some
+  std::unique_ptr<HeldAmounts> amounts_;  ///< where the stabilization holds amounts
   Responses of_amounts_;
   StepTime inexact_in_;  ///< the time step in which solves were inexact
   int inexact_ = 0;      ///< how many of them in a row

@@ -55,7 +55,7 @@ class WaitingResponse {
   /// Copies of waiting unknowns that the solve finds, too; they have pending terms only. The first call makes
   /// them, at the values of the fields then. Collective.
   const std::vector<std::unique_ptr<Field>>& copies(const StepTime& step);
-  /// What copies() are of, in its order.
+  /// The waiting unknowns that copies() are copies of, in the same order.
   const std::vector<const Field*>& copied() const { return copied_; }
   /// The terms at the present values of the fields; none for what has no response, or where waiting unknowns are not
   /// determined. Terms are kept as long as the derivatives hardly change. Collective.
@@ -85,8 +85,8 @@ class WaitingResponse {
   };
   std::vector<WaitingBalance> balances(const Assembly& assembly) const;
   /// Changes the copied unknowns of a solution so that the sum of balances holds to all digits, as the rows alone do
-  /// not where they exchange any multiple of what they store. `rest`: of the sum, besides what the solution makes of
-  /// it.
+  /// not where they exchange any multiple of what they store. `rest`: the part of the sum that does not depend on the
+  /// solution.
   void hold(const WaitingBalance& balance, double rest, Vector& solution) const;
   /// d waiting / d column, transposed: a row for each value of the column field.
   SparseMatrix driving(const Assembly& assembly, const Field& column) const;

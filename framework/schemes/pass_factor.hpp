@@ -27,7 +27,7 @@ class PassFactor {
   class Group;
   const Group* group(const std::vector<std::string>& components, const std::string& stabilization);
 
-  /// What a stabilization that holds amounts adds to the equations of a group.
+  /// The terms that a stabilization with held amounts adds to the equations of a group.
   std::vector<ResponseTerm> terms_of_held_amounts(const std::vector<std::string>& components,
                                                   const std::string& stabilization) const;
 

@@ -15,14 +15,14 @@ using Group = std::vector<std::string>;
 /// One way to solve for all components of a scene.
 struct Scheme {
   std::vector<Group> groups;  ///< in the order in which they are solved; one is the monolithic scheme
-  bool is_jacobi = false;     ///< each group takes the others from the pass before
-  std::map<std::size_t, std::string> stabilizations;  ///< by the group that they are for
+  bool is_jacobi = false;     ///< whether each group uses the values of the others from the pass before
+  std::map<std::size_t, std::string> stabilizations;  ///< by the index of the group that has them
   std::string acceleration;                           ///< "anderson: 5", "iqn_ils: {}"; "" for none
 
   bool is_monolithic() const { return groups.size() == 1; }
   std::string stabilization(std::size_t group) const;  ///< "" for none
   std::string all_stabilizations() const;              ///< joined by commas; "" for none
-  std::string name() const;                            ///< of a folder: "a_b-c_d=STABILIZATION=anderson_5"
+  std::string name() const;                            ///< as a name of a folder: "a_b-c_d=STABILIZATION=anderson_5"
   std::string split() const;                           ///< "a b (STABILIZATION) → c d"
   /// The value of `schedule:` as YAML on one line. `until`: of the coupled residual; `behind`: steps that follow.
   /// A step whose passes do not converge is refused.

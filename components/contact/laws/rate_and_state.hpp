@@ -10,7 +10,7 @@ namespace sprekk::contact {
 /// Res. 98 (1993) 9885). The state ages: d theta/dt = 1 − V theta/L (Dieterich, J. Geophys. Res. 84 (1979) 2161).
 struct RateAndStateLaw {
   double friction;     ///< f_0, of steady slip at V_0
-  double a, b;         ///< direct effect, and that of the state
+  double a, b;         ///< parameters of the direct effect and of the evolution effect
   double distance;     ///< L, m
   double rate;         ///< V_0, m/s
   double damping = 0;  ///< eta, Pa s/m
@@ -20,14 +20,14 @@ struct RateAndStateLaw {
   double state_after(double state, double dt, double slip_rate) const {
     return (state + dt) / (1 + slip_rate * dt / distance);
   }
-  /// tau/N without damping.
+  /// The coefficient of friction tau/N without damping.
   double friction_at(double slip_rate, double state) const;
 
   /// A step of a place on the walls: theta (s) at its beginning, its length (s), and N (Pa), not negative.
   struct Step {
     double state, dt, pressure;
   };
-  /// What walls hold at the end of a step, tau + c V dt = trial, and derivatives.
+  /// The traction of the walls at the end of a step, which fulfils tau + c V dt = trial, and its derivatives.
   struct Returned {
     double slip_rate;    ///< V, m/s
     double traction;     ///< tau, Pa

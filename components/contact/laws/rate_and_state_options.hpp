@@ -1,4 +1,4 @@
-// What a scene says of friction that depends on slip rate and state.
+// Parameters of friction that depends on slip rate and state.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace sprekk::contact {
 
-/// Parameters of RateAndStateLaw, without f_0, and of what follows from it.
+/// Parameters of RateAndStateLaw without f_0, of the start, of the step size, and of events.
 struct RateAndStateOptions {
   Data a, b;
   Data distance;                          ///< L, m
@@ -15,7 +15,7 @@ struct RateAndStateOptions {
   std::optional<Data> initial_state;      ///< theta, s
   std::optional<Data> initial_slip_rate;  ///< m/s; theta = L/V
   double wave_speed = 0;                  ///< m/s, of shear waves
-  bool is_damped = false;                 ///< whether the scene has the section
+  bool is_damped = false;                 ///< whether the scene asks for radiation damping
   double state_change = 0.1;              ///< over L
   double event_slip_rate = 1e-3;          ///< m/s
   Spec spec();

@@ -5,15 +5,16 @@
 
 namespace sprekk::fine_fracture {
 
-/// Parameters of such tips.
+/// Parameters of tips whose fine levels are boundary elements.
 struct BoundaryElementOptions : TipsOptions {
-  double element_ratio = 1;   ///< of the elements at a tip, over the coarse level's edge there
-  int degree = 12;            ///< of the regular field
-  double offset_ratio = 0.5;  ///< of the places where the stress offset is taken, over the coarse level's edge
+  double element_ratio = 1;  ///< size of the elements at a tip over the edges of the coarse level there
+  int degree = 12;           ///< degree of the regular field
+  /// Distance of the places where the stress offset is taken, over the edges of the coarse level.
+  double offset_ratio = 0.5;
   Spec spec();
 };
 
-/// The component of such tips.
+/// The component of tips whose fine levels are boundary elements.
 class BoundaryElement : public Tips {
  public:
   BoundaryElement(const ComponentContext& context, const BoundaryElementOptions& options);

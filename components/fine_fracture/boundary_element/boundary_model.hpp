@@ -16,14 +16,16 @@
 
 namespace sprekk::fine_fracture {
 
-/// What a model is made with.
+/// Parameters of a boundary-element model.
 struct BoundaryOptions {
   ElementSizes sizes;
-  int degree = 12;     ///< of the regular field
-  double spacing = 0;  ///< m, between the places where stress offset and body force are taken; 0: there are none
+  int degree = 12;  ///< degree of the regular field
+  /// M, distance between the places where stress offset and body force are taken; 0: both are zero.
+  double spacing = 0;
 };
 
-/// What models for nearly the same geometry may have in common: their factors then depend continuously on it.
+/// The division into elements, and the places of the stress offset. Models of nearly equal geometries that share them
+/// have factors that depend continuously on the geometry.
 struct BoundaryPattern {
   Divisions divisions;
   std::vector<Point> offset_places;  ///< m
@@ -32,10 +34,11 @@ struct BoundaryPattern {
 /// Plane-strain elasticity in a homogeneous isotropic domain with cracks, div (C eps(u) + s) + b = 0 with the loads of
 /// FineLoads, as the sum of
 ///   - the fields of the jumps on the cracks in an infinite plane, from the tractions of their walls at the nodes;
-///   - those of the known jumps beyond the outline;
+///   - the fields of the known jumps beyond the outline;
 ///   - a particular solution for the stress offset s and the body force b;
 ///   - a regular field, by least squares on the outline.
-/// Factors follow from the jump in the element at the tip, which has the root of the distance.
+/// Stress intensity factors follow from the jump in the element at the tip, which varies like the square root of the
+/// distance from the tip.
 class BoundaryModel : public FineLevel {
  public:
   /// Walls of all cracks have tractions. Takes over the `pattern` of another model where the geometry has as many
@@ -47,8 +50,8 @@ class BoundaryModel : public FineLevel {
   FineRock rock() const override { return rock_; }
   std::uint64_t topology() const override;
   const std::vector<Point>& offset_places() const override;
-  /// Several around each of offset_places(): forces are means over the way to the next one, so that layers of different
-  /// weight have their weight wherever a border lies between places.
+  /// Several places around each of offset_places(). The force at a place is the mean over its surroundings, so that
+  /// layers of different weight have their exact weight wherever the border between them lies.
   std::vector<Point> body_force_places() const override;
   /// Throws std::runtime_error where the result is not finite.
   TipFactors solve(const FineLoads& loads) const override;
@@ -61,14 +64,14 @@ class BoundaryModel : public FineLevel {
   struct Node {
     int element, index;
     Complex place, along;  ///< m; unit, along the path
-    double s;              ///< on its segment
+    double s;              ///< parameter on the segment
   };
   struct OutlinePlace {
     Point position, inside;  ///< m
     int edge;
-    double weight;  ///< root of the length that it stands for, over that of the outline
+    double weight;  ///< square root of the share of the outline that the point stands for
   };
-  /// The parts of the solution that loads give.
+  /// Right-hand sides that follow from the loads.
   struct Given {
     Vector outline;  ///< rows of the outline, weighted
     Vector walls;    ///< rows of the nodes: (N, S) of the walls
@@ -80,7 +83,8 @@ class BoundaryModel : public FineLevel {
   Complex edge_direction(int edge) const;
   Eigen::Matrix2Xd outline_rows(const OutlinePlace& place, const ElementField& field) const;
   Given given(const FineLoads& loads) const;
-  /// The jumps at the nodes, m. Walls that slide, and the jumps of which follow, are found by their tractions and gaps.
+  /// The jumps at the nodes, m. Where walls may slide, their jumps are unknown, too, and follow from their tractions
+  /// and gaps.
   Vector jumps(const FineLoads& loads, const Given& given) const;
   TipFactors factors(const FineLoads& loads, const Given& given, const Vector& jumps) const;
 

@@ -15,15 +15,15 @@ namespace sprekk::fine_fracture {
 /// polynomial, times the root of the distance from a tip where the element is at one.
 struct CrackElement {
   int crack, segment;  ///< of the geometry; none for pieces outside of it
-  double from, to;     ///< parameters on the segment, where the element begins and ends
-  Complex start;       ///< m, where t = 0: of an element at a tip the tip
+  double from, to;     ///< where the element begins and ends: parameters on the segment
+  Complex start;       ///< m, where t = 0; for an element at a tip this is the tip
   Complex direction;   ///< unit, from there
   double length;       ///< m
   double sign;         ///< 1 along the path, −1 against it
   Density density;
 
   Complex place(double t) const { return start + t * length * direction; }
-  /// The parameter of a place on the segment.
+  /// The parameter on the segment of the place t on the element.
   double parameter(double t) const { return sign > 0 ? from + t * (to - from) : to + t * (from - to); }
   Complex along() const { return sign * direction; }  ///< unit, along the path
 };
@@ -32,7 +32,8 @@ struct CrackElement {
 struct ElementSizes {
   double largest;          ///< m, at the wanted tip
   double smallest = 3e-4;  ///< at kinks and other such places, over their distance from the wanted tip
-  double growth = 0.7;     ///< length over the distance of the middle from the nearest of these places, at most
+  /// Largest ratio of an element's length to the distance of its middle from the nearest of these places.
+  double growth = 0.7;
 };
 
 /// Where the segments of cracks are divided: parameters from 0 to 1, by crack and segment.
@@ -40,7 +41,7 @@ using Divisions = std::vector<std::vector<std::vector<double>>>;
 /// Elements are short where jumps are not smooth: at kinks, at junctions, where the kind of the walls changes and
 /// beside other cracks; and longer far from the wanted tip.
 Divisions divisions(const FineGeometry& geometry, const TipPlace& wanted, const ElementSizes& sizes);
-/// Whether they have as many cracks and segments as the geometry.
+/// Whether the divisions have as many cracks and segments as the geometry.
 bool fits(const Divisions& divisions, const FineGeometry& geometry);
 std::vector<CrackElement> crack_elements(const FineGeometry& geometry, const Divisions& divisions);
 /// Divides a straight piece outside of a convex outline, in elements that are short beside it, with polynomial jumps.
@@ -53,17 +54,19 @@ using Pair = Eigen::Matrix2d;
 /// the potentials of Muskhelishvili 1953), for each of its nodes.
 class ElementField {
  public:
-  /// At z, which is not on the element.
+  /// The field at z, which is not on the element.
   ElementField(const CrackElement& element, const Elasticity& rock, Complex z);
-  /// At the place t of the element itself, where displacements are the mean of both sides.
+  /// The field at the place t of the element itself; displacements are the mean of both sides.
   ElementField(const CrackElement& element, const Elasticity& rock, double t);
-  /// At the tip, t = 0, of an element with one: the limit along the element. Only traces are valid.
+  /// The field at t = 0 of an element with a tip there: the limit along the element. Only the trace of the stress is
+  /// valid.
   static ElementField at_tip(const CrackElement& element, const Elasticity& rock);
-  /// The displacement (m) by a jump (m).
+  /// The displacement (m) that a jump (m) makes.
   Pair displacement(int node) const;
-  /// (sigma_nn, sigma_tn), Pa, on a line in the direction `along` (unit), n to its left, t along it; by a jump (m).
+  /// (sigma_nn, sigma_tn), Pa, on a line in the direction `along` (unit), n to its left, t along it, that a jump (m)
+  /// makes.
   Pair stress(int node, Complex along) const;
-  /// sigma_xx + sigma_yy, Pa, by a jump (m).
+  /// sigma_xx + sigma_yy, Pa, that a jump (m) makes.
   Eigen::RowVector2d trace(int node) const;
 
  private:
@@ -73,7 +76,7 @@ class ElementField {
   CrackElement element_;
   Elasticity rock_;
   DensityIntegrals integrals_;
-  double height_;  ///< of the place over the line of the element, in lengths of it
+  double height_;  ///< distance of the place from the line of the element, over the length of the element
 };
 
 }  // namespace sprekk::fine_fracture

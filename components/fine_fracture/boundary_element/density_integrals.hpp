@@ -10,7 +10,7 @@ using Complex = std::complex<double>;
 
 constexpr int element_nodes = 5;  ///< of an element of a crack: jumps are polynomials of degree 4 along it
 
-/// The functions that a jump is made of along an element from t = 0 to 1.
+/// The functions that span the jump along an element from t = 0 to 1.
 enum class Density {
   polynomial,  ///< 1, t, … t^4
   root,        ///< sqrt(t) times these: a tip at t = 0
@@ -23,7 +23,7 @@ struct DensityIntegrals {
   std::array<Complex, element_nodes> value, slope, curvature;
 };
 
-/// The nodes of an element, t between 0 and 1: those of Gauss and Legendre.
+/// The nodes of an element, 0 < t < 1: Gauss-Legendre points.
 const std::array<double, element_nodes>& element_places();
 
 /// `w`: any place outside of the element. In closed form near the element, with Gauss points farther away, where the
@@ -33,13 +33,13 @@ DensityIntegrals density_integrals(Density density, Complex w);
 /// (Kaya and Erdogan, Quart. Appl. Math. 45 (1987) 105).
 DensityIntegrals density_integrals_on(Density density, double t);
 
-/// How N_j rises from a tip: N_j(t) = result[j]·sqrt(t) + … for the density `root`. With `fewer` through all nodes but
-/// the last one, to see what it contributes.
+/// The coefficient of sqrt(t) in N_j at a tip: N_j(t) = result[j]·sqrt(t) + … for the density `root`. With `fewer`, N_j
+/// interpolates at all nodes but the last one; the difference estimates the error.
 std::array<double, element_nodes> rise_at_tip(bool fewer = false);
 /// The first derivative (by w) of the integrals at the tip of an element, as the limit of density_integrals_on.
 std::array<double, element_nodes> slopes_at_tip();
 
-/// N_j(t) of an element.
+/// The values N_j(t) of an element.
 std::array<double, element_nodes> densities_at(Density density, double t);
 
 }  // namespace sprekk::fine_fracture

@@ -1,4 +1,4 @@
-// The elastic field that pore pressure, initial stress and weight make without cracks and without a far field.
+// The elastic field due to pore pressure, initial stress and weight, without cracks and without a far field.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,26 +21,27 @@ class OffsetField {
   OffsetField(const std::vector<Point>& places, const Elasticity& rock);
   const std::vector<Point>& places() const { return places_; }
 
-  /// A solution for values of the offset and of the body force.
+  /// The particular solution for given values of the offset and of the body force.
   class Solution {
    public:
     Point displacement(const Point& x) const;  ///< m
-    /// Pa, total: C eps(u) + s.
+    /// The total stress C eps(u) + s, Pa.
     Tensor stress(const Point& x) const;
-    /// Pa, the largest part of the offset that is neither linear nor isotropic, at the places.
+    /// The part of the offset at the places that is neither linear nor isotropic, Pa: its largest value.
     double remainder() const { return remainder_; }
 
    private:
     friend class OffsetField;
     const OffsetField* field_;
-    Eigen::Matrix3d linear_ =
-        Eigen::Matrix3d::Zero();        ///< Pa: (xx, yy, xy) as rows; constant, by x, by y over the size of the places
-    Vector weights_;                    ///< Pa/m
-    Point mean_force_ = Point::Zero();  ///< N/m^3, of b
-    Eigen::Matrix2Xd force_weights_;    ///< N/m^4, of the rest of b; no columns where b is the same everywhere
+    Eigen::Matrix3d linear_ = Eigen::Matrix3d::Zero();  ///< Pa; rows xx, yy, xy; columns: the constant, and the slopes
+                                                        ///< by x and y times the size of the region of the places
+    Vector weights_;                                    ///< Pa/m
+    Point mean_force_ = Point::Zero();                  ///< N/m^3, of b
+    Eigen::Matrix2Xd force_weights_;  ///< N/m^4, of the rest of b; no columns where b is the same everywhere
     double remainder_ = 0;
     Tensor linear_part(const Point& x) const;
-    Point force() const;  ///< Pa, of b and the linear part of s, times the size of the places
+    Point force() const;  ///< the mean of b and the divergence of the linear part of s, times the size of the region of
+                          ///< the places, Pa
   };
   /// `offsets`: (xx, yy, xy), Pa, a column for each place; `body_forces`: (x, y), N/m^3; no columns for zero. The
   /// solution must not outlive this object.

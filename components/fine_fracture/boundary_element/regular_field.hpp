@@ -1,4 +1,4 @@
-// The elastic field without sources around a place, by polynomials.
+// The elastic field in a domain without sources, by polynomials.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,13 +9,13 @@
 namespace sprekk::fine_fracture {
 
 /// All displacement fields up to a degree that need no body force in homogeneous isotropic rock: the potentials phi and
-/// psi of Muskhelishvili (1953) are polynomials of z. They stand for all that lies outside of the domain, and
-/// converge geometrically where its sources keep away from the domain.
+/// psi of Muskhelishvili (1953) are polynomials of z. They represent what lies outside of the domain, and converge
+/// geometrically where the sources outside keep a distance from the domain.
 class RegularField {
  public:
   /// `center`, `radius` (m): of a circle around the domain.
   RegularField(Complex center, double radius, int degree, const Elasticity& rock);
-  /// Numbers that a field has: coefficients are displacements, m.
+  /// The number of coefficients of a field; each is a displacement, m.
   int count() const { return 4 * degree_ + 2; }
 
   /// The displacement at z, two rows.

@@ -43,8 +43,8 @@ struct FineDomain {
   };
   std::vector<Source> sources;
   std::vector<Source> beyond;  ///< of the paths of geometry.beyond
-  int crack = none;            ///< the crack that has the tip
-  bool is_last = true;         ///< whether the tip is its last point, else the first
+  int crack = none;            ///< index of the crack that the tip belongs to
+  bool is_last = true;         ///< whether the tip is the last point of that crack; else it is the first one
 };
 
 constexpr double largest_enlargement = 1.5;  ///< of the side of a fine level's square, to keep away from fractures

@@ -1,4 +1,4 @@
-// The elastic problem around a tip, as tips need it whatever solves it.
+// The elastic problem around a tip: the interface of all fine levels.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,18 @@
 
 namespace sprekk::fine_fracture {
 
-/// The rock in a domain is not what a fine level is made for: what it is, and what it should be.
+/// The rock in a domain is of a kind that the fine level does not support. `what()` says how it is, `wanted` how it
+/// should be.
 struct UnsuitableRock : std::runtime_error {
   UnsuitableRock(const std::string& problem, std::string wanted)
       : std::runtime_error(problem), wanted(std::move(wanted)) {}
   std::string wanted;
 };
 
-/// What a fine level says of its tip.
+/// The stress intensity factors of the tip of a fine level.
 struct TipFactors {
   Sifs sifs;
-  double error;  ///< Pa m^0.5, estimated, by the elements of the fine level
+  double error;  ///< Pa m^0.5, estimated error due to the elements of the fine level
 };
 
 /// The elastic problem in the domain around one tip, for one geometry and rock.
@@ -35,50 +36,51 @@ class FineLevel {
  public:
   virtual ~FineLevel() = default;
   virtual FineRock rock() const = 0;
-  /// The pattern of its elements: factors of fine levels with one pattern depend continuously on the geometry.
+  /// A number for the pattern of the elements. Where it is the same, factors depend continuously on the geometry.
   virtual std::uint64_t topology() const = 0;
   /// The places at which each solve needs the stress offset.
   virtual const std::vector<Point>& offset_places() const = 0;
-  /// The same for the body force.
+  /// The places at which each solve needs the body force.
   virtual std::vector<Point> body_force_places() const { return offset_places(); }
   /// Throws std::runtime_error where there is no finite result, and UnsuitableRock.
   virtual TipFactors solve(const FineLoads& loads) const = 0;
 };
 
-/// What is kept of a fine level from trial to trial within a step, so that factors depend continuously on the advance.
+/// What the fine levels of all trials within a step share, so that factors depend continuously on the advance.
 struct KeptLevel {
   std::vector<Point> outline;  ///< m
   virtual ~KeptLevel() = default;
 };
 
-/// A fine level that is wanted.
+/// All that is needed to make a fine level.
 struct FineLevelRequest {
   const FineDomain& domain;
   FineRock rock;
-  double size;         ///< m, of the square
-  double coarse_size;  ///< m, of the coarse level's edges at the tip
-  Point anchor;        ///< m, a place that stays while cracks grow
-  bool follows;        ///< whether fine levels are made so that factors may depend continuously on the advance
-  bool keeps;          ///< whether this one and the next are levels of trials of one step
-  std::shared_ptr<const KeptLevel> kept;  ///< of the trial before, or null
+  double size;                            ///< m, of the square
+  double coarse_size;                     ///< m, of the coarse level's edges at the tip
+  Point anchor;                           ///< m, a place that does not move while cracks grow
+  bool follows;                           ///< whether factors are to depend continuously on the advance
+  bool keeps;                             ///< whether this fine level and the next one belong to trials of one step
+  std::shared_ptr<const KeptLevel> kept;  ///< what the fine level of the trial before has left, or null
   const FineLoads& loads;
   std::shared_ptr<Profile> profile;
 };
 
-/// What a request is answered with.
+/// A fine level that has been made for a request.
 struct MadeFineLevel {
   std::unique_ptr<const FineLevel> level;
-  std::shared_ptr<const KeptLevel> kept;   ///< where `keeps`
-  int meshes = 1;                          ///< that were made for it
-  std::optional<TipFactors> factors = {};  ///< for the loads of the request, where they are known already
+  std::shared_ptr<const KeptLevel> kept;  ///< for the next trial, where the request has `keeps`
+  int meshes = 1;                         ///< how many meshes were made for it
+  /// The factors for the loads of the request, if making the fine level has found them.
+  std::optional<TipFactors> factors = {};
 };
 
-/// Makes fine levels: in this one kind of tips differs from another.
+/// Makes fine levels. Kinds of tips differ in their maker alone.
 class FineLevelMaker {
  public:
   virtual ~FineLevelMaker() = default;
   virtual MadeFineLevel make(const FineLevelRequest& request) const = 0;
-  /// m, that a tip needs between itself and an outline that is kept.
+  /// The least distance between a tip and an outline that is kept, m.
   virtual double room(double coarse_size) const = 0;
   /// Whether factors can depend continuously on the advance.
   virtual bool is_steady() const { return true; }

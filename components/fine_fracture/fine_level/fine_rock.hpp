@@ -9,11 +9,11 @@
 
 namespace sprekk::fine_fracture {
 
-/// One stiffness everywhere, or one for each place.
+/// The stiffness in a domain: the same everywhere, or a function of the place.
 class FineRock {
  public:
   FineRock(const Elasticity& everywhere) : everywhere_(everywhere) {}
-  /// `at` is asked for places (m) of the domain alone; `version` tells functions with other values apart.
+  /// `at`: the stiffness at a place (m) in the domain. Functions with different values have different versions.
   FineRock(std::function<Elasticity(const Point&)> at, std::uint64_t version) : at_(std::move(at)), version_(version) {}
 
   bool is_uniform() const { return everywhere_.has_value(); }

@@ -36,7 +36,7 @@ struct FineGeometry {
 /// One of the tips of a geometry.
 struct TipPlace {
   int crack;
-  bool is_last;  ///< the last point of the path, else the first
+  bool is_last;  ///< whether the tip is the last point of the path; else it is the first one
 };
 
 /// A place inside of the domain where cracks touch or cross: a point of the paths of all of them.

@@ -34,8 +34,8 @@ struct FineLoads {
   /// For example -alpha (p - p0) I + initial stress. Only values are used, so it may jump. A model asks for its
   /// `offset_places` in each solve.
   std::function<Eigen::Matrix3Xd(const std::vector<Point>& places)> stress_offset = {};
-  /// (x, y), N/m^3, a column a place: the force on the rock, its weight for example. It may jump. A model asks for its
-  /// `body_force_places`, or, where it has none, for its `offset_places`.
+  /// (x, y), N/m^3, a column a place: the force on the rock, its weight for example. It may be discontinuous. The
+  /// columns belong to `body_force_places` of the model, or to its `offset_places` where it has no such places.
   std::function<Eigen::Matrix2Xd(const std::vector<Point>& places)> body_force = {};
 };
 

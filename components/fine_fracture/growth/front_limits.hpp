@@ -3,9 +3,10 @@
 
 namespace sprekk::fine_fracture {
 
-inline constexpr double first_slope = -0.3;  ///< of ln K_eq over one increment, as long as none is known
-inline constexpr double first_part = 0.25;   ///< of an increment: the first trial of a tip without a known speed
-inline constexpr double largest_turn = 0.3;  ///< rad, between two trials
-inline constexpr double at_limit = 1e-9;     ///< of a length that is at its limit, but for rounding
+/// Slope of ln K_eq over one increment, as long as the search knows no other.
+inline constexpr double first_slope = -0.3;
+inline constexpr double first_part = 0.25;   ///< first trial of a tip without a known speed, over the increment
+inline constexpr double largest_turn = 0.3;  ///< rad, largest change of a direction between two trials
+inline constexpr double at_limit = 1e-9;     ///< relative distance below which a length counts as being at its limit
 
 }  // namespace sprekk::fine_fracture

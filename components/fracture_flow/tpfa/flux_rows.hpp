@@ -12,7 +12,7 @@ struct FractureFlow::FluxRows {
   double dt;
   Vector of_flux, drop;
   std::vector<Triplet> by_flux, by_pressure, by_aperture;  ///< by_flux: without of_flux on the diagonal
-  std::vector<Triplet> by_density = {};                    ///< of each cell
+  std::vector<Triplet> by_density = {};                    ///< derivatives by the density of each cell
   double largest_pressure = 0;
 };
 

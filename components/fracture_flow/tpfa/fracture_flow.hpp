@@ -109,7 +109,8 @@ class FractureFlow : public Component,
     int place;                     ///< among the points of the junction
     double boundary_pressure = 0;  ///< Pa, of an open end
     double gravity = 0;            ///< rho g·(x_first − x_second), Pa
-    /// What the excess of the density over the constant one adds to it: factors of cells (m^2/s^2), and Pa at an end.
+    /// What the excess of the density over the constant one adds to the difference of pressures: a factor for each cell
+    /// (m^2/s^2), and a pressure (Pa) at an end.
     std::vector<std::pair<int, double>> by_density = {};
     double excess_at_end = 0;
   };
@@ -130,7 +131,7 @@ class FractureFlow : public Component,
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   double pressure_drop(const Link& link) const;
   struct FluxRows;
-  /// Of a density that varies (varying_density.cpp).
+  /// Terms of a density that varies (varying_density.cpp).
   void weigh_links();
   void find_excess() const;
   double varying_weight(const Link& link) const;
@@ -163,7 +164,7 @@ class FractureFlow : public Component,
   const Mesh& mesh_;
   const MatrixFluid* rock_fluid_ = nullptr;
   const FluidDensity* density_ = nullptr;  ///< nullptr for a constant one
-  mutable Vector excess_;                  ///< kg/m^3, of the present density of each cell over the constant one
+  mutable Vector excess_;                  ///< kg/m^3, density of each cell minus the constant one
   Options options_;
   Origin origin_;
   Field& pressure_;
@@ -172,11 +173,11 @@ class FractureFlow : public Component,
   Field* empty_ = nullptr;  ///< m, the part of the aperture without fluid; only with cavitation
   double bound_scale_ = 1;  ///< m/Pa, between e and p − p_c
   Field& cumulative_;       ///< (stored, injected, outflow) of each cell since the start, m^2
-  std::vector<char> wet_;   ///< one flag a cell: there is a flow; none where there is one everywhere
+  std::vector<char> wet_;   ///< one flag a cell: whether there is a flow; empty where there is a flow everywhere
   Vector initial_aperture_;
   std::unique_ptr<HydraulicLaw> law_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one
-  Vector held_flux_;           ///< for inertia, or empty for the present one
+  Vector held_flux_;           ///< m^2/s, the flux that inertia is computed with; empty: the current flux
   double released_share_ = 0;  ///< share of the change from the held to the present apertures that the cubic law takes
   Property viscosity_, compressibility_;
   bool viscosity_is_given_ = false;  ///< by a coupler

@@ -48,10 +48,10 @@ struct Options {
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
   /// m/(Pa s), by Wall: of a wall that has a normal permeability of its own.
   std::array<std::optional<Data>, 2> wall_permeability;
-  std::optional<double> cavitation;    ///< Pa, the pressure does not fall below
+  std::optional<double> cavitation;    ///< Pa, the pressure below which the fluid does not fall
   VectorData gravity;                  ///< m/s^2
   double fluid_density = 1000;         ///< kg/m^3
-  std::vector<std::string> fractures;  ///< with flow; all if there are none
+  std::vector<std::string> fractures;  ///< names of the fractures with a flow; empty: all
   Origin fractures_origin;
   std::map<std::string, Injection> injections;
   std::map<std::string, PrescribedPressure> prescribed;

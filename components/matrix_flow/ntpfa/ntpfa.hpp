@@ -11,7 +11,7 @@ namespace sprekk::matrix_flow {
 ///
 /// From each cell, the flux out of it through a face is a sum of differences to pressures around, with coefficients
 /// that are not negative: the conormal as a sum of two rays (CellRays). Through an inner face there are two such
-/// fluxes. A part of the difference between the two cells that both contain is taken as it is. Their rests are combined
+/// fluxes. The part of the two-point difference that both fluxes contain is taken as it is. The remainders are combined
 /// so that the flux remains such a sum for both cells, whatever the pressures are (LimitedFluxes). So without a source
 /// no pressure is higher or lower than all around it (Le Potier, C. R. Acad. Sci. Paris, Ser. I 341 (2005) 787 for such
 /// fluxes; Lipnikov, Svyatskiy and Vassilevski, Russ. J. Numer. Anal. Math. Modelling 27 (2012) 369 for the combination

@@ -43,8 +43,8 @@ struct FemOperators {
 /// with the whole vector in place of its normal component). Nothing is displaced where displacements are linear and
 /// tractions agree, and what leaves one cell through a face enters the other.
 ///
-/// `has_volumetric_stress`, at first order: what nearly incompressible cells hold against a change of volume (see
-/// VolumetricSplit) is a stress of their own, an unknown that acts as s does.
+/// `has_volumetric_stress`, at first order: the stress with which nearly incompressible cells resist a change of volume
+/// (see VolumetricSplit) is an unknown of its own, which acts as s does.
 FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const Held& held,
                            ElementOrder order, bool has_volumetric_stress = false);
 

@@ -44,7 +44,7 @@ class FemRock : public Component,
   bool allows_stages() const override { return true; }
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
-  /// Not at first order: what stabilizes it is no stress of cells.
+  /// Throws InputError at first order, where the stabilization is no stress of cells.
   void require_countable() const override;
   void count_from_here() override;
   bool has_settled_reference() const override { return settled_.has_value(); }

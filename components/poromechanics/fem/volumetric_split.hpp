@@ -1,4 +1,4 @@
-// The part of a stiffness that resists a change of volume alone.
+// A stiffness divided into a part that resists a change of volume alone, and the rest.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 namespace sprekk::poromechanics {
 
 /// C = kept + taken · m m^T, with m = (1, 1, 0): `kept` resists a change of area by at most `kept_of_shear` times the
-/// shear stiffness (isotropic: lambda + G in the plane, so up to nu = 1/4 nothing is taken). With displacements that
-/// are linear in triangles, what is taken has to be a stress of its own: cells can hardly keep their volume and bend.
+/// shear stiffness (isotropic: lambda + G in the plane, so up to nu = 1/4 nothing is taken). Where displacements are
+/// linear in triangles, the part that is taken has to be a stress of its own: otherwise cells could not keep their
+/// volume and bend at the same time (locking).
 struct VolumetricSplit {
   std::vector<Stiffness> kept;  ///< Pa, positive definite
   Vector taken;                 ///< Pa, of each cell, 0 or more

@@ -24,7 +24,8 @@ namespace sprekk::poromechanics {
 /// - No volume is gained in all, and none overshoots: with T the differences of neighbours, T' E T <= A/M. More than a
 ///   quarter could exceed that, where subcells are equal.
 /// - What s exchanges, T' E T s, is symmetric and positive semidefinite.
-/// - An error of y in stiff rock moves no more volume than belongs to that rock, however large it is as a stress.
+/// - An error of y in stiff rock moves no more volume than belongs to that rock, even where the error is large as a
+///   stress.
 class VolumeExchange {
  public:
   std::vector<int> subfaces;  ///< the inner ones; none where there are less than three, which tell no more than a slope

@@ -1,4 +1,4 @@
-// The block preconditioner of coupled poromechanics with fractures.
+// The block preconditioner of elliptic and elastic blocks that are coupled, with unknowns on interfaces.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@ namespace sprekk {
 
 /// An approximate inverse M of the system: the triangular fixed-stress preconditioner (White, Castelletto and Tchelepi
 /// 2016). The unknowns F on the fractures are eliminated exactly. One sweep of block Gauss-Seidel follows on the bulk
-/// blocks that remain, with a multigrid cycle for each, flow (with its fixed-stress stabilization) before displacement.
-/// M is linear and fixed, so plain GMRES may use it.
+/// blocks that remain, with a multigrid cycle for each: elliptic blocks, with the diagonals that stabilize them
+/// (UnknownBlock), before elastic ones. M is linear and fixed, so plain GMRES may use it.
 class BlockPreconditioner {
  public:
   /// Collective. `system` must outlive the constructor only. Throws std::invalid_argument if a process holds a part of

@@ -18,8 +18,8 @@ struct SystemPart {
 };
 
 /// The parts of a system: bulk parts in the order of block Gauss-Seidel, scalar before elasticity, and then the local
-/// part (maybe empty), which also has the unknowns that belong to no block. In Biot's equations the flow block with its
-/// stabilization approximates the Schur complement, so it is solved before the displacement.
+/// part (maybe empty), which also has the unknowns that belong to no block. A scalar block with its stabilization
+/// approximates the Schur complement of the elastic block, so it is solved first.
 struct Partition {
   explicit Partition(const LinearSystem& system);
   std::vector<SystemPart> parts;

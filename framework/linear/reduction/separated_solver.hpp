@@ -44,7 +44,7 @@ class SeparatedSolver final : public LinearSolver {
   std::uint64_t pattern_number_ = 0, number_ = 0;  ///< of the last system
   std::vector<Group> groups_;
   std::vector<int> lone_;  ///< ascending; in no group
-  Vector of_lone_;         ///< their diagonal
+  Vector of_lone_;         ///< diagonal entries of lone_
   LinearCounts retired_;
   mutable LinearCounts total_;
 };

@@ -14,7 +14,7 @@ struct LengthLaw {
   enum class Kind { constant, power, lognormal };
   Kind kind = Kind::constant;
   double value = 0;             ///< m, of a constant
-  double exponent = 0;          ///< of a power law: the density is ~ length^(-exponent)
+  double exponent = 0;          ///< exponent of a power law: the density is proportional to length^(-exponent)
   double median = 0;            ///< m, of the lognormal law before it is cut
   double deviation = 0;         ///< of the lognormal law: standard deviation of the logarithm
   double shortest = 0;          ///< m, also of a constant
@@ -33,8 +33,8 @@ struct RandomFractures {
   std::optional<double> intensity;  ///< P21: length for each area, 1/m
   LengthLaw length;
   double mean_angle = 0;      ///< rad, counter-clockwise from the x axis
-  double concentration = 0;   ///< of von Mises' law about it; 0: all directions alike
-  std::optional<Box> region;  ///< of their middles; by default the box
+  double concentration = 0;   ///< concentration of von Mises' law about the mean; 0: all directions are equally likely
+  std::optional<Box> region;  ///< where their middles lie; by default in the box
   int seed = 1;
   double least_angle = 0;  ///< rad, between fractures that cross
   double least_gap = 0;    ///< m, see draw_fractures

@@ -15,7 +15,7 @@ struct GridData {
     std::string name;
     int components;
     std::vector<double> values;                     ///< the components of an entity stand together
-    bool is_integer = false;                        ///< the file has them as integers of 32 bits
+    bool is_integer = false;                        ///< whether the file stores them as 32-bit integers
     std::vector<std::string> component_names = {};  ///< one for each component, or none
   };
   std::vector<double> points;             ///< x, y, z of each

@@ -1,4 +1,4 @@
-// What the passes of an iteration change, and whether they lead anywhere.
+// How much each pass of an iteration changes, and whether the passes converge.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +12,28 @@ class PassChanges {
   /// `size`: norm of the change by a pass, all fields together, in scales that stay in the step; `relative`: the
   /// largest change of any field over the largest value of a field of its unit, before or after the pass.
   void add(double size, double relative);
-  /// From here on passes are others, with or without acceleration: those until now do not tell that they fall no more.
+  /// To be called when acceleration is switched on or off: whether changes still fall is then judged by later passes
+  /// alone.
   void begin_again() { begin_ = sizes_.size(); }
 
-  /// Whether they have grown in each of ten passes, and clearly in all.
+  /// Whether changes have grown in each of ten passes, and clearly over all ten.
   bool only_grow() const;
   /// Whether each of the last two passes has changed ten times as much as the one before, and the last one more than
-  /// all values. Such passes leave the range in which the equations are the same, and go on without growing further.
+  /// all values. Such passes leave the region in which the equations are linear, and may go on there without growing
+  /// further.
   bool explode() const;
-  /// Whether they have been large in so many passes without falling: a cycle, or an iteration that has diverged to
-  /// where other equations hold it.
+  /// Whether changes have stayed large over many passes without falling: a cycle, or an iteration that has diverged
+  /// until other equations bounded it.
   bool stay_large(std::size_t passes) const;
-  /// Whether they are small and fall no more.
+  /// Whether changes are small and no longer fall.
   bool are_round_off() const;
 
   bool have_a_factor() const { return sizes_.size() > counted && sizes_.back() > 0; }
   /// The mean factor by which changes grow from pass to pass, over the last passes, in which the fastest growing part
   /// dominates.
   double factor() const;
-  double last_factor() const { return sizes_.back() / sizes_[sizes_.size() - 2]; }  ///< of the last two passes alone
+  /// The factor between the last two passes.
+  double last_factor() const { return sizes_.back() / sizes_[sizes_.size() - 2]; }
   double last_relative() const { return relative_.back(); }
 
  private:

@@ -11,7 +11,7 @@ namespace sprekk {
 /// it is accelerated), they are taken back, and not tried again in the step.
 class StalledAcceleration {
  public:
-  /// The kind of the next pass. `back`: accelerated, from the values at the start of the first plain pass.
+  /// The kind of the next pass. `back`: an accelerated pass from the values before the first plain pass.
   enum class Next { accelerated, plain, back };
 
   /// `change`: of the fields by the pass, scaled.
