@@ -17,8 +17,9 @@ constexpr const char* of_any_kind = "any";
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_of_word(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
 
-/// Throws InputError unless the parts between '/' are names in C++.
-void check_type(const std::string& type) {
+/// Throws InputError unless the parts between '/' are names in C++, and for a name that exists. Only components have a
+/// '/'.
+void check_type(const std::string& type, const std::string& kind) {
   bool begins = true, is_fine = !type.empty();
   for (const char c : type) {
     is_fine = is_fine && (begins ? is_letter(c) : is_of_word(c) || c == '/');
@@ -28,6 +29,10 @@ void check_type(const std::string& type) {
     throw InputError({"sprekk new"}, quoted(type) + " is no name of a type",
                      "it is made of letters, digits and '_', begins with a letter, and may have a role before '/'",
                      "write for example my_part, or heat_flow/my_part");
+  if (kind != "component" && type.find('/') != std::string::npos)
+    throw InputError({"sprekk new"}, "the name " + quoted(type) + " of a " + kind + " has a '/'",
+                     "only types of components have a role before '/'",
+                     "write for example " + type.substr(type.rfind('/') + 1));
   const auto is_this = [&](const auto& known) { return known.type == type; };
   const Registry& registry = Registry::instance();
   if (std::any_of(registry.components().begin(), registry.components().end(), is_this) ||
@@ -49,7 +54,9 @@ NewCommand::NewCommand(CLI::App& app, const std::vector<TemplateFile>& templates
                                   "start from, outside of this "
                                   "tree")),
       templates_(templates) {
-  command_->add_option("kind", kind_, "What it is")->required()->check(CLI::IsMember(kinds()));
+  command_->add_option("kind", kind_, "What it is; a law is how a fracture conducts")
+      ->required()
+      ->check(CLI::IsMember(kinds()));
   command_->add_option("name", type_, "The name of its type, for example my_part or heat_flow/my_part")
       ->required()
       ->type_name("NAME");
@@ -66,7 +73,7 @@ std::vector<std::string> NewCommand::kinds() const {
 
 void NewCommand::run() const {
   namespace fs = std::filesystem;
-  check_type(type_);
+  check_type(type_, kind_);
   const std::string name = replaced(type_, "/", "_");
   std::string class_name;
   bool begins = true;

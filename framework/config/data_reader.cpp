@@ -26,7 +26,9 @@ struct Window {
 Data any_datum(const Node& node, const DataRequest& request);
 
 Window read_window(const Node& node, const DataRequest& request) {
-  if (!node.is_map()) throw wrong_kind(node, request.name, "a list of windows {value: , from: , to: }");
+  if (!node.is_map())
+    throw InputError(node.origin, quoted(request.name) + " is a list with '" + node.text() + "'",
+                     "a list gives windows in time, {value: …, from: …, to: …}", "write one value, or windows");
   require_known_keys(node, {"value", "from", "to"}, request);
   Window window{any_datum(required_entry(node, "value", request), request)};
   if (const Node* from = node.find("from")) window.from = read_number(*from, "s", {}, request.name + ".from");

@@ -62,6 +62,7 @@ def check_refusals(scratch, folder, plugin):
     expect(call(program, "list", "--plugin", str(text)), 2, "--plugin", "cannot be loaded", "sprekk_plugin()")
     expect(call(program, "new", "component", "heat_flow/decay_of_heat", "-o", str(folder)), 2, "exists", "nothing is overwritten")
     expect(call(program, "new", "component", "matrix_flow/mpfa"), 2, "exists")
+    expect(call(program, "new", "law", "friction/my_law", where=scratch), 2, "of a law has a '/'", "my_law")
     for name in ("1st", "a b", "a//b", "/a", "a/", ""):
         expect(call(program, "new", "component", name, where=scratch), 2, "no name of a type")
 

@@ -185,7 +185,8 @@ INSTANTIATE_TEST_SUITE_P(
               "unknown key of 'k': 'form' (it is not one of: value, from, to) did you mean 'from'?"},
         Wrong{"{value: 1, from: 6 m}", "'6 m' for 'k.from' has the dimension of length"},
         Wrong{"{value: 1, from: 5 s, to: 5 s}", "the window of 'k' is empty (it begins at 5 s and ends at 5 s)"},
-        Wrong{"[]", "'k' is an empty list of windows"}, Wrong{"[1, 2]", "'k' is '1' (needed is a list of windows"},
+        Wrong{"[]", "'k' is an empty list of windows"},
+        Wrong{"[1, 2]", "'k' is a list with '1' (a list gives windows in time"},
         Wrong{"[{from: 1 s}]", "'value' is missing for 'k'"}));
 
 TEST(ReadData, checks_the_sum_of_constant_windows) {
