@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every public class, struct, enum and union in a header of the program has a sentence (`///`) directly above it.
+"""Every public class, struct, enum and union in a header of the program has a sentence (`///`) directly above it, and no such comment
+has a word in angle brackets, which Doxygen takes for a tag (tools/docs fails).
 
 Without arguments: checks the tree this file is in, then itself on planted headers. Exit code 1 if anything is wrong.
 """
@@ -15,6 +16,8 @@ TYPE = re.compile(r"^\s*(?:template\s*<.*>\s*)?(?:requires\s+[^;]*\s)?(?P<kind>c
                   r"(?:\[\[.*?\]\]\s*|alignas\(.*?\)\s*)*(?P<name>[\w:]+)[^()=]*$", re.DOTALL)
 NAMESPACE = re.compile(r"^\s*(?:inline\s+)?namespace\b\s*(?P<name>[\w:]*)")
 ACCESS = re.compile(r"\b(public|protected|private)\s*:(?!:)")
+# A word in angle brackets that Doxygen would take for a tag.
+TAG = re.compile(r"(?:^|\s)<[A-Za-z]\w*>")
 # Namespaces that nobody outside of the header uses.
 INTERNAL = ("", "detail", "internal")
 
@@ -83,7 +86,19 @@ PLANTED = (
 )
 
 
+def odd_tags(path, text):
+    for number, line in enumerate(text.splitlines(), 1):
+        comment = re.search(r"///<?(.*)", line)
+        tag = TAG.search(re.sub(r"`[^`]*`|\"[^\"]*\"", "", comment.group(1))) if comment else None
+        if tag:
+            yield f"{path}:{number} has {tag.group().strip()} in a comment (Doxygen takes it for a tag) put it in backticks"
+
+
 def self_test():
+    if list(odd_tags("planted.hpp", "/// Of `<a>` and \"a <b>\", x <y, std::vector<int>.\nint a;  ///< m\n")):
+        yield "self-test: a comment without tags is accused"
+    if len(list(odd_tags("planted.hpp", "/// The header <random>.\nint a;  ///< of <map>\n"))) != 2:
+        yield "self-test: not noticed: a tag in a comment"
     for text, expected in PLANTED:
         found = [message.split()[1] for message in undocumented("planted.hpp", text)]
         if found != expected:
@@ -92,13 +107,15 @@ def self_test():
 
 def main():
     root = Path(__file__).resolve().parent.parent
-    found, types = [], 0
+    found, tags, types = [], [], 0
     for folder in FOLDERS:
         for file in sorted((root / folder).rglob("*.hpp")):
             text = file.read_text(encoding="utf-8")
             types += sum(1 for _ in public_types(text))
             found += undocumented(file.relative_to(root).as_posix(), text)
+            tags += odd_tags(file.relative_to(root).as_posix(), text)
     missing = len(found)
+    found += tags
     found += self_test()
     for problem in found:
         print(problem)

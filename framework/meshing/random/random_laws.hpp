@@ -8,7 +8,7 @@
 namespace sprekk {
 
 /// A sequence that the C++ standard fixes: that of std::mt19937_64 from a std::seed_seq. What the standard leaves open,
-/// the distributions of <random>, is not used.
+/// the distributions of the header `random`, is not used.
 class RandomNumbers {
  public:
   /// Sequences of different names are independent, also for one seed.
