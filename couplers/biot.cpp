@@ -203,7 +203,7 @@ class Biot : public Coupler,
     counted_volume_.set_both(std::move(volume));
   }
 
-  /// What the volume differs from zero by, where displacements are zero, is round-off.
+  /// Where displacements are zero, any change of volume is round-off.
   void count_from_here() override {
     if (decoupled_ || options_.one_way) return;
     Vector volume = rock_.volume_change().now();
@@ -307,7 +307,7 @@ class Biot : public Coupler,
       if (!fluid_.is_in_cell(c)) alpha_in_fluid_[c] = 0;
   }
 
-  /// What alpha p has to overcome to change the volume of a cell, Pa.
+  /// The stiffness against a change of the volume of a cell by alpha p, Pa.
   double fixed_stress_modulus(int cell) const {
     if (options_.fixed_stress_modulus == "bulk") return rock_.bulk_modulus()[cell];
     const auto [uniaxial, in_plane] = moduli(cell);
@@ -315,7 +315,7 @@ class Biot : public Coupler,
     const double share = finds_modulus() ? found_.share() : 0.5;
     return 1 / ((1 - share) / uniaxial + share / in_plane);
   }
-  /// Of rock that shortens along one axis, and of rock under a pressure that is the same everywhere, Pa.
+  /// For rock that shortens along one axis, and for rock under a pressure that is the same everywhere, Pa.
   std::pair<double, double> moduli(int cell) const {
     const LameParameters stiffness = *state_->stiffness(cell);
     return {stiffness.lambda + 2 * stiffness.shear, stiffness.lambda + 2 * stiffness.shear / dimension};
@@ -324,7 +324,7 @@ class Biot : public Coupler,
   bool finds_modulus() const { return !decoupled_ && !options_.one_way && options_.fixed_stress_modulus == "found"; }
   std::string key_of_found() const { return name() + ".found_modulus"; }
 
-  /// The modulus shows where the rock has been solved for while the flow waits.
+  /// The modulus can be found where the rock has been solved for while the flow waits.
   void look_at_rock(const std::vector<Field*>& solved) {
     const LinearExpression& volume = rock_.volume_change();
     if (std::ranges::none_of(volume.terms, [&](const LinearExpression::Term& term) {

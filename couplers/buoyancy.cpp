@@ -97,8 +97,8 @@ class DensityLaw {
   }
 
  private:
-  /// Kell's law (t in degrees Celsius), kg/m^3, and its derivative. Beyond its range, where iterates may be, its
-  /// tangent.
+  /// Kell's law (t in degrees Celsius), kg/m^3, and its derivative. Beyond its range, which iterates may leave, its
+  /// tangent is taken.
   static std::array<double, 2> water(double t) {
     const double within = std::clamp(t, coldest, hottest);
     const auto [value, slope] = kell(within);
@@ -123,7 +123,7 @@ class DensityLaw {
 /// The density in the cells of the rock, or of the fractures.
 class DensityIn : public FluidDensity {
  public:
-  /// `temperature`: nullptr where it does not matter.
+  /// `temperature`: nullptr where the density does not depend on it.
   DensityIn(const BuoyancyOptions& options, const Field* temperature, const Field& pressure,
             std::function<std::optional<double>(int)> boundary_temperature)
       : options_(options),
@@ -178,8 +178,8 @@ class DensityIn : public FluidDensity {
   std::function<std::optional<double>(int)> boundary_temperature_;
 };
 
-/// Gives the flows the density as a function of present temperatures and pressures; they assemble what it adds to their
-/// fluxes, with all derivatives. Nothing is kept.
+/// Gives the flows the density as a function of current temperatures and pressures. The flows assemble its terms with
+/// all derivatives; the coupler itself keeps no state.
 class Buoyancy : public Coupler {
  public:
   Buoyancy(const CouplerContext& context, const BuoyancyOptions& options)

@@ -86,7 +86,7 @@ class HeatExchange : public Coupler {
     assembly.add(flux, of_flux_.cwiseProduct(flux.now()));
     assembly.add(flux, of_temperature_.cwiseProduct(trace.now()));
     assembly.add(flux, -of_temperature_.cwiseProduct(to_walls_ * temperature.now()));
-    // Where no wall conducts, fluxes are zero to the round-off of what the rock in front of them would let through.
+    // Where no wall conducts, fluxes are zero, up to round-off relative to what the rock at the walls would conduct.
     if (of_temperature_.isZero(0))
       assembly.compare_round_off(flux, std::max(matrix_.temperature().now().lpNorm<Eigen::Infinity>(),
                                                 temperature.now().lpNorm<Eigen::Infinity>()));

@@ -136,8 +136,8 @@ class WallExchange : public Coupler {
     if (has(fracture_.pressure())) counted_.set(exchanged_.now());
   }
 
-  /// Only the difference matters. Sums since the start would have the round-off of all that has passed, which may be
-  /// any multiple of what passes now.
+  /// Only the difference of both sums is kept: sums since the start would have the round-off of all fluid that has ever
+  /// passed, which may be any multiple of what passes now.
   void accepted() override {
     exchanged_.set_both(exchanged_.accepted() - counted_.accepted());
     counted_.set_both(Vector::Zero(counted_.size()));

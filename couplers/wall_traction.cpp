@@ -181,7 +181,8 @@ class WallTraction : public Coupler {
                           enclosed.size(), to_text(enclosed.front().center)));
   }
 
-  /// Beside each fracture cell, Pa: twice that of both sides in series. Nothing where rock is anisotropic.
+  /// The shear modulus of the rock beside each fracture cell, Pa: twice that of both sides in series. Nothing where
+  /// rock is anisotropic.
   std::optional<Vector> shear_modulus() const {
     Vector modulus(mesh_.fracture_cell_count());
     for (int i = 0; i < modulus.size(); ++i) {
@@ -229,7 +230,7 @@ class WallTraction : public Coupler {
   std::vector<Vector> on_cells_;           ///< of each contact: 1 for values of its fracture cells; none for all
   const RockState* rock_state_ = nullptr;  ///< where a contact needs the shear modulus
   FractureFluid* fluid_;
-  const RockState* stressed_rock_;  ///< nullptr where the rock does not tell its initial stress
+  const RockState* stressed_rock_;  ///< nullptr where the rock offers no initial stress
   std::string fluid_left_out_;      ///< a component of the scene that the coupler does not stand between
   Property alpha_;                  ///< alpha_i of Eq. 4 of the paper, with a fluid
   std::uint64_t loaded_with_ = 0;

@@ -118,8 +118,8 @@ void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
                 change.fracture_cell.size());
   const auto& before = dynamic_cast<const FrictionalContact&>(part);
   const Vector covered = covered_parts(change, mesh_);
-  // A new cell that covers no old one begins closed and without slip: then the old cells are not held. Slip at a
-  // rate takes time: it stays.
+  // Where a new cell covers no old one, it begins closed and without slip, and the old cells are not held. With
+  // friction of rate and state, slip takes time, so cells keep their slip.
   const bool holds_all = rate_and_state_ || (covered.size() > 0 && covered.minCoeff() > 0);
   if (rate_and_state_) rate_and_state_->carry_over(*before.rate_and_state_);
   bonded_.resize(change.fracture_cell.size());

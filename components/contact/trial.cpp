@@ -115,7 +115,7 @@ Trial::AtRate FrictionalContact::at_rate(int i, const Trial& t) const {
   at_rate.slip_rate = direction * held.slip_rate;
   at_rate.by_pressure = direction * held.by_pressure;
   at_rate.traction.tangential = direction * held.traction;
-  // A turn of the trial turns the traction.
+  // Where the trial changes its direction, so does the traction.
   const double of_turn = size > 0 ? held.traction / size : held.by_trial;
   at_rate.traction.by_trial.setIdentity();
   at_rate.traction.by_trial -= direction * direction.transpose();

@@ -8,7 +8,7 @@ namespace sprekk::matrix_flow {
 
 namespace {
 
-/// Gives the faces without a row one by which they have the pressure of rest, of the size of the other rows.
+/// Faces without a row get one that gives them the pressure of fluid at rest, scaled like the other rows.
 void keep_values(SparseMatrix& continuity, const std::vector<char>& keeps) {
   const double largest = Vector(continuity.diagonal()).maxCoeff();
   SparseMatrix rows(continuity.rows(), continuity.cols());
@@ -33,13 +33,14 @@ FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, c
   std::vector<char> wanted(separated.node_count(), 0);
   for (int node = 0; node < separated.node_count(); ++node)
     wanted[node] = inside[separated.node_cells[node][0]] && (nodes.empty() || nodes[node]);
-  // Cells that are not discretized must have some mobility, which reaches nothing.
+  // Cells without flow need some mobility, which has no effect on other cells.
   std::vector<Tensor> mobility = flow.mobility;
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
     if (!inside[cell]) mobility[cell] = Tensor::Identity();
 
   FluxOperators made = discretize(separated, mobility, conditions, wanted);
-  // Faces between the two are inner faces of the whole mesh: nothing is prescribed there, and nobody asks for traces.
+  // Faces between cells with and without flow are inner faces of the whole mesh: nothing is prescribed there, and no
+  // traces are needed.
   std::vector<char> keeps(separated.face_count(), 0);
   for (int face = 0; face < mesh.face_count(); ++face)
     keeps[face] = separated.face_cells[face] == mesh.face_cells[face] && inside[mesh.face_cells[face][0]];

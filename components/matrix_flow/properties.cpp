@@ -115,7 +115,7 @@ void MatrixFlow::use_storage() {
   SPREKK_ASSERT(storage_.values().size() == mesh_.cell_count(), storage_.values().size(), mesh_.cell_count());
   SPREKK_ASSERT(storage_.values().size() == 0 || storage_.values().minCoeff() >= 0, storage_.values().minCoeff());
   capacity_ = storage_.values().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()));
-  // Elsewhere any storage keeps the pressure.
+  // In cells without flow any positive storage keeps the pressure.
   const double largest = capacity_.maxCoeff();
   for (int c = 0; c < mesh_.cell_count(); ++c)
     if (!is_in_cell(c)) capacity_[c] = largest > 0 ? largest : 1;

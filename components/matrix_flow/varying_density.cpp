@@ -16,7 +16,8 @@ namespace {
 /// Of the rate r at most, times the step: cells as wide as high grow with r/2, less what conduction takes from them,
 /// and backward Euler multiplies what grows with the rate s by 1/(1 − s dt): it is damped from s dt = 2 on.
 constexpr double most_growth = 4;
-/// Of the velocity that the whole range of densities would drive; convection that has begun has some tenths.
+/// Share of the velocity that the whole range of densities would drive; convection that has begun reaches some tenths
+/// of it.
 constexpr double hardly_moves = 0.01;
 
 }  // namespace

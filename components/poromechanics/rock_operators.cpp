@@ -1,4 +1,4 @@
-// What the stress discretization makes of the rock: matrices of cells, walls and pore pressures, made anew where mesh,
+// The matrices of cells, walls and pore pressures from the stress discretization; they are computed anew where mesh,
 // stiffness or coefficients change.
 #include <algorithm>
 #include <utility>
@@ -28,8 +28,8 @@ void put_term(LinearExpression& expression, const Field* field, Operator matrix)
 }  // namespace
 
 void Rock::map_walls() {
-  // Force on the plus wall: L (T_n n + T_t t); opposite on the minus wall. Jump: minus less plus (Eqs. 4 and 1 of the
-  // paper).
+  // Force on the plus wall: L (T_n n + T_t t); opposite on the minus wall. Jump: that of the minus wall minus that of
+  // the plus wall (Eqs. 4 and 1 of the paper).
   std::vector<Triplet> forces, jumps;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];

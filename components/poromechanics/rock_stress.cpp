@@ -32,8 +32,8 @@ Vector Rock::pore_stress() const {
 }
 
 Vector Rock::stress_of(const Vector& forces, const Vector& moments) const {
-  // Of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when constant, and near
-  // tips of cracks with the moments of the singular tractions about the centres of the faces.
+  // The stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when constant,
+  // and near tips of cracks with the moments of the singular tractions about the centres of the faces.
   Vector stress = Vector::Zero(3 * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c)
     for (const int face : mesh_.cell_faces[c]) {

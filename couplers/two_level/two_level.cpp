@@ -96,7 +96,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
           mesh_.fracture_cells[tip.at_end ? fracture.first_cell + fracture.cell_count - 1 : fracture.first_cell];
       const int cell = mesh_.face_cells[last.faces[0]][0];
       const double diffusivity = rock_fluid->diffusivity(cell), reach = diffusivity / tip.speed;
-      // The length of the cell normal to the wall.
+      // The extent of the cell normal to the wall.
       const double size = mesh_.cell_measure[cell] / last.measure;
       if (!(reach < size)) continue;
       notes.add(name() + ": fracture " + fracture.name + " outruns its leak-off",

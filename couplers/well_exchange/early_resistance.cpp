@@ -9,8 +9,8 @@
 namespace sprekk::couplers {
 namespace {
 
-constexpr double first_scale = 0.25;    // of r_w^2: a bore hole has filled its surroundings before
-constexpr double last_scale = 64;       // of the cell's area: the mesh is late by 2e-3 of ln r there
+constexpr double first_scale = 0.25;  // over r_w^2: at earlier times the storage near the bore hole is already filled
+constexpr double last_scale = 64;  // over the area of the cell: from then on the mesh is late by 2e-3 of ln r at most
 constexpr int samples_of_a_term = 2;    // more change the fit by a tenth of its error
 constexpr double beyond_the_terms = 4;  // samples reach beyond first and last scale by this factor
 

@@ -148,7 +148,7 @@ class WellExchange : public Coupler {
     memory_.set(std::move(memory));
   }
 
-  /// Where the cell of a well is another one, its flow counts as steady.
+  /// Where the well is in another cell than before, the flow around it counts as steady.
   void carry_over(const Part& part, const MeshChange&) override {
     const auto& before = dynamic_cast<const WellExchange&>(part);
     Vector memory = memory_.now();
@@ -275,13 +275,13 @@ class WellExchange : public Coupler {
     diffusivity_[k] = rock_->diffusivity(cells_[k]) * std::sqrt(mobility.determinant()) / largest;
   }
 
-  /// What a step of backward Euler leaves of m_k.
+  /// The factor by which a step of backward Euler reduces m_k.
   double kept(int k, int term, double dt) const {
     const double scale = early_[k].scales[term];
     return scale > 0 ? 1 / (1 + diffusivity_[k] * dt / scale) : 0;
   }
 
-  /// Adds the resistance at early times to the factors of the rates, and what is known of it to the rows.
+  /// Adds the resistance at early times: to the factors of the rates, and its known part to the rows.
   void add_early(Assembly& assembly, const StepTime& step, Vector& of_rate) const {
     const Field& rate = wells_.rate();
     Vector known = Vector::Zero(count());

@@ -40,7 +40,7 @@ bool is_beside(const Assembly& assembly, const Balances::Quantity& summed, int u
   });
 }
 
-/// The conductances by which unknowns on interfaces join the summed balances to others: at most this much, added up.
+/// An upper bound of the sum of the conductances by which unknowns on interfaces join the summed balances to others.
 double held_through_interfaces(const Assembly& assembly, const Balances::Quantity& summed) {
   double held = 0;
   for (std::size_t w = 0; w < assembly.unknowns().size(); ++w) {
@@ -174,7 +174,7 @@ std::vector<Balances::Quantity> BalanceSums::sums_of(const Assembly& assembly,
     const bool is_whole = is_weak(assembly, quantity, are_used_where_coupled);
     if (is_whole) sums.push_back(quantity);
     if (quantity.unknowns.size() == 1) continue;
-    // The sum of all has the place of a row of one of them; the others may need one of their own.
+    // The sum of all balances takes the place of a row of one field; the other fields may need a sum of their own.
     const int row = is_whole ? row_to_replace(assembly, quantity, owned, first) : -1;
     for (const int unknown : quantity.unknowns) {
       if (row >= first[unknown] && row < first[unknown] + assembly.unknowns()[unknown]->size()) continue;

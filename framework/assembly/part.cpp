@@ -2,7 +2,7 @@
 
 namespace sprekk {
 
-// Of what most parts do not have.
+// Defaults of functions that most parts do not need.
 Part::~Part() = default;
 std::vector<std::string> Part::stabilizations() const { return {}; }
 std::vector<Dependence> Part::dependences() const { return {}; }

@@ -41,7 +41,7 @@ Data in_si(const ColumnValue& given, const DataRequest& request) {
   return within_range(Data(given.value * scale), given.where, request);
 }
 
-/// "joints_" of "joints_*", which stands for all names that begin so; nothing of a plain name.
+/// "joints_" for "joints_*", which stands for all names that begin with it; nothing for a plain name.
 std::optional<std::string> beginning_of(const std::string& key) {
   if (key.size() < 2 || key.back() != '*') return std::nullopt;
   return key.substr(0, key.size() - 1);
@@ -52,7 +52,7 @@ bool stands_for(const std::string& key, const std::string& name) {
   return beginning ? name.starts_with(*beginning) : key == name;
 }
 
-/// The entry of a name: its own, or that of the beginning that it has, or the default; nullptr without one.
+/// The entry for a name: its own, else that of a beginning of the name, else the default; nullptr without any.
 const Node* value_for(const Node& map, const std::string& name, const DataRequest& request) {
   if (const Node* own = map.find(name)) return own;
   const Node::Entry* found = nullptr;

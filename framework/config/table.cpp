@@ -194,7 +194,7 @@ class TableReader {
 }  // namespace
 
 double Table::at(std::span<const double> place) const {
-  // Of each axis the interval, and the share of its upper end.
+  // For each axis: the interval, and the weight of its upper end.
   struct Interval {
     std::size_t below;
     double share;
@@ -219,7 +219,7 @@ double Table::at(std::span<const double> place) const {
       const bool upper = (corner >> k & 1) != 0;
       weight *= upper ? intervals[k].share : 1 - intervals[k].share;
       at = at * axes[k].size() + intervals[k].below + (upper ? 1 : 0);
-      if (weight == 0) break;  // there may be nothing above
+      if (weight == 0) break;  // the last interval has no upper end
     }
     if (weight != 0) value += weight * values[at];
   }

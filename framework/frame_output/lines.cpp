@@ -44,7 +44,7 @@ const OutputField* find(const Frame& frame, const std::string& name) {
   return found == frame.fields.end() ? nullptr : &*found;
 }
 
-/// The value of the field at x as sum of weight · value; empty outside of the mesh.
+/// Entities and weights: the value of the field at x is the sum of weight · value. Empty outside of the mesh.
 std::vector<std::pair<int, double>> weights_at(const Mesh& mesh, const PointLocation& cells, Location location,
                                                const Point& x) {
   if (location == Location::cell) return linear_fit(mesh, x);
@@ -52,7 +52,7 @@ std::vector<std::pair<int, double>> weights_at(const Mesh& mesh, const PointLoca
   return home == none ? std::vector<std::pair<int, double>>() : weights_in_cell(mesh, location, home, x);
 }
 
-/// One table; it takes each point of a frame for a row.
+/// The table of one line: each time of output adds a row for each point.
 class LineTable {
  public:
   LineTable(const std::string& name, const LineOptions& options, const OutputPlace& place)

@@ -47,7 +47,7 @@ struct FractureInput {
   std::optional<double> length, size, angle;
 };
 
-/// Where the fractures of a scene go once they are read.
+/// Takes the fractures of a scene as they are read.
 struct FractureKeeper {
   std::function<void(FractureGeometry)> keep;
   std::function<void(RandomFractures)> keep_set;

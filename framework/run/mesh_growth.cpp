@@ -172,7 +172,7 @@ StepStatus MeshGrowth::evaluate(Model& trial, const StepTime& step, std::size_t 
   }
 }
 
-/// After some refusals of a step because of growth it is no longer halved: the shortest step comes next.
+/// After this number of refusals because of growth, a step is no longer halved: the shortest step comes next.
 void MeshGrowth::shorten(const StepTime& step, StepStatus& refused) {
   constexpr int halves = 3;
   refusals_ = refused_at_ == step.start ? refusals_ + 1 : 1;
@@ -194,7 +194,7 @@ MeshGrowth::Outcome MeshGrowth::before_acceptance() {
   return Outcome::nothing;
 }
 
-/// After a step in which growth was held: steps stay short until nothing grows.
+/// After a step with growth held, steps stay short until nothing grows.
 MeshGrowth::Outcome MeshGrowth::follow_held(std::size_t grow_step) {
   const GrowStep& grow = *model_->growing()[grow_step];
   ++held_;

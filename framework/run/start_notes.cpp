@@ -19,8 +19,8 @@ namespace {
 
 /// Degrees; what tools/stress has found to be harmless.
 constexpr double least_good_angle = 5;
-/// Cells of a pocket. A triangle with three edges on each side has as many: with fewer, values in it hardly
-/// vary.
+/// Cells of a pocket. A triangle with three edges on each side has this number; with fewer cells, values in a pocket
+/// hardly vary.
 constexpr int few_cells = 9;
 /// Unknowns. Measured: with 44,000 in two dimensions each of two processes is as busy as one alone.
 constexpr long worth_sharing = 50'000;

@@ -20,7 +20,7 @@ namespace {
 
 using Parameters = std::map<std::string, std::string>;  ///< values by path
 
-/// Another run, as its folder has it.
+/// The record and the checkpoint of another run.
 struct OtherRun {
   std::filesystem::path folder, file;
   Checkpoint checkpoint;
@@ -89,7 +89,7 @@ void require_same_mesh(const OtherRun& run, const Model& model) {
 
 bool is_initial(const std::string& path) { return path.find(".initial_") != std::string::npos; }
 
-/// Types of components are the same, and so are all values from which changes are counted.
+/// Refuses components of other types, and other values of parameters from which changes are counted.
 void require_same_parameters(const OtherRun& run, const Model& model) {
   Parameters here;
   for (const Scene::Resolved& parameter : model.scene().resolved) here[parameter.path] = parameter.value;
@@ -118,8 +118,8 @@ std::set<std::string> owners(const OtherRun& run) {
   return names;
 }
 
-/// A coupler that is new between components that are not would count all that happened before the start as happening
-/// in the first step.
+/// A new coupler between components of the other run would count what happened before the start as if it happened in
+/// the first step.
 void require_couplers(const OtherRun& run, const Model& model) {
   const std::set<std::string> there = owners(run);
   for (const Scene::CouplerEntry& coupler : model.scene().couplers) {

@@ -48,7 +48,7 @@ Spec GrowOptions::spec() {
 
 namespace {
 
-/// What to write instead of a component that cannot grow.
+/// The suggestion for a `grow` step whose component cannot grow.
 std::string growing_in(const ScheduleContext& context) {
   std::string names;
   for (const auto& [name, part] : context.named)

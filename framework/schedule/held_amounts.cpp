@@ -29,8 +29,8 @@ SparseMatrix derivative(const Assembly& assembly, int row, int column) {
   return matrix;
 }
 
-/// What balances store of a change of their own field that is the same everywhere; the rows that this process owns. 0
-/// for rows with fixed values.
+/// What balances store for a uniform change of their own field by 1; the rows that this process owns. 0 for rows with
+/// fixed values.
 Vector stored(const Assembly& assembly, int row) {
   Vector sums = Vector::Zero(assembly.unknowns()[row]->size());
   for (const Assembly::Block& block : assembly.blocks()) {
@@ -44,7 +44,7 @@ Vector stored(const Assembly& assembly, int row) {
   return sums;
 }
 
-/// −b/s with the rows of all processes.
+/// The factors −b/s, with the rows of all processes.
 SparseMatrix following(const SparseMatrix& b, const Vector& s, const std::vector<char>& owned) {
   std::vector<int> places;
   std::vector<double> values;

@@ -237,13 +237,13 @@ bool hardly_fall(const std::vector<double>& values, std::size_t last_passes) {
 constexpr std::size_t without_progress = 25, without_better_balance = 10;  // passes
 constexpr std::size_t patience = 10, patience_accelerated = 20;            // passes whose changes stay large
 
-/// Whether errors of balances fall no more but scatter. Those of passes that converge slowly fall in each.
+/// Whether errors of balances no longer fall, but scatter. Where passes converge slowly, errors fall in each pass.
 bool are_round_off_of_balances(const std::vector<double>& imbalances) {
   return hardly_fall(imbalances, without_better_balance) &&
          !std::is_sorted(imbalances.end() - without_better_balance, imbalances.end(), std::greater<>());
 }
 
-/// What may be asked for where this residual is all that passes reach.
+/// The tolerance to suggest where passes do not get below this residual.
 std::string looser(double residual) {
   constexpr double sensible = 1e-5;
   if (residual > sensible) return "";
@@ -316,8 +316,8 @@ StepStatus IterateStep::make_passes(const StepTime& step) {
     std::vector<Vector> values_before;
     if (criteria_.need_changes() || options_.has_substeps)
       for (const Field* field : fields_) values_before.push_back(field->now());
-    // Where all rows hold and balances do not, what solves leave for the balances of others may be round-off that no
-    // pass makes smaller. Behind the solve that fulfils the balances the answer is complete.
+    // Where all rows hold and balances do not, each solve may disturb the balances of the others by round-off, which no
+    // pass makes smaller. The pass then ends after the solve that fulfils the balances.
     const bool misses_balances_alone = check.rows_hold && !check.balances_hold;
     const StepStatus inner = misses_balances_alone
                                  ? inside_->run_until(step, [&] { return coupled_residual(step).converged; })

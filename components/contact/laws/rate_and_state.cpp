@@ -11,7 +11,8 @@ namespace sprekk::contact {
 
 namespace {
 
-/// arcsinh(w) of ln w, whose w may be beyond the range of numbers, and its derivative by ln w.
+/// arcsinh(w) as a function of ln w, for which w may be too large for a floating-point number, and its derivative by ln
+/// w.
 struct ArcSinh {
   double value, slope;
 };
@@ -37,7 +38,7 @@ double RateAndStateLaw::friction_at(double slip_rate, double state) const {
 RateAndStateLaw::Returned RateAndStateLaw::returned(double trial, double stiffness, const Step& step) const {
   SPREKK_EXPECT(trial >= 0 && stiffness > 0, trial, stiffness);
   SPREKK_EXPECT(step.dt > 0 && step.pressure >= 0, step.dt, step.pressure);
-  // A state that is extrapolated over a step that is far too long may be negative. The step is refused in the end.
+  // In a step that is far too long the extrapolated state may be negative. Such a step is refused later.
   const double before = std::max(step.state, std::numeric_limits<double>::min());
   const double resistance = damping + stiffness * step.dt;  // Pa s/m, of what is linear in V
   const double strength = step.pressure * a;                // Pa
@@ -59,13 +60,14 @@ RateAndStateLaw::Returned RateAndStateLaw::returned(double trial, double stiffne
     return Value{strength * arc.value + resistance * slip_rate - trial,
                  strength * arc.slope * factor + resistance * slip_rate, arc, factor};
   };
-  // Below: both terms are less than half of the trial, with the largest state. Above: one of them is all of it.
+  // The lower bound: both terms are below half of the trial, with the largest state. The upper bound: one term alone is
+  // the whole trial.
   const double of_resistance = std::log(trial / resistance);
   double low = std::min(of_resistance - std::numbers::ln2, log_sinh(trial / strength / 2) - shift);
   double high = of_resistance;
   if (b > a) {
-    // The left side rises up to the slip at which friction begins to fall, and passes the trial once there or once
-    // beyond it.
+    // The left side rises up to the slip at which friction begins to fall. It meets the trial once before that slip, or
+    // once after it.
     const double turn = std::log(a / (b - a) * distance / step.dt);
     if (turn > low && turn < high) (at(turn).excess > 0 ? high : low) = turn;
   }
@@ -83,7 +85,7 @@ RateAndStateLaw::Returned RateAndStateLaw::returned(double trial, double stiffne
     if (change <= round_off * std::max(1.0, std::abs(x))) break;
   }
   const double slip_rate = std::exp(x), friction_now = a * value.arc.value;
-  // All by ln V: d trial = (slope of tau + c dt V) dx.
+  // Derivatives by x = ln V: d trial = (slope of tau + c dt V) dx.
   const double of_rock = stiffness * step.dt * slip_rate;
   const double share = of_rock / value.slope;
   return {slip_rate, step.pressure * friction_now + damping * slip_rate, 1 - share, friction_now * share};

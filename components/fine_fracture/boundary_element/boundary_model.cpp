@@ -26,7 +26,7 @@ Point components(const Point& traction, Complex along) {
   const Complex turned = -number(traction) * std::conj(along);
   return {turned.imag(), turned.real()};
 }
-/// The same of a stress.
+/// The traction (N, S) of a stress on that line.
 Point components(const Tensor& stress, Complex along) {
   const Point right(along.imag(), -along.real());
   return components(Point(stress * right), along);
@@ -38,7 +38,8 @@ RegularField regular_field(const FineGeometry& geometry, int degree, const Elast
   return {number(0.5 * (low + high)), 0.5 * (high - low).norm(), degree, rock};
 }
 
-/// Places along the cracks, where pore pressure has its peaks, and on a grid that becomes coarser away from them.
+/// Places along the cracks, where pore pressure has its peaks, and on a grid that becomes coarser with the distance
+/// from the cracks.
 std::vector<Point> places_of_offset(const FineGeometry& geometry, double spacing) {
   std::vector<Point> places;
   std::vector<Segment> segments;
@@ -79,8 +80,8 @@ std::vector<Point> places_of_offset(const FineGeometry& geometry, double spacing
   return places;
 }
 
-/// An element whose walls slide: where they touch, their traction is that of the fluid and f t, f linear along the
-/// element; gaps count with the same functions.
+/// An element whose walls slide. Where they touch, their traction is that of the fluid plus f t, with f linear along
+/// the element; gaps are weighted with the same functions.
 struct SlidingElement {
   int first_node;
   TipSurroundings::Sliding law;
@@ -88,9 +89,9 @@ struct SlidingElement {
 };
 double hat(Eigen::Index end, double t) { return end == 0 ? 1 - t : t; }
 
-/// f <= 0 with gaps + compliance f >= 0, where one of both is 0. First all places change at once (a semismooth Newton
-/// method); where that goes round in a circle, the first wrong one alone does (Murty, Linear Algebra Appl. 7 (1974)
-/// 65).
+/// f <= 0 with gaps + compliance f >= 0, where one of both is 0. First all places whose condition is violated change at
+/// once (a semismooth Newton method); if that cycles, only the first of them changes (Murty, Linear Algebra Appl. 7
+/// (1974) 65).
 Vector contact_forces(const Eigen::MatrixXd& compliance, const Vector& gaps) {
   constexpr int at_once = 30, most_rounds = 2000;
   std::vector<char> touches(gaps.size(), 1);
@@ -317,7 +318,7 @@ BoundaryModel::Given BoundaryModel::given(const FineLoads& loads) const {
 
 Vector BoundaryModel::jumps(const FineLoads& loads, const Given& given) const {
   if (!loads.sliding) return factorized_.solve(given.walls);
-  // The tractions of the coarse level stand in given.walls: where walls slide, those of the fluid take their place.
+  // given.walls has the tractions of the coarse level. Where walls slide, the traction of the fluid takes their place.
   Vector open = given.walls;
   std::vector<SlidingElement> sliding;
   for (int e = 0; e < element_count(); ++e) {
@@ -328,7 +329,7 @@ Vector BoundaryModel::jumps(const FineLoads& loads, const Given& given) const {
     SlidingElement contact{n * e, *law, components(law->traction, element.along())};
     for (int j = 0; j < n; ++j) {
       const Node& node = nodes_[n * e + j];
-      // The fluid may differ along the element, the law is that of its middle.
+      // The pressure may vary along the element; the law is evaluated in its middle.
       const auto here = loads.sliding(element.crack, element.segment, node.s);
       Point more = components(here ? here->fluid : law->fluid, node.along);
       if (loads.wall_traction)

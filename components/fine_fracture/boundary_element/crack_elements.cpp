@@ -27,7 +27,7 @@ CrackElement element_between(int crack, int segment, const Point& from, const Po
           Density::polynomial};
 }
 
-/// The same element from its other end.
+/// The same element, with t counted from its other end.
 CrackElement reversed(CrackElement element) {
   element.start = element.place(1);
   element.direction = -element.direction;
@@ -107,7 +107,7 @@ class Division {
   }
 
   void divide(double from, double to) {
-    // An element has the functions of one of its ends.
+    // An element has singular functions for one of its ends only.
     const bool has_both =
         from == 0 && to == 1 && (piece_.tip_first || piece_.sharp_first) && (piece_.tip_last || piece_.sharp_last);
     if (has_both || (to - from) * (piece_.to - piece_.from).norm() > allowed(from, to)) {
@@ -118,7 +118,7 @@ class Division {
     }
   }
 
-  /// Elements that are far from the wanted tip may be longer: over their distance.
+  /// How long elements may be far from the wanted tip, over their distance from it.
   static constexpr double most_ = 0.25;
 
   const Piece& piece_;
@@ -182,7 +182,7 @@ std::vector<CrackElement> crack_elements(const FineGeometry& geometry, const Div
       const bool begins = is_first && (piece.tip_first || piece.sharp_first),
                  ends = is_last && (piece.tip_last || piece.sharp_last);
       const bool has_tip = (is_first && piece.tip_first) || (is_last && piece.tip_last);
-      // Of a tip and a corner the tip counts.
+      // Where one end is a tip and the other a corner, the tip counts.
       if (ends && !(begins && piece.tip_first)) element = reversed(element);
       if (begins || ends) element.density = has_tip ? Density::root : Density::corner;
       elements.push_back(element);
@@ -257,7 +257,7 @@ Pair ElementField::stress(int node, Complex along) const {
   const Complex square = -integrals_.slope[node], cube = 0.5 * integrals_.curvature[node];
   const Complex back = std::conj(element_.direction), turn = back * back * back;
   const double factor = rock_.shear / (std::numbers::pi * (rock_.kolosov() + 1) * element_.length);
-  // N + i S of the jump 1. That of the jump i follows: what goes with the jump is multiplied by i, what goes with its
+  // N + i S of the jump 1. That of the jump i follows from it: terms with the jump are multiplied by i, terms with its
   // conjugate by −i.
   const Complex c = element_.sign * factor * unit, forward = along * along;
   const Complex phi = -back * c * square, with = forward * turn * c * (square - 2.0 * unit * (2 * height_) * cube),

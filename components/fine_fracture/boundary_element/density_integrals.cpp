@@ -39,7 +39,7 @@ struct Integrals {
   Powers value, slope, curvature;
 };
 
-/// From those of the first one on, whose exponent is `first`, by t^(k + 1)/(w − t) = w t^k/(w − t) − t^k.
+/// Higher powers follow from the first one, whose exponent is `first`, by t^(k + 1)/(w − t) = w t^k/(w − t) − t^k.
 void continue_from(double first, Complex w, Integrals& integrals) {
   auto& [value, slope, curvature] = integrals;
   for (int k = 0; k + 1 < n; ++k) {

@@ -7,7 +7,7 @@ namespace {
 constexpr Complex unit{0, 1};
 
 /// Calls `add(column, value)` for the coefficients of phi and psi, each with its real and its imaginary part.
-/// of_phi(k, c), of_psi(k, c): what the coefficient c of the power k makes.
+/// of_phi(k, c), of_psi(k, c): the contribution of the coefficient c of the power k.
 template <class OfPhi, class OfPsi>
 Eigen::Matrix2Xd columns(int degree, OfPhi&& of_phi, OfPsi&& of_psi) {
   Eigen::Matrix2Xd matrix(2, 4 * degree + 2);

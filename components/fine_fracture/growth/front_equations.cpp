@@ -14,7 +14,7 @@ constexpr double alike = 0.01;  ///< of ln K over one increment: if growth of an
 
 }  // namespace
 
-/// Tips whose loads and advances are found in common. One with a new segment is found by itself.
+/// Tips whose loads and advances are found together. A tip with a new segment is found alone.
 std::vector<int> Front::front_tips() const {
   std::vector<int> tips;
   for (int i = 0; i < count(); ++i)
@@ -56,7 +56,7 @@ bool Front::has_equal_advances(const Eigen::VectorXd& residual) const {
          advance.maxCoeff() - advance.minCoeff() <= equal_advances;
 }
 
-/// What has to be positive for a tip at rest to grow.
+/// A number that is positive where a tip at rest has to grow.
 double Front::load_at_rest(int tip, const Eigen::VectorXd& residual) const {
   const double load = residual[2 * tip];
   if (is_new(tip) || options_.mesh_error == 0) return load;
@@ -71,8 +71,8 @@ double Front::load_at_rest(int tip, const Eigen::VectorXd& residual) const {
   return load_of_front_at_rest(all, options_.mesh_error);
 }
 
-/// Lets tips at rest grow that have to. True if one of them did not grow in the last trial: then a trial with the new
-/// set comes before anything is concluded.
+/// Adds tips at rest that have to grow to those that grow. True if one of them did not grow in the last trial: then
+/// another trial, with the new set, is needed.
 bool Front::free_tips(const Eigen::VectorXd& residual) {
   std::vector<int> freed;
   for (int i = 0; i < count(); ++i)

@@ -41,7 +41,7 @@ void Front::make_jacobian() {
 }
 
 /// An angle changes K by moving the tip sideways, in proportion to the length of its segment, and K_II by the
-/// direction, as at a kink. An advance counts in proportion to what the fracture has already.
+/// direction, as at a kink. The effect of an advance is scaled with the length that the fracture has already.
 void Front::scale(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const {
   for (int j = 0; j < count(); ++j) {
     if (tips_[j].size > 0)
@@ -59,7 +59,7 @@ void Front::scale(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& stat
 Eigen::MatrixXd Front::slopes() const {
   Eigen::MatrixXd slopes = slopes_.jacobian;
   scale(slopes, last_, true);
-  // Nothing is known of the turns of a tip that rests.
+  // A tip at rest does not turn, so its slopes by the angle are unknown.
   for (int i = 0; i < count(); ++i)
     if (!grows_[i]) {
       slopes.col(2 * i + 1).setZero();

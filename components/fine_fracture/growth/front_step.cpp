@@ -18,8 +18,8 @@ constexpr double no_motion = 1e-300;     ///< no division by zero
 
 }  // namespace
 
-/// The step with the slopes that were learnt. Loads and directions are linear, while the equations of the front are
-/// solved as they are; these are linearized, too, if there is no solution.
+/// The step with the learnt slopes: loads and directions are linearized, and the equations of the front are solved
+/// exactly for them; if they have no solution, they are linearized, too.
 Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual) {
   if (const auto move = step_to_linear_front(free, residual)) return *move;
   const std::vector<int> tips = front_tips();
@@ -38,7 +38,7 @@ Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::Ve
   };
   Eigen::MatrixXd matrix = matrix_of_front();
   if (!FullPivotingLu(matrix).is_invertible()) {
-    // Loads that were once found not to depend on lengths would leave the tips where they are.
+    // Slopes of zero (loads that seemed not to depend on lengths) would leave the tips where they are.
     forget();
     matrix = matrix_of_front();
   }
@@ -127,7 +127,7 @@ void Front::step(const Eigen::VectorXd& residual) {
     const double wanted = length_[i] + part * move[a] * options_.increment;
     angle_[i] += part * move[a + 1];
     if (wanted <= least(i)) {
-      // Back at the start of the step: the tip rests, unless it is there and above its toughness. Then its load rises
+      // A tip that is back at the start of the step rests, unless it is above its toughness there: then its load rises
       // with its length.
       const bool is_unstable = counted[2 * i] > 0 && length_[i] <= least(i) * (1 + at_limit);
       if (is_unstable && was_unstable_[i]) {

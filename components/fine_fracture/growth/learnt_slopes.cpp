@@ -9,7 +9,7 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-// How far an entry may be off.
+// How large the error of an entry of the first Jacobian may be.
 constexpr double load_by_advance = 0.5;              ///< of the derivative of the load by the tip's own advance
 constexpr double load_by_other_advance = 0.2;        ///< the same, by that of another tip
 constexpr double load_by_angle = 0.1;                ///< 1/rad

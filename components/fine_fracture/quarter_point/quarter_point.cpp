@@ -37,7 +37,7 @@ Spec QuarterPointOptions::spec() {
 
 namespace {
 
-/// A triangulation that moves along from trial to trial.
+/// A triangulation whose nodes move from trial to trial, with the same topology.
 struct KeptTriangulation : KeptLevel {
   std::shared_ptr<const Triangulated> triangulated;
 };

@@ -22,7 +22,7 @@ void TipsFront::note_rest(double worst) {
                     worst});
 }
 
-/// False where no tip can advance.
+/// Returns false where no tip can advance.
 bool TipsFront::begin_jump() {
   jump_ = std::make_unique<FrontJump>(at_start_, without_growth_, options_);
   for (std::size_t i = 0; i < at_start_.size(); ++i)

@@ -1,4 +1,4 @@
-// What is known of the tips when the search for a front begins.
+// The state of the tips with which the search for a front begins, and the speeds that it expects.
 #include <algorithm>
 #include <cmath>
 
@@ -14,13 +14,14 @@ constexpr double longest_advance = 1.5;  ///< of an increment, in one step
 constexpr double carried_on = 0.5;       ///< of the change of speed between the last two steps: it has noise, too
 constexpr double steady = 1.2;  ///< ratio of the speeds of two steps from which they tell no trend; largest one by it
 
-/// Of the last step and of the one before. Segments are divided every other step, and advances alternate with that.
+/// Speeds are means over the last two steps, because advances alternate: segments are divided every other step.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
 
 }  // namespace
 
-/// The speed of all tips together in this step over its mean in the last two. How tips share it alternates with the
-/// division of segments, but their sum hardly does. Where it changed much from one step to the other, it has no trend.
+/// The speed of all tips together in this step over its mean in the last two. The shares of the tips alternate with the
+/// division of segments; their sum hardly does. Where the sum changed much between the last two steps, no trend is
+/// taken from it.
 double TipsFront::trend() const {
   double last = 0, before = 0, part = 0;
   for (const Tips::Tip& tip : tips_.tips_) {
@@ -55,7 +56,7 @@ void TipsFront::add(Tips::Tip& tip) {
     start.anchor = end - start.covered * ahead;
     tip.next_start = tip.now.segment_start;
     if (const double stays = what_stays(tip, start); stays > 0) {
-      // What stays leads to where the tip has been. The segment has turned since, as it grew.
+      // The part that stays ends where the tip has been; the segment has turned since then.
       const PlaceOnWay place = place_on_way(start.anchor, tip.now.segment_start, tip.now.way, stays);
       start.anchor = place.position;
       start.covered = (end - start.anchor).norm();

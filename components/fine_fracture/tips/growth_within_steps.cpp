@@ -1,4 +1,4 @@
-// What tips that grow within steps tell a run, and the search that they begin.
+// What a run asks tips that grow within steps, and the search that they start.
 #include <algorithm>
 #include <limits>
 

@@ -31,8 +31,8 @@ double TipsFront::part_by_turn(const Tips::Tip& tip) const {
   return turn > turn_of_segment ? std::max(least_full, turn_of_segment / turn) : 1;
 }
 
-/// m, the part of the last segment that is not laid anew any more. The first segment behind a kink, where the path is
-/// most curved and nothing tells how it begins, ends where the tip was when the mesh began to follow it.
+/// The length of the last segment that is fixed from now on, m. The first segment behind a kink ends where the tip was
+/// when the mesh began to follow it: there the path is most curved, and no earlier place tells its direction.
 double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const {
   const std::vector<PlaceOnWay>& way = tip.now.way;
   const double increment = tips_.options_.growth.increment;
@@ -49,8 +49,8 @@ double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const 
   return start.covered > full ? start.covered - rest_of_segment * full : 0;
 }
 
-/// The places of the tip in the last segment of the new mesh. `before`: in that of the mesh before the step. The first
-/// place behind a kink counts however near the next ones are: the segment is divided there, in its direction.
+/// The places of the tip in the last segment of the new mesh. `before`: the places in the last segment of the mesh
+/// before the step. The first place behind a kink is kept even if the next ones are near: the segment is divided there.
 std::vector<PlaceOnWay> TipsFront::way_to(const Tips& there, const Tips::Tip& tip,
                                           const std::vector<PlaceOnWay>& before) const {
   if (!tip.now.is_extendable) return {};

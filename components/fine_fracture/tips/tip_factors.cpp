@@ -30,7 +30,8 @@ InputError Tips::refusal(const UnsuitableRock& rock) const {
                     "choose fine_fracture/quarter_point, or a smaller 'size'");
 }
 
-/// Before the run; rock that changes, or a square that has moved along with its tip, is looked at in the run.
+/// This check is made before the run. Rock that changes, and squares that move with their tips, are checked during the
+/// run.
 void Tips::check_rock(const Tip& tip) const try {
   const Point center = position(tip, {});
   check_stiffness(fine_domain(mesh_, paths_with(paths_now()), tip.end, center, options_.size, tip.coarse_size,
@@ -63,7 +64,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) try {
   // The square of the fine level stays around the tip of the coarse mesh while the path grows in it.
   const Point center = position(tip, {});
   const auto walls = surroundings_->gives_jumps() ? CrackPath::Walls::jump : CrackPath::Walls::traction;
-  // Growth with the state held may lead out of the square of an earlier trial.
+  // Growth with the state held may leave the square of an earlier trial.
   if (tip.pattern && !has_room(tip.pattern->outline, position(tip, paths[index]), maker_->room(tip.coarse_size)))
     tip.pattern.reset();
   const std::vector<FracturePath> all = paths_with(paths);

@@ -81,8 +81,8 @@ void Tips::check_increment() const {
       "choose a shorter increment, or a larger 'size'");
 }
 
-/// Within steps each increment is a cell or two of the coarse level, in the held procedure an edge or two of the fine
-/// one.
+/// With growth within steps an increment is one or two cells of the coarse level; with the state held it is one or two
+/// edges of the fine level.
 void Tips::check_shortest(const Tip& tip) const {
   constexpr double shortest = 0.01;  // of the cell at the tip
   const double least = shortest * tip.coarse_size;
@@ -190,7 +190,8 @@ Growing::Load Tips::examine(const StepTime& step) {
     }
     if (turns_sharply(tip)) tip.now.is_extendable = false;
     // At the end of an increment the load is 1 within a tolerance; the tip must not grow again for that difference. A
-    // tip that has not grown yet has no such rest: refused steps aim at the load 1 + overshoot/2, where it has to grow.
+    // tip that has not grown yet has no such tolerance: refused steps aim at the load 1 + overshoot/2, at which it has
+    // to grow.
     if (is_followed(tip)) continue;
     const double rest = tip.now.has_started ? rest_tolerance() : 0;
     loads.now = std::max(loads.now, tip.now.load / (1 + rest));

@@ -76,7 +76,8 @@ Tips::Tip* TipsFront::same_tip(Tips& there, int tip) const {
   return nullptr;
 }
 
-/// m/s, of the advance in this trial. What the fine level had found before this step is no part of it.
+/// The speed of the advance in this trial, m/s. A path that the fine level had found before this step is not part of
+/// the advance.
 double TipsFront::speed(std::size_t i) const {
   const int tip = static_cast<int>(i);
   const double length = jump_ ? jump_->length(i) : front_->length(tip);

@@ -10,7 +10,7 @@ double Tips::apparent_toughness(const Tip& tip, double speed) const {
   const double at_rest = toughness(tip);
   const ViscousTip moving{at_rest, Elasticity{lame.lambda, lame.shear}.plane_modulus(), viscosity};
   const double full = moving.apparent_toughness(last_cell(tip.end).measure, speed);
-  // Where the fluid lags behind the tip nothing viscous is near it, and its toughness alone counts.
+  // Where the fluid lags behind the tip, there is no fluid near the tip, so only the toughness counts.
   return at_rest * (1 + surroundings_->filled_part(tip.end.fracture, tip.end.at_end) * (full - 1));
 }
 

@@ -23,8 +23,8 @@ void FractureFlow::check_bound(double pressure, const Origin& where, const std::
                    "lower 'cavitation', or raise the pressure");
 }
 
-/// Whether the condition of the cell is p = p_c; else it is e = 0. The scale decides which condition is taken away from
-/// the solution; the solution does not depend on it.
+/// Whether the condition of the cell is p = p_c; otherwise it is e = 0. The scale decides which of the two is taken
+/// while neither holds; the solution does not depend on it.
 bool FractureFlow::is_partly_empty(int cell) const {
   return empty_ && empty_->now()[cell] > bound_scale_ * (pressure_.now()[cell] - *options_.cavitation);
 }

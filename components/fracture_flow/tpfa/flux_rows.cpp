@@ -85,7 +85,7 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
   const auto arms_of = [&](const Vector& aperture) {
     std::vector<CellAperture> cells;
     for (const int cell : junction.cells) {
-      // How far a dry arm is open counts for none of the others.
+      // The opening of a dry arm does not matter for the other arms.
       const double present = is_in_fracture_cell(cell) ? aperture[cell] : initial_aperture_[cell];
       cells.push_back({0.5 * mesh_.fracture_cells[cell].measure, present, present - initial_aperture_[cell]});
     }

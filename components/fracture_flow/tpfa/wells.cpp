@@ -125,7 +125,8 @@ void FractureFlow::prescribe(const StepTime& step) {
     std::erase_if(source.rates, [&](const auto& rate) { return is_prescribed_[rate.first] != 0; });
 }
 
-/// The residual of the balance of a prescribed cell, before its row is replaced, is what enters there.
+/// The flow into the fracture at a cell with a prescribed pressure: the residual of its balance, before its row is
+/// replaced.
 void FractureFlow::count_let_in(const Assembly& assembly) const {
   const std::vector<const Field*>& unknowns = assembly.unknowns();
   const auto found = std::ranges::find(unknowns, &pressure_);

@@ -16,7 +16,7 @@ VolumetricSplit split_volumetric(const std::vector<Stiffness>& stiffness) {
   const Eigen::Vector3d volumetric(1, 1, 0);
   for (std::size_t c = 0; c < stiffness.size(); ++c) {
     const Stiffness& whole = stiffness[c];
-    // The most that can be taken before `kept` has no stiffness left in some direction.
+    // The largest amount that can be taken away before `kept` loses its stiffness in some direction.
     const double bulk = 1 / volumetric.dot(whole.llt().solve(volumetric));
     const double shear = std::min(whole(2, 2), (whole(0, 0) + whole(1, 1) - 2 * whole(0, 1)) / 4);
     const double taken = std::max(0.0, bulk - kept_of_shear * shear);

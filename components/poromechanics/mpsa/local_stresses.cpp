@@ -401,7 +401,7 @@ void LocalStresses::find_forces(const InteractionRegion& region, const std::vect
         if (region.is_inner(turning))
           add_scaled(force, couple_on(region, turning, k, half_face)[c], turns_.data() + turning * columns_, columns_);
       force[stress_column() + column(k)] -= half_face[c];
-      // The force of the first side: both sides together bear the load on the face.
+      // The force on the first side; both sides together balance the load on the face.
       if (side == 1 && load_column_[f] != none) force[load_column_[f] + c] += 0.5;
     }
   }

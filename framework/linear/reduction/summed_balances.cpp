@@ -71,7 +71,8 @@ std::vector<int> columns_outside(const SparseMatrix& a, int first, int end, std:
 }
 
 /// Whether the flux at a row leads from the rows [first, end) to local unknowns whose own rows do not resist a change
-/// of theirs, such as the pressure of a well whose rate is given: these follow, and hold nothing.
+/// of theirs, such as the potential of an entity whose flux is given: these unknowns follow the change, and do not
+/// determine the constant.
 bool leads_to_what_follows(const SparseMatrix& a, int flux, int first, int end, const std::vector<char>& is_local) {
   bool leads = false;
   for (SparseMatrix::InnerIterator entry(a, flux); entry; ++entry) {
@@ -95,8 +96,8 @@ bool cancels(const SparseMatrix& a, int row, double factor, const std::map<int, 
   return true;
 }
 
-/// Takes fluxes that other rows give, such as the rate of a well, out of a sum: beside them, in one row, what is stored
-/// has no digits. Returns these rows with the factors by which they are added.
+/// Takes fluxes that other rows prescribe out of a sum: in one row with them, what is stored would be lost to
+/// round-off. Returns these rows with the factors by which they are added.
 std::vector<std::pair<int, double>> take_out_given_fluxes(const SparseMatrix& a, const std::vector<int>& group,
                                                           const std::vector<char>& is_local,
                                                           std::map<int, double>& sum) {

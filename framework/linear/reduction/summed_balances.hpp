@@ -16,8 +16,8 @@ namespace sprekk {
 /// determines the constant mode of the potentials well, but elimination adds S to C and loses S. Here the sum of such
 /// rows, in which D is absent, takes the place of the first of them: the equations are equivalent, and S keeps its
 /// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A flux out of
-/// the rows that another row gives, such as the rate of a well, does not count for that, and is taken out of the sum by
-/// adding a multiple of that row. A sum that is zero belongs to a singular matrix, whose constant mode nothing holds.
+/// the rows that another row prescribes does not count for that, and is taken out of the sum by adding a multiple of
+/// that row. A sum that is zero belongs to a singular matrix, whose constant mode nothing holds.
 class SummedBalances final : public LinearSolver {
  public:
   explicit SummedBalances(std::unique_ptr<LinearSolver> solver);

@@ -54,7 +54,7 @@ double lognormal(double u, double median, double deviation, double low, double h
 
 double von_mises(RandomNumbers& random, double concentration) {
   using std::numbers::pi;
-  // Below it the method cancels, and the law is uniform to that part.
+  // Below this value the method loses digits, and the law is uniform up to this share.
   constexpr double uniform_below = 1e-5;
   if (concentration < uniform_below) return pi * (2 * random.uniform() - 1);
   // A wrapped Cauchy law with the parameter rho lies above the density.
