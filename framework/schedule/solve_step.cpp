@@ -146,8 +146,8 @@ std::vector<const Field*> SolveStep::waiting() const {
 }
 
 ResponseOptions SolveStep::wanted_responses() const {
-  constexpr double settled =
-      0.1;  // residuals of waiting unknowns may be enlarged many times in the equations of this solve
+  // Residuals of waiting unknowns may be enlarged many times in the equations of this solve.
+  constexpr double settled = 0.1;
   return {followers(options_.stabilization, parts_, fields_), options_.stabilization == response,
           settled * options_.newton.residual};
 }
@@ -247,8 +247,8 @@ StepStatus SolveStep::solve(const StepTime& step, const Stabilization& stabiliza
 }
 
 bool SolveStep::is_good_enough(const StepTime& step) {
-  constexpr int most_in_a_row =
-      5;  // only where the scene asked for it: otherwise such values may lead away from the solution
+  // Unless the scene has `newton:` options of its own: values of solves that have not converged may lead away.
+  constexpr int most_in_a_row = 5;
   if (!options_.may_be_inexact || !newton_->has_used_up_iterations()) return false;
   const bool goes_on = step.start == inexact_in_.start && step.dt == inexact_in_.dt;
   inexact_ = goes_on ? inexact_ + 1 : 1;
