@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 """The checks of tools/stress find what is planted, and are silent where nothing is; what makes its exit code."""
 
+import json
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 from stress_state import P, at_rest, change, grids, sprekk
@@ -35,6 +38,19 @@ class Checks(unittest.TestCase):
         self.found(check_balance.fracture_mass(P, change("fractures", "conduit.aperture[m]", 0, 1e-9), 0), "fracture 0")
         self.found(check_balance.matrix_mass(P, change("matrix", "pore.pressure[Pa]", 7, 1e3)), "the matrix")
         self.found(check_balance.matrix_mass(P, [at_rest()], lambda start, stop, own: 1e-6 if own is None else 0.0), "the matrix")
+
+    def test_passes_leave_a_part_of_what_all_cells_take_up(self):
+        """The tolerance of passes is 1e-10, and 100 times that for the balance of all cells together: S |dp| + alpha |d eps_v|. A monolithic
+        scheme is held to a part of what one cell takes up."""
+        p = {**P, "alpha": 0.5}
+        instant = at_rest()
+        volume = (np.array(physics.stresses(p, 1.0)).mean() + 0.5 * (instant.cell("pore.pressure[Pa]") - P["initial"])) / physics.in_plane_modulus(p)
+        taken_up = (16 / 128 * (p["storage"] * abs(instant.cell("pore.pressure[Pa]") - P["initial"]) + 0.5 * abs(volume))).sum()
+        for scheme, lost, count in (("fixed_stress", 0.9e-8, 0), ("fixed_stress", 1.2e-8, 1), ("monolithic", 0.9e-8, 1)):
+            history = {"time[s]": np.array([1.0]), "fluid_balance_error[m^2]": np.array([lost * taken_up]),
+                       **{f"fluid_{name}[m^2]": np.zeros(1) for name in ("stored", "injected", "outflow")}}
+            found = check_balance.cumulative_balance({**p, "solved": scheme, "permeability": 1e-30}, [instant], history)
+            self.assertEqual(len(found), count, (scheme, lost, found))
 
     def test_what_passes_through_a_fracture_may_round(self):
         """Millions times what stays: a relative 1e-14 of it is no loss, 1e-11 is."""
@@ -136,6 +152,21 @@ class Summary(unittest.TestCase):
         self.assertFalse(summary.cuts_too_often(reports(100, 2)))
         self.assertTrue(summary.cuts_too_often(reports(100, 3)))
         self.assertFalse(summary.cuts_too_often(reports(10, 10)))
+
+    def test_steps_that_the_fallback_has_solved_are_told(self):
+        report = {"iterations": [9], "accepted": 5, "rejected": 2, "outcome": "answer", "balance": 0.0, "cuts": {"singular": 0, "not converged": 1},
+                  "seconds": 1.0, "in turn": True, "together": 3, "monolithic cuts": 1}
+        text = summary.text([report, {**report, "together": 0, "rejected": 0, "monolithic cuts": 0}])
+        self.assertIn("3 steps in 1 scenes by 'fallback: monolithic'; the monolithic scheme cuts 1 steps of the scenes with cuts", text)
+        self.assertNotIn("solved in turn", summary.text([{**report, "in turn": False}]))
+        self.assertEqual(summary.in_turn(report), "(3 of 5 steps by 'fallback: monolithic') (monolithic: 1 cuts) ")
+        self.assertEqual(summary.in_turn({**report, "together": 0, "rejected": 0}), "")
+
+    def test_notes_count_the_steps_of_the_fallback(self):
+        with tempfile.TemporaryDirectory() as folder:
+            notes = [{"topic": "steps solved together", "steps": 4}, {"topic": "pore.pressure beyond the loads", "steps": 2}]
+            (Path(folder) / "run.json").write_text(json.dumps({"notes": notes}))
+            self.assertEqual(written.steps_solved_together(Path(folder)), 4)
 
     def test_what_makes_the_exit_code_of_scenes_that_grow(self):
         def failing(text):

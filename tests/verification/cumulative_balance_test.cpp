@@ -90,7 +90,7 @@ TEST(CumulativeBalance, CloseWhereASchemeIterates) {
     SCOPED_TRACE(permeability);
     std::vector<Override> changes = scene(permeability);
     changes.push_back({"schedule",
-                       "[{iterate: {steps: [{solve: [pore, conduit], stabilize: fixed_stress}, "
+                       "[{iterate: {fallback: none, steps: [{solve: [pore, conduit], stabilize: fixed_stress}, "
                        "{solve: [rock, contact]}]}}]"});
     SceneRun run("tutorial/first_scene.yaml", changes);
     EXPECT_LT(error_of_balance(run), 1e-5);

@@ -70,6 +70,10 @@ class DivergingSplit(unittest.TestCase):
             run = self.run_split(0.9, folder + "/out")
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertGreater(max(self.passes(folder + "/out")), 100)  # 0.9^n below 1e-8
+            with open(Path(folder) / "out/coupling.csv", newline="", encoding="utf-8") as file:
+                changes = [float(row["update[1]"]) for row in csv.DictReader(file) if row["schedule"] == "iterate"]
+            for before, after in list(zip(changes, changes[1:]))[10:100]:
+                self.assertAlmostEqual(after / before / 0.9, 1, delta=0.02)
 
 
 if __name__ == "__main__":

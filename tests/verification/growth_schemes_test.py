@@ -10,7 +10,7 @@ from wings import COUPLERS, SCENE
 HOUR = 3600
 SWITCH, END = 4400, 6400  # s: both wings have grown within steps before, and the step in between is not cut
 TOGETHER = "[{solve: [pore, rock, conduit, contact]}]"
-FIXED_STRESS = """[{iterate: {until: {relative: 1e-8}, accelerate: {anderson: 5}, steps: [{solve: [pore, conduit], stabilize: fixed_stress},
+FIXED_STRESS = """[{iterate: {fallback: none, until: {relative: 1e-8}, accelerate: {anderson: 5}, steps: [{solve: [pore, conduit], stabilize: fixed_stress},
   {solve: [rock, contact]}]}}]"""
 SUBSTEPS = "[{subcycle: {count: 4, steps: [{solve: [pore, rock, conduit, contact]}]}}]"
 GROW = "{grow: tips, settle: [rock, contact], update: within_step}"

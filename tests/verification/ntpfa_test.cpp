@@ -285,7 +285,7 @@ TEST(Ntpfa, MandelIsOfSecondOrderAtOnceAndInTurn) {
   const double in_turn = mandel_error(
       "{size: 0.05 m}",
       {{"schedule",
-        "[{iterate: {until: {at_most: 60}, steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}]"}},
+        "[{iterate: {fallback: none, until: {at_most: 60}, steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}]"}},
       1e-5);
   EXPECT_NEAR(in_turn, fine, 1e-5);
 }

@@ -138,7 +138,7 @@ couplers: [{type: wall_traction, between: [rock, contact, conduit]}]
     def test_split_schemes_and_substeps(self):
         whole = self.injection()
         both = "[{solve: conduit}, {solve: [rock, contact]}]"
-        iterated = f"schedule=[{{iterate: {{until: {{relative: 1e-10, at_most: 60}}, steps: {both}}}}}]"
+        iterated = f"schedule=[{{iterate: {{fallback: none, until: {{relative: 1e-10, at_most: 60}}, steps: {both}}}}}]"
         self.assert_same(self.injection(iterated), whole, 1e-6)
         substeps = "schedule=[{subcycle: {count: 2, steps: [{solve: [rock, contact, conduit]}]}}]"
         self.assert_same(self.injection(substeps), whole, 1e-3)

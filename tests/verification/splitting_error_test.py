@@ -107,7 +107,7 @@ class SplittingError(unittest.TestCase):
         self.assertNotIn("without iterating", said)
 
     def test_iterated_systems_have_no_columns(self):
-        run, said = self.run_scene("iterated", MANDEL, f"schedule=[{{iterate: {{steps: {FLOW_FIRST}}}}}]", "time.end=1079 s")
+        run, said = self.run_scene("iterated", MANDEL, f"schedule=[{{iterate: {{fallback: none, steps: {FLOW_FIRST}}}}}]", "time.end=1079 s")
         self.assertNotIn("splitting_error[1]", run.history)
         self.assertNotIn("without iterating", said)
 

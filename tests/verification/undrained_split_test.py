@@ -89,6 +89,22 @@ class UndrainedSplit(SceneRuns):
         for ours, other in zip(two["iterations[1]"], one["iterations[1]"]):
             self.assertLessEqual(abs(ours - other), 1)
 
+    @on_two_processes
+    def test_the_modulus_found_on_two_processes(self):
+        split, found = "{{solve: {}, stabilize: fixed_stress}}, {{solve: {}}}", "couplers.0.fixed_stress_modulus=found"
+        for scene, settings, groups in ((TERZAGHI, (), ("pore", "rock")), (MANDEL, SMALL_MANDEL, ("pore", "rock")),
+                                        (PAPER, SMALL_PAPER, ("[pore, conduit]", "[rock, contact]"))):
+            one, two = (self.run_scene(scene, *settings, found, iterated(split.format(*groups)), processes=count) for count in (1, 2))
+            self.expect_same(two, one, 1e-8)
+            # What passes show is found of both processes' cells: with half of them the factor would be another one, and so would passes.
+            passes = [[int(value) for value in run["iterations[1]"]] for run in (one, two)]
+            print(f"    found, {scene.stem}: {passes}", flush=True)
+            for ours, other in zip(*passes):
+                self.assertLessEqual(abs(ours - other), 1)
+            changes = [self.changes(run) for run in (one, two)]
+            for ours, other in zip(*(run[:4] for run in changes)):
+                self.assertAlmostEqual(other / ours, 1, delta=1e-4)
+
     def test_mistakes(self):
         for settings, said in ((("components.pore.storage=0 1/Pa", iterated(UNDRAINED)), "'stabilize: undrained' needs fluid that is stored"),
                                ((iterated("{solve: pore, stabilize: undrained}, {solve: rock}"),), "'stabilize: undrained' has no effect here"),

@@ -2,7 +2,7 @@
 
 import shutil
 
-from . import check_balance, check_contact, check_end, check_finite, check_growing, check_heat, check_pressure, check_wells, growing, physics, ranges, run, scene, swaps, written
+from . import check_balance, check_contact, check_end, check_finite, check_growing, check_heat, check_pressure, check_wells, growing, physics, ranges, run, scene, schemes, swaps, written
 
 
 def describe(p):
@@ -36,12 +36,21 @@ def check_fields(p, folder):
     return found + (more.failures(p, instants, history) if more else [])
 
 
+def cuts_of_the_monolithic_scheme(program, chosen, number, folder):
+    """The cuts of the same scene solved in one system; None where that gives no answer."""
+    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, schemes.MONOLITHIC, chosen.swapped)
+    ended = run.run(program, scene.write(p, folder / "monolithic"), folder / "monolithic/results", chosen.limit)
+    return written.iterations_of_steps(ended.folder)[2] if ended.code == 0 and not ended.timed_out else None
+
+
 def examine(program, chosen, number, folder, keep=False):
-    """{number, outcome, failures, iterations, accepted, rejected, seconds}; the folder is removed unless it is kept."""
+    """{number, outcome, failures, iterations, accepted, rejected, together, monolithic cuts, seconds}; the folder is removed unless it
+    is kept. Of a scene that is solved in turn and was cut, the monolithic scheme's cuts are counted as well."""
     p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme, chosen.swapped)
     shutil.rmtree(folder, ignore_errors=True)
     ended = run.run(program, scene.write(p, folder), folder / "results", chosen.limit)
-    report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0,
+    report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0, "together": 0,
+              "in turn": p.get("solved", schemes.MONOLITHIC) != schemes.MONOLITHIC, "monolithic cuts": 0,
               "balance": 0.0, "seconds": round(ended.seconds, 2), "scene": describe(p), "reason": "",
               "cuts": reasons_of_cuts(ended.stderr)}
     if check_end.is_refused(ended):
@@ -52,6 +61,9 @@ def examine(program, chosen, number, folder, keep=False):
         report["outcome"] = "gave up" if check_end.gave_up(ended) else "answer"
         report["reason"] = written.exit_record(ended.folder)["exit"]["reason"]
         report["iterations"], report["accepted"], report["rejected"] = written.iterations_of_steps(ended.folder)
+        report["together"] = written.steps_solved_together(ended.folder)
+        if report["in turn"] and report["rejected"]:
+            report["monolithic cuts"] = cuts_of_the_monolithic_scheme(program, chosen, number, folder)
         if report["accepted"] > 0:
             report["balance"] = check_balance.relative_error_of_balance(written.history(ended.folder))
             report["failures"] += check_fields(p, ended.folder)

@@ -15,6 +15,16 @@ def repeats(chosen, number):
     return f"tools/stress{physics.family_option(vars(chosen))} --seed {chosen.seed} --only {number}{extra}"
 
 
+def in_turn(report):
+    """Of a scene that is solved in turn: what the word 'answer' does not say."""
+    together = f"({report['together']} of {report['accepted']} steps by 'fallback: monolithic') " if report["together"] else ""
+    return together + (f"(monolithic: {told(report['monolithic cuts'])}) " if report["rejected"] and report["monolithic cuts"] != 0 else "")
+
+
+def told(cuts):
+    return "no answer" if cuts is None else f"{cuts} cuts"
+
+
 def lines_of(report, chosen):
     """One line for a scene that failed or gave up; with --only always one."""
     if report["failures"]:
@@ -24,7 +34,7 @@ def lines_of(report, chosen):
         return [f"gave up {repeats(chosen, report['number'])}   {report['reason']}   [{report['scene']}]"]
     if chosen.only is not None:
         return [f"{report['outcome']}: {report['rejected']} cuts, iterations {report['iterations']} {report['reason']} "
-                f"[{report['scene']}]"]
+                f"{in_turn(report)}[{report['scene']}]"]
     return []
 
 
@@ -36,6 +46,9 @@ def figures(reports):
     return {"scenes": len(reports), "outcomes": dict(Counter(report["outcome"] for report in reports)),
             "scenes with cuts": sum(1 for report in reports if report["rejected"]),
             "steps accepted": accepted, "steps cut": rejected,
+            "steps solved together": sum(report.get("together", 0) for report in reports),
+            "scenes with steps solved together": sum(1 for report in reports if report.get("together", 0)),
+            "steps that the monolithic scheme cuts in scenes with cuts": sum(report.get("monolithic cuts", 0) or 0 for report in reports),
             "steps cut, percent": round(100 * rejected / max(1, accepted + rejected), 3),
             "reasons of cuts": {name: sum(r["cuts"][name] for r in reports if r["outcome"] == "answer")
                                 for name in ("singular", "not converged")},
@@ -65,11 +78,14 @@ def cuts_too_often(reports, family="separate"):
 def text(reports):
     f = figures(reports)
     outcomes = ", ".join(f"{count} {name}" for name, count in sorted(f["outcomes"].items()))
+    in_turn_line = (f"\nsolved in turn: {f['steps solved together']} steps in {f['scenes with steps solved together']} scenes by 'fallback: monolithic'; "
+                    f"the monolithic scheme cuts {f['steps that the monolithic scheme cuts in scenes with cuts']} steps of the scenes with cuts"
+                    if any(report.get("in turn") for report in reports) else "")
     return (f"{f['scenes']} scenes: {outcomes}\n{f['steps accepted']} steps, {f['steps cut']} cut "
             f"({f['steps cut, percent']} %) in {f['scenes with cuts']} scenes; Newton iterations a step: median "
             f"{f['iterations, median']}, 99 % at most {f['iterations, 99 percent']}, most {f['iterations, most']}\n"
             f"places in answered scenes where steps were cut: {f['reasons of cuts']['singular']} singular systems, "
-            f"{f['reasons of cuts']['not converged']} without convergence")
+            f"{f['reasons of cuts']['not converged']} without convergence{in_turn_line}")
 
 
 def commit():

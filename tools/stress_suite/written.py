@@ -46,6 +46,11 @@ def iterations_of_steps(folder):
     return [int(i) for i in table.get("iterations[1]", [])], counters["steps accepted"], counters["steps rejected"]
 
 
+def steps_solved_together(folder):
+    """Accepted steps whose passes did not converge, and which `fallback: monolithic` has solved: as the run's note counts them."""
+    return sum(note["steps"] for note in exit_record(folder)["notes"] if note["topic"] == "steps solved together")
+
+
 def instants(folder):
     if not (folder / "matrix.pvd").exists():  # no time of output was reached
         return []
