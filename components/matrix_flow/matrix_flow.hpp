@@ -243,8 +243,8 @@ class MatrixFlow : public Component,
   Vector capacity_;                                                        ///< storage times area, m^2/Pa
   Operator capacity_of_pressure_;                                          ///< the same as a diagonal
   Operator outflow_of_pressure_;       ///< cells × cells: sum of fluxes out of each cell, an exchange
-  double largest_conductance_ = 0;     ///< largest sum of absolute entries of a row of it, m^2/(Pa s)
   Operator outflow_of_face_pressure_;  ///< cells × faces, an exchange
+  double largest_conductance_ = 0;     ///< largest sum of absolute entries of a row of both, m^2/(Pa s)
   /// The equations of the face pressures: faces × cells, faces × faces, faces × walls.
   Operator continuity_of_pressure_, continuity_of_face_pressure_, continuity_of_wall_flux_;
   Vector continuity_constant_;           ///< m^2/s, one a face: from boundary values and gravity
