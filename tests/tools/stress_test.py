@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 """The checks of tools/stress find what is planted, and are silent where nothing is; what makes its exit code."""
 
+import argparse
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 from stress_state import P, at_rest, change, grids, sprekk
-from stress_suite import check_balance, check_contact, check_finite, check_pressure, compare, physics, summary, written
+from stress_suite import check_balance, check_contact, check_finite, check_pressure, compare, examine, physics, summary, written
 
 
 class Checks(unittest.TestCase):
@@ -126,6 +129,30 @@ class Processes(unittest.TestCase):
         self.assertEqual(compare.differences(alone, history(5, 4, 0, 3.0), 0), [])
         self.assertEqual(len(compare.differences(alone, history(4, 4, 1, 3.0), 0)), 2)
         self.assertEqual(len(compare.differences(alone, history(5, 4, 0, 3.0001), 0)), 1)
+
+
+class Ends(unittest.TestCase):
+    """Runs that end before their first step are reported as others are."""
+
+    def report_of(self, text):
+        """Of a program that is a shell script: $4 is the folder of the results."""
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / "program"
+            program.write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
+            program.chmod(0o755)
+            chosen = argparse.Namespace(seed=1, family="heat", update="after_step", scheme="monolithic", swapped=False, limit=10)
+            return examine.examine(program, chosen, 0, Path(folder) / "scene")
+
+    def test_no_step(self):
+        record = '{"exit": {"code": 1, "reason": "REASON"}, "counters": {}}'
+        for reason, outcome in (("the step from 0 s over 1 s has no data: it says why", "gave up"), ("something else", "failed")):
+            report = self.report_of(f"mkdir -p $4; echo '{record.replace('REASON', reason)}' > $4/run.json; exit 1")
+            self.assertEqual((report["outcome"], report["accepted"], report["rejected"]), (outcome, 0, 0), report)
+
+    def test_no_results(self):
+        report = self.report_of("echo no room >&2; exit 1")
+        self.assertEqual(report["outcome"], "failed")
+        self.assertIn("no results: no room", report["failures"][0])
 
 
 class Summary(unittest.TestCase):
