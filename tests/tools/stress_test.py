@@ -37,7 +37,7 @@ class Checks(unittest.TestCase):
         self.found(check_balance.momentum(P, change("matrix", "rock.stress[Pa]", 5, 1e5)), "momentum")
         self.found(check_balance.fracture_mass(P, change("fractures", "conduit.aperture[m]", 0, 1e-9), 0), "fracture 0")
         self.found(check_balance.matrix_mass(P, change("matrix", "pore.pressure[Pa]", 7, 1e3)), "the matrix")
-        self.found(check_balance.matrix_mass(P, [at_rest()], lambda start, stop, own: 1e-6 if own is None else 0.0), "the matrix")
+        self.found(check_balance.matrix_mass(P, [at_rest()], lambda start, stop, own: (1e-6, 1e-6) if own is None else (0.0, 0.0)), "the matrix")
 
     def test_what_passes_through_a_fracture_may_round(self):
         """Millions times what stays: a relative 1e-14 of it is no loss, 1e-11 is."""
@@ -48,6 +48,13 @@ class Checks(unittest.TestCase):
             data["pore.wall_flux.plus[m/s]"] = data["pore.wall_flux.plus[m/s]"] + through
             data["pore.wall_flux.minus[m/s]"] = data["pore.wall_flux.minus[m/s]"] - through * (1 - lost)
             self.assertEqual(len(check_balance.fracture_mass(P, [instant], 0)), count)
+
+    def test_what_wells_exchange_has_a_last_digit(self):
+        """Two wells of given pressure exchange 1e6 times what stays: 1e-16 of it is no loss, 1e-15 is."""
+        through = 1e6 * physics.length(P) * P["aperture"]
+        for lost, count in ((1e-16, 0), (1e-15, 1)):
+            found = check_balance.fracture_mass(P, [at_rest()], 0, lambda start, stop, own: (lost * through, through))
+            self.assertEqual(len(found), count, found)
 
     def test_pressures(self):
         self.found(check_pressure.failures(P, change("matrix", "pore.pressure[Pa]", 3, 1e8)), "above")
