@@ -10,6 +10,7 @@ import tempfile
 from pathlib import Path
 
 SOURCE_FOLDERS = ("framework", "components", "couplers", "tests", "tools")
+ROOMS = ("framework/", "components/", "couplers/")
 # Outside headers that take seconds and hundreds of megabytes to compile, or may not meet each other.
 HEAVY = re.compile(r"^(Tpetra|Belos|MueLu|Ifpack2|Amesos2|Xpetra|Zoltan2|Teuchos|Kokkos|vtk|gmsh\.h|hdf5\.h|H5"
                    r"|muParser|yaml-cpp|umfpack|dmumps|mpi\.h)")
@@ -88,7 +89,7 @@ def heavy_violations(includes_of):
 
 def module_violations(path, includes):
     """Libraries that are slow to load are reached by modules (framework/module/module.hpp)."""
-    if not path.startswith(("framework/", "components/", "couplers/")) or "_module/" in path:
+    if not path.startswith(ROOMS) or "_module/" in path:
         return
     for header in includes:
         if OF_MODULES.match(header):
@@ -154,7 +155,7 @@ def file_cycle_violations(includes_of):
     """Files that need each other (a header and its source are one): none could be read alone."""
     edges = {}
     for path, includes in includes_of.items():
-        if path.startswith(("framework/", "components/", "couplers/")):
+        if path.startswith(ROOMS):
             stem = path.rpartition(".")[0]
             edges.setdefault(stem, set()).update({header.rpartition(".")[0] for header in includes} - {stem})
     reachable = closure(edges)
@@ -165,12 +166,12 @@ def file_cycle_violations(includes_of):
 
 
 def cycle_violations(edges):
-    """Folders of the framework that need each other: neither could be used or tested alone."""
+    """Folders that need each other: neither could be used or tested alone."""
     reachable = closure(edges)
     for folder in sorted(reachable):
         for target in sorted(reachable[folder]):
             if folder < target and folder in reachable.get(target, set()):
-                yield f"framework/{folder} and framework/{target} include each other"
+                yield f"{folder} and {target} include each other"
 
 
 def room_violations(root, paths):
@@ -196,10 +197,10 @@ def violations(root):
         found += module_violations(path, includes)
         found += physics_violations(path, text)
         found += counterpart_violations(root, path, includes)
-        parts = path.split("/")
-        if parts[0] == "framework" and len(parts) > 2:
-            needed = {header.split("/")[1] for header in includes if header.startswith("framework/") and header.count("/") > 1}
-            edges.setdefault(parts[1], set()).update(needed - {parts[1]})
+        if path.startswith(ROOMS) and path.count("/") > 1:
+            folder = path.rpartition("/")[0]
+            needed = {header.rpartition("/")[0] for header in includes if header.startswith(ROOMS) and header.count("/") > 1}
+            edges.setdefault(folder, set()).update(needed - {folder})
     found += room_violations(root, includes_of)
     found += [*stale_allowances(root), *heavy_violations(includes_of)]
     return found + [*cycle_violations(edges), *file_cycle_violations(includes_of)]
@@ -233,6 +234,8 @@ PLANTED = (
     ("framework/b/b.cpp", '#include "framework/a/a.hpp"\n', "framework/a and framework/b include each other"),
     ("components/flow/flow.cpp", '#include "components/flow/mpfa/mpfa.hpp"\n',
      "components/flow/flow, components/flow/mpfa/mpfa include each other"),
+    ("framework/a/a.hpp", '#include "framework/a/inner/y.hpp"\n', "framework/a and framework/a/inner include each other"),
+    ("components/flow/other.cpp", '#include "components/flow/mpfa/mpfa.hpp"\n', "components/flow and components/flow/mpfa include each other"),
     ("framework/b/private.hpp", '#include "framework/b/b.hpp"\n', "framework/b/b, framework/b/private include each other"),
     ("framework/c/c.cpp", "", "framework/c has no README.md"),
 )
@@ -240,6 +243,8 @@ PLANTED = (
 CLEAN = {
     "framework/a/a.hpp": '#include "framework/b/b.hpp"\n#include <vector>\n// the pressure of "pore.pressure"\n',
     "framework/a/a.cpp": '#include <hdf5.h>\nconst char* link = "https://a.b/constraint";\n/* traction\n*/\n',
+    "framework/a/inner/x.cpp": '#include "framework/a/a.hpp"\n',
+    "framework/a/inner/y.hpp": "",
     "framework/scene/probe.cpp": 'auto text = "The field, for example pore.pressure.";\n',
     "framework/b/b.hpp": "",
     "framework/b/private.hpp": "#include <hdf5.h>\n",
@@ -254,7 +259,7 @@ CLEAN = {
     "tests/framework/a/together_test.cpp": '#include "framework/a/a.hpp"\n',
     "tests/verification/mandel_test.cpp": "",
     **{f"{folder}/README.md": "What belongs here.\n" for folder in (
-        "framework/a", "framework/b", "framework/b/x_module", "framework/scene", "components/capabilities", "components/flow", "components/flow/mpfa")},
+        "framework/a", "framework/a/inner", "framework/b", "framework/b/x_module", "framework/scene", "components/capabilities", "components/flow", "components/flow/mpfa")},
 }
 
 
