@@ -48,7 +48,7 @@ class Assembly {
   void derivative(const Field&, const Field&, Operator&&, double = 1, const Vector* = nullptr) = delete;
   /// A block of this assembly alone that is an exchange: the sum over all rows is zero in each column.
   void exchange_derivative(const Field& row, const Field& column, SparseMatrix&& block);
-  /// The same with a diagonal block.
+  /// d residual(row) / d column += a diagonal block with these entries.
   void diagonal(const Field& row, const Field& column, const Vector& entries);
 
   /// residual(row) += factor · diag(weights) · (matrix · column), with its derivative.

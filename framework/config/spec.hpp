@@ -105,7 +105,7 @@ class Spec {
 
 /// The text that `sprekk explain` prints.
 std::string explain(const Spec& spec);
-/// The same as Markdown, for docs/reference.
+/// The explanation as Markdown, for docs/reference.
 std::string reference_page(const Spec& spec);
 /// The JSON schema (draft 2020-12) of a map read by `spec`, as JSON text.
 std::string json_schema(const Spec& spec);
