@@ -19,7 +19,7 @@ namespace sprekk::matrix_flow {
 FluxOperators discretize_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
                              const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 
-/// Like discretize_rt0, with lumped_flux_mass and linear pressures around tips.
+/// The same with lumped_flux_mass, and linear pressures around tips.
 FluxOperators discretize_lumped_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
                                     const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 
