@@ -58,7 +58,7 @@ Growing* find_growing(const GrowOptions& options, const ScheduleContext& context
   if (!growing)
     throw InputError(options.origin, "component '" + options.component + "' does not grow",
                      std::string("a 'grow' step needs a component that ") + Growing::promise,
-                     "name a component of type fine_fracture/…");
+                     "name a component with tips of fractures");
   return growing;
 }
 

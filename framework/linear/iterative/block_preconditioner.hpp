@@ -1,4 +1,4 @@
-// The block preconditioner of coupled poromechanics with fractures.
+// The block preconditioner of an elastic and an elliptic block that are coupled, with interfaces.
 #pragma once
 
 #include <memory>
