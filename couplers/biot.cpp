@@ -118,6 +118,7 @@ class Biot : public Coupler,
     if (rock_.bulk_modulus().values().minCoeff() <= 0)
       throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
                        "its stiffness is anisotropic", "give 'bulk_modulus' to the component");
+    tell_storage();
     rock_.accept_pore_pressure(fluid_.pressure(), alpha_in_fluid_, fluid_.initial_pressure());
     if (options_.fixed_stress_modulus != "bulk" && (state_ == nullptr || !state_->stiffness(0)))
       throw InputError(options_.modulus_origin, "coupler " + name() + " does not know lambda and G of the rock",
@@ -133,6 +134,7 @@ class Biot : public Coupler,
       rock_.change_alpha(fluid_.pressure(), alpha_in_fluid_);
     }
     use_grains();
+    tell_storage();
   }
 
   bool allows_stages() const override { return true; }
@@ -344,6 +346,21 @@ class Biot : public Coupler,
     found_.rock_is_solved(fluid_.pressure().now(), stored, least, most);
   }
 
+  /// As for a pressure that differs between neighbouring cells: rock around them shortens along one axis.
+  void tell_storage() {
+    const std::uint64_t version = alpha_.version() + rock_.bulk_modulus().version() + grains_version_;
+    if (decoupled_ || version == told_version_) return;
+    told_version_ = version;
+    Vector storage(mesh_.cell_count());
+    for (int c = 0; c < mesh_.cell_count(); ++c) {
+      const bool knows_stiffness = state_ != nullptr && state_->stiffness(c);
+      const double modulus = knows_stiffness ? moduli(c).first : rock_.bulk_modulus()[c];
+      storage[c] = grain_capacity_[c] / mesh_.cell_measure[c];
+      if (!options_.one_way) storage[c] += alpha_in_fluid_[c] * alpha_in_fluid_[c] / modulus;
+    }
+    fluid_.accept_rock_storage(storage);
+  }
+
   void use_grains() {
     const Property* porosity = fluid_.porosity_for_storage();
     const std::uint64_t version =
@@ -379,7 +396,7 @@ class Biot : public Coupler,
   Property alpha_;
   Vector alpha_in_fluid_;  ///< the same where there is a flow, 0 elsewhere
   Vector grain_capacity_;  ///< (alpha − phi)/K V
-  std::uint64_t grains_version_ = 0;
+  std::uint64_t grains_version_ = 0, told_version_ = 0;
   Operator grains_;  ///< grain_capacity_ as a diagonal
   bool decoupled_ = false, has_grains_ = false;
 };

@@ -28,7 +28,6 @@ TYPES = re.compile(r"\b(mpfa|mpsa|tpfa|rt0|ntpfa|fem|coulomb|contacts?|matrix_(?
 ALLOWED_TEXTS = (
     ("framework/command_line/manual_page.cpp", r"sprekk run first_scene.yaml --set materials.friction=0.9 -o results/rough\n",
      "an example of a call"),
-    ("framework/command_line/command_line.cpp", "For example matrix_flow/mpfa", "an example of a name in a scene"),
     ("framework/config/dimension.cpp", "temperature", "a name of a unit's dimension"),
     ("framework/config/dimension.cpp", "pressure", "a name of a unit's dimension"),
     ("framework/config/dimension.cpp", "inverse pressure", "a name of a unit's dimension"),
@@ -46,6 +45,12 @@ MOST_FILES = 45
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
 COMMENT = re.compile(r'(R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 TEXT = re.compile(r'R"\((.*?)\)"|"((?:\\.|[^"\\\n])*)"', re.DOTALL)
+
+
+# How a type of component or coupler registers itself.
+REGISTERED = re.compile(r'Register(?:Component|Coupler|Contact)<[^;"]*?>\s+\w+\(\s*"([^"]+)"')
+# Parts of names of types that texts need as words.
+ENGLISH = ("contact", "wells", "prescribed", "limited", "penalty")
 
 
 def sources(root):
@@ -116,6 +121,32 @@ def physics_violations(path, text):
         said = around[0].group(1) or around[0].group(2)
         if not any(path == file and said == allowed for file, allowed, _ in ALLOWED_TEXTS):
             yield f"{path}:{line} says {match.group()} in a text (the framework knows no physics)"
+
+
+def types_of_the_tree(root):
+    """The names by which components and couplers of this tree register themselves, and of components also what stands
+    before and behind the slash, where it is no word of English."""
+    names = set()
+    for folder in ("components", "couplers"):
+        for file in sorted((root / folder).rglob("*.cpp")):
+            names.update(REGISTERED.findall(file.read_text(encoding="utf-8")))
+    parts = {part for name in names if "/" in name for part in name.split("/")}
+    return sorted(names | {part for part in parts if part not in ENGLISH})
+
+
+def type_violations(path, text, types):
+    """No type of a component or coupler is named in the framework, not in a comment either."""
+    if not path.startswith("framework/"):
+        return
+    for name in types:
+        for match in re.finditer(rf"(?<![\w/]){re.escape(name)}(?!\w)", text):
+            if is_in_include(text, match.start()):
+                continue
+            yield f"{path}:{text.count(chr(10), 0, match.start()) + 1} names the type {match.group()} (no type is named in the framework)"
+
+
+def is_in_include(text, at):
+    return text[text.rfind("\n", 0, at) + 1:at].lstrip().startswith("#")
 
 
 def stale_allowances(root):
@@ -191,11 +222,13 @@ def violations(root):
     found = []
     edges = {}
     includes_of = {}
+    types = types_of_the_tree(root)
     for path, text in sources(root):
         includes = includes_of[path] = INCLUDE.findall(text)
         found += include_violations(path, includes)
         found += module_violations(path, includes)
         found += physics_violations(path, text)
+        found += type_violations(path, text, types)
         found += counterpart_violations(root, path, includes)
         if path.startswith(ROOMS) and path.count("/") > 1:
             folder = path.rpartition("/")[0]
@@ -228,6 +261,10 @@ PLANTED = (
     ("framework/a/a.cpp", 'auto text = "pore";  // "pore" is a name\n', "framework/a/a.cpp:1 says pore in a text"),
     ("framework/a/a.cpp", 'auto text = "name a component of type fine_fracture/…";\n', "says fine_fracture in a text"),
     ("framework/a/a.cpp", 'auto text = "such as that of contact.";\n', "says contact in a text"),
+    ("framework/a/a.cpp", "\n// as flow/two_point does\n", "framework/a/a.cpp:2 names the type flow/two_point"),
+    ("framework/a/a.cpp", "/* two_point */\n", "framework/a/a.cpp:1 names the type two_point"),
+    ("framework/a/a.cpp", 'auto text = "of type flow/…";\n', "names the type flow"),
+    ("framework/a/a.hpp", "// what the coupler wall_exchange wants\n", "names the type wall_exchange"),
     ("framework/scene/probe.cpp", 'auto text = "The field, for example pore.stress.";\n', "says stress in a text"),
     ("framework/scene/probe.cpp", "// no example\n", "allows a text that framework/scene/probe.cpp has no more"),
     ("tests/framework/a/gone_test.cpp", '#include "framework/b/b.hpp"\n', "tests/framework/a/gone_test.cpp tests nothing"),
@@ -253,7 +290,9 @@ CLEAN = {
     "components/capabilities/c.hpp": '#include "framework/a/a.hpp"\n',
     "components/flow/flow.hpp": '#include "components/capabilities/c.hpp"\ndouble pressure = 0;\n',
     "components/flow/mpfa/mpfa.cpp": '#include "components/flow/flow.hpp"\n',
-    "couplers/b.cpp": '#include "components/capabilities/c.hpp"\n#include "couplers/helper.hpp"\n',
+    "components/flow/two_point.cpp": 'const RegisterComponent<TwoPoint,\n    Options> registration(\n    "flow/two_point");\n',
+    "couplers/b.cpp": '#include "components/capabilities/c.hpp"\n#include "couplers/helper.hpp"\n'
+                      'const RegisterCoupler<Wall, Options> registration("wall_exchange");\n',
     "tests/components/flow/mpfa_test.cpp": '#include "couplers/b.hpp"\n',
     "tests/framework/a/a_test.cpp": '#include "components/flow/flow.hpp"\n',
     "tests/framework/a/together_test.cpp": '#include "framework/a/a.hpp"\n',

@@ -27,6 +27,9 @@ class MatrixFluid {
   /// The diffusivity of the fluid in a cell whose volume does not change, along the direction that conducts best,
   /// m^2/s; infinite without storage.
   virtual double diffusivity(int cell) const = 0;
+  /// Tells what the volume of the rock stores beside the fluid's own storage where it follows the pressure, 1/Pa, one a
+  /// cell: a scale for how fast pressures diffuse. To be called by Part::evaluate_data.
+  virtual void accept_rock_storage(const Vector& /*storage*/) {}
   /// Whether there is a flow in a cell. Where there is none, the pressure stays the initial one, and no part may add
   /// anything to the row of the cell.
   virtual bool is_in_cell(int /*cell*/) const { return true; }

@@ -128,11 +128,15 @@ void MatrixFlow::use_operators() {
   SPREKK_ASSERT(operators_.flux_cell.cols() == mesh_.cell_count(), operators_.flux_cell.cols(), mesh_.cell_count());
   SPREKK_ASSERT(operators_.flux_boundary.cols() == mesh_.face_count(), operators_.flux_boundary.cols());
   SPREKK_ASSERT(is_finite(operators_.flux_cell) && is_finite(operators_.flux_boundary));
+  if (face_pressure_) outflow_of_face_pressure_ = outflow_of(operators_.faces.flux);
   largest_conductance_ = 0;
   const SparseMatrix& outflow = outflow_of_pressure_.entries();
-  for (int row = 0; row < outflow.rows(); ++row)
-    largest_conductance_ = std::max(largest_conductance_, outflow.row(row).cwiseAbs().sum());
-  if (face_pressure_) outflow_of_face_pressure_ = outflow_of(operators_.faces.flux);
+  for (int row = 0; row < outflow.rows(); ++row) {
+    double sum = outflow.row(row).cwiseAbs().sum();
+    // In flat cells these are much larger, and cancel.
+    if (face_pressure_) sum += outflow_of_face_pressure_.entries().row(row).cwiseAbs().sum();
+    largest_conductance_ = std::max(largest_conductance_, sum);
+  }
   if (is_limited_ && !is_sealed_) use_limited();
   if (!wall_flux_) {
     if (face_pressure_) use_face_operators();

@@ -120,6 +120,7 @@ class MatrixFlow : public Component,
   double largest_given_pressure() const override;
   const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
   void change_viscosity(const Vector& viscosity) override;
+  void accept_rock_storage(const Vector& storage) override { rock_storage_ = storage; }
   Field& wall_flux() override { return *wall_flux_; }
   double diffusivity(int cell) const override;
   bool is_in_cell(int cell) const override { return inside_.empty() || inside_[cell]; }
@@ -145,6 +146,12 @@ class MatrixFlow : public Component,
 
  protected:
   const Mesh& mesh() const { return mesh_; }
+  /// The storage of a cell with that of the rock around its fluid, 1/Pa.
+  double whole_storage(int cell) const { return storage_[cell] + (rock_storage_.size() > 0 ? rock_storage_[cell] : 0); }
+  /// Another number for another mobility.
+  std::uint64_t mobility_version() const { return mobility_version_; }
+  /// Lets begin_step discretize, although mesh and mobility are as before.
+  void discretize_anew() { discretized_mesh_ = 0; }
 
  private:
   /// The flow at one state of the pressure, without the fluxes through walls.
@@ -217,6 +224,7 @@ class MatrixFlow : public Component,
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, 3> permeability_;  ///< xx, yy, xy
   Property viscosity_, porosity_, compressibility_, storage_;
+  Vector rock_storage_;  ///< see accept_rock_storage; empty if no coupler has told it
   bool properties_change_ = false;
   bool viscosity_is_given_ = false;            ///< by a coupler
   std::vector<Tensor> mobility_;               ///< m^2/(Pa s), one a cell
@@ -236,8 +244,8 @@ class MatrixFlow : public Component,
   Vector capacity_;                                                        ///< storage times area, m^2/Pa
   Operator capacity_of_pressure_;                                          ///< the same as a diagonal
   Operator outflow_of_pressure_;       ///< cells × cells: sum of fluxes out of each cell, an exchange
-  double largest_conductance_ = 0;     ///< largest sum of absolute entries of a row of it, m^2/(Pa s)
   Operator outflow_of_face_pressure_;  ///< cells × faces, an exchange
+  double largest_conductance_ = 0;     ///< largest sum of absolute entries of a row of both, m^2/(Pa s)
   /// The equations of the face pressures: faces × cells, faces × faces, faces × walls.
   Operator continuity_of_pressure_, continuity_of_face_pressure_, continuity_of_wall_flux_;
   Vector continuity_constant_;           ///< m^2/s, one a face: from boundary values and gravity

@@ -1,13 +1,16 @@
 // A discretization of the flux on a mesh that has changed in a few places.
 #pragma once
 
+#include <functional>
+#include <type_traits>
+
 #include "components/matrix_flow/flux_operators.hpp"
 #include "framework/mesh/mesh_change.hpp"
 
 namespace sprekk::matrix_flow {
 
 /// A discretization of the flux: see discretize_mpfa.
-using Discretize = DiscretizeFlux;
+using Discretize = std::function<std::remove_pointer_t<DiscretizeFlux>>;
 
 /// The arguments of a discretization of the flux, for all nodes.
 struct FlowInputs {

@@ -3,7 +3,7 @@
 //
 //   struct Options { Data permeability; double eta = 1.0 / 3; };
 //   Options options;
-//   Spec spec("matrix_flow/mpfa", "Darcy flow in the matrix, multi-point flux approximation.");
+//   Spec spec("role/name", "What a component of this type does, in one sentence.");
 //   spec.data("permeability", options.permeability,
 //             {.unit = "m^2", .range = positive(), .doc = "Permeability of the rock.", .source = "Eq. 6 of the paper",
 //              .material = true});

@@ -97,4 +97,29 @@ LumpedFluxMass lumped_flux_mass(const Mesh& mesh, int cell, const Tensor& mobili
   return {share * lumped + (1 - share) * mass_of_triangle(mesh, cell, resistance), share};
 }
 
+MassForShortSteps mass_for_short_steps(const Mesh& mesh, int cell, const Tensor& mobility) {
+  const FluxMass mass = flux_mass(mesh, cell, mobility);
+  if (mass.rows() == 4) {
+    const FluxMass added = lumped_flux_mass(mesh, cell, mobility).mass - mass;
+    double until = 0;
+    for (int k = 0; k < 2; ++k)  // 1 1^T is 4 for the sum of two faces
+      until = std::max(until, (added(k, k) + added(k + 2, k + 2) + 2 * added(k, k + 2)) / 4);
+    return {added, until};
+  }
+  // With A = M^-1 and a = A 1: the inverse of M + x 1 1^T is A − x a a^T/(1 + x sum a).
+  constexpr double most_resistance = 3;  // x sum a
+  const FluxMass conductance = mass.inverse();
+  const Eigen::Vector3d of_cell = conductance.rowwise().sum();
+  double resistance = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double positive = conductance(i, j) * of_cell.sum(), exchanged = of_cell[i] * of_cell[j];
+    if (positive <= 0) continue;
+    const bool is_enough = (1 + most_resistance) * positive <= most_resistance * exchanged;
+    resistance = std::max(resistance, is_enough ? positive / (exchanged - positive) : most_resistance);
+  }
+  const double until = resistance / of_cell.sum();
+  return {FluxMass::Constant(3, 3, until), until};
+}
+
 }  // namespace sprekk::matrix_flow

@@ -34,4 +34,23 @@ struct LumpedFluxMass {
 };
 LumpedFluxMass lumped_flux_mass(const Mesh& mesh, int cell, const Tensor& mobility);
 
+/// What steps that are short against the diffusion time of a cell add to flux_mass. With M alone, some entries of the
+/// fluxes' conductances M^-1 have the wrong sign, and where the cell stores much more than flows in a step, the fluxes
+/// through the other faces of a cell oppose the one that enters it (Hoteit, Mosé, Philippe, Ackerer and Erhel, Int. J.
+/// Numer. Meth. Engng 55 (2002) 1373: below h^2/(6 D) in one dimension). The balance of the cell acts on its fluxes as
+/// dt/(S V) 1 1^T beside M does, so what a short step lacks of it is added to M:
+/// - triangles: `added` = `until` 1 1^T, with the least number `until` for which M + added has an inverse without
+///   positive entries off the diagonal; without obtuse angles that is the lumped matrix but for the point of p. It does
+///   not exist from a right angle on, and is at most 3/(1^T M^-1 1) (`most_resistance`).
+/// - quadrilaterals: `added` completes M to the lumped matrix, and `until` follows from pairs of opposite faces.
+/// Both keep linear pressures exact, with p at the centre of the cell. In triangles, steady flow without sources is as
+/// without it at any share.
+struct MassForShortSteps {
+  FluxMass added;
+  double until;  ///< dt/(S V), Pa s/m^2, from which on nothing is added; 0 for never
+};
+/// The share of `added` in a step with this dt/(S V).
+inline double share_for(double step, double until) { return step < until ? 1 - step / until : 0; }
+MassForShortSteps mass_for_short_steps(const Mesh& mesh, int cell, const Tensor& mobility);
+
 }  // namespace sprekk::matrix_flow

@@ -154,9 +154,20 @@ FluxOperators operators_of(const Mesh& mesh, const Entries& entries) {
 FluxOperators discretize_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
                              const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
   check_conditions(mesh, mobility, conditions, nodes);
+  return discretize_rt0_for_short_steps(mesh, mobility, conditions, std::vector<double>(mesh.cell_count(), 0));
+}
+
+FluxOperators discretize_rt0_for_short_steps(const Mesh& mesh, const std::vector<Tensor>& mobility,
+                                             const std::vector<FlowCondition>& conditions,
+                                             const std::vector<double>& shares) {
+  check_conditions(mesh, mobility, conditions, {});
   check_mobility(mobility);
+  SPREKK_EXPECT(static_cast<int>(shares.size()) == mesh.cell_count(), shares.size(), mesh.cell_count());
   std::vector<FluxMass> masses;
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) masses.push_back(flux_mass(mesh, cell, mobility[cell]));
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    masses.push_back(flux_mass(mesh, cell, mobility[cell]));
+    if (shares[cell] > 0) masses.back() += shares[cell] * mass_for_short_steps(mesh, cell, mobility[cell]).added;
+  }
   const TipTerms tips(mesh, mobility, conditions, masses);
   Entries entries(mesh, conditions);
   for (int cell = 0; cell < mesh.cell_count(); ++cell) entries.add(cell, masses[cell], tips.of(cell));

@@ -4,11 +4,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <numbers>
 
 #include "components/matrix_flow/rt0/flux_mass.hpp"
 #include "components/matrix_flow/rt0/tip_terms.hpp"
@@ -26,9 +28,10 @@ using OfPoint = std::function<double(const Point&)>;
 /// With the pressures at the centres of cells and faces, and the fluxes of faces, of an exact solution: all operators
 /// give the same fluxes and traces, and the equations of the faces hold.
 void expect_exact(const Mesh& mesh, const std::vector<Tensor>& mobility, const OfPoint& pressure,
-                  const std::function<double(int)>& flux, double tolerance) {
+                  const std::function<double(int)>& flux, double tolerance, double share = 0) {
   const auto conditions = mixed_conditions(mesh);
-  const FluxOperators operators = discretize_rt0(mesh, mobility, conditions);
+  const FluxOperators operators =
+      discretize_rt0_for_short_steps(mesh, mobility, conditions, std::vector<double>(mesh.cell_count(), share));
   Vector p(mesh.cell_count()), h(mesh.face_count()), b = Vector::Zero(mesh.face_count());
   for (int c = 0; c < mesh.cell_count(); ++c) p[c] = pressure(mesh.cell_center[c]);
   for (int f = 0; f < mesh.face_count(); ++f) {
@@ -58,10 +61,11 @@ TEST(Rt0, IsExactForLinearPressuresInAnisotropicRock) {
   Tensor mobility;
   mobility << 3, 1.2, 1.2, 0.7;
   const Point gradient(1.3, -0.4);
-  for (const Mesh& mesh : meshes())
-    expect_exact(
-        mesh, std::vector<Tensor>(mesh.cell_count(), mobility), [&](const Point& x) { return 2 + gradient.dot(x); },
-        [&](int f) { return -test::face_vector(mesh, f).dot(mobility * gradient); }, 1e-11);
+  for (const double share : {0.0, 0.6, 1.0})
+    for (const Mesh& mesh : meshes())
+      expect_exact(
+          mesh, std::vector<Tensor>(mesh.cell_count(), mobility), [&](const Point& x) { return 2 + gradient.dot(x); },
+          [&](int f) { return -test::face_vector(mesh, f).dot(mobility * gradient); }, 1e-11, share);
 }
 
 /// Layers of mobility k below and 1 above y = 1/2. The pressure y / k has the flux (0, -1).
@@ -195,6 +199,61 @@ TEST(LumpedFluxMass, GoesOverToTheOtherBeforeARightAngle) {
           << cotangent;
     }
   }
+}
+
+/// The largest entry off the diagonal of the matrix that is left for the pressures of faces when the flow and the
+/// balance of a cell are eliminated in a step with this dt/(S V), over the largest on it.
+double largest_off_diagonal(const Mesh& mesh, const Tensor& mobility, double step) {
+  const MassForShortSteps more = mass_for_short_steps(mesh, 0, mobility);
+  Eigen::MatrixXd mass = flux_mass(mesh, 0, mobility) + share_for(step, more.until) * more.added;
+  mass.array() += step;
+  Eigen::MatrixXd inverse = mass.inverse();
+  const double scale = inverse.diagonal().maxCoeff();
+  inverse.diagonal().setConstant(-scale);
+  return inverse.maxCoeff() / scale;
+}
+
+TEST(MassForShortSteps, LeavesNoPositiveEntryInAcuteTriangles) {
+  const Mesh equilateral = mesh_of({Point(0, 0), Point(1, 0), Point(0.5, std::sqrt(0.75))});
+  const MassForShortSteps more = mass_for_short_steps(equilateral, 0, 2 * Tensor::Identity());
+  const FluxMass lumped = lumped_flux_mass(equilateral, 0, 2 * Tensor::Identity()).mass;
+  EXPECT_LT((flux_mass(equilateral, 0, 2 * Tensor::Identity()) + more.added - lumped).norm(), 1e-14);
+  // dt/(S V) for a step of the 48th part of the side squared over the diffusivity k/S.
+  EXPECT_NEAR(more.until, 1 / (48 * 2 * equilateral.cell_measure[0]), 1e-14);
+  Tensor mobility;
+  mobility << 3, 0.4, 0.4, 2;
+  for (const Mesh& mesh : {equilateral, mesh_of({Point(0, 0), Point(1, 0.1), Point(0.4, 0.9)}),
+                           mesh_of({Point(0, 0), Point(1, 0.3), Point(0.3, 0.9)})}) {
+    const double until = mass_for_short_steps(mesh, 0, mobility).until;
+    for (const double step : {0.0, 0.3, 0.9, 1.0, 1.1, 30.0})
+      EXPECT_LT(largest_off_diagonal(mesh, mobility, step * until), 1e-13) << step;
+    Eigen::MatrixXd exact = flux_mass(mesh, 0, mobility).inverse();
+    exact.diagonal().setZero();
+    EXPECT_GT(exact.maxCoeff(), 0.01 * mobility.trace());
+  }
+}
+
+/// The resistance is at most three times that of all faces together, and steady flow does not notice it.
+TEST(MassForShortSteps, IsBoundedFromARightAngleOnAndLeavesSteadyFluxes) {
+  for (const double degrees : {60.0, 70.0, 85.0, 89.0, 90.0, 91.0, 120.0, 170.0}) {
+    const double half = degrees * std::numbers::pi / 360;
+    const Mesh mesh = mesh_of({Point(0, 0), Point(1, 0), Point(0.5, 0.5 / std::tan(half))});
+    const MassForShortSteps more = mass_for_short_steps(mesh, 0, Tensor::Identity());
+    const double all = flux_mass(mesh, 0, Tensor::Identity()).inverse().sum();
+    EXPECT_LE(more.until * all, 3 + 1e-12) << degrees;
+    EXPECT_EQ(more.until * all > 3 - 1e-9, degrees > 80) << degrees;
+    EXPECT_LT((more.added * Eigen::Vector3d(1, 2, -3)).norm(), 1e-14) << degrees;
+  }
+}
+
+TEST(MassForShortSteps, OfASquareIsTheLumpedOneUntilASixthOfItsDiffusionTime) {
+  const Mesh square = mesh_of({Point(0, 0), Point(2, 0), Point(2, 2), Point(0, 2)});
+  const MassForShortSteps more = mass_for_short_steps(square, 0, 5 * Tensor::Identity());
+  const FluxMass lumped = lumped_flux_mass(square, 0, 5 * Tensor::Identity()).mass;
+  EXPECT_LT((flux_mass(square, 0, 5 * Tensor::Identity()) + more.added - lumped).norm(), 1e-14);
+  EXPECT_NEAR(more.until, 1 / (6 * 5.0), 1e-14);  // dt/(S V) for dt = S V/(6 k)
+  EXPECT_EQ(share_for(more.until, more.until), 0);
+  EXPECT_NEAR(share_for(more.until / 4, more.until), 0.75, 1e-14);
 }
 
 TEST(Rt0, LumpedOnRectanglesIsTheTwoPointFlux) {
