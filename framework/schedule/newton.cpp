@@ -310,7 +310,7 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
   std::multiset<std::uint64_t> seen_states;
   std::uint64_t last_state = 0;
   bool factored = false, cycling = false, seeks_balance = false;
-  double length = 1, last_imbalance = std::numeric_limits<double>::infinity();
+  double length = 1, last_imbalance = std::numeric_limits<double>::infinity(), last_row_error = last_imbalance;
   ResidualCheck check = evaluate(step);
   recent_ = {check};
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1, check.of_equations});
@@ -321,16 +321,21 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     seeks_balance = seeks_balance || (check.rows_hold && !check.balances_hold);
     if (!seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
     bool holds = check.converged && iteration >= least_iterations_;
-    if (check.rows_hold && !check.balances_hold && factored) {
+    if (check.rows_hold && !check.converged && factored) {
       // An imbalance that another iteration does not reduce is lost in the round-off of the matrix. Sums of balances
-      // may remove it; otherwise no smaller imbalance is possible.
+      // may remove it; otherwise no smaller imbalance is possible. The same for the residual of a single row.
       constexpr double hardly_better = 0.5;
-      const bool stalls = check.imbalance > hardly_better * last_imbalance;
-      last_imbalance = check.imbalance;
-      if (stalls && system_.sums().are_used && !system_.sums().are_used_where_coupled)
-        system_.use_coupled_sums(true);
-      else
-        holds = stalls;
+      holds = check.each_row_holds || check.row_error > hardly_better * last_row_error;
+      last_row_error = check.row_error;
+      if (!check.balances_hold) {
+        const bool stalls = check.imbalance > hardly_better * last_imbalance;
+        last_imbalance = check.imbalance;
+        if (stalls && system_.sums().are_used && !system_.sums().are_used_where_coupled) {
+          system_.use_coupled_sums(true);
+          holds = false;
+        }
+        holds = holds && stalls;
+      }
     }
     if (holds) {
       const std::vector<char> settled = is_settled(check);

@@ -40,6 +40,45 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   }
 }
 
+/// The sizes of the terms of each row of an unknown: (|A| |x|)_i, with the throughput of a balance.
+Vector sizes_of_rows(const Assembly& assembly, int unknown) {
+  Vector sizes = assembly.balances().throughput(unknown);
+  for (const Assembly::Block& block : assembly.blocks()) {
+    if (block.row != unknown) continue;
+    const Vector& x = assembly.unknowns()[block.column]->now();
+    for (int row = 0; row < block.matrix->outerSize(); ++row) {
+      const double scale = std::abs(block.weights ? block.factor * (*block.weights)[row] : block.factor);
+      for (SparseMatrix::InnerIterator entry(*block.matrix, row); entry; ++entry)
+        sizes[row] += scale * std::abs(entry.value() * x[entry.col()]);
+    }
+  }
+  return sizes;
+}
+
+/// Whether each balance of an interface holds against the terms of its own row.
+void check_each_row(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
+  if (!assembly.wants_derivatives()) return;
+  for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
+    const int unknown = static_cast<int>(u);
+    const Field& field = *assembly.unknowns()[u];
+    if (!assembly.balances().are_rows_of(unknown) || is_bulk(field.spec().role.kind())) continue;
+    std::vector<char> counts = system.owned(unknown);
+    for (const Assembly::Fixed& fixed : assembly.fixed())
+      if (fixed.unknown == unknown) counts[fixed.row] = 0;
+    const Vector sizes = sizes_of_rows(assembly, unknown);
+    const Vector& residual = assembly.residual(unknown);
+    double worst = 0;
+    for (int row = 0; row < residual.size(); ++row)
+      if (counts[row] && std::abs(residual[row]) > tolerance * sizes[row])
+        worst = std::max(worst, std::abs(residual[row]) / sizes[row]);
+    worst = parallel::max(worst);
+    if (worst == 0) continue;
+    check.each_row_holds = false;
+    check.row_error = std::max(check.row_error, worst);
+    check.is_round_off[u] = 0;
+  }
+}
+
 /// Whether the balances of conserved quantities hold against their throughput.
 void check_balances(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
   constexpr double looser = 100;
@@ -145,9 +184,10 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
   }
   check_sums(assembly, system, tolerance, check);
   check_balances(assembly, system, tolerance, check);
+  check_each_row(assembly, system, tolerance, check);
   SPREKK_ASSERT(check.is_round_off.size() == assembly.unknowns().size(), check.is_round_off.size());
   SPREKK_ASSERT(check.magnitudes.size() == check.mean_squares.size(), check.magnitudes.size());
-  check.converged = check.rows_hold && check.balances_hold;
+  check.converged = check.rows_hold && check.balances_hold && check.each_row_holds;
   return check;
 }
 

@@ -13,9 +13,11 @@ namespace sprekk {
 /// How the residuals of an assembly compare with their terms; all figures are relative unless said otherwise.
 struct ResidualCheck {
   bool finite = true;
-  bool converged = false;     ///< rows_hold and balances_hold
-  bool rows_hold = false;     ///< every residual is small against its terms
-  bool balances_hold = true;  ///< the residuals of each conserved quantity are small against its throughput
+  bool converged = false;      ///< rows_hold, balances_hold and each_row_holds
+  bool rows_hold = false;      ///< every residual is small against its terms
+  bool balances_hold = true;   ///< the residuals of each conserved quantity are small against its throughput
+  bool each_row_holds = true;  ///< each residual of a balance on an interface is small against the terms of its own row
+  double row_error = 0;        ///< the largest of these residuals over its terms, where one is not
   double imbalance = 0;  ///< the largest error of a quantity over its throughput, where the error exceeds round-off
   std::vector<char> is_unbalanced;  ///< for each equation: it belongs to a quantity whose balance does not hold
   double largest = 0;               ///< over the equations: largest residual over the magnitude of the equation's terms
@@ -41,7 +43,12 @@ struct ResidualCheck {
 /// as large as all of the storage. So the balances of a conserved quantity are also compared with their throughput
 /// (BalanceRows): neither the sum of all absolute residuals, nor their sum without exchanges, which has more digits,
 /// may exceed 100 × tolerance times the throughput, but for round-off. Balances in whose place values are fixed are
-/// left out: fixed values let an unknown amount in. Collective.
+/// left out: fixed values let an unknown amount in.
+///
+/// One fracture may conduct any multiple of what another one stores. So each balance of an interface, where fluxes are
+/// unknowns, is compared with its own row as well, by the componentwise backward error (Oettli and Prager 1964;
+/// Arioli, Demmel and Duff 1989): |r_i| is at most `tolerance` times (|A| |x|)_i plus the throughput of the row.
+/// Collective.
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance);
 
 }  // namespace sprekk

@@ -212,8 +212,11 @@ class Wells(unittest.TestCase):
         history, instant = self.history(), self.at_rest()
         brought = check_wells.sources(self.P, history, instant)
         step = physics.end(self.P)
-        self.assertAlmostEqual(brought(0, step, np.ones(4, bool)) / (history["wells.feed.rate[m^2/s]"][0] * step), 1)
-        self.assertEqual(brought(0, step, np.array([True, False, False, True])), 0)
+        for amount in brought(0, step, np.ones(4, bool)):
+            self.assertAlmostEqual(abs(amount) / abs(history["wells.feed.rate[m^2/s]"][0] * step), 1)
+        rates = [history[f"wells.{name}.rate[m^2/s]"][0] for name in self.P["wells"]]
+        self.assertAlmostEqual(brought(0, step, "all")[1] / (sum(map(abs, rates)) * step), 1)
+        self.assertEqual(brought(0, step, np.array([True, False, False, True])), (0, 0))
 
     def test_scenes_have_what_the_family_promises(self):
         drawn = [ranges.draw(1, number, "wells") for number in range(200)]

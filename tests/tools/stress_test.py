@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 """The checks of tools/stress find what is planted, and are silent where nothing is; what makes its exit code."""
 
+import argparse
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 from stress_state import P, at_rest, change, grids, sprekk
-from stress_suite import check_balance, check_contact, check_finite, check_pressure, compare, physics, summary, written
+from stress_suite import check_balance, check_contact, check_finite, check_pressure, compare, examine, physics, summary, written
 
 
 class Checks(unittest.TestCase):
@@ -34,7 +37,7 @@ class Checks(unittest.TestCase):
         self.found(check_balance.momentum(P, change("matrix", "rock.stress[Pa]", 5, 1e5)), "momentum")
         self.found(check_balance.fracture_mass(P, change("fractures", "conduit.aperture[m]", 0, 1e-9), 0), "fracture 0")
         self.found(check_balance.matrix_mass(P, change("matrix", "pore.pressure[Pa]", 7, 1e3)), "the matrix")
-        self.found(check_balance.matrix_mass(P, [at_rest()], lambda start, stop, own: 1e-6 if own is None else 0.0), "the matrix")
+        self.found(check_balance.matrix_mass(P, [at_rest()], lambda start, stop, own: (1e-6, 1e-6) if own is None else (0.0, 0.0)), "the matrix")
 
     def test_what_passes_through_a_fracture_may_round(self):
         """Millions times what stays: a relative 1e-14 of it is no loss, 1e-11 is."""
@@ -45,6 +48,13 @@ class Checks(unittest.TestCase):
             data["pore.wall_flux.plus[m/s]"] = data["pore.wall_flux.plus[m/s]"] + through
             data["pore.wall_flux.minus[m/s]"] = data["pore.wall_flux.minus[m/s]"] - through * (1 - lost)
             self.assertEqual(len(check_balance.fracture_mass(P, [instant], 0)), count)
+
+    def test_what_wells_exchange_has_a_last_digit(self):
+        """Two wells of given pressure exchange 1e6 times what stays: 1e-16 of it is no loss, 1e-15 is."""
+        through = 1e6 * physics.length(P) * P["aperture"]
+        for lost, count in ((1e-16, 0), (1e-15, 1)):
+            found = check_balance.fracture_mass(P, [at_rest()], 0, lambda start, stop, own: (lost * through, through))
+            self.assertEqual(len(found), count, found)
 
     def test_pressures(self):
         self.found(check_pressure.failures(P, change("matrix", "pore.pressure[Pa]", 3, 1e8)), "above")
@@ -126,6 +136,30 @@ class Processes(unittest.TestCase):
         self.assertEqual(compare.differences(alone, history(5, 4, 0, 3.0), 0), [])
         self.assertEqual(len(compare.differences(alone, history(4, 4, 1, 3.0), 0)), 2)
         self.assertEqual(len(compare.differences(alone, history(5, 4, 0, 3.0001), 0)), 1)
+
+
+class Ends(unittest.TestCase):
+    """Runs that end before their first step are reported as others are."""
+
+    def report_of(self, text):
+        """Of a program that is a shell script: $4 is the folder of the results."""
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / "program"
+            program.write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
+            program.chmod(0o755)
+            chosen = argparse.Namespace(seed=1, family="heat", update="after_step", scheme="monolithic", swapped=False, limit=10)
+            return examine.examine(program, chosen, 0, Path(folder) / "scene")
+
+    def test_no_step(self):
+        record = '{"exit": {"code": 1, "reason": "REASON"}, "counters": {}}'
+        for reason, outcome in (("the step from 0 s over 1 s has no data: it says why", "gave up"), ("something else", "failed")):
+            report = self.report_of(f"mkdir -p $4; echo '{record.replace('REASON', reason)}' > $4/run.json; exit 1")
+            self.assertEqual((report["outcome"], report["accepted"], report["rejected"]), (outcome, 0, 0), report)
+
+    def test_no_results(self):
+        report = self.report_of("echo no room >&2; exit 1")
+        self.assertEqual(report["outcome"], "failed")
+        self.assertIn("no results: no room", report["failures"][0])
 
 
 class Summary(unittest.TestCase):

@@ -110,6 +110,44 @@ output: {probes: {u: {of: rock.displacement, at: [0.9 m, 1.7 m]}}}
             for name in ("u.x[m]", "u.y[m]"):
                 self.assertLess(difference(straight, turned, name), 1e-10)
 
+    def test_fractures_of_a_table_turn_with_their_columns(self):
+        """Two that cross, and one whose aperture and friction make it another one; as segments and as polylines."""
+        tables = {"segments": "name,x1[m],y1[m],x2[m],y2[m],aperture[mm],friction\nfirst,0.2,0.3,0.7,0.6,0.2,0.3\n"
+                              "second,0.3,0.7,0.6,0.25,0.1,0.6\nthird,0.8,0.2,0.8,0.7,0.4,0.2\n",
+                  "polylines": "name,x,y,aperture[mm],friction\nfirst,0.2,0.3,0.2,0.1\nfirst,0.5,0.55,0.2,0.1\nfirst,0.7,0.6,0.2,0.1\n"
+                               "second,0.8,0.2,0.4,0.6\nsecond,0.8,0.7,0.4,0.6\n"}
+        for kind, text in tables.items():
+            (self.folder / f"{kind}.csv").write_text(text, encoding="utf-8")
+            scene = self.folder / f"{kind}.yaml"
+            scene.write_text(f"""
+geometry: {{box: {{x: [0 m, 1 m], y: [0 m, 1 m]}}, fractures: {{table: {kind}.csv}}}}
+mesh: {{size: 0.2 m, fracture_size: 0.1 m}}
+materials: {{young_modulus: 10 GPa, poisson_ratio: 0.25, biot_coefficient: 1, permeability: 1e-15 m^2, viscosity: 1 mPa*s,
+            fluid_compressibility: 4e-10 1/Pa, friction: {{column: friction}}}}
+components:
+  pore: {{type: matrix_flow/mpfa, storage: 1e-11 1/Pa, boundary: {{left: {{pressure: 1 MPa}}, right: {{pressure: 0 MPa}}}}}}
+  rock: {{type: poromechanics/mpsa, boundary: {{left: {{displacement_x: 0 m}}, bottom: {{displacement_x: 0 m, displacement_y: 0 m}},
+         right: {{normal_stress: -9 MPa}}, top: {{normal_stress: -1 MPa}}}}}}
+  conduit: {{type: fracture_flow/tpfa, initial_aperture: {{column: aperture}}}}
+  contact: {{type: contact/coulomb}}
+couplers:
+  - {{type: biot, between: [pore, rock]}}
+  - {{type: wall_exchange, between: [pore, conduit]}}
+  - {{type: wall_traction, between: [rock, contact, conduit]}}
+  - {{type: aperture, between: [contact, conduit]}}
+schedule: [{{solve: [pore, rock, conduit, contact]}}]
+time: {{end: 20 s, step: 10 s}}
+output: {{probes: {{u: {{of: rock.displacement, at: [0.9 m, 0.8 m]}}, p: {{of: pore.pressure, at: [0.35 m, 0.3 m]}}}}}}
+""", encoding="utf-8")
+            straight = run(self.folder / f"{kind}_straight", scene)
+            self.assertGreater(straight["contact.cells_slip[1]"][-1], 0)
+            file, motion = turn_scene.turn(scene, self.folder / f"{kind}_turned", 37, (0.3, -0.2), (), PROGRAM)
+            turned = along_box(run(self.folder / f"{kind}_results", scene, file), motion.turn)
+            for name in ("u.x[m]", "u.y[m]", "p[Pa]", "fluid_stored[m^2]", "contact.cells_slip[1]"):
+                found = difference(straight, turned, name)
+                print(f"{kind}, {name}: {found:.1e}")
+                self.assertLess(found, 1e-8, name)
+
     def test_what_cannot_be_turned_is_refused(self):
         for setting, reason in (("components.rock.boundary.left.displacement_x=(1e-3*t/h) m", "no number"),
                                 ("materials.permeability={xx: 1e-20 m^2, yy: 2e-20 m^2}", "a tensor")):

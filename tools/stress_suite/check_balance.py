@@ -15,6 +15,7 @@ PRECISION = 1e-8
 # the round-off of the pressures from which flows are computed.
 RESIDUAL = 1e-10
 ROUND_OFF = 64 * 2.2e-16
+LAST_DIGIT = 2.2e-16  # of a number in double precision
 
 
 def cell_areas(grid):
@@ -71,7 +72,8 @@ def networks(instant):
 
 def fracture_mass(p, instants, main, brought=None):
     """`main`: the number of the fracture that has the wells; or `brought`, a function (start, stop, cells) -> m^2 that wells
-    bring into these cells."""
+    bring into these cells, and without regard to their sign: two may exchange any multiple of what a fracture stores, and a rate has its
+    last digit."""
     found = []
     before = None
     for instant in instants:
@@ -91,14 +93,14 @@ def fracture_mass(p, instants, main, brought=None):
             for number in np.unique(fracture):
                 own = fracture == number
                 if brought:
-                    source = brought(before[0], instant.time, own)
+                    source, through = brought(before[0], instant.time, own)
                 else:
-                    source = injected(p, before[0], instant.time) if number == main else 0.0
+                    source, through = injected(p, before[0], instant.time) if number == main else 0.0, 0.0
                 error = opened[own].sum() + pressed[own].sum() + out[own].sum() - source
                 # Much may enter through one wall and leave through the other. A row of the program's balances holds where its residual is
                 # the round-off of the fluid in the fullest cell: at rest, fluxes stay that are less than that.
                 volume = length * np.abs(aperture) * (1 + p["compressibility"] * np.abs(pressure))
-                digits = 100e-15 * (volume + np.abs(plus) + np.abs(minus))[own].sum() + ROUND_OFF * volume.max() * own.sum()
+                digits = 100e-15 * (volume + np.abs(plus) + np.abs(minus))[own].sum() + ROUND_OFF * volume.max() * own.sum() + LAST_DIGIT * through
                 size = max(np.abs(opened).max(), np.abs(pressed).max(), np.abs(out).max(), abs(source))
                 if abs(error) > PRECISION * size + digits:
                     found.append(f"mass: fracture {number} is wrong by {error:.3g} of {size:.3g} m^2 "
@@ -136,7 +138,7 @@ def allowed_flow(p, instant):
 
 
 def matrix_mass(p, instants, brought=None):
-    """`brought`: a function (start, stop, None) -> m^2 that wells bring into the rock."""
+    """`brought`: a function (start, stop, None) -> m^2 that wells bring into the rock, and without regard to their sign."""
     if p["alpha"] > 0 or p["boundary"] != "none":
         return []
     found = []
@@ -150,17 +152,17 @@ def matrix_mass(p, instants, brought=None):
             received = (instant.time - before[0]) * length * (walls["pore.wall_flux.plus[m/s]"] +
                                                               walls["pore.wall_flux.minus[m/s]"])
             stored = p["storage"] * area * (pressure - before[1])
-            source = brought(before[0], instant.time, None) if brought else 0.0
+            source, through = brought(before[0], instant.time, None) if brought else (0.0, 0.0)
             error = stored.sum() - received.sum() - source
             size = max(np.abs(stored).max(), np.abs(received).max(), abs(source))
-            digits = 1e-13 * (p["storage"] * area * np.abs(pressure)).sum()
+            digits = 1e-13 * (p["storage"] * area * np.abs(pressure)).sum() + LAST_DIGIT * through
             if abs(error) > PRECISION * size + digits + allowed_flow(p, instant):
                 found.append(f"mass: the matrix is wrong by {error:.3g} of {size:.3g} m^2 at t = {instant.time:.6g} s")
         before = (instant.time, pressure)
     return found
 
 
-def cumulative_balance(p, instants, history):
+def cumulative_balance(p, instants, history, brought=None):
     """The error of the program's cumulative balance against what moved in one cell in the largest step, or against round-off of
     the fluid in the rock and fractures, and what the residuals of flow allow."""
     error = np.abs(history["fluid_balance_error[m^2]"]).max()
@@ -168,7 +170,7 @@ def cumulative_balance(p, instants, history):
         np.abs(history["fluid_outflow[m^2]"]).max()
     before = p["initial"]
     bulk = physics.bulk_modulus(p)
-    digits = 0.0
+    digits = LAST_DIGIT * brought(0.0, physics.end(p), "all")[1] if brought else 0.0
     for instant in instants:
         aperture, in_fracture = instant.on_fractures("conduit.aperture", "m"), instant.on_fractures("conduit.pressure", "Pa")
         length = np.linalg.norm(np.diff(instant.fractures.points[instant.fractures.cells], axis=1)[:, 0], axis=1)
@@ -192,4 +194,4 @@ def relative_error_of_balance(history):
 
 def failures(p, instants, history, main, brought=None):
     return momentum(p, instants) + fracture_mass(p, instants, main, brought) + matrix_mass(p, instants, brought) + \
-        cumulative_balance(p, instants, history)
+        cumulative_balance(p, instants, history, brought)

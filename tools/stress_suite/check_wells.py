@@ -103,16 +103,20 @@ def amount(p, instants, history):
 
 
 def sources(p, history, instant):
-    """A function (start, stop, cells of fractures) -> m^2 that wells bring into these, or into the rock for None."""
+    """A function (start, stop, cells of fractures) -> m^2 that wells bring into these, into the rock for None, or into both for "all"; and
+    the same without regard to signs."""
     ends, steps = np.asarray(history["time[s]"]), np.asarray(history["step[s]"])
     cells = {name: cell_around(p, well, instant)[0] for name, well in p["wells"].items() if well["in_fracture"]}
 
     def is_counted(name, own):
+        if isinstance(own, str):
+            return True
         return name not in cells if own is None else name in cells and own[cells[name]]
 
     def brought(start, stop, own):
         rows = (ends > start + 1e-9 * ends[-1]) & (ends <= stop + 1e-9 * ends[-1])
-        return sum((steps * column(history, name, "rate", "m^2/s"))[rows].sum() for name in p["wells"] if is_counted(name, own))
+        amounts = [(steps * column(history, name, "rate", "m^2/s"))[rows] for name in p["wells"] if is_counted(name, own)]
+        return sum(amount.sum() for amount in amounts), sum(np.abs(amount).sum() for amount in amounts)
     return brought
 
 

@@ -46,7 +46,7 @@ def examine(program, chosen, number, folder, keep=False):
               "cuts": reasons_of_cuts(ended.stderr)}
     if check_end.is_refused(ended):
         report["outcome"], report["reason"] = "refused", " ".join(ended.stderr.split())[:300]
-    elif ended.timed_out or ended.code < 0 or ended.code > 2:
+    elif ended.timed_out or ended.code < 0 or ended.code > 2 or not (ended.folder / "run.json").exists():
         report["outcome"] = "failed"
     else:
         report["outcome"] = "gave up" if check_end.gave_up(ended) else "answer"

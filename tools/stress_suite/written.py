@@ -40,10 +40,10 @@ def history(folder):
 
 
 def iterations_of_steps(folder):
-    """(Newton's iterations of accepted steps, accepted steps, rejected steps)."""
+    """(Newton's iterations of accepted steps, accepted steps, rejected steps). A run that ends in its start counts no steps."""
     record, table = exit_record(folder), history(folder)
-    counters = record["counters"]
-    return [int(i) for i in table.get("iterations[1]", [])], counters["steps accepted"], counters["steps rejected"]
+    counters = record.get("counters", {})
+    return [int(i) for i in table.get("iterations[1]", [])], counters.get("steps accepted", 0), counters.get("steps rejected", 0)
 
 
 def instants(folder):
