@@ -10,6 +10,7 @@ import tempfile
 from pathlib import Path
 
 SOURCE_FOLDERS = ("framework", "components", "couplers", "tests", "tools")
+ROOMS = ("framework/", "components/", "couplers/")
 # Outside headers that take seconds and hundreds of megabytes to compile, or may not meet each other.
 HEAVY = re.compile(r"^(Tpetra|Belos|MueLu|Ifpack2|Amesos2|Xpetra|Zoltan2|Teuchos|Kokkos|vtk|gmsh\.h|hdf5\.h|H5"
                    r"|muParser|yaml-cpp|umfpack|dmumps|mpi\.h)")
@@ -27,7 +28,6 @@ TYPES = re.compile(r"\b(mpfa|mpsa|tpfa|rt0|ntpfa|fem|coulomb|contacts?|matrix_(?
 ALLOWED_TEXTS = (
     ("framework/command_line/manual_page.cpp", r"sprekk run first_scene.yaml --set materials.friction=0.9 -o results/rough\n",
      "an example of a call"),
-    ("framework/command_line/command_line.cpp", "For example matrix_flow/mpfa", "an example of a name in a scene"),
     ("framework/config/dimension.cpp", "temperature", "a name of a unit's dimension"),
     ("framework/config/dimension.cpp", "pressure", "a name of a unit's dimension"),
     ("framework/config/dimension.cpp", "inverse pressure", "a name of a unit's dimension"),
@@ -45,6 +45,12 @@ MOST_FILES = 45
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
 COMMENT = re.compile(r'(R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 TEXT = re.compile(r'R"\((.*?)\)"|"((?:\\.|[^"\\\n])*)"', re.DOTALL)
+
+
+# How a type of component or coupler registers itself.
+REGISTERED = re.compile(r'Register(?:Component|Coupler|Contact)<[^;"]*?>\s+\w+\(\s*"([^"]+)"')
+# Parts of names of types that texts need as words.
+ENGLISH = ("contact", "wells", "prescribed", "limited", "penalty")
 
 
 def sources(root):
@@ -88,7 +94,7 @@ def heavy_violations(includes_of):
 
 def module_violations(path, includes):
     """Libraries that are slow to load are reached by modules (framework/module/module.hpp)."""
-    if not path.startswith(("framework/", "components/", "couplers/")) or "_module/" in path:
+    if not path.startswith(ROOMS) or "_module/" in path:
         return
     for header in includes:
         if OF_MODULES.match(header):
@@ -115,6 +121,32 @@ def physics_violations(path, text):
         said = around[0].group(1) or around[0].group(2)
         if not any(path == file and said == allowed for file, allowed, _ in ALLOWED_TEXTS):
             yield f"{path}:{line} says {match.group()} in a text (the framework knows no physics)"
+
+
+def types_of_the_tree(root):
+    """The names by which components and couplers of this tree register themselves, and of components also what stands
+    before and behind the slash, where it is no word of English."""
+    names = set()
+    for folder in ("components", "couplers"):
+        for file in sorted((root / folder).rglob("*.cpp")):
+            names.update(REGISTERED.findall(file.read_text(encoding="utf-8")))
+    parts = {part for name in names if "/" in name for part in name.split("/")}
+    return sorted(names | {part for part in parts if part not in ENGLISH})
+
+
+def type_violations(path, text, types):
+    """No type of a component or coupler is named in the framework, not in a comment either."""
+    if not path.startswith("framework/"):
+        return
+    for name in types:
+        for match in re.finditer(rf"(?<![\w/]){re.escape(name)}(?!\w)", text):
+            if is_in_include(text, match.start()):
+                continue
+            yield f"{path}:{text.count(chr(10), 0, match.start()) + 1} names the type {match.group()} (no type is named in the framework)"
+
+
+def is_in_include(text, at):
+    return text[text.rfind("\n", 0, at) + 1:at].lstrip().startswith("#")
 
 
 def stale_allowances(root):
@@ -154,7 +186,7 @@ def file_cycle_violations(includes_of):
     """Files that need each other (a header and its source are one): none could be read alone."""
     edges = {}
     for path, includes in includes_of.items():
-        if path.startswith(("framework/", "components/", "couplers/")):
+        if path.startswith(ROOMS):
             stem = path.rpartition(".")[0]
             edges.setdefault(stem, set()).update({header.rpartition(".")[0] for header in includes} - {stem})
     reachable = closure(edges)
@@ -165,12 +197,12 @@ def file_cycle_violations(includes_of):
 
 
 def cycle_violations(edges):
-    """Folders of the framework that need each other: neither could be used or tested alone."""
+    """Folders that need each other: neither could be used or tested alone."""
     reachable = closure(edges)
     for folder in sorted(reachable):
         for target in sorted(reachable[folder]):
             if folder < target and folder in reachable.get(target, set()):
-                yield f"framework/{folder} and framework/{target} include each other"
+                yield f"{folder} and {target} include each other"
 
 
 def room_violations(root, paths):
@@ -190,16 +222,18 @@ def violations(root):
     found = []
     edges = {}
     includes_of = {}
+    types = types_of_the_tree(root)
     for path, text in sources(root):
         includes = includes_of[path] = INCLUDE.findall(text)
         found += include_violations(path, includes)
         found += module_violations(path, includes)
         found += physics_violations(path, text)
+        found += type_violations(path, text, types)
         found += counterpart_violations(root, path, includes)
-        parts = path.split("/")
-        if parts[0] == "framework" and len(parts) > 2:
-            needed = {header.split("/")[1] for header in includes if header.startswith("framework/") and header.count("/") > 1}
-            edges.setdefault(parts[1], set()).update(needed - {parts[1]})
+        if path.startswith(ROOMS) and path.count("/") > 1:
+            folder = path.rpartition("/")[0]
+            needed = {header.rpartition("/")[0] for header in includes if header.startswith(ROOMS) and header.count("/") > 1}
+            edges.setdefault(folder, set()).update(needed - {folder})
     found += room_violations(root, includes_of)
     found += [*stale_allowances(root), *heavy_violations(includes_of)]
     return found + [*cycle_violations(edges), *file_cycle_violations(includes_of)]
@@ -227,12 +261,18 @@ PLANTED = (
     ("framework/a/a.cpp", 'auto text = "pore";  // "pore" is a name\n', "framework/a/a.cpp:1 says pore in a text"),
     ("framework/a/a.cpp", 'auto text = "name a component of type fine_fracture/…";\n', "says fine_fracture in a text"),
     ("framework/a/a.cpp", 'auto text = "such as that of contact.";\n', "says contact in a text"),
+    ("framework/a/a.cpp", "\n// as flow/two_point does\n", "framework/a/a.cpp:2 names the type flow/two_point"),
+    ("framework/a/a.cpp", "/* two_point */\n", "framework/a/a.cpp:1 names the type two_point"),
+    ("framework/a/a.cpp", 'auto text = "of type flow/…";\n', "names the type flow"),
+    ("framework/a/a.hpp", "// what the coupler wall_exchange wants\n", "names the type wall_exchange"),
     ("framework/scene/probe.cpp", 'auto text = "The field, for example pore.stress.";\n', "says stress in a text"),
     ("framework/scene/probe.cpp", "// no example\n", "allows a text that framework/scene/probe.cpp has no more"),
     ("tests/framework/a/gone_test.cpp", '#include "framework/b/b.hpp"\n', "tests/framework/a/gone_test.cpp tests nothing"),
     ("framework/b/b.cpp", '#include "framework/a/a.hpp"\n', "framework/a and framework/b include each other"),
     ("components/flow/flow.cpp", '#include "components/flow/mpfa/mpfa.hpp"\n',
      "components/flow/flow, components/flow/mpfa/mpfa include each other"),
+    ("framework/a/a.hpp", '#include "framework/a/inner/y.hpp"\n', "framework/a and framework/a/inner include each other"),
+    ("components/flow/other.cpp", '#include "components/flow/mpfa/mpfa.hpp"\n', "components/flow and components/flow/mpfa include each other"),
     ("framework/b/private.hpp", '#include "framework/b/b.hpp"\n', "framework/b/b, framework/b/private include each other"),
     ("framework/c/c.cpp", "", "framework/c has no README.md"),
 )
@@ -240,6 +280,8 @@ PLANTED = (
 CLEAN = {
     "framework/a/a.hpp": '#include "framework/b/b.hpp"\n#include <vector>\n// the pressure of "pore.pressure"\n',
     "framework/a/a.cpp": '#include <hdf5.h>\nconst char* link = "https://a.b/constraint";\n/* traction\n*/\n',
+    "framework/a/inner/x.cpp": '#include "framework/a/a.hpp"\n',
+    "framework/a/inner/y.hpp": "",
     "framework/scene/probe.cpp": 'auto text = "The field, for example pore.pressure.";\n',
     "framework/b/b.hpp": "",
     "framework/b/private.hpp": "#include <hdf5.h>\n",
@@ -248,13 +290,15 @@ CLEAN = {
     "components/capabilities/c.hpp": '#include "framework/a/a.hpp"\n',
     "components/flow/flow.hpp": '#include "components/capabilities/c.hpp"\ndouble pressure = 0;\n',
     "components/flow/mpfa/mpfa.cpp": '#include "components/flow/flow.hpp"\n',
-    "couplers/b.cpp": '#include "components/capabilities/c.hpp"\n#include "couplers/helper.hpp"\n',
+    "components/flow/two_point.cpp": 'const RegisterComponent<TwoPoint,\n    Options> registration(\n    "flow/two_point");\n',
+    "couplers/b.cpp": '#include "components/capabilities/c.hpp"\n#include "couplers/helper.hpp"\n'
+                      'const RegisterCoupler<Wall, Options> registration("wall_exchange");\n',
     "tests/components/flow/mpfa_test.cpp": '#include "couplers/b.hpp"\n',
     "tests/framework/a/a_test.cpp": '#include "components/flow/flow.hpp"\n',
     "tests/framework/a/together_test.cpp": '#include "framework/a/a.hpp"\n',
     "tests/verification/mandel_test.cpp": "",
     **{f"{folder}/README.md": "What belongs here.\n" for folder in (
-        "framework/a", "framework/b", "framework/b/x_module", "framework/scene", "components/capabilities", "components/flow", "components/flow/mpfa")},
+        "framework/a", "framework/a/inner", "framework/b", "framework/b/x_module", "framework/scene", "components/capabilities", "components/flow", "components/flow/mpfa")},
 }
 
 

@@ -17,7 +17,7 @@ class FluidDensity {
   /// Which state of the fields the density belongs to: that at the start of the step, or the current iterate.
   enum class State { accepted, now };
   virtual ~FluidDensity() = default;
-  /// kg/m^3.
+  /// The density of each cell, kg/m^3.
   virtual Vector values(State state) const = 0;
   /// The versions of the fields that `values` depends on: equal versions mean equal values.
   using Version = std::array<std::uint64_t, 2>;
@@ -55,10 +55,10 @@ class BuoyantFractures {
   static constexpr const char* promise = "flows in the fractures by its weight";
   virtual ~BuoyantFractures() = default;
   virtual bool has_gravity() const = 0;
-  /// As for the matrix.
+  /// The difference of the pressures at `to` and at `from`, Pa, as in BuoyantMatrix.
   virtual double weight_between(const Point& from, const Point& to) const = 0;
   virtual bool density_varies() const = 0;
-  /// As for the matrix.
+  /// Gives the fluid of the fractures this density, as BuoyantMatrix::accept_density does for the rock.
   virtual void accept_density(const FluidDensity& in_fractures) = 0;
 };
 

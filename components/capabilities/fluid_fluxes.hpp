@@ -39,7 +39,7 @@ class MatrixFluxes {
     const SparseMatrix* matrix;
   };
   virtual std::vector<Derivative> face_flux_derivatives() const = 0;
-  /// m^2/(Pa s), one a cell.
+  /// The mobility of each cell, m^2/(Pa s).
   virtual const std::vector<Tensor>& mobility() const = 0;
   /// The fluxes in rock of one mobility without fluxes through sides and walls, as this flow discretizes them: right on
   /// faces with both ends among the nodes (one flag a node).

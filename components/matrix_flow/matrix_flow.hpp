@@ -188,7 +188,7 @@ class MatrixFlow : public Component,
   void start_face_pressure();
   void use_face_operators();
   void assemble_face_pressure(Assembly& assembly, const StepTime& step) const;
-  /// Of limited fluxes.
+  /// Takes the matrices of limited fluxes from the operators.
   void use_limited();
   /// `excess`: of the density over the constant one, kg/m^3; empty if the density is constant.
   void add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& excess) const;

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "components/matrix_flow/mpfa/tip_flow.hpp"
+#include "components/matrix_flow/cells_around_tips.hpp"
 #include "framework/discretization/ends_nearby.hpp"
 #include "framework/discretization/kept_regions.hpp"
 

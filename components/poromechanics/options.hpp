@@ -62,7 +62,7 @@ struct Options {
   bool has_body_force() const;
   /// The weight and the body force of rock that is whole, during a step, N/m^3.
   Point body_force_in(const StepTime& step, const Place& place) const;
-  /// Pa, (xx, yy, xy).
+  /// The initial stress at a place, Pa, (xx, yy, xy).
   SymmetricTensor initial_stress_at(const Place& place) const;
   /// `type`, `doc`: of the component with its discretization.
   Spec spec(const std::string& type, const std::string& doc);

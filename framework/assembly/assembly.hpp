@@ -46,9 +46,9 @@ class Assembly {
   void derivative(const Field& row, const Field& column, const Operator& block, double factor = 1,
                   const Vector* weights = nullptr);
   void derivative(const Field&, const Field&, Operator&&, double = 1, const Vector* = nullptr) = delete;
-  /// A block of this assembly alone that is an exchange, of which nothing leaves all rows together.
+  /// A block of this assembly alone that is an exchange: the sum over all rows is zero in each column.
   void exchange_derivative(const Field& row, const Field& column, SparseMatrix&& block);
-  /// The same with a diagonal block.
+  /// d residual(row) / d column += a diagonal block with these entries.
   void diagonal(const Field& row, const Field& column, const Vector& entries);
 
   /// residual(row) += factor · diag(weights) · (matrix · column), with its derivative.
@@ -83,13 +83,13 @@ class Assembly {
     const SparseMatrix* matrix;
     double factor;
     const Vector* weights;
-    std::uint64_t number;        ///< of the operator, or 0 for entries that may differ in the next assembly
+    std::uint64_t number;        ///< number of the operator, or 0 for entries that may differ in the next assembly
     const SparseMatrix* in_sum;  ///< the matrix that takes the place of `matrix` in a sum of rows
     double largest_exchange;     ///< largest absolute entry of an exchange, 0 if it is none
   };
   const std::vector<const Field*>& unknowns() const { return unknowns_; }
   const Vector& residual(int unknown) const { return residuals_[unknown]; }
-  /// The largest entry of any single term of the equation: what a residual is small against.
+  /// The largest entry of any single term of the equation, with which its residual is compared.
   double magnitude(int unknown) const { return magnitudes_[unknown]; }
   /// The largest sum of absolute products in a row: round-off is a small multiple of machine epsilon times this.
   double round_off_base(int unknown) const { return round_off_bases_[unknown]; }

@@ -37,7 +37,8 @@ struct Quantity {
 struct Dependence {
   std::string component, on;  ///< names in the scene
   std::string because;
-  /// Whether they have one when the unknowns of `on` are not held, but answer (WaitingResponse).
+  /// Whether the equations have a solution when the unknowns of `on` are not held, but follow by their Schur complement
+  /// (WaitingResponse).
   bool ends_with_response = false;
 };
 
@@ -99,7 +100,8 @@ class Part {
   virtual void set_search_mode(SearchMode) {}
   /// Holds the coefficients that make terms nonlinear within a piece at their values now, c_0, until they are released.
   virtual void hold_coefficients() {}
-  /// Held coefficients are c_0^(1 − share) c^share from now on, c for a share of 1.
+  /// From now on held coefficients are c_0^(1 − share) c^share with the current value c; with a share of 1 they are no
+  /// longer held.
   virtual void release_coefficients(double /*share*/) {}
   /// Moves the fields to where one-sided conditions (contact) are inactive, so that the unknowns that these conditions
   /// hold are free.
@@ -127,8 +129,8 @@ class Part {
   /// Adds notes on the input: data without effect, data that contradict one another. `sprekk check` shows them, and so
   /// does a run at its start.
   virtual void note_input(Notes&) const {}
-  /// Adds notes on a step that its user would not expect. Called on all processes for each step that is about to be
-  /// accepted, after report().
+  /// Adds notes on what the user of a run would not expect of a step. Called on all processes for each step that is
+  /// about to be accepted, after report().
   virtual void note_step(Notes&, const StepTime&) const {}
   /// How often something was computed or reused, for the end-of-run table: name → count.
   virtual std::map<std::string, long> counts() const;

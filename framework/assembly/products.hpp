@@ -27,7 +27,7 @@ class Products {
   /// The product with the current value of the field. The reference stays valid until `forget_unused`, or until
   /// products of this operator with two other values of the field have been asked for.
   const FieldProduct& now(const Operator& a, const Field& x) { return of(a, x, x.now(), x.version(), true); }
-  /// The same without the sizes, which takes less time.
+  /// The product alone, without the sizes, which takes less time.
   const Vector& value_now(const Operator& a, const Field& x) { return of(a, x, x.now(), x.version(), false).value; }
   const Vector& value_accepted(const Operator& a, const Field& x) {
     return of(a, x, x.accepted(), x.accepted_version(), false).value;

@@ -15,7 +15,7 @@ namespace sprekk {
 /// that does not depend on time is evaluated once.
 class Property {
  public:
-  /// Without values, for `set`.
+  /// A property without values, to be filled by `set`.
   Property() = default;
   /// Evaluates the datum at `start` (s), or right after it where the datum jumps there. Throws DataError.
   Property(const Data& data, const std::vector<Place>& places, double start);

@@ -162,7 +162,9 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   CLI::App* list_command = app.add_subcommand("list", "Lists what exists");
   CLI::App* explain_command =
       app.add_subcommand("explain", "Explains a type, a step of the schedule or a section of a scene");
-  explain_command->add_option("name", explained, "For example matrix_flow/mpfa")->required()->type_name("NAME");
+  explain_command->add_option("name", explained, "As 'sprekk list' writes it, for example grow")
+      ->required()
+      ->type_name("NAME");
   CLI::App* schema_command = app.add_subcommand("schema", "Prints the JSON schema of scenes, or of studies");
   schema_command->add_option("file", schema_of, "scene or study")->check(CLI::IsMember({"scene", "study"}));
   CLI::App* reference_command = app.add_subcommand("reference", "Writes the reference pages");

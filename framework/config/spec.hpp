@@ -3,7 +3,7 @@
 //
 //   struct Options { Data permeability; double eta = 1.0 / 3; };
 //   Options options;
-//   Spec spec("matrix_flow/mpfa", "Darcy flow in the matrix, multi-point flux approximation.");
+//   Spec spec("role/name", "What a component of this type does, in one sentence.");
 //   spec.data("permeability", options.permeability,
 //             {.unit = "m^2", .range = positive(), .doc = "Permeability of the rock.", .source = "Eq. 6 of the paper",
 //              .material = true});
@@ -105,7 +105,7 @@ class Spec {
 
 /// The text that `sprekk explain` prints.
 std::string explain(const Spec& spec);
-/// The same as Markdown, for docs/reference.
+/// The explanation as Markdown, for docs/reference.
 std::string reference_page(const Spec& spec);
 /// The JSON schema (draft 2020-12) of a map read by `spec`, as JSON text.
 std::string json_schema(const Spec& spec);

@@ -24,7 +24,7 @@ class LeastSquares {
   std::shared_ptr<const Factors> factors_;
 };
 
-/// The same for a matrix of full rank, by QR with column pivoting.
+/// Minimizes |A x − b| for a matrix of full rank, by QR with column pivoting.
 Eigen::VectorXd solve_by_pivoted_qr(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 }  // namespace sprekk

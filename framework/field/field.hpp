@@ -14,7 +14,8 @@ namespace sprekk {
 /// ends of fracture cells. `listed`: entities of a list that the owner keeps, without a place on the mesh; few, all on
 /// the first process, and the same after a change of the mesh.
 enum class Location { cell, face, node, fracture_cell, fracture_point, wall, listed };
-/// In the whole mesh, not of this process. Throws std::logic_error for listed entities, which the mesh does not know.
+/// The number of entities in the whole mesh, not those of this process alone. Throws std::logic_error for listed
+/// entities, which the mesh does not know.
 int entity_count(const Mesh& mesh, Location location);
 
 /// What a field is: its owner, name, place on the mesh, components for each entity, role and unit.
@@ -36,9 +37,9 @@ struct FieldSpec {
   /// not a density or a mean. When the mesh changes, amounts are divided by measure, and all other values are averaged
   /// (Eq. 17 of the paper). Nodes and faces have no measure to divide by.
   bool is_amount = false;
-  /// Whether equations compare the value with the accepted one as a path that has been gone, in whatever time (slip,
-  /// with friction against it), and not as a rate. A scheme of two stages starts both from the same accepted value
-  /// then, since an extrapolated path would stay.
+  /// Whether equations take the change of the value in a step for a path (slip, against which friction acts) and not
+  /// for a rate. Both stages of a scheme with two stages then start from the same accepted value, because slip from an
+  /// extrapolated start would stay.
   bool is_path_dependent = false;
   std::string full_name() const { return owner + "." + name; }
 };

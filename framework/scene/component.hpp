@@ -54,7 +54,7 @@ class CouplerContext {
     if (!found) throw missing(Capability::promise);
     return *found;
   }
-  /// The same, or nullptr when there is none.
+  /// The component with this capability, or nullptr when there is none.
   template <class Capability>
   Capability* find() const {
     Capability* found = nullptr;
@@ -79,7 +79,7 @@ class CouplerContext {
     return found;
   }
   /// The name of a component of the scene that has this capability and that the coupler does not stand between;
-  /// empty where there is none. For notes on what a coupler lacks that can do without.
+  /// empty where there is none. For notes of a coupler on components that it could use.
   template <class Capability>
   std::string left_out() const {
     for (Component* component : scene_)

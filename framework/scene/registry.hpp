@@ -1,6 +1,6 @@
 // All types of components and couplers. Each registers itself with one line at the end of its source:
 //
-//   const RegisterComponent<Mpfa, MpfaOptions> registration("matrix_flow/mpfa");
+//   const RegisterComponent<Mine, MyOptions> registration("role/name");
 #pragma once
 
 #include <functional>

@@ -11,7 +11,7 @@
 #include "framework/config/units.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
-#include "framework/meshing/geometry_spec.hpp"
+#include "framework/meshing/spec/geometry_spec.hpp"
 #include "framework/meshing/validate_geometry.hpp"
 #include "framework/plugin/plugin.hpp"
 #include "framework/results/run_datum.hpp"

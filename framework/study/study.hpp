@@ -2,7 +2,7 @@
 //
 //   scene: onset.yaml
 //   grid: {time.step: [0.5 h, 1 h], mesh.fracture_size: [10 mm, 20 mm]}
-//   choices: {flow: {mpfa: {components.pore.type: matrix_flow/mpfa}, tpfa: {components.pore.type: matrix_flow/tpfa}}}
+//   choices: {flow: {one: {components.pore.type: TYPE}, other: {components.pore.type: OTHER_TYPE}}}
 //   samples: {count: 64, of: {time.step: {from: 1 h, to: 2 h}}}
 //   runs: {reference: {time.step: 0.25 h, mesh.fracture_size: 5 mm}}
 //   compare: {plot: [p_C], table: {final p_C: {of: p_C, at: end}}, reference: reference}

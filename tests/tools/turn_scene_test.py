@@ -86,6 +86,8 @@ class Turned(unittest.TestCase):
         self.assertEqual(turn_scene.along_side("bottom", {"traction": "[1 Pa, 2 Pa]"}),
                          {"traction": None, "shear_stress": "1.0 Pa", "normal_stress": "-2.0 Pa"})
         self.assertEqual(turn_scene.along_side("right", {"normal_stress": "-1 Pa"}), {})
+        self.assertEqual(turn_scene.along_side("bottom", {"traction": "[1 Pa, 2 Pa]"}, handedness=-1),
+                         {"traction": None, "shear_stress": "-1.0 Pa", "normal_stress": "-2.0 Pa"})
 
     def test_stress_turns_with_the_box(self):
         scene = self.folder / "scene.yaml"
@@ -101,9 +103,10 @@ time: {end: 1 h, step: 1 h}
 output: {probes: {u: {of: rock.displacement, at: [0.9 m, 1.7 m]}}}
 """, encoding="utf-8")
         straight = run(self.folder / "straight", scene)
-        for angle in (30, 200):
-            file, motion = turn_scene.turn(scene, self.folder / str(angle), angle, (1, 2), (), PROGRAM)
-            turned = along_box(run(self.folder / f"{angle}_results", scene, file), motion.turn)
+        for angle, mirror in ((30, False), (200, False), (0, True), (75, True)):
+            name = f"{angle}_{mirror}"
+            file, motion = turn_scene.turn(scene, self.folder / name, angle, (1, 2), (), PROGRAM, mirror)
+            turned = along_box(run(self.folder / f"{name}_results", scene, file), motion.turn)
             for name in ("u.x[m]", "u.y[m]"):
                 self.assertLess(difference(straight, turned, name), 1e-10)
 

@@ -2,7 +2,7 @@
 
 import math
 
-from . import draws
+from . import draws, physics
 
 ORDERS = {"together": "- solve: [pore, rock, conduit, contact, heat, water]",
           "flow first": "- solve: [pore, rock, conduit, contact]\n  - solve: [heat, water]",
@@ -28,6 +28,27 @@ def draw(rng):
         "order": draws.choose(rng, **{"together": 0.5, "flow first": 0.3, "heat first": 0.2}),
         "clock": draws.choose(rng, flow=0.5, heat=0.5),  # whose diffusion time steps are measured by
     }
+
+
+# Stress beside the end of a fracture of length L, over that on the sides: sqrt(a / (2 r)) for a = L/2 in a cell of L/20.
+CONCENTRATION = math.sqrt(10)
+
+
+def pressed_out(p):
+    """The part of a volume of rock that is fluid which loads, pressures and heat of the scene can press out of it."""
+    loads = [physics.stresses(p, physics.end(p) * i / 8) for i in range(9)] if p["sides"] == "stress" else [(p["stress"], p["stress"])]
+    stress = CONCENTRATION * max(0.5 * (abs(x) + abs(y)) for x, y in loads)
+    stress += 3 * physics.bulk_modulus(p) * p["expansion"] * (max(given(p)) - min(given(p)))
+    pressures = [p["initial"], *([p["initial"]] if p["boundary"] != "none" else []), *([p["boundary_pressure"]] if p["boundary"] == "across" else [])]
+    pressure = max(pressures) - min(pressures) + stress
+    return p["alpha"] * (stress + p["alpha"] * pressure) / physics.in_plane_modulus(p) + p["storage"] * (max(pressures) - min(pressures))
+
+
+def with_fluid(p):
+    """The parameters with a heat capacity of the rock that can be one: it includes the fluid in the pores, (rho c) >= porosity c_f, so
+    it is at least that of the fluid that the scene can press out. Below that a cell would lose more heat capacity than it has, and
+    the run ends with a message."""
+    return {**p, "heat_capacity": max(p["heat_capacity"], p["fluid_heat_capacity"] * pressed_out(p))}
 
 
 def of_fractures(p):

@@ -94,4 +94,6 @@ def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=sche
          **time(rng)}
     if swapped:
         p.update(swaps.draw(seed, number, family), swapped=True)
-    return {**p, **MORE[family](rng)} if family in MORE else p
+    if family in MORE:
+        p.update(MORE[family](rng))
+    return heat.with_fluid(p) if family == "heat" else p

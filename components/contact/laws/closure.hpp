@@ -9,11 +9,11 @@ namespace sprekk::contact {
 class Closure {
  public:
   virtual ~Closure() = default;
-  /// m, and m/Pa.
+  /// The closure, m, and its derivative by the pressure between the walls, m/Pa.
   struct Value {
     double closure, by_pressure;
   };
-  /// Of the normal pressure −f_n of the contact, Pa. Below zero the function goes on linearly.
+  /// The closure under the normal pressure −f_n of the contact, Pa. Below zero the function goes on linearly.
   virtual Value at(double pressure) const = 0;
 };
 

@@ -119,7 +119,7 @@ class Front {
   double advance(int tip) const;                                 ///< in increments
   Eigen::VectorXd advances(const std::vector<int>& tips) const;  ///< in increments
   static Eigen::VectorXd loads(const std::vector<int>& tips, const Eigen::VectorXd& residual);
-  /// Of front_tips().
+  /// The equations of the tips of front_tips().
   FrontEquations equations(const Eigen::VectorXd& residual) const;
   /// The residual with these equations in the place of the loads.
   Eigen::VectorXd count_loads(const Eigen::VectorXd& residual, const FrontEquations& front) const;

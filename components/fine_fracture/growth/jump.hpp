@@ -42,7 +42,7 @@ class FrontJump {
   const Record& record(int tip) const { return records_[tip]; }
 
  private:
-  /// Where tips are, and their loads there.
+  /// Positions of all tips, and their loads there.
   struct Place {
     std::vector<double> length, angle, load;
     double excess = 0;  ///< the largest ln(K_eq/K_IC)

@@ -29,7 +29,7 @@ enum class Mean {
 /// is evaluated once for each piece; a datum that does not depend on time is evaluated only once.
 class MeansAlong {
  public:
-  /// Without values.
+  /// An object without values, to be assigned to.
   MeansAlong() = default;
   /// Evaluates the datum at `start` (s). Throws DataError.
   MeansAlong(const Data& data, std::vector<Piece> pieces, Mean mean, double start);

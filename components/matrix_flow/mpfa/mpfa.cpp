@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "components/matrix_flow/cells_around_tips.hpp"
 #include "components/matrix_flow/check_conditions.hpp"
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 #include "components/matrix_flow/mpfa/tip_correction.hpp"

@@ -18,7 +18,7 @@ namespace sprekk::matrix_flow {
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
                               const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 
-/// With other limits than the usual ones.
+/// Like discretize_mpfa, with other limits than the usual ones.
 FluxOperators discretize_mpfa_with(const MpfaLimits& limits, const Mesh& mesh, const std::vector<Tensor>& mobility,
                                    const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 

@@ -58,8 +58,4 @@ bool is_isotropic(const Tensor& mobility);
 /// Whether the entries of two mobilities differ by at most `alike` times the largest entry of `other`.
 bool resembles(const Tensor& mobility, const Tensor& other, double alike = MpfaLimits().alike);
 
-/// For every tip the cells of the fit of its flow, ascending: the cells at its node, and the cells at those corners of
-/// them that are near the tip. `tips`: see ends_nearby.
-std::map<int, std::vector<int>> cells_around_tips(const Mesh& mesh, const std::vector<int>& tips);
-
 }  // namespace sprekk::matrix_flow

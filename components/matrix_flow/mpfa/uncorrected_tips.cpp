@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "components/matrix_flow/cells_around_tips.hpp"
 #include "components/matrix_flow/mpfa/tip_flow.hpp"
 #include "framework/discretization/end_surroundings.hpp"
 #include "framework/discretization/ends_nearby.hpp"

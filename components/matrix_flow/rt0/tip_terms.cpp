@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "components/matrix_flow/cells_around_tips.hpp"
 #include "components/matrix_flow/mpfa/tip_energy.hpp"
 #include "framework/dense/cholesky.hpp"
 #include "framework/discretization/ends_nearby.hpp"

@@ -26,7 +26,7 @@ void put(std::vector<Triplet>& entries, int row, int column, const Tensor& block
 struct RawStiffness {
   SparseMatrix matrix;
   std::vector<Tensor> of_face;            ///< N/m per m
-  std::vector<Tensor> of_face_in_shares;  ///< the same, times stiffness_together of each of its cells
+  std::vector<Tensor> of_face_in_shares;  ///< the same, times stiffness_together of its cells, twice in quadrilaterals
   std::vector<Eigen::Matrix2Xd> of_interior;
 };
 
@@ -56,7 +56,8 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j)
         put(entries, first[i], first[j], of_cell.of_unknowns.block<dimension, dimension>(dimension * i, dimension * j));
-    const double together = stiffness_together(of_cell.of_unknowns, corners);
+    constexpr double kept_of_bending = 2;
+    const double together = (corners == 4 ? kept_of_bending : 1) * stiffness_together(of_cell.of_unknowns, corners);
     for (int k = 0; k < corners; ++k) {
       const int at = dimension * (corners + k), face = mesh.cell_faces[c][k];
       const Tensor own = of_cell.of_unknowns.block<dimension, dimension>(at, at);

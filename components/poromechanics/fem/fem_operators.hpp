@@ -40,8 +40,10 @@ struct FemOperators {
 /// of s, T and F among them, displace it as if it stood alone. Its stiffness is made larger until it is at least that
 /// of all functions of faces of a cell together, so that what is left for the nodes is positive definite (Rodrigo, Hu,
 /// Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized discretizations for poroelasticity and the Stokes' equations,
-/// with the whole vector in place of its normal component). Nothing is displaced where displacements are linear and
-/// tractions agree, and what leaves one cell through a face enters the other.
+/// with the whole vector in place of its normal component). In quadrilaterals it is twice as stiff: else the functions
+/// of faces could take all of the stiffness of a cell that bends, and with twice it they leave half of it. Nothing is
+/// displaced where displacements are linear and tractions agree, and what leaves one cell through a face enters the
+/// other.
 ///
 /// `has_volumetric_stress`, at first order: the stress with which nearly incompressible cells resist a change of volume
 /// (see VolumetricSplit) is an unknown of its own, which acts as s does.

@@ -9,7 +9,7 @@
 
 namespace sprekk::poromechanics {
 
-/// In the numbering of RawDisplacement.
+/// The loads that the scene gives, in the numbering of RawDisplacement.
 struct GivenLoads {
   /// The work of tractions on sides, of the weight and of the body force, less that of the initial stress, N/m.
   Vector forces;

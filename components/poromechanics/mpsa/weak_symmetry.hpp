@@ -14,7 +14,7 @@ namespace sprekk::poromechanics {
 using GradientMap = Eigen::Matrix4d;
 /// A linear function of a gradient.
 using GradientRow = Eigen::RowVector4d;
-/// From gradients to the two components of a force.
+/// A linear map from gradients to the two components of a force.
 using ForceMap = Eigen::Matrix<double, 2, 4>;
 
 /// C : sym G.
@@ -76,7 +76,7 @@ class Kink {
   GradientJump dilation() const { return left_of(GradientRow(1, 0, 0, 1), {n_[0], n_[1]}); }
 
  private:
-  /// Of the function of a gradient that is of_a · a for a ⊗ n.
+  /// The jump of a function of the gradient that is of_a · a for a ⊗ n.
   GradientJump left_of(const GradientRow& function, const Eigen::RowVector2d& of_a) const {
     const Eigen::RowVector2d of_traction = of_a * compliance_;
     const GradientRow of_contrast = of_traction * contrast_;
@@ -89,7 +89,7 @@ class Kink {
   ForceMap contrast_;
 };
 
-/// Of rotations, and how strongly it turns both subcells back.
+/// The jump of rotations across a half face, and the strength with which it turns both subcells back.
 struct RotationJump : GradientJump {
   double strength[2];  ///< N, of the couple rho strength on either subcell
 };

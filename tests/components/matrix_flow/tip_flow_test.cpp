@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "components/matrix_flow/cells_around_tips.hpp"
 #include "components/matrix_flow/mpfa/mpfa.hpp"
 #include "framework/discretization/ends_nearby.hpp"
 #include "tests/components/meshes.hpp"

@@ -1,4 +1,4 @@
-#include "framework/meshing/geometry_spec.hpp"
+#include "framework/meshing/spec/geometry_spec.hpp"
 #include "framework/config/yaml/parse_yaml.hpp"
 
 #include "framework/meshing/validate_geometry.hpp"

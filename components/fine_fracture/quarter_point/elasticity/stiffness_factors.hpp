@@ -23,7 +23,7 @@ class StiffnessFactors {
   StiffnessFactors(const FineMesh& mesh, const Unknowns& unknowns, const std::vector<ElementMatrix>& stiffness,
                    Profile& profile);
   Vector solve(const Vector& b) const;
-  /// Of all columns.
+  /// The solutions for all columns at once.
   Eigen::MatrixXd solve_all(const Eigen::MatrixXd& b) const;
 
  private:

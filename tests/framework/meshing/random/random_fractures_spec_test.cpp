@@ -2,7 +2,7 @@
 
 #include "framework/config/yaml/parse_yaml.hpp"
 #include "framework/mesh/planar.hpp"
-#include "framework/meshing/geometry_spec.hpp"
+#include "framework/meshing/spec/geometry_spec.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

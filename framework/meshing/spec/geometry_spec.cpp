@@ -1,4 +1,4 @@
-#include "framework/meshing/geometry_spec.hpp"
+#include "framework/meshing/spec/geometry_spec.hpp"
 
 #include <algorithm>
 #include <cmath>
