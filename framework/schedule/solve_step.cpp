@@ -209,8 +209,9 @@ void SolveStep::check_response() const {
   if (waiting().empty())
     throw no_effect("this step solves for all unknowns of the iteration, so none waits", "remove it");
   if (answering().empty())
-    throw no_effect("'" + waiting().front()->spec().owner + "' waits alone, and has no answer while what it needs is held",
-                    "remove it, and give it to the 'solve' of '" + waiting().front()->spec().owner + "'");
+    throw no_effect(
+        "'" + waiting().front()->spec().owner + "' waits alone, and has no answer while what it needs is held",
+        "remove it, and give it to the 'solve' of '" + waiting().front()->spec().owner + "'");
   for (const Part* part : parts_)
     for (const Dependence& dependence : part->dependences()) {
       const auto is_of = [](const std::string& name) {

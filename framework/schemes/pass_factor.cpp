@@ -77,9 +77,9 @@ const PassFactor::Group* PassFactor::group(const std::vector<std::string>& compo
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     const bool is_own = is_in_group(unknowns_[u]->spec().owner);
     if (!is_own && !(responds && answers(unknowns_[u]->spec().owner))) continue;
-    const Kind kind = !is_own                                        ? Kind::waiting
+    const Kind kind = !is_own                                     ? Kind::waiting
                       : is_bulk(unknowns_[u]->spec().role.kind()) ? Kind::bulk
-                                                                     : Kind::interface;
+                                                                  : Kind::interface;
     if (const auto found = diagonals.find(unknowns_[u]); found != diagonals.end())
       more.segment(first_[u], first_[u + 1] - first_[u]) = found->second;
     for (int row = first_[u]; row < first_[u + 1]; ++row) {
