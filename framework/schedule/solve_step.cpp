@@ -145,6 +145,18 @@ std::vector<const Field*> SolveStep::waiting() const {
   return waiting;
 }
 
+std::vector<const Field*> SolveStep::answering() const {
+  std::vector<const Field*> answering = waiting();
+  const auto is_solved = [&](const std::string& component) {
+    return std::ranges::any_of(fields_, [&](const Field* field) { return field->spec().owner == component; });
+  };
+  for (const Part* part : parts_)
+    for (const Dependence& dependence : part->dependences())
+      if (is_solved(dependence.on))
+        std::erase_if(answering, [&](const Field* field) { return field->spec().owner == dependence.component; });
+  return answering;
+}
+
 ResponseOptions SolveStep::wanted_responses() const {
   // Residuals of waiting unknowns may be enlarged many times in the equations of this solve.
   constexpr double settled = 0.1;
@@ -170,9 +182,9 @@ const Responses& SolveStep::responses(const StepTime& step) {
     if (std::vector<const Field*> held = held_amounts(); !held.empty())
       amounts_ = std::make_unique<HeldAmounts>(mesh_, std::move(held), unknowns(), parts_);
     ResponseOptions wanted = wanted_responses();
-    const std::vector<const Field*> waits = waiting();
-    if (!wanted.pairs.empty() && !waits.empty()) {
-      response_ = std::make_unique<WaitingResponse>(mesh_, waits, parts_, std::move(wanted), options_.linear);
+    const std::vector<const Field*> answers = answering();
+    if (!wanted.pairs.empty() && !answers.empty()) {
+      response_ = std::make_unique<WaitingResponse>(mesh_, answers, parts_, std::move(wanted), options_.linear);
       std::vector<Field*> unknowns = fields_;
       for (const auto& copy : response_->copies(step)) unknowns.push_back(copy.get());
       if (unknowns.size() > fields_.size()) {
@@ -197,6 +209,10 @@ void SolveStep::check_response() const {
                     "give it to a 'solve' that has some");
   if (waiting().empty())
     throw no_effect("this step solves for all unknowns of the iteration, so none waits", "remove it");
+  if (answering().empty())
+    throw no_effect(
+        "'" + waiting().front()->spec().owner + "' waits alone, and has no answer while what it needs is held",
+        "remove it, and give it to the 'solve' of '" + waiting().front()->spec().owner + "'");
   for (const Part* part : parts_)
     for (const Dependence& dependence : part->dependences()) {
       const auto is_of = [](const std::string& name) {

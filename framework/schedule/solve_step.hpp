@@ -45,6 +45,9 @@ class SolveStep : public ScheduleStep {
   /// The pairs of fields for which the stabilization adds the Schur complement of the waiting unknowns.
   ResponseOptions wanted_responses() const;
   std::vector<const Field*> waiting() const;
+  /// Those of the waiting fields that can answer: not those of a component that needs one which this step solves for,
+  /// and which would be held meanwhile.
+  std::vector<const Field*> answering() const;
   const Responses& responses(const StepTime& step);
   /// The waiting fields whose balances keep their amounts by the stabilization.
   std::vector<const Field*> held_amounts() const;

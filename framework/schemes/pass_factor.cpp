@@ -64,23 +64,42 @@ const PassFactor::Group* PassFactor::group(const std::vector<std::string>& compo
   std::vector<int> place(static_cast<std::size_t>(matrix_.cols()), -1);
   Vector more = Vector::Zero(matrix_.cols());
   const bool responds = stabilization == "response";
+  const auto is_in_group = [&](const std::string& component) { return std::ranges::count(components, component) > 0; };
+  // Whether the unknowns of a component that waits answer: not while what it needs is solved for, and held meanwhile.
+  const auto answers = [&](const std::string& component) {
+    for (const Part* part : model_.parts())
+      for (const Dependence& dependence : part->dependences())
+        if (dependence.component == component && is_in_group(dependence.on)) return false;
+    return true;
+  };
+  enum class Kind { none, waiting, bulk, interface };
+  std::vector<Kind> kinds(static_cast<std::size_t>(matrix_.cols()), Kind::none);
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    const bool is_own = std::ranges::count(components, unknowns_[u]->spec().owner) > 0;
-    if (!is_own && !responds) continue;
+    const bool is_own = is_in_group(unknowns_[u]->spec().owner);
+    if (!is_own && !(responds && answers(unknowns_[u]->spec().owner))) continue;
+    const Kind kind = !is_own                                     ? Kind::waiting
+                      : is_bulk(unknowns_[u]->spec().role.kind()) ? Kind::bulk
+                                                                  : Kind::interface;
     if (const auto found = diagonals.find(unknowns_[u]); found != diagonals.end())
       more.segment(first_[u], first_[u + 1] - first_[u]) = found->second;
     for (int row = first_[u]; row < first_[u + 1]; ++row) {
       place[row] = static_cast<int>(group->rows.size());
+      kinds[row] = kind;
       if (is_own) group->changed.push_back(place[row]);
       group->rows.push_back(row);
     }
   }
+  // Waiting unknowns answer those on interfaces, and act on them.
+  const auto are_apart = [](Kind one, Kind other) {
+    return (one == Kind::waiting && other == Kind::bulk) || (one == Kind::bulk && other == Kind::waiting);
+  };
   const int size = static_cast<int>(group->rows.size());
   std::vector<Triplet> entries;
   for (int i = 0; i < size; ++i) {
     const int row = group->rows[i];
     for (SparseMatrix::InnerIterator entry(matrix_, row); entry; ++entry)
-      if (place[entry.col()] >= 0) entries.emplace_back(i, place[entry.col()], entry.value());
+      if (place[entry.col()] >= 0 && !are_apart(kinds[row], kinds[entry.col()]))
+        entries.emplace_back(i, place[entry.col()], entry.value());
     if (more[row] != 0) entries.emplace_back(i, i, more[row]);
   }
   for (const ResponseTerm& term : terms_of_held_amounts(components, stabilization)) {

@@ -208,9 +208,11 @@ TEST(Buoyancy, InTurnConvergesToMonolithic) {
   const std::array<double, 4> same = {1, 0, 0, 1};
   const Vector together = heated(from_side(), same);
   Square in_turn = from_side();
-  in_turn.schedule = "[{iterate: {fallback: none, steps: [{solve: pore}, {solve: heat}], until: {relative: 1e-11, at_most: 100}}}]";
+  in_turn.schedule =
+      "[{iterate: {fallback: none, steps: [{solve: pore}, {solve: heat}], until: {relative: 1e-11, at_most: 100}}}]";
   EXPECT_LT((heated(in_turn, same) - together).lpNorm<Eigen::Infinity>(), 1e-7);
-  in_turn.schedule = "[{iterate: {fallback: none, steps: [{solve: heat}, {solve: pore}], until: {relative: 1e-11, at_most: 100}}}]";
+  in_turn.schedule =
+      "[{iterate: {fallback: none, steps: [{solve: heat}, {solve: pore}], until: {relative: 1e-11, at_most: 100}}}]";
   EXPECT_LT((heated(in_turn, same) - together).lpNorm<Eigen::Infinity>(), 1e-7);
 }
 

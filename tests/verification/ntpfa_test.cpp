@@ -282,11 +282,11 @@ TEST(Ntpfa, MandelIsOfSecondOrderAtOnceAndInTurn) {
   const double coarse = mandel_error("{size: 0.1 m}", {}), fine = mandel_error("{size: 0.05 m}", {});
   EXPECT_LT(fine, 2e-3);
   EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
-  const double in_turn = mandel_error(
-      "{size: 0.05 m}",
-      {{"schedule",
-        "[{iterate: {fallback: none, until: {at_most: 60}, steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}]"}},
-      1e-5);
+  const double in_turn = mandel_error("{size: 0.05 m}",
+                                      {{"schedule",
+                                        "[{iterate: {fallback: none, until: {at_most: 60}, steps: [{solve: pore, "
+                                        "stabilize: fixed_stress}, {solve: rock}]}}]"}},
+                                      1e-5);
   EXPECT_NEAR(in_turn, fine, 1e-5);
 }
 
