@@ -80,7 +80,7 @@ class SwapsInSection51 : public ::testing::TestWithParam<Choice> {};
 INSTANTIATE_TEST_SUITE_P(All, SwapsInSection51, ::testing::Combine(flows, rocks, contacts), name_of_pair);
 
 /// Section 5.1 of the paper with 20 cells on the fracture, at the end of the injection. Finite elements of first order
-/// have a first-order error of slip at tips (4.3 % here); two-point fluxes are not consistent on this mesh, which
+/// have a first-order error of slip at tips (2.9 % here); two-point fluxes are not consistent on this mesh, which
 /// `check` says (0.11 % of the pressure far from the fracture).
 TEST_P(SwapsInSection51, SlipAndLoadTheTipsLikeTheCrackWithBackStress) {
   const std::vector<Override> scene = {{"mesh.fracture_size", "5 mm"}};
@@ -98,10 +98,10 @@ TEST_P(SwapsInSection51, SlipAndLoadTheTipsLikeTheCrackWithBackStress) {
                   std::abs(run.quantity("tips.main_first.K_II")) / crack.k2 - 1,
                   std::abs(run.quantity("tips.main_last.K_II")) / crack.k2 - 1, run.quantity("p_C") / pressure - 1));
   const auto& [flow, rock, contact] = GetParam();
-  EXPECT_NEAR(std::abs(run.quantity("slip.t")) / crack.peak_slip, 1, rock == "fem_first" ? 0.05 : 0.01);
+  EXPECT_NEAR(std::abs(run.quantity("slip.t")) / crack.peak_slip, 1, rock == "fem_first" ? 0.035 : 0.01);
   EXPECT_NEAR(std::abs(run.quantity("tips.main_first.K_II")) / crack.k2, 1, 0.01);
   EXPECT_NEAR(std::abs(run.quantity("tips.main_last.K_II")) / crack.k2, 1, 0.01);
-  EXPECT_NEAR(run.quantity("p_C") / pressure, 1, flow == "tpfa" ? 2e-3 : 1e-4);
+  EXPECT_NEAR(run.quantity("p_C") / pressure, 1, flow == "tpfa" ? 1.5e-3 : 1e-4);
 }
 
 }  // namespace
