@@ -104,6 +104,7 @@ class Front {
   bool learns_from_start() const;
   void make_jacobian();
   void forget();
+  double size_of(int tip) const;
   /// Puts the parts of the derivatives that depend on the lengths of segments and fractures in, or takes them out
   /// (`inverse`). `states`: those at which the slopes of turns are taken.
   void scale(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const;

@@ -40,12 +40,20 @@ void Front::make_jacobian() {
   }
 }
 
+/// m, of what counts as the length of the fracture when the tip advances, with its advance in the trial. A new segment
+/// that turns from the direction ahead is a kink, whose K falls with its own length. 0: not known.
+double Front::size_of(int tip) const {
+  if (tips_[tip].size <= 0) return 0;
+  const bool is_kink = is_new(tip) && std::abs(angle_[tip] - tips_[tip].ahead) > least_kink;
+  return is_kink ? length_[tip] : tips_[tip].size + length_[tip] - tips_[tip].covered;
+}
+
 /// An angle changes K by moving the tip sideways, in proportion to the length of its segment, and K_II by the
 /// direction, as at a kink. The effect of an advance is scaled with the length that the fracture has already.
 void Front::scale(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const {
   for (int j = 0; j < count(); ++j) {
-    if (tips_[j].size > 0)
-      jacobian.col(2 * j) *= inverse ? tips_[j].size / options_.increment : options_.increment / tips_[j].size;
+    if (const double size = size_of(j); size > 0)
+      jacobian.col(2 * j) *= inverse ? size / options_.increment : options_.increment / size;
     if (!(length_[j] > 0)) continue;
     const double across = length_[j] / options_.increment,
                  turn = grows_[j] ? turn_slope_of(j, states[j].sifs, length_[j]) : short_kink_turn_slope;

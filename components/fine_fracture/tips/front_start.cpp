@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/fine_fracture/growth/front_limits.hpp"
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips_front.hpp"
 #include "framework/mesh/planar.hpp"
@@ -11,11 +12,38 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double longest_advance = 1.5;  ///< of an increment, in one step
-constexpr double carried_on = 0.5;       ///< of the change of speed between the last two steps: it has noise, too
+constexpr double carried_on = 0.5;       ///< of a change between the last two steps: it has noise, too
 constexpr double steady = 1.2;  ///< ratio of the speeds of two steps from which they tell no trend; largest one by it
 
 /// Speeds are means over the last two steps, because advances alternate: segments are divided every other step.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
+
+/// As in the last step, with half of the change from the step before.
+double next_of_steps(double last, double before) {
+  return last != 0 && before != 0 ? last + carried_on * (last - before) : last;
+}
+
+double angle_between(const Point& from, const Point& to) { return std::atan2(cross(from, to), from.dot(to)); }
+
+/// m, of the cells that have grown behind a kink at this end, or of the whole fracture where there is none. K of a wing
+/// falls with its own length, while the fracture behind it stays as it is (Horii and Nemat-Nasser 1986).
+double length_that_counts(const Mesh& mesh, const TipEnd& end) {
+  const Fracture& fracture = mesh.fractures[end.fracture];
+  const auto cell_at = [&](int k) -> const FractureCell& {
+    return mesh.fracture_cells[fracture.first_cell + (end.at_end ? fracture.cell_count - 1 - k : k)];
+  };
+  const auto direction = [&](const FractureCell& cell) {
+    return Point(mesh.fracture_points[cell.points[1]].position - mesh.fracture_points[cell.points[0]].position);
+  };
+  double grown = 0;
+  for (int k = 0; k < fracture.cell_count && cell_at(k).grown; ++k) {
+    grown += cell_at(k).measure;
+    if (k + 1 < fracture.cell_count && !cell_at(k + 1).grown &&
+        std::abs(angle_between(direction(cell_at(k)), direction(cell_at(k + 1)))) > least_kink)
+      return grown;
+  }
+  return fracture_length(mesh, end.fracture);
+}
 
 }  // namespace
 
@@ -46,9 +74,9 @@ void TipsFront::add(Tips::Tip& tip) {
   start.anchor = end;
   start.angle = start.ahead = angle_of(ahead);
   start.toughness = tips_.toughness(tip);
-  start.size = fracture_length(tips_.mesh_, tip.end.fracture);
+  start.size = length_that_counts(tips_.mesh_, tip.end);
   start.speed = mean_of_steps(tip.now.speed, tip.now.speed_before);
-  start.turning = mean_of_steps(tip.now.turning, tip.now.turning_before);
+  start.turning = next_of_steps(tip.now.turning, tip.now.turning_before);
   start.goes_on = goes_on_ && tip.now.is_extendable && !tip.now.is_stopped && tip.now.speed > 0;
   if (tip.now.is_extendable) {
     start.covered = tips_.last_cell(tip.end).measure;
@@ -65,7 +93,8 @@ void TipsFront::add(Tips::Tip& tip) {
       tip.next_start = place.direction;
     }
     start.is_bent = tip.next_start.has_value();
-    if (start.is_bent) start.ahead = start.angle;
+    if (start.is_bent)
+      start.ahead = start.angle + angle_between(end - start.anchor, *tip.next_start + tips_.end_direction(tip));
   }
   FrontState state = state_of(tips_, tip);
   if (state.is_evaluated && !tip.now.path.added.empty()) {

@@ -29,7 +29,9 @@ struct Part {
 class Parts {
  public:
   Parts(const LinearSystem& system, const UnknownBlock& block, const std::vector<char>& is_balance)
-      : block_(block), a_(system.local), part_of_(block.entities, -1) {
+      : block_(block), a_(system.local), entity_of_(system.local.cols(), -1), part_of_(block.entities, -1) {
+    for (int entity = 0; entity < block.entities; ++entity)
+      std::fill_n(entity_of_.begin() + block.first + entity * block.components, block.components, entity);
     find(is_balance);
     for (Part& part : parts_) prepare(part);
     for (int row = 0; row < a_.rows(); ++row)
@@ -71,11 +73,6 @@ class Parts {
   }
 
  private:
-  int entity_of(int unknown) const {
-    const int place = unknown - block_.first;
-    return place >= 0 && place < block_.entities * block_.components ? place / block_.components : -1;
-  }
-
   /// Joins the entities that have entries in one row.
   void find(const std::vector<char>& is_balance) {
     std::vector<int> parent(block_.entities);
@@ -86,9 +83,9 @@ class Parts {
     };
     for (int row = 0; row < a_.rows(); ++row) {
       if (!is_balance[row]) continue;
-      int first = entity_of(row);
+      int first = entity_of_[row];
       for (SparseMatrix::InnerIterator entry(a_, row); entry; ++entry) {
-        const int entity = entry.value() == 0 ? -1 : entity_of(static_cast<int>(entry.col()));
+        const int entity = entry.value() == 0 ? -1 : entity_of_[entry.col()];
         if (entity < 0 || entity == first) continue;
         if (first < 0) first = entity;
         parent[root(entity)] = root(first);
@@ -135,13 +132,13 @@ class Parts {
     Part* part = nullptr;
     SPREKK_EXPECT(is_index(row, a_.rows()), row, a_.rows());
     for (SparseMatrix::InnerIterator entry(a_, row); entry; ++entry) {
-      const int entity = entry.value() == 0 ? -1 : entity_of(static_cast<int>(entry.col()));
+      const int entity = entry.value() == 0 ? -1 : entity_of_[entry.col()];
       if (entity < 0) continue;
       if (part == nullptr) {
         part = &parts_[part_of_[entity]];
         w = OfMode::Zero(part->modes);
       }
-      const int component = (static_cast<int>(entry.col()) - block_.first) % block_.components;
+      const int component = static_cast<int>(entry.col()) - block_.first - entity * block_.components;
       w[component] += entry.value();
       if (part->modes > block_.components) {
         const auto motions = rotated(block_.coordinates[entity] - part->centre);
@@ -168,7 +165,8 @@ class Parts {
 
   const UnknownBlock& block_;
   const SparseMatrix& a_;
-  std::vector<int> part_of_;  ///< of every entity
+  std::vector<int> entity_of_;  ///< of every unknown; -1 for those of other blocks
+  std::vector<int> part_of_;    ///< of every entity
   std::vector<Part> parts_;
 };
 

@@ -94,5 +94,38 @@ TEST(Front, NeedsFewTrialsAfterStepsAtRest) {
   EXPECT_LE(front.trials(), 6);
 }
 
+/// K of a wing falls with its own length, as 1 / sqrt(length), whatever the length of the fracture that it belongs to.
+/// The search begins with the new segment of the kink; the next one knows the slope from it, at twice the length.
+TEST(Front, NeedsFewTrialsBehindAKink) {
+  const auto solved = [](const FrontTip& tip, double rise, double from, const Eigen::MatrixXd& slopes) {
+    const auto state = [&](double length, double angle) {
+      const double k = tip.toughness * std::exp(rise) * std::sqrt(from / length), wrong = 0.5 * (angle - 1.2);
+      FrontState state{{k * std::cos(wrong), k * std::sin(wrong), 0}, 0};
+      state.load = equivalent_sif(state.sifs) / tip.toughness;
+      return state;
+    };
+    Front front({tip}, {state(from, 1.2)}, options(), 3600, slopes);
+    while (front.verdict() == Front::Verdict::again) front.learn({state(front.length(0), front.angle(0))});
+    return front;
+  };
+  FrontTip wing = tip(0);
+  wing.covered = 0;
+  wing.size = 0.1;
+  wing.first_length = 0.004;
+  wing.first_angle = 1.2;
+  const Front kink = solved(wing, 0.5 * std::log(1.2), 0.004, {});
+  ASSERT_EQ(kink.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(kink.length(0), 0.0048, 1e-8);
+
+  wing = tip(1.2);
+  wing.covered = wing.size = kink.length(0);
+  wing.speed = 0.0047 / 3600;
+  wing.goes_on = true;
+  const Front next = solved(wing, 0.5 * std::log(2.0), wing.covered, kink.slopes());
+  ASSERT_EQ(next.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(next.length(0), 2 * wing.covered, 1e-7);
+  EXPECT_LE(next.trials(), 4);
+}
+
 }  // namespace
 }  // namespace sprekk::fine_fracture
