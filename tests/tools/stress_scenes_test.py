@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 import stress_state  # noqa: F401  pylint: disable=unused-import  (it tells where the suite is)
-from stress_suite import fractures, ranges, scene, swaps, twisted_mesh
+from stress_suite import fractures, heat, ranges, scene, swaps, twisted_mesh
 
 
 class Swapped(unittest.TestCase):
@@ -19,6 +19,26 @@ class Swapped(unittest.TestCase):
     def test_all_combinations_are_drawn(self):
         drawn = {tuple(swaps.draw(1, number, "separate").values()) for number in range(300)}
         self.assertEqual(len(drawn), len(swaps.FLOWS) * len(swaps.ROCKS) * len(swaps.CONTACTS))
+
+
+class Buoyant(unittest.TestCase):
+    def test_a_scene_stays_as_it_is_but_for_gravity_and_density(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            for number in range(20):
+                texts = []
+                for buoyant in (False, True):
+                    p = ranges.draw(1, number, "heat", buoyant=buoyant)
+                    texts.append(scene.write(p, Path(temporary) / str(buoyant)).read_text().splitlines()[1:])
+                more = [line for line in texts[1] if line not in texts[0]]
+                self.assertEqual([line for line in texts[1] if line not in more], texts[0])
+                self.assertEqual([line.split()[0].strip("-:{") or line.split()[2] for line in more],
+                                 ["gravity", "fluid_density", "gravity", "fluid_density", "buoyancy,"])
+
+    def test_densities_are_positive(self):
+        for number in range(200):
+            p = ranges.draw(1, number, "heat", buoyant=True)
+            warmest = max(heat.given(p)) - p["temperature"]
+            self.assertGreater(1 - p["buoyancy"]["expansion"] * warmest, 0.5)
 
 
 class Scenes(unittest.TestCase):

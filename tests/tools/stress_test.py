@@ -161,7 +161,7 @@ class Ends(unittest.TestCase):
             program = Path(folder) / "program"
             program.write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
             program.chmod(0o755)
-            chosen = argparse.Namespace(seed=1, family="heat", update="after_step", scheme="monolithic", swapped=False, limit=10)
+            chosen = argparse.Namespace(seed=1, family="heat", update="after_step", scheme="monolithic", swapped=False, buoyant=False, limit=10)
             return examine.examine(program, chosen, 0, Path(folder) / "scene")
 
     def test_no_step(self):

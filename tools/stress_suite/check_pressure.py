@@ -11,6 +11,7 @@ Bounds: a pressure lies between those that were given, widened by what loads and
   sides of the box.
 - Walls that overlap (contact/penalty) press on the fluid as a fracture that closes, and let go of it.
 - Heat: what expands counts as a load, 3 K alpha_T times the range of temperatures.
+- Gravity: the weight of the heaviest fluid between two corners of the box.
 - Wells with limits: these, where their rates drive pressures to them, and given ones.
 - A fracture that has opened, and closes: at most the stress that closes it.
 - Opening by slip, and extraction, lower the pressure without a bound of their own where the rock gives no fluid.
@@ -24,7 +25,7 @@ import math
 
 import numpy as np
 
-from . import heat, limited_wells, physics, swaps
+from . import buoyancy, heat, limited_wells, physics, swaps
 
 MISSED = 0.05  # of the differences
 PEAK = 0.02
@@ -110,7 +111,7 @@ def bounds(p, instant, stresses, has_opened):
         heated = 3 * physics.bulk_modulus(p) * p["expansion"] * (max(heat.given(p)) - min(heat.given(p))) if p["family"] == "heat" else 0.0
         mean = p["alpha"] * (stresses.most - stresses.least + heated) / (p["alpha"] ** 2 + p["storage"] * physics.in_plane_modulus(p))
     volume, length = abs(p["volume"] * physics.length(p) * p["aperture"]), physics.length(p)
-    lowest, highest = min(given) - mean, max(given) + mean
+    lowest, highest = min(given) - mean - buoyancy.weight(p), max(given) + mean + buoyancy.weight(p)
     if has_opened:
         highest = max(highest, stresses.largest) + mean
     if p["well"] in ("inject", "inject_extract"):

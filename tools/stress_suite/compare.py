@@ -37,7 +37,7 @@ def differences(alone, together, fluid):
 
 def examine(program, chosen, number, folder):
     report = one_process.examine(program, chosen, number, folder, keep=True)
-    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme, chosen.swapped)
+    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme, chosen.swapped, chosen.buoyant)
     ended = run.run(program, scene.write(p, folder), folder / "together", 3 * chosen.limit, chosen.processes)
     bad = check_end.failures(ended)
     report["seconds"] += round(ended.seconds, 2)

@@ -2,14 +2,14 @@
 
 import shutil
 
-from . import check_balance, check_contact, check_end, check_finite, check_growing, check_heat, check_pressure, check_wells, growing, physics, ranges, run, scene, schemes, swaps, written
+from . import buoyancy, check_balance, check_contact, check_end, check_finite, check_growing, check_heat, check_pressure, check_wells, growing, physics, ranges, run, scene, schemes, swaps, written
 
 
 def describe(p):
     if p["family"] == "growing":
         return growing.describe(p)
     more = scene.MORE[p["family"]].describe(p) if p["family"] in scene.MORE else ""
-    return (f"{swaps.describe(p)}{more}dt = {p['relative_step']:.0e} of diffusion, k = {p['permeability']:.0e}, alpha = {p['alpha']:.2f}, "
+    return (f"{swaps.describe(p)}{buoyancy.describe(p)}{more}dt = {p['relative_step']:.0e} of diffusion, k = {p['permeability']:.0e}, alpha = {p['alpha']:.2f}, "
             f"S = {p['storage']:.0e}, nu = {p['poisson']:.4f}, friction = {p['friction']:.2f}, "
             f"dilation = {p['dilation']:.0f} deg, a = {p['aperture']:.0e} m, {p['history']}, {p['well']}, {p['mesh']}, "
             f"{p['fractures']}, {p['place']}")
@@ -38,7 +38,7 @@ def check_fields(p, folder):
 
 def cuts_of_the_monolithic_scheme(program, chosen, number, folder):
     """The cuts of the same scene solved in one system; None where that gives no answer."""
-    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, schemes.MONOLITHIC, chosen.swapped)
+    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, schemes.MONOLITHIC, chosen.swapped, chosen.buoyant)
     ended = run.run(program, scene.write(p, folder / "monolithic"), folder / "monolithic/results", chosen.limit)
     return written.iterations_of_steps(ended.folder)[2] if ended.code == 0 and not ended.timed_out else None
 
@@ -46,7 +46,7 @@ def cuts_of_the_monolithic_scheme(program, chosen, number, folder):
 def examine(program, chosen, number, folder, keep=False):
     """{number, outcome, failures, iterations, accepted, rejected, together, monolithic cuts, seconds}; the folder is removed unless it
     is kept. Of a scene that is solved in turn and was cut, the monolithic scheme's cuts are counted as well."""
-    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme, chosen.swapped)
+    p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme, chosen.swapped, chosen.buoyant)
     shutil.rmtree(folder, ignore_errors=True)
     ended = run.run(program, scene.write(p, folder), folder / "results", chosen.limit)
     report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0, "together": 0,

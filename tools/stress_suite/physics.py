@@ -78,6 +78,7 @@ def family_option(p):
     """Of tools/stress."""
     family = "" if p["family"] == "separate" else f" --family {p['family']}"
     update = "" if p.get("update", "after_step") == "after_step" else f" --update {p['update']}"
+    buoyant = " --buoyant" if p.get("buoyant") or "buoyancy" in p else ""
     scheme = p.get("solved", p.get("scheme", "monolithic"))
     swapped = " --swapped" if p.get("swapped") else ""
-    return family + swapped + update + ("" if scheme == "monolithic" or p["family"] == "growing" else f" --scheme {scheme}")
+    return family + swapped + buoyant + update + ("" if scheme == "monolithic" or p["family"] == "growing" else f" --scheme {scheme}")

@@ -2,7 +2,7 @@
 
 import random
 
-from . import growing, heat, limited_wells, schemes, swaps
+from . import buoyancy, growing, heat, limited_wells, schemes, swaps
 from .draws import choose, log_uniform, sometimes
 
 
@@ -86,7 +86,7 @@ FAMILIES = ("separate", "meeting", "growing", "heat", "wells")
 MORE = {"meeting": meeting, "heat": heat.draw, "wells": limited_wells.draw}  # what families draw besides
 
 
-def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=schemes.MONOLITHIC, swapped=False):
+def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=schemes.MONOLITHIC, swapped=False, buoyant=False):
     rng = random.Random(f"{seed}:{number}" if family == "separate" else f"{family}:{seed}:{number}")
     if family == "growing":
         return {"seed": seed, "number": number, "family": family, "update": update, **growing.draw(rng)}
@@ -96,4 +96,6 @@ def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=sche
         p.update(swaps.draw(seed, number, family), swapped=True)
     if family in MORE:
         p.update(MORE[family](rng))
+    if buoyant:
+        p.update(buoyancy.draw(seed, number))
     return heat.with_fluid(p) if family == "heat" else p

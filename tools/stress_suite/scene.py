@@ -2,7 +2,7 @@
 
 import math
 
-from . import fractures, growing, heat, limited_wells, physics, schemes, swaps, twisted_mesh
+from . import buoyancy, fractures, growing, heat, limited_wells, physics, schemes, swaps, twisted_mesh
 
 
 def box_and_mesh(p):
@@ -67,14 +67,14 @@ def write(p, folder):
              f"  viscosity: {p['viscosity']!r} Pa*s", f"  fluid_compressibility: {p['compressibility']!r} 1/Pa",
              f"  friction: {p['friction']!r}", f"  dilation_angle: {math.radians(p['dilation'])!r} rad", "",
              "components:", "  pore:", f"    type: matrix_flow/{p['discretization']}", f"    storage: {p['storage']!r} 1/Pa",
-             f"    initial_pressure: {p['initial']!r} Pa", *flow_sides(p),
+             f"    initial_pressure: {p['initial']!r} Pa", *flow_sides(p), *buoyancy.of_flow(p),
              "  rock:", *swaps.rock(p), "    boundary:", *rock_sides(p),
              "  conduit:", "    type: fracture_flow/tpfa", f"    initial_aperture: {p['aperture']!r} m",
-             f"    initial_pressure: {p['initial']!r} Pa", *wells(p),
+             f"    initial_pressure: {p['initial']!r} Pa", *buoyancy.of_flow(p), *wells(p),
              f"  contact: {{type: contact/{swaps.contact(p)}}}", *(more.components(p) if more else []), "",
              "couplers:", "  - {type: biot, between: [pore, rock]}", "  - {type: wall_exchange, between: [pore, conduit]}",
              "  - {type: wall_traction, between: [rock, contact, conduit]}",
-             "  - {type: aperture, between: [contact, conduit]}", *(more.couplers(p) if more else []), "",
+             "  - {type: aperture, between: [contact, conduit]}", *(more.couplers(p) if more else []), *buoyancy.couplers(p), "",
              heat.schedule(p) if more is heat else schemes.schedule(p["solved"], ", wells" if more else ""), "",
              f"time: {{end: {physics.end(p)!r} s, step: {step!r} s}}", f"output: {{every: {step!r} s}}", ""]
     path = folder / "scene.yaml"
