@@ -24,9 +24,9 @@ bool is_geometry(const std::string& column) {
   return std::find(known.begin(), known.end(), column) != known.end();
 }
 
-class Reader {
+class TableReader {
  public:
-  explicit Reader(const FractureTable& table) : table_(table) {}
+  explicit TableReader(const FractureTable& table) : table_(table) {}
 
   std::vector<FractureGeometry> read() {
     csv_ = split_csv(content());
@@ -177,7 +177,7 @@ std::string fracture_table(const std::vector<FractureGeometry>& fractures) {
   return text;
 }
 
-std::vector<FractureGeometry> read_fracture_table(const FractureTable& table) { return Reader(table).read(); }
+std::vector<FractureGeometry> read_fracture_table(const FractureTable& table) { return TableReader(table).read(); }
 
 void require_used_columns(const std::vector<FractureGeometry>& fractures, const std::set<std::string>& used) {
   for (const FractureGeometry& fracture : fractures)

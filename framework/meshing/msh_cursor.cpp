@@ -107,10 +107,10 @@ double MshCursor::real(const char* what) {
     // A number below the range of double is taken for zero.
     if (error == std::errc::result_out_of_range) value = std::strtod(text.c_str(), nullptr);
     if (error == std::errc::invalid_argument) {
-      fail_at(begin, quoted(text) + " stands where " + what + " is expected");
+      fail_at(begin, sprekk::quoted(text) + " stands where " + what + " is expected");
     }
   }
-  if (!std::isfinite(value)) fail_at(begin, quoted(text) + " is no finite number");
+  if (!std::isfinite(value)) fail_at(begin, sprekk::quoted(text) + " is no finite number");
   return value;
 }
 

@@ -77,9 +77,9 @@ class Path {
   std::map<int, std::vector<int>> neighbours_;
 };
 
-class Reader {
+class MshReader {
  public:
-  explicit Reader(std::string_view bytes) : file_(parse_msh(bytes)) {}
+  explicit MshReader(std::string_view bytes) : file_(parse_msh(bytes)) {}
 
   RawMesh read() {
     read_nodes();
@@ -292,7 +292,7 @@ std::string bytes_of(const std::string& file) {
 RawMesh read_msh(const std::string& file, const Origin& origin) {
   try {
     const std::string bytes = bytes_of(file);
-    return Reader(bytes).read();
+    return MshReader(bytes).read();
   } catch (const InputError& error) {
     throw InputError(origin, "cannot use the mesh file '" + file + "'", error.what());
   }

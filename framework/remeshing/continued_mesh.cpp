@@ -11,6 +11,7 @@
 #include "framework/remeshing/overlap.hpp"
 #include "framework/remeshing/replaced_parts.hpp"
 #include "framework/remeshing/same_fracture_points.hpp"
+#include "framework/remeshing/sorted_ends.hpp"
 
 namespace sprekk {
 namespace {
@@ -19,8 +20,6 @@ namespace {
 /// for moved cells is the same however often they move.
 constexpr double angle_of_new_cells = 0.56;
 constexpr double least_share = 0.1;  ///< of a divided cell: the smallest part
-
-std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// The last cell of a fracture, and its ends.
 struct LastCell {

@@ -15,11 +15,10 @@
 #include "framework/remeshing/refill_cavity.hpp"
 #include "framework/remeshing/replaced_parts.hpp"
 #include "framework/remeshing/same_fracture_points.hpp"
+#include "framework/remeshing/sorted_ends.hpp"
 
 namespace sprekk {
 namespace {
-
-std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 class Growth {
  public:

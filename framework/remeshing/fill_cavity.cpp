@@ -66,12 +66,6 @@ CavityOutline canonical(const CavityOutline& outline, const CanonicalDrawing& dr
   return result;
 }
 
-std::vector<std::array<int, 2>> lines_of(const CavityOutline& outline) {
-  std::vector<std::array<int, 2>> lines;
-  for (const CavityOutline::Edge& edge : outline.edges) lines.push_back(edge.points);
-  return lines;
-}
-
 Triangulation triangulate(const CavityOutline& outline, const std::function<double(const Point&)>& size) {
   RegionDrawing drawing{outline.points, {}};
   for (const auto& [points, place, is_barrier] : outline.edges)
@@ -125,6 +119,12 @@ void take_back(const CavityOutline& outline, const CanonicalDrawing& drawing, Tr
 }
 
 }  // namespace
+
+std::vector<std::array<int, 2>> lines_of(const CavityOutline& outline) {
+  std::vector<std::array<int, 2>> lines;
+  for (const CavityOutline::Edge& edge : outline.edges) lines.push_back(edge.points);
+  return lines;
+}
 
 Triangulation fill_cavity(const CavityOutline& given, double size_factor, double growth) {
   const CanonicalDrawing drawing(given.points, lines_of(given));

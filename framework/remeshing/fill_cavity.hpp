@@ -22,6 +22,9 @@ struct CavityOutline {
   std::vector<Edge> edges;
 };
 
+/// The points of each edge.
+std::vector<std::array<int, 2>> lines_of(const CavityOutline& outline);
+
 /// Triangles whose edge lengths change from those of the inner edges to those of the rim, by `growth` m per m, or up to
 /// 0.4 m per m where the rim is near. `size_factor` scales the lengths of all but the given edges. The points of the
 /// outline come first. Throws std::runtime_error when no triangulation is found.

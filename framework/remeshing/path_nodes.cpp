@@ -12,7 +12,7 @@ namespace sprekk {
 namespace {
 
 /// An end lies on the outer boundary, or at a node of it, if the distance is below this part of the edge length.
-constexpr double contact = 1e-9;
+constexpr double at_boundary = 1e-9;
 /// The growth of the lengths of edges along a path away from a short edge, m per m.
 constexpr double growth_along = 0.5;
 
@@ -64,9 +64,9 @@ class Placement {
 
   bool put_end_on_boundary(int& end) {
     for (int face = 0; face < mesh_.face_count(); ++face) {
-      if (mesh_.face_side[face] == none || distance(at(end), segment(face)) > contact * size_) continue;
+      if (mesh_.face_side[face] == none || distance(at(end), segment(face)) > at_boundary * size_) continue;
       for (const int node : ends(face)) {
-        if ((at(node) - at(end)).norm() > contact * size_) continue;
+        if ((at(node) - at(end)).norm() > at_boundary * size_) continue;
         end = node;
         return true;
       }
@@ -78,7 +78,7 @@ class Placement {
 
   bool put_end_on_fracture(int& end) {
     for (std::size_t node = 0; node < is_on_fracture_.size(); ++node) {
-      if (!is_on_fracture_[node] || (at(static_cast<int>(node)) - at(end)).norm() > contact * size_) continue;
+      if (!is_on_fracture_[node] || (at(static_cast<int>(node)) - at(end)).norm() > at_boundary * size_) continue;
       end = static_cast<int>(node);
       return true;
     }

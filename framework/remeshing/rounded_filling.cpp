@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kept_angle_part = 2.0 / 3;  ///< of the smallest angle, that moving must leave
 
-std::vector<std::array<int, 2>> lines_of(const CavityOutline& outline) {
-  std::vector<std::array<int, 2>> lines;
-  for (const CavityOutline::Edge& edge : outline.edges) lines.push_back(edge.points);
-  return lines;
-}
-
 DrawingFrame frame_of(const CavityOutline& outline, const Point& anchor) {
   Point low = outline.points.front(), high = low;
   for (const Point& x : outline.points) low = low.cwiseMin(x), high = high.cwiseMax(x);

@@ -33,7 +33,8 @@ Spec CriterionOptions::spec() {
     if (const Node* given = node.find("absolute")) absolute_origin = given->origin;
     if (residual_of) {
       if (residual || change_of || absolute || !relative)
-        throw InputError(origin, "the condition on the equation of " + quoted(*residual_of) + " has not one bound",
+        throw InputError(origin,
+                         "the condition on the equation of " + sprekk::quoted(*residual_of) + " has not one bound",
                          "it bounds its residual over its largest term by 'relative', and nothing else",
                          "write '{residual_of: " + *residual_of + ", relative: 1e-8}'");
       return;
@@ -48,9 +49,9 @@ Spec CriterionOptions::spec() {
       throw InputError(origin, "'relative' and 'absolute' have no effect", "the condition bounds the residual",
                        "remove them, or write 'change_of'");
     if (change_of && relative.has_value() == absolute.has_value())
-      throw InputError(origin, "the change of " + quoted(*change_of) + (relative ? " has two bounds" : " has no bound"),
-                       "a condition has one, 'relative' or 'absolute'",
-                       relative ? "write two conditions" : "add 'relative: 1e-6'");
+      throw InputError(
+          origin, "the change of " + sprekk::quoted(*change_of) + (relative ? " has two bounds" : " has no bound"),
+          "a condition has one, 'relative' or 'absolute'", relative ? "write two conditions" : "add 'relative: 1e-6'");
   });
   return spec;
 }

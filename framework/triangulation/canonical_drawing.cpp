@@ -10,9 +10,7 @@ namespace {
 constexpr double grid = 0x1p-32;
 
 /// Rounds to the grid; the sum replaces a negative zero by zero.
-Point onto_grid(const Point& x) {
-  return {std::round(x.x() / grid) * grid + 0.0, std::round(x.y() / grid) * grid + 0.0};
-}
+Point rounded(const Point& x) { return {std::round(x.x() / grid) * grid + 0.0, std::round(x.y() / grid) * grid + 0.0}; }
 
 /// The position of each of `count` items in sorted order.
 template <class IsLess>
@@ -36,7 +34,7 @@ CanonicalDrawing::CanonicalDrawing(const std::vector<Point>& given, const std::v
   if (mean.x() < -centred || (mean.x() < centred && mean.y() < -centred)) scale_ = -scale_;
 
   points.resize(given.size());
-  std::transform(given.begin(), given.end(), points.begin(), [this](const Point& x) { return onto_grid(inward(x)); });
+  std::transform(given.begin(), given.end(), points.begin(), [this](const Point& x) { return rounded(inward(x)); });
   point_number = ranks(points.size(), [this](int a, int b) {
     return std::pair(points[a].x(), points[a].y()) < std::pair(points[b].x(), points[b].y());
   });

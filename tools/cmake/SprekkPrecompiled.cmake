@@ -1,5 +1,5 @@
 # Headers that most files include are compiled once. Three sets, each made by a target of its own, and reused by others with the same
-# options: `sprekk_headers` has the standard library and Eigen, `sprekk_assembly_headers` also what parts and steps of a schedule include,
+# options: `sprekk_headers` has the standard library and Eigen, `sprekk_light_headers` the same for folders beside the numerics,
 # `sprekk_scene_headers` also what every component includes.
 # Sources include what they use all the same (tests/includes_test.py), and compile without.
 option(SPREKK_PRECOMPILED_HEADERS "Compile headers that most files include once" ON)
@@ -7,9 +7,10 @@ option(SPREKK_PRECOMPILED_HEADERS "Compile headers that most files include once"
 set(standard_headers <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numbers> <numeric>
                      <optional> <set> <span> <stdexcept> <string> <string_view> <utility> <vector>
                      <Eigen/Core> <Eigen/LU> <Eigen/SparseCore>)
-set(assembly_headers ${standard_headers} ${CMAKE_SOURCE_DIR}/framework/invariants.hpp ${CMAKE_SOURCE_DIR}/framework/config/spec.hpp
-                     ${CMAKE_SOURCE_DIR}/framework/assembly/assembly.hpp ${CMAKE_SOURCE_DIR}/framework/assembly/part.hpp)
-set(scene_headers ${assembly_headers} <fmt/format.h> ${CMAKE_SOURCE_DIR}/framework/scene/registry.hpp)
+set(light_headers ${standard_headers} <fmt/format.h>)
+set(scene_headers ${standard_headers} ${CMAKE_SOURCE_DIR}/framework/invariants.hpp ${CMAKE_SOURCE_DIR}/framework/config/spec.hpp
+                  ${CMAKE_SOURCE_DIR}/framework/assembly/assembly.hpp ${CMAKE_SOURCE_DIR}/framework/assembly/part.hpp
+                  <fmt/format.h> ${CMAKE_SOURCE_DIR}/framework/scene/registry.hpp)
 
 set(precompiled_options)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -20,8 +21,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
                           "SHELL:--param ggc-min-expand=1000" "SHELL:--param ggc-min-heapsize=524288")
 endif()
 
-# What tests spend their time in is in the libraries; -O3 of their own code is a third of a build from nothing.
+# What tests spend their time in is in the libraries; -O3 of their own code is a third of a build from nothing. The same holds for
+# folders beside the numerics: reading scenes, writing results, pages and commands. g++ compiles functions with the options of the
+# precompiled headers, so these have a set of their own.
 set(test_options $<$<CONFIG:Release>:-O1>)
+set(light_options $<$<CONFIG:Release>:-O1>)
+set(light_folders "^framework/(command_line|config|output|picture|report|run|study)$")
 
 # sprekk_precompiled(name headers… [LIBRARIES libraries…]): the target `name`, which compiles these headers.
 function(sprekk_precompiled name)
@@ -36,6 +41,8 @@ function(sprekk_precompiled name)
     target_compile_options(${name} PRIVATE ${precompiled_options})
     if(name MATCHES "test_headers$")
       target_compile_options(${name} PRIVATE ${test_options})
+    elseif(name MATCHES "light_headers$")
+      target_compile_options(${name} PRIVATE ${light_options})
     endif()
   endif()
 endfunction()
@@ -46,11 +53,11 @@ function(sprekk_reuses target folder kind)
     return()
   endif()
   target_compile_options(${target} PRIVATE ${precompiled_options})
+  if(folder MATCHES "${light_folders}" AND kind STREQUAL "headers")
+    target_precompile_headers(${target} REUSE_FROM sprekk_light_headers)
   # These include nearly all of what is below them.
-  if(folder MATCHES "^(components|couplers|verification|framework/(scene|run|study))")
+  elseif(folder MATCHES "^(components|couplers|verification|framework/(scene|run|study))")
     target_precompile_headers(${target} REUSE_FROM sprekk_scene_${kind})
-  elseif(folder MATCHES "^framework/(assembly|schedule)" AND kind STREQUAL "headers")
-    target_precompile_headers(${target} REUSE_FROM sprekk_assembly_headers)
   else()
     target_precompile_headers(${target} REUSE_FROM sprekk_${kind})
   endif()

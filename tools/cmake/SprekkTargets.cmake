@@ -1,8 +1,10 @@
-# Folders beside the numerics, whose files are compiled six at a time: reading scenes, writing results, commands and pages. A clean build
-# reads their headers once instead of six times, and a file that is touched there costs five others. Names of anonymous namespaces
-# are those of one file all the same, so each is used once in such a folder; builds without show that files compile alone.
-option(SPREKK_UNITY "Compile files beside the numerics several at a time" ON)
-set(compiled_together "^framework/(command_line|compare|config|converge|output|picture|report|results|run|schemes|study)$")
+# Files of the framework are compiled six at a time: a clean build reads their headers and makes their templates once instead of six
+# times, and a file that is touched there costs five others. Components and couplers are compiled one by one. Names of anonymous
+# namespaces are those of one file all the same, so each is used once in such a folder; builds without show that files compile alone.
+# A name that the standard library has as well (quoted) needs its namespace where a file before includes the header of that one.
+option(SPREKK_UNITY "Compile files of the framework several at a time" ON)
+# In these folders every file registers itself under the same name.
+set(compiled_alone "^framework/(acceleration|frame_output)$")
 
 # sprekk_library(name folder libraries…): a static library of all sources below `folder`, without those of modules.
 function(sprekk_library name folder)
@@ -12,7 +14,10 @@ function(sprekk_library name folder)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC ${ARGN})
     sprekk_reuses(${name} ${folder} headers)
-    if(SPREKK_UNITY AND folder MATCHES "${compiled_together}")
+    if(folder MATCHES "${light_folders}")
+      target_compile_options(${name} PRIVATE ${light_options})
+    endif()
+    if(SPREKK_UNITY AND folder MATCHES "^framework/" AND NOT folder MATCHES "${compiled_alone}")
       set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
     endif()
   else()

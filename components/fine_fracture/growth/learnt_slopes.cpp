@@ -22,7 +22,7 @@ constexpr double least_slope = 0.01;                 ///< per increment and per 
 constexpr double curvature = 0.03;   ///< per increment² and rad²: what a Jacobian cannot tell of a residual
 constexpr double least_fresh = 0.1;  ///< of the uncertainty: a move with less of it was known from earlier moves
 constexpr double surprising = 5;     ///< standard deviations: a row that was so wrong, but known, forgets its moves
-constexpr double round_off = 1e-9;   ///< of a residual
+constexpr double residual_round_off = 1e-9;  ///< of a residual
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void LearntSlopes::update(const Eigen::VectorXd& moved, const Eigen::VectorXd& c
       covariances_.emplace_back(uncertainties(row).cwiseAbs2().asDiagonal());
   const Eigen::VectorXd missed = change - jacobian * moved;
   const double of_squares = curvature * moved.squaredNorm();
-  const double of_measurement = of_squares * of_squares + round_off * round_off;
+  const double of_measurement = of_squares * of_squares + residual_round_off * residual_round_off;
   for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
     Eigen::MatrixXd& covariance = covariances_[row];
     const Eigen::VectorXd at_first = uncertainties(row).cwiseAbs2().cwiseProduct(moved);

@@ -1,6 +1,8 @@
 // What a run asks tips that grow within steps, and the search that they start.
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips_front.hpp"
@@ -12,6 +14,21 @@ namespace {
 constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
 
 }  // namespace
+
+bool Tips::may_grow_within_steps() const {
+  return options_.toughness && options_.growth.seeks_arrest() && options_.growth.is_implicit() && maker_->is_steady();
+}
+
+void Tips::grow_within_steps() {
+  for (const auto& [is_wrong, option] :
+       {std::pair(!options_.growth.seeks_arrest(), std::string("'growth.length: fixed'")),
+        std::pair(!options_.growth.is_implicit(), "'growth.direction: " + options_.growth.direction + "'")})
+    if (is_wrong)
+      throw InputError(origin_, option + " has no meaning with growth within steps",
+                       "lengths and directions follow from K_eq = K_IC and K_II = 0 at the end of each step",
+                       "leave it out, or choose 'update: after_step'");
+  grows_within_steps_ = true;
+}
 
 void Tips::prepare(Growing& other) const {
   for (Tip& tip : dynamic_cast<Tips&>(other).tips_)

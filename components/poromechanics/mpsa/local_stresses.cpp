@@ -1,14 +1,11 @@
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "components/poromechanics/mpsa/tip_correction.hpp"
-#include "framework/dense/least_squares.hpp"
-#include "framework/dense/svd.hpp"
 #include "framework/invariants.hpp"
 #include "framework/linear/eliminate.hpp"
 
@@ -221,7 +218,6 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
 }
 
 Point LocalStresses::couple_on(const InteractionRegion& region, int subface, int subcell,
-
                                const Point& half_face) const {
   const int side = region.neighbours[subface][0] == subcell ? 0 : 1;
   SPREKK_ASSERT(region.neighbours[subface][side] == subcell, subface, subcell);
@@ -229,100 +225,6 @@ Point LocalStresses::couple_on(const InteractionRegion& region, int subface, int
   return jump_[subface].strength[side] / region.subcells[subcell].area *
          Point(half_face[0] * stress[0] + half_face[1] * stress[1],
                half_face[0] * stress[2] + half_face[1] * stress[3]);
-}
-
-void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
-                                 const std::vector<Stiffness>& stiffness,
-                                 const std::vector<FaceConditions>& conditions) {
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Subcell& subcell = region.subcells[0];
-  const Stiffness& rock = stiffness[subcell.cell];
-  SPREKK_EXPECT(is_symmetric(rock), subcell.cell);
-  Eigen::Map<RowMajor> system(system_.data(), 4, width_);
-
-  // In place of the displacements of the faces: q, the strain and the rotation, each as the root of its energy. Then
-  // angles between what is known do not depend on axes, shape or moduli.
-  Eigen::Matrix4d strain_and_rotation;  // (xx, yy, 2 xy; yx − xy) of the gradient
-  strain_and_rotation << 1, 0, 0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 0, -1, 1, 0;
-  Eigen::Matrix4d root = Eigen::Matrix4d::Zero();
-  root.topLeftCorner<3, 3>() = Eigen::LLT<Stiffness>(rock).matrixU();
-  root(3, 3) = std::sqrt(shear_modulus(rock));
-  const Eigen::Matrix4d gradient = (root * strain_and_rotation).inverse();  // of q
-  Eigen::Matrix4d arms = Eigen::Matrix4d::Zero();  // displacements of the faces less the cell's, of the gradient
-  for (int i = 0; i < 2; ++i) {
-    const Point arm = mesh.face_center[region.faces[subcell.subfaces[i]]] - mesh.cell_center[subcell.cell];
-    for (int c = 0; c < 2; ++c) arms.block<1, 2>(2 * subcell.subfaces[i] + c, 2 * c) = arm.transpose();
-  }
-  Eigen::MatrixXd of_cell = Eigen::MatrixXd::Zero(4, columns_);  // the cell's displacement, on either face
-  for (int i = 0; i < 4; ++i) of_cell(i, 2 * column(0) + i % 2) = 1;
-  Eigen::Matrix4d known = system.leftCols<4>() * arms * gradient;
-  Eigen::MatrixXd value = system.rightCols(columns_) - system.leftCols<4>() * of_cell;
-  for (int i = 0; i < 4; ++i) {
-    const double norm = known.row(i).norm();
-    known.row(i) /= norm;
-    value.row(i) /= norm;
-  }
-
-  // Prescribed displacements hold. In the components of q that they leave free, forces determine q along the singular
-  // vectors, each to the degree that its singular value is large: two faces with nearly equal forces hardly determine
-  // the stress along them, and the error of the normal of a curved side is larger than that. The remaining components
-  // continue the displacement of the cells across to their centres, by least squares.
-  std::vector<int> held, forces;
-  for (int i = 0; i < 4; ++i) {
-    const int c = row_of(i / 2, 0) == i ? 0 : 1;
-    (conditions[region.faces[i / 2]][c] == MechanicalCondition::displacement ? held : forces).push_back(i);
-  }
-  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(4, columns_);
-  Eigen::MatrixXd free = Eigen::MatrixXd::Identity(4, 4);
-  if (!held.empty()) {
-    const Eigen::MatrixXd rows = known(held, Eigen::all);
-    const DenseSvd svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    q = svd.solve(Eigen::MatrixXd(value(held, Eigen::all)));
-    free = svd.matrixV().rightCols(forces.size()).eval();
-  }
-  if (!forces.empty()) {
-    const Eigen::MatrixXd rows = known(forces, Eigen::all);
-    const DenseSvd svd(rows * free, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Eigen::MatrixXd along = svd.matrixU().transpose() * (value(forces, Eigen::all) - rows * q);
-    const Eigen::MatrixXd directions = free * svd.matrixV();
-    std::vector<int> open;
-    Eigen::VectorXd weight = Eigen::VectorXd::Zero(forces.size());
-    for (int i = 0; i < weight.size(); ++i) {
-      const double sine = svd.singularValues()[i];
-      const double part = std::clamp((sine - limits_.vague) / (limits_.certain - limits_.vague), 0.0, 1.0);
-      if (part < 1) {
-        open.push_back(i);
-        weight[i] = std::sqrt(part / (1 - part));
-      } else {
-        q += directions.col(i) * along.row(i) / sine;
-      }
-    }
-    if (!open.empty()) {
-      const int count = static_cast<int>(open.size()), targets = 2 * (cells_ - 1);
-      const Eigen::MatrixXd opened = directions(Eigen::all, open);
-      Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(targets + count, count);
-      Eigen::MatrixXd target = Eigen::MatrixXd::Zero(targets + count, columns_);
-      int row = 0;
-      for (int other = 0; other < cells_; ++other) {
-        if (other == column(0)) continue;
-        const Point arm = mesh.cell_center[cells[other]] - mesh.cell_center[subcell.cell];
-        const double scale = root(3, 3) / arm.norm();
-        for (int c = 0; c < 2; ++c, ++row) {
-          const Eigen::RowVector4d reached = scale * (arm[0] * gradient.row(2 * c) + arm[1] * gradient.row(2 * c + 1));
-          matrix.row(row) = reached * opened;
-          target.row(row) = -reached * q;
-          target(row, 2 * other + c) += scale;
-          target(row, 2 * column(0) + c) -= scale;
-        }
-      }
-      for (int i = 0; i < count; ++i, ++row) {
-        matrix(row, i) = weight[open[i]];
-        if (weight[open[i]] > 0) target.row(row) = weight[open[i]] / svd.singularValues()[open[i]] * along.row(open[i]);
-      }
-      q += opened * LeastSquares(matrix).solve_columns(target);
-    }
-  }
-  system.rightCols(columns_) = of_cell + arms * gradient * q;
 }
 
 void LocalStresses::find_gradients(const InteractionRegion& region) {

@@ -13,9 +13,8 @@
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
-namespace {
 
-// The preconditioner M of A as one of R A C: C^-1 M R^-1.
+/// The preconditioner M of A as one of R A C: C^-1 M R^-1.
 class ScaledPreconditioner {
  public:
   ScaledPreconditioner(const LinearSystem& system, const Vector& row_scale, const Vector& own_column_scale)
@@ -30,8 +29,6 @@ class ScaledPreconditioner {
   Vector row_scale_, column_scale_;
   BlockPreconditioner preconditioner_;
 };
-
-}  // namespace
 
 struct BelosSolver::Data {
   std::vector<int> rows;
