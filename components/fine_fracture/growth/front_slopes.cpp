@@ -40,12 +40,11 @@ void Front::make_jacobian() {
   }
 }
 
-/// m, of what counts as the length of the fracture when the tip advances, with its advance in the trial. A new segment
-/// that turns from the direction ahead is a kink, whose K falls with its own length. 0: not known.
+/// m, of what counts as the length of the fracture when the tip advances. A new segment that turns from the direction
+/// ahead is a kink, whose K falls with its own length. 0: not known.
 double Front::size_of(int tip) const {
-  if (tips_[tip].size <= 0) return 0;
   const bool is_kink = is_new(tip) && std::abs(angle_[tip] - tips_[tip].ahead) > least_kink;
-  return is_kink ? length_[tip] : tips_[tip].size + length_[tip] - tips_[tip].covered;
+  return tips_[tip].size > 0 && is_kink ? length_[tip] : tips_[tip].size;
 }
 
 /// An angle changes K by moving the tip sideways, in proportion to the length of its segment, and K_II by the

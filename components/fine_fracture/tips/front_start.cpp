@@ -18,9 +18,10 @@ constexpr double steady = 1.2;  ///< ratio of the speeds of two steps from which
 /// Speeds are means over the last two steps, because advances alternate: segments are divided every other step.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
 
-/// As in the last step, with half of the change from the step before.
-double next_of_steps(double last, double before) {
-  return last != 0 && before != 0 ? last + carried_on * (last - before) : last;
+/// rad/m, of a path that turned by these in the last two steps: as in the last one, with half of the change from the
+/// step before. A straight path turns to and fro by the error of the mesh, and goes on with the mean.
+double next_turning(double last, double before) {
+  return last * before > 0 ? last + carried_on * (last - before) : mean_of_steps(last, before);
 }
 
 double angle_between(const Point& from, const Point& to) { return std::atan2(cross(from, to), from.dot(to)); }
@@ -76,7 +77,7 @@ void TipsFront::add(Tips::Tip& tip) {
   start.toughness = tips_.toughness(tip);
   start.size = length_that_counts(tips_.mesh_, tip.end);
   start.speed = mean_of_steps(tip.now.speed, tip.now.speed_before);
-  start.turning = next_of_steps(tip.now.turning, tip.now.turning_before);
+  start.turning = next_turning(tip.now.turning, tip.now.turning_before);
   start.goes_on = goes_on_ && tip.now.is_extendable && !tip.now.is_stopped && tip.now.speed > 0;
   if (tip.now.is_extendable) {
     start.covered = tips_.last_cell(tip.end).measure;
