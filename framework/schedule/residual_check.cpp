@@ -40,6 +40,8 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   }
 }
 
+constexpr double looser = 100;  // errors of balances, of one row or of all, may be so many times the tolerance
+
 /// The sizes of the terms of each row of an unknown: (|A| |x|)_i, with the throughput of a balance.
 Vector sizes_of_rows(const Assembly& assembly, int unknown) {
   Vector sizes = assembly.balances().throughput(unknown);
@@ -55,7 +57,7 @@ Vector sizes_of_rows(const Assembly& assembly, int unknown) {
   return sizes;
 }
 
-/// Whether each balance of an interface holds against the terms of its own row.
+/// Whether each balance of an interface that has a throughput holds against the terms of its own row.
 void check_each_row(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
   if (!assembly.wants_derivatives()) return;
   for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
@@ -65,11 +67,12 @@ void check_each_row(const Assembly& assembly, const BlockSystem& system, double 
     std::vector<char> counts = system.owned(unknown);
     for (const Assembly::Fixed& fixed : assembly.fixed())
       if (fixed.unknown == unknown) counts[fixed.row] = 0;
+    const Vector& throughput = assembly.balances().throughput(unknown);
     const Vector sizes = sizes_of_rows(assembly, unknown);
     const Vector& residual = assembly.residual(unknown);
     double worst = 0;
     for (int row = 0; row < residual.size(); ++row)
-      if (counts[row] && std::abs(residual[row]) > tolerance * sizes[row])
+      if (counts[row] && throughput[row] > 0 && std::abs(residual[row]) > looser * tolerance * sizes[row])
         worst = std::max(worst, std::abs(residual[row]) / sizes[row]);
     worst = parallel::max(worst);
     if (worst == 0) continue;
@@ -81,7 +84,6 @@ void check_each_row(const Assembly& assembly, const BlockSystem& system, double 
 
 /// Whether the balances of conserved quantities hold against their throughput.
 void check_balances(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
-  constexpr double looser = 100;
   check.is_unbalanced.assign(assembly.unknowns().size(), 0);
   const Balances& balances = assembly.balances();
   for (const Balances::Quantity& quantity : balances.quantities()) {

@@ -47,8 +47,8 @@ struct ResidualCheck {
 ///
 /// One fracture may conduct any multiple of what another one stores. So each balance of an interface, where fluxes are
 /// unknowns, is compared with its own row as well, by the componentwise backward error (Oettli and Prager 1964;
-/// Arioli, Demmel and Duff 1989): |r_i| is at most `tolerance` times (|A| |x|)_i plus the throughput of the row.
-/// Collective.
+/// Arioli, Demmel and Duff 1989): |r_i| is at most 100 × tolerance times (|A| |x|)_i plus the throughput of the row,
+/// where that is not zero. Collective.
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance);
 
 }  // namespace sprekk
