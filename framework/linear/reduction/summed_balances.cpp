@@ -232,8 +232,7 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
     sum.rows = std::move(group);
     sums_.push_back(std::move(sum));
   }
-  keep_columns_of(system, replaced);
-  if (sums_.empty() && !parallel::any(!columns_.empty())) return solver_->factor(system);
+  if (sums_.empty()) return solver_->factor(system);
 
   LinearSystem summed;
   summed.rows = system.rows;
@@ -250,26 +249,9 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
     else
       for (const auto& [column, value] : sum->second) entries.emplace_back(row, column, value);
   }
-  for (const auto& [row, columns] : columns_)
-    for (const int column : columns) entries.emplace_back(row, column, 0);
   summed.local = SparseMatrix(system.local.rows(), system.local.cols());
   summed.local.setFromTriplets(entries.begin(), entries.end());
   return solver_->factor(summed);
-}
-
-void SummedBalances::keep_columns_of(const LinearSystem& system, const std::map<int, std::map<int, double>>& replaced) {
-  const bool is_other = system.local.rows() != rows_of_last_ || system.local.cols() != columns_of_last_ ||
-                        (system.pattern_number != 0 && last_pattern_ != 0 && system.pattern_number != last_pattern_);
-  if (is_other) columns_.clear();
-  rows_of_last_ = system.local.rows();
-  columns_of_last_ = system.local.cols();
-  if (system.pattern_number != 0) last_pattern_ = system.pattern_number;
-  for (const auto& [row, sum] : replaced) {
-    std::set<int>& columns = columns_[row];
-    for (const auto& [column, value] : sum) columns.insert(column);
-    for (SparseMatrix::InnerIterator entry(system.local, row); entry; ++entry)
-      columns.insert(static_cast<int>(entry.col()));
-  }
 }
 
 LinearReport SummedBalances::solve(const Vector& b_rows, Vector& x) {

@@ -1,10 +1,8 @@
 // Solves with the sum of balances in place of one of them, where large exchanges between rows hide what rows store.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -17,11 +15,9 @@ namespace sprekk {
 /// entries that cancel to the bit, as what leaves one row enters the other. Where C is above S/eps, the sum of the rows
 /// determines the constant mode of the potentials well, but elimination adds S to C and loses S. Here the sum of such
 /// rows, in which D is absent, takes the place of the first of them: the equations are equivalent, and S keeps its
-/// digits. A row that has been a sum once keeps the columns of it and of the balance, as zeros: rows that are summed in
-/// some systems only, as apertures change, have one pattern and one ordering. Rows are summed where S is below 1e-6 of
-/// C, and entries that lead out of the rows below 1e-3. A flux out of the rows that another row gives, such as the rate
-/// of a well, does not count for that, and is taken out of the sum by adding a multiple of that row. A sum that is zero
-/// belongs to a singular matrix, whose constant mode nothing holds.
+/// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A flux out of
+/// the rows that another row gives, such as the rate of a well, does not count for that, and is taken out of the sum by
+/// adding a multiple of that row. A sum that is zero belongs to a singular matrix, whose constant mode nothing holds.
 class SummedBalances final : public LinearSolver {
  public:
   explicit SummedBalances(std::unique_ptr<LinearSolver> solver);
@@ -43,15 +39,8 @@ class SummedBalances final : public LinearSolver {
     int replaced = -1;  ///< place of the first row in the right-hand side, if it is this process's
     std::vector<std::pair<int, double>> given, owned_given;  ///< rows that give fluxes out of these, and their factors
   };
-  /// Adds the columns of sums, and of the rows that they replace, to columns_. `replaced`: by place, the sums.
-  void keep_columns_of(const LinearSystem& system, const std::map<int, std::map<int, double>>& replaced);
-
   std::unique_ptr<LinearSolver> solver_;
   std::vector<Sum> sums_;
-  std::map<int, std::set<int>>
-      columns_;  ///< by place, of rows that are or have been sums, as long as the pattern stays
-  Eigen::Index rows_of_last_ = 0, columns_of_last_ = 0;
-  std::uint64_t last_pattern_ = 0;
 };
 
 /// The groups of rows that SummedBalances sums, each in ascending order. `rows` has at least all rows of the local
