@@ -48,7 +48,7 @@ def iterations_of_steps(folder):
 
 def steps_solved_together(folder):
     """Accepted steps whose passes did not converge, and which `fallback: monolithic` has solved: as the run's note counts them."""
-    return sum(note["steps"] for note in exit_record(folder)["notes"] if note["topic"] == "steps solved together")
+    return sum(note["steps"] for note in exit_record(folder).get("notes", []) if note["topic"] == "steps solved together")
 
 
 def instants(folder):
