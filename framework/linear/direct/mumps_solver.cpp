@@ -13,7 +13,6 @@
 #include "framework/linear/direct/kept_orderings.hpp"
 #include "framework/linear/direct/near_singular.hpp"
 #include "framework/linear/expect_sound.hpp"
-#include "framework/linear/logarithmic_scaling.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/unknown_names.hpp"
@@ -197,13 +196,7 @@ MumpsSolver::Border MumpsSolver::scaled(const SparseMatrix& columns, const Spars
 LinearReport MumpsSolver::factor_scaled(bool has_new_pattern) {
   last_report_ = scaled_.mistake.empty() ? LinearReport::success() : LinearReport::failure(scaled_.mistake);
   if (last_report_.solved && has_new_pattern) last_report_ = order();
-  if (last_report_.solved) {
-    last_report_ = factor_values();
-    if (!last_report_.solved && mumps_->status() >= 0 && border_.size() == 0) {
-      rescale_by_logarithms(scaled_);
-      if (const LinearReport in_other_scales = factor_values(); in_other_scales.solved) last_report_ = in_other_scales;
-    }
-  }
+  if (last_report_.solved) last_report_ = factor_values();
   // After an error an instance of MUMPS must not be used again. A singular matrix is no error in this sense, and its
   // ordering is kept.
   if (!last_report_.solved && (mumps_->status() < 0 || !scaled_.mistake.empty())) {

@@ -10,7 +10,6 @@
 #include "framework/linear/direct/umfpack_factors.hpp"
 #include "framework/linear/entity_graph.hpp"
 #include "framework/linear/expect_sound.hpp"
-#include "framework/linear/logarithmic_scaling.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/unknown_names.hpp"
@@ -75,12 +74,7 @@ LinearReport UmfpackSolver::factor(const LinearSystem& system) {
   }
   last_report_ = scaled_.mistake.empty() ? LinearReport::success() : LinearReport::failure(scaled_.mistake);
   if (last_report_.solved && symbolic_ == nullptr) last_report_ = order();
-  if (!last_report_.solved) return last_report_;
-  last_report_ = factor_values();
-  if (last_report_.solved || numeric_ == nullptr) return last_report_;
-  rescale_by_logarithms(scaled_);
-  umfpack_di_free_numeric(&numeric_);
-  if (const LinearReport in_other_scales = factor_values(); in_other_scales.solved) last_report_ = in_other_scales;
+  if (last_report_.solved) last_report_ = factor_values();
   return last_report_;
 }
 

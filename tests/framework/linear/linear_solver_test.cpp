@@ -254,13 +254,7 @@ TEST_P(EveryDirectSolver, TakesWhatIsSmallInASumForWhatItIs) {
     Vector exact = test::random_vector(size, 3);
     exact[cells] = 0;
     Vector x;
-    // Without being told, the solver finds scales in which the row is one like others.
-    const auto untold = make();
-    EXPECT_EQ(untold->factor(system).solved, !something_floats);
-    if (!something_floats) {
-      ASSERT_TRUE(untold->solve(system.local * exact, x).solved);
-      EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-10);
-    }
+    EXPECT_FALSE(make()->factor(system).solved);
     system.sums = {0};
     const auto solver = make();
     const LinearReport factored = solver->factor(system);
