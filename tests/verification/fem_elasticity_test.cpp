@@ -102,7 +102,8 @@ TEST(FemElasticity, NoOrderLocks) {
     for (const char* order : {"first", "second"}) {
       const bool is_first = order == std::string("first");
       const double usual = divergence_free_error(order, shape, 0.3, 12);
-      EXPECT_LT(usual, is_first ? 0.02 : 1.5e-3) << shape;
+      const double second = shape == std::string("triangles") ? 1e-3 : 1.5e-3;
+      EXPECT_LT(usual, is_first ? 0.02 : second) << shape;
       for (const double poisson : {0.3, 0.34, 0.49, 0.4999, 0.499999}) {
         const double error = divergence_free_error(order, shape, poisson, 12);
         RecordProperty(fmt::format("{}_{}_{}", shape, order, poisson), fmt::format("{:.3g}", error));
