@@ -130,4 +130,8 @@ std::size_t MshCursor::count(const char* what, std::size_t least_bytes, bool is_
   return value;
 }
 
+std::size_t MshCursor::wide_count(const char* what, std::size_t binary, std::size_t values) {
+  return count(what, std::max<std::size_t>(1, least_bytes(binary, values)), true);
+}
+
 }  // namespace sprekk

@@ -27,6 +27,10 @@ class MshCursor {
   /// The count of the following items, each of at least `least_bytes`. Throws InputError when the rest of the file
   /// cannot hold so many.
   std::size_t count(const char* what, std::size_t least_bytes, bool is_wide);
+  /// The same in files of version 4.1, for items that take at least least_bytes(binary, values).
+  std::size_t wide_count(const char* what, std::size_t binary, std::size_t values);
+  /// The smallest number of bytes that `values` values take: `binary` in a binary file, two for each value in a text.
+  std::size_t least_bytes(std::size_t binary, std::size_t values) const { return is_binary_ ? binary : 2 * values; }
 
   /// Reads values that are text also in binary files.
   int text_integer(const char* what);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <set>
 
 #include "framework/config/input_error.hpp"
 #include "framework/meshing/msh_cursor.hpp"
+#include "framework/meshing/msh_entities.hpp"
 
 namespace sprekk {
 namespace {
@@ -107,8 +109,8 @@ class Parser {
     }
     if (!read_.insert(name).second) cursor_.fail_at(begin, "the section " + name + " is there twice");
     if (name == "$PhysicalNames") read_names();
-    if (name == "$Entities") read_entities(false);
-    if (name == "$PartitionedEntities") read_entities(true);
+    if (name == "$Entities") entities_.read(cursor_, false, file_.group_lists);
+    if (name == "$PartitionedEntities") entities_.read(cursor_, true, file_.group_lists);
     if (name == "$Nodes") is_new_ ? read_nodes() : read_old_nodes();
     if (name == "$Elements") is_new_ ? read_elements() : read_old_elements();
     end_section(name);
@@ -146,60 +148,6 @@ class Parser {
     }
   }
 
-  /// The smallest number of bytes that `values` values take: `binary` in a binary file, two for each value in a text.
-  std::size_t bytes_of(std::size_t binary, std::size_t values) const { return file_.is_binary ? binary : 2 * values; }
-  std::size_t wide_count(const char* what, std::size_t binary, std::size_t values) {
-    return cursor_.count(what, std::max<std::size_t>(1, bytes_of(binary, values)), true);
-  }
-
-  void read_entities(bool is_partitioned) {
-    if (is_partitioned) {
-      cursor_.number("the number of partitions");
-      const std::size_t ghosts = wide_count("the number of ghost entities", 8, 2);
-      for (std::size_t i = 0; i < 2 * ghosts; ++i) cursor_.integer("a ghost entity");
-    }
-    std::array<std::size_t, 4> counts;
-    const std::size_t ints = is_partitioned ? 4 : 1;
-    for (std::size_t& count : counts) {
-      count = wide_count("the number of entities", 4 * ints + 32, ints + 4);
-    }
-    for (int dimension = 0; dimension < 4; ++dimension) {
-      for (std::size_t i = 0; i < counts[dimension]; ++i) read_entity(dimension, is_partitioned);
-    }
-  }
-
-  void read_entity(int dimension, bool is_partitioned) {
-    const std::size_t begin = cursor_.position();
-    const int number = cursor_.integer("an entity's number");
-    if (is_partitioned) {
-      cursor_.integer("the parent's dimension");
-      cursor_.integer("the parent's number");
-      const std::size_t partitions = wide_count("the number of partitions", 4, 1);
-      for (std::size_t i = 0; i < partitions; ++i) cursor_.integer("a partition");
-    }
-    const int reals = dimension == 0 ? 3 : 6;
-    for (int i = 0; i < reals; ++i) cursor_.real("a coordinate");
-    std::vector<int> groups(wide_count("the number of groups", 4, 1));
-    for (int& group : groups) {
-      group = cursor_.integer("a group's number");
-      if (group == 0 || group == -2147483647 - 1) cursor_.fail("there is no group " + std::to_string(group));
-      group = std::abs(group);  // the sign gives the orientation of the entity
-    }
-    std::sort(groups.begin(), groups.end());
-    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-    if (dimension > 0) {
-      const std::size_t borders = wide_count("the number of bordering entities", 4, 1);
-      for (std::size_t i = 0; i < borders; ++i) cursor_.integer("a bordering entity");
-    }
-    // Entities of a partition may have the same numbers as entities of the whole mesh.
-    auto& known = is_partitioned ? partitioned_ : entities_;
-    if (!known.try_emplace({dimension, number}, static_cast<int>(file_.group_lists.size())).second) {
-      cursor_.fail_at(
-          begin, "entity " + std::to_string(number) + " of dimension " + std::to_string(dimension) + " is there twice");
-    }
-    file_.group_lists.push_back(std::move(groups));
-  }
-
   void add_node(std::uint64_t number, std::size_t place) {
     MshFile::Node node{number, {}, place};
     for (double& coordinate : node.position) coordinate = cursor_.real("a coordinate");
@@ -207,7 +155,7 @@ class Parser {
   }
 
   void read_old_nodes() {
-    const std::size_t count = old_count("the number of nodes", bytes_of(28, 4));
+    const std::size_t count = old_count("the number of nodes", cursor_.least_bytes(28, 4));
     if (file_.is_binary) cursor_.rest_of_line();
     file_.nodes.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -220,8 +168,8 @@ class Parser {
   }
 
   void read_nodes() {
-    const std::size_t blocks = wide_count("the number of blocks", 20, 4);
-    const std::size_t count = wide_count("the number of nodes", 32, 4);
+    const std::size_t blocks = cursor_.wide_count("the number of blocks", 20, 4);
+    const std::size_t count = cursor_.wide_count("the number of nodes", 32, 4);
     cursor_.number("the smallest number of a node");
     cursor_.number("the largest number of a node");
     file_.nodes.reserve(count);
@@ -235,7 +183,7 @@ class Parser {
         cursor_.fail_at(begin, "a block of nodes has dimension " + std::to_string(dimension) +
                                    " and is parametric: " + std::to_string(is_parametric));
       }
-      const std::size_t size = wide_count("the number of nodes of a block", 32, 4);
+      const std::size_t size = cursor_.wide_count("the number of nodes of a block", 32, 4);
       numbers.clear();
       numbers.reserve(size);
       for (std::size_t i = 0; i < size; ++i) {
@@ -300,7 +248,7 @@ class Parser {
   }
 
   void read_old_elements() {
-    const std::size_t count = old_count("the number of elements", bytes_of(8, 4));
+    const std::size_t count = old_count("the number of elements", cursor_.least_bytes(8, 4));
     if (!file_.is_binary) {
       for (std::size_t i = 0; i < count; ++i) {
         cursor_.skip_blanks();
@@ -332,8 +280,8 @@ class Parser {
   }
 
   void read_elements() {
-    const std::size_t blocks = wide_count("the number of blocks", 20, 4);
-    const std::size_t count = wide_count("the number of elements", 16, 2);
+    const std::size_t blocks = cursor_.wide_count("the number of blocks", 20, 4);
+    const std::size_t count = cursor_.wide_count("the number of elements", 16, 2);
     cursor_.number("the smallest number of an element");
     cursor_.number("the largest number of an element");
     std::size_t read = 0;
@@ -343,7 +291,7 @@ class Parser {
       const int dimension = cursor_.integer("an entity's dimension");
       const int entity = cursor_.integer("an entity's number");
       const int type = cursor_.integer("an element's type");
-      const std::size_t size = wide_count("the number of elements of a block", 16, 2);
+      const std::size_t size = cursor_.wide_count("the number of elements of a block", 16, 2);
       if (size == 0) continue;
       const Kind kind = require_kind(type, begin);
       if (kind.dimension != dimension) {
@@ -370,21 +318,16 @@ class Parser {
   /// elements.
   void assign_groups() {
     std::vector<int> list_of_block;
-    const bool has_entities = !entities_.empty() || !partitioned_.empty();
     const int no_groups = static_cast<int>(file_.group_lists.size());
     file_.group_lists.emplace_back();
     for (const Block& block : blocks_) {
-      auto found = partitioned_.find(block.entity);
-      bool is_known = found != partitioned_.end();
-      if (!is_known) {
-        found = entities_.find(block.entity);
-        is_known = found != entities_.end();
+      const auto [dimension, number] = block.entity;
+      const std::optional<int> groups = entities_.groups_of(dimension, number);
+      if (!groups && !entities_.empty() && dimension > 0) {
+        cursor_.fail_at(block.place, "entity " + std::to_string(number) + " of dimension " + std::to_string(dimension) +
+                                         " is not among the $Entities");
       }
-      if (!is_known && has_entities && block.entity.first > 0) {
-        cursor_.fail_at(block.place, "entity " + std::to_string(block.entity.second) + " of dimension " +
-                                         std::to_string(block.entity.first) + " is not among the $Entities");
-      }
-      list_of_block.push_back(is_known ? found->second : no_groups);
+      list_of_block.push_back(groups.value_or(no_groups));
     }
     for (auto* elements : {&file_.lines, &file_.cells}) {
       for (MshFile::Element& element : *elements) element.group_list = list_of_block[element.group_list];
@@ -411,9 +354,9 @@ class Parser {
   MshFile file_;
   bool is_new_ = false;  ///< version 4.1
   std::set<std::string> read_;
-  std::map<std::pair<int, int>, int> entities_, partitioned_;  ///< list of groups, by dimension and number
-  std::map<int, int> old_lists_;                               ///< list of groups, by group
-  std::vector<Block> blocks_;                                  ///< of elements
+  MshEntities entities_;
+  std::map<int, int> old_lists_;  ///< list of groups, by group
+  std::vector<Block> blocks_;     ///< of elements
 };
 
 }  // namespace

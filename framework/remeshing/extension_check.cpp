@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <sstream>
 #include <tuple>
 
 #include "framework/mesh/planar.hpp"
 #include "framework/remeshing/healed_mesh.hpp"
+#include "framework/remeshing/obstacles.hpp"
 
 namespace sprekk {
 namespace {
@@ -17,10 +17,8 @@ using Reason = ExtensionError::Reason;
 
 /// A path approaches a segment if the distance of the path falls below this part of the distance of its beginning.
 constexpr double approach = 0.9;
-/// Parallel lines, ends of segments and angles of 90 degrees: what rounding leaves of a length or a cosine.
+/// What rounding leaves of a length, or of the cosine of 90 degrees.
 constexpr double rounding = 1e-12;
-/// Sine of the angle between lines whose crossing is lost to rounding.
-constexpr double parallel = 1e-14;
 /// Of an edge: a shorter segment of a path has no direction.
 constexpr double shortest = 1e-6;
 /// Factor on the least gap where a tip looks ahead: it asks for more room than the check of its next path will.
@@ -40,15 +38,6 @@ OwnEnd own_end(const Mesh& mesh, int fracture, bool at_end) {
   return {point.kind, point.position, mesh.fracture_points[cell.points[at_end ? 0 : 1]].position};
 }
 
-Segment segment_of(const Mesh& mesh, int fracture_cell) {
-  const auto [a, b] = mesh.fracture_cells[fracture_cell].points;
-  return {mesh.fracture_points[a].position, mesh.fracture_points[b].position};
-}
-
-Segment segment_of_face(const Mesh& mesh, int face) {
-  return {mesh.nodes[mesh.face_nodes[face][0]], mesh.nodes[mesh.face_nodes[face][1]]};
-}
-
 double extent(const Mesh& mesh) {
   Point low = mesh.nodes.front(), high = low;
   for (const Point& x : mesh.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
@@ -63,50 +52,6 @@ Point meeting_point(const Segment& path, const Segment& other) {
   const double a = distance(other.from, path), b = distance(other.to, path);
   if (std::min(from, to) <= std::min(a, b)) return from <= to ? path.from : path.to;
   return a <= b ? other.from : other.to;
-}
-
-/// Whether an edge lies on the line through another one.
-bool is_in_line(const Segment& edge, const Segment& line) {
-  constexpr double straight = 1e-6;  // rad
-  const Point along = line.to - line.from;
-  return std::max(std::abs(cross(along, edge.from - line.from)), std::abs(cross(along, edge.to - line.from))) <=
-         straight * along.norm() * std::max(line.length(), (edge.to - line.from).norm());
-}
-
-void join(const Segment& edge, Segment& line) {
-  const Point along = line.to - line.from;
-  for (const Point& x : {edge.from, edge.to}) {
-    if ((x - line.from).dot(along) < 0) line.from = x;
-    if ((x - line.to).dot(along) > 0) line.to = x;
-  }
-}
-
-/// The straight part of the side that a face belongs to. Checks use it instead of the face, so that results do not
-/// depend on the lengths of edges.
-Segment straight_side(const Mesh& mesh, int face) {
-  const Segment given = segment_of_face(mesh, face);
-  Segment line = given;
-  for (int other = 0; other < mesh.face_count(); ++other) {
-    if (mesh.face_side[other] != mesh.face_side[face]) continue;
-    const Segment edge = segment_of_face(mesh, other);
-    if (is_in_line(edge, given)) join(edge, line);
-  }
-  return line;
-}
-
-/// The straight part of the fracture that a cell belongs to.
-Segment straight_part(const Mesh& mesh, int fracture_cell) {
-  const auto& [name, first, count] = mesh.fractures[mesh.fracture_cells[fracture_cell].fracture];
-  const Segment given = segment_of(mesh, fracture_cell);
-  Segment line = given;
-  for (const int step : {1, -1}) {
-    for (int cell = fracture_cell + step; cell >= first && cell < first + count; cell += step) {
-      const Segment edge = segment_of(mesh, cell);
-      if (!is_in_line(edge, given)) break;
-      join(edge, line);
-    }
-  }
-  return line;
 }
 
 /// Whether a part of a path leads away from a straight line that is near to the path's beginning.
@@ -188,7 +133,7 @@ class Check {
     Point nearest = end;
     for (int face = 0; face < mesh_.face_count(); ++face) {
       if (mesh_.face_side[face] == none) continue;
-      const Segment s = segment_of_face(mesh_, face);
+      const Segment s = face_segment(mesh_, face);
       if (distance(end, s) >= least) continue;
       least = distance(end, s);
       const Point along = s.to - s.from;
@@ -259,7 +204,7 @@ class Check {
       const bool is_ending = ends_on_boundary && i + 1 == segments.size();
       for (int face = 0; face < mesh_.face_count(); ++face) {
         if (mesh_.face_side[face] == none) continue;
-        const Segment side = segment_of_face(mesh_, face);
+        const Segment side = face_segment(mesh_, face);
         if (is_ending && distance(s.to, side) <= touch_) {
           const double sine = std::abs(cross(s.to - s.from, side.to - side.from)) / (s.length() * side.length());
           if (sine < std::sin(least_incidence)) {
@@ -320,7 +265,7 @@ class Check {
         for (int n = 0; n < count; ++n) {
           // Backwards from the end that grows, to add up the distance along the fracture.
           const int cell = own.at_end ? first + count - 1 - n : first + n;
-          const Segment other = segment_of(mesh_, cell);
+          const Segment other = cell_segment(mesh_, cell);
           const bool is_ending = is_joined_[f] && i + 1 == segments.size();
           if (is_ending) {
             if (!is_joint(segments[i], other, name_of(f))) note(i, other, 0, Reason::crosses_fracture, name_of(f));
@@ -387,47 +332,14 @@ bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, cons
            std::min(room_ahead * least_gap * size, (1 + approach) / 2 * distance(beginning, other));
   };
   for (int face = 0; face < mesh.face_count(); ++face)
-    if (mesh.face_side[face] != none && is_near(segment_of_face(mesh, face)) &&
+    if (mesh.face_side[face] != none && is_near(face_segment(mesh, face)) &&
         !leads_away(step, beginning, straight_side(mesh, face)))
       return true;
   for (int cell = 0; cell < mesh.fracture_cell_count(); ++cell)
-    if (mesh.fracture_cells[cell].fracture != fracture && is_near(segment_of(mesh, cell)) &&
+    if (mesh.fracture_cells[cell].fracture != fracture && is_near(cell_segment(mesh, cell)) &&
         !leads_away(step, beginning, straight_part(mesh, cell)))
       return true;
   return false;
-}
-
-FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point& from, const Point& direction) {
-  if (!(direction.norm() > 0)) throw std::invalid_argument("free_length: the direction has no length");
-  const Point u = direction.normalized();
-  FreeLength free{std::numeric_limits<double>::infinity(), FreeLength::Met::nothing, none, from};
-  const auto meet = [&](const Segment& s, FreeLength::Met met, int index) {
-    const Point v = s.to - s.from, w = s.from - from;
-    const double determinant = cross(u, v), length = v.norm();
-    double t;
-    if (std::abs(determinant) > parallel * length) {
-      t = cross(w, v) / determinant;
-      const double along = cross(w, u) / determinant;
-      if (along < -rounding || along > 1 + rounding) return;
-    } else {
-      // A parallel segment is met, at its nearer end, only if it lies ahead on the same line.
-      if (std::abs(cross(w, u)) > rounding * length) return;
-      t = std::min(w.dot(u), (w + v).dot(u));
-    }
-    if (t < 0 || t >= free.length) return;
-    free = {t, met, index, from + t * u};
-  };
-  for (int face = 0; face < mesh.face_count(); ++face) {
-    if (mesh.face_side[face] != none) {
-      meet(segment_of_face(mesh, face), FreeLength::Met::boundary, mesh.face_side[face]);
-    }
-  }
-  const auto& own = mesh.fractures.at(fracture);
-  const int own_last = at_end ? own.first_cell + own.cell_count - 1 : own.first_cell;
-  for (int cell = 0; cell < mesh.fracture_cell_count(); ++cell) {
-    if (cell != own_last) meet(segment_of(mesh, cell), FreeLength::Met::fracture, mesh.fracture_cells[cell].fracture);
-  }
-  return free;
 }
 
 }  // namespace sprekk

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "components/fine_fracture/boundary_element/contact_forces.hpp"
+#include "components/fine_fracture/boundary_element/places_of_offset.hpp"
 #include "components/fine_fracture/fine_level/outline.hpp"
 #include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "framework/invariants.hpp"
@@ -38,48 +40,6 @@ RegularField regular_field(const FineGeometry& geometry, int degree, const Elast
   return {number(0.5 * (low + high)), 0.5 * (high - low).norm(), degree, rock};
 }
 
-/// Places along the cracks, where pore pressure has its peaks, and on a grid that becomes coarser with the distance
-/// from the cracks.
-std::vector<Point> places_of_offset(const FineGeometry& geometry, double spacing) {
-  std::vector<Point> places;
-  std::vector<Segment> segments;
-  constexpr double apart = 0.6;  // of the spacing
-  const auto add = [&](const Point& x) {
-    for (const Point& other : places)
-      if ((x - other).norm() < apart * spacing) return;
-    places.push_back(x);
-  };
-  for (const CrackPath& crack : geometry.cracks)
-    for (std::size_t i = 0; i + 1 < crack.points.size(); ++i) {
-      segments.push_back({crack.points[i], crack.points[i + 1]});
-      const Point way = crack.points[i + 1] - crack.points[i];
-      const int count = std::max(1, static_cast<int>(std::ceil(way.norm() / spacing)));
-      for (int k = 0; k <= count; ++k) add(crack.points[i] + double(k) / count * way);
-    }
-  Point low = geometry.outline[0], high = low;
-  for (const Point& x : geometry.outline) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  const double tolerance = outline_tolerance(geometry.outline);
-  const auto grid = [&](const auto& self, const Point& from, const Point& to, int level) -> void {
-    constexpr int least = 3, most = 10;  // 8 edges across at least
-    constexpr double growth = 0.5;       // of edges, per distance from a crack
-    const Point middle = 0.5 * (from + to);
-    double away = std::numeric_limits<double>::infinity();
-    for (const Segment& segment : segments) away = std::min(away, sprekk::distance(middle, segment));
-    if (level < least || (level < most && (to - from).maxCoeff() > std::max(spacing, growth * away))) {
-      for (const double x : {0.0, 0.5})
-        for (const double y : {0.0, 0.5}) {
-          const Point corner = from + (to - from).cwiseProduct(Point(x, y));
-          self(self, corner, corner + 0.5 * (to - from), level + 1);
-        }
-      return;
-    }
-    for (const Point& x : {from, Point(to[0], from[1]), to, Point(from[0], to[1])})
-      if (depth_inside(x, geometry.outline) > -tolerance) add(x.cwiseMax(low).cwiseMin(high));
-  };
-  grid(grid, low, high, 0);
-  return places;
-}
-
 /// An element whose walls slide. Where they touch, their traction is that of the fluid plus f t, with f linear along
 /// the element; gaps are weighted with the same functions.
 struct SlidingElement {
@@ -88,35 +48,6 @@ struct SlidingElement {
   Point traction;  ///< t as (N, S)
 };
 double hat(Eigen::Index end, double t) { return end == 0 ? 1 - t : t; }
-
-/// f <= 0 with gaps + compliance f >= 0, where one of both is 0. First all places whose condition is violated change at
-/// once (a semismooth Newton method); if that cycles, only the first of them changes (Murty, Linear Algebra Appl. 7
-/// (1974) 65).
-Vector contact_forces(const Eigen::MatrixXd& compliance, const Vector& gaps) {
-  constexpr int at_once = 30, most_rounds = 2000;
-  std::vector<char> touches(gaps.size(), 1);
-  for (int round = 0; round < most_rounds; ++round) {
-    std::vector<Eigen::Index> closed;
-    for (Eigen::Index i = 0; i < gaps.size(); ++i)
-      if (touches[i]) closed.push_back(i);
-    Vector f = Vector::Zero(gaps.size());
-    if (!closed.empty()) {
-      const Eigen::MatrixXd matrix = compliance(closed, closed);
-      const Vector right = -gaps(closed);
-      f(closed) = DenseLu(matrix).solve(right);
-    }
-    const Vector gap = gaps + compliance * f;
-    bool is_found = true;
-    for (Eigen::Index i = 0; i < gaps.size() && (is_found || round < at_once); ++i) {
-      const bool next = touches[i] ? f[i] <= 0 : gap[i] < 0;
-      if (next == static_cast<bool>(touches[i])) continue;
-      is_found = false;
-      touches[i] = next;
-    }
-    if (is_found) return f;
-  }
-  throw std::runtime_error("fine level: no state of contact was found on the walls beside a kink");
-}
 
 }  // namespace
 

@@ -6,6 +6,8 @@
 
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
+#include "framework/remeshing/extension_check.hpp"
+#include "framework/remeshing/free_length.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {

@@ -7,6 +7,7 @@
 #include "components/fine_fracture/tips/tips.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/meshing/fracture_networks.hpp"
+#include "framework/remeshing/free_length.hpp"
 
 namespace sprekk::fine_fracture {
 
