@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "framework/dense/symmetric_eigen.hpp"
@@ -54,7 +53,7 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
     throw InputError(where, "nothing holds the rock along " + free,
                      "no side has a displacement in " + free + ", so that it may move freely", add);
   }
-  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(resistance).eigenvalues();
+  const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(resistance);
   if (eigenvalues[0] <= round_off * eigenvalues[2])
     throw InputError(where, "nothing keeps the rock from turning",
                      "the displacements of its sides allow a small rotation about a point", add);

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <utility>
 
+#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::poromechanics {
@@ -64,7 +64,7 @@ Stiffness RockStiffness::at(int c) const {
   const double xxyy = moduli_[3][c], xxxy = moduli_[4][c], yyxy = moduli_[5][c];
   Stiffness stiffness;
   stiffness << moduli_[0][c], xxyy, xxxy, xxyy, moduli_[1][c], yyxy, xxxy, yyxy, moduli_[2][c];
-  const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness).eigenvalues();
+  const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(stiffness);
   if (eigenvalues[0] <= 0)
     throw DataError(InputError(origin_, "the stiffness of component '" + component_ + "' is not positive definite",
                                "the rock would give way by itself; its smallest eigenvalue is " +

@@ -94,13 +94,9 @@ double WellPatch::pressure(double decay, const Source& source) const {
   for (int i = 0; i < count; ++i) entries.emplace_back(i, i, size_ * areas_[i] * decay);
   Eigen::SparseMatrix<double> system(count, count);
   system.setFromTriplets(entries.begin(), entries.end());
-  if (!solver_) {
-    solver_ = std::make_shared<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
-    solver_->analyzePattern(system);
-  }
-  solver_->factorize(system);
-  SPREKK_ASSERT(solver_->info() == Eigen::Success, count);
-  return solver_->solve(right)[middle_];
+  const bool is_regular = solver_.factorize(system);
+  SPREKK_ASSERT(is_regular, count);
+  return solver_.solve(right)[middle_];
 }
 
 double WellPatch::steady_pressure() const {

@@ -1,11 +1,10 @@
 // The cells around a well, and the discrete equations of the flow in them.
 #pragma once
 
-#include <Eigen/SparseLU>
-#include <memory>
 #include <vector>
 
 #include "components/capabilities/fluid_fluxes.hpp"
+#include "framework/linear/direct/sparse_lu.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {
@@ -43,7 +42,7 @@ class WellPatch {
   int middle_ = none;  ///< index of the cell with the source in cells_
   double size_;        ///< sqrt(det M)
   /// Keeps the ordering of its first matrix.
-  mutable std::shared_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> solver_;
+  mutable SparseLu solver_;
 };
 
 }  // namespace sprekk::couplers

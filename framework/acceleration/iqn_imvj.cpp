@@ -1,9 +1,9 @@
 // iqn_imvj: interface quasi-Newton with the inverse Jacobian from all time steps.
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "framework/acceleration/registry.hpp"
 #include "framework/acceleration/secants.hpp"
+#include "framework/dense/least_squares.hpp"
 #include "framework/dense/svd.hpp"
 
 namespace sprekk {
@@ -97,18 +97,12 @@ void IqnImvj::accepted() {
 /// Singular values of J in the scale of the last step: those of the small matrix R_A R_B^T.
 void IqnImvj::truncate() {
   const Eigen::MatrixXd a = scale_.cwiseInverse().asDiagonal() * a_, b = (b_ * scale_.asDiagonal()).transpose();
-  const Eigen::Index size = a.rows(), count = std::min(size, a.cols());
-  const Eigen::HouseholderQR<Eigen::MatrixXd> of_a(a), of_b(b);
-  const Eigen::MatrixXd small =
-      of_a.matrixQR().topRows(count).triangularView<Eigen::Upper>() *
-      Eigen::MatrixXd(of_b.matrixQR().topRows(count).triangularView<Eigen::Upper>()).transpose();
-  const DenseSvd svd(small, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::Index rank = std::min<Eigen::Index>(options_.rank, count);
-  const Eigen::MatrixXd left = of_a.householderQ() * Eigen::MatrixXd::Identity(size, count);
-  const Eigen::MatrixXd right = of_b.householderQ() * Eigen::MatrixXd::Identity(size, count);
+  const ThinQr of_a = thin_qr(a), of_b = thin_qr(b);
+  const DenseSvd svd(of_a.r * of_b.r.transpose(), Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::Index rank = std::min<Eigen::Index>(options_.rank, of_a.r.rows());
   a_ = scale_.asDiagonal() *
-       (left * (svd.matrixU().leftCols(rank) * svd.singularValues().head(rank).asDiagonal())).eval();
-  b_ = (right * svd.matrixV().leftCols(rank)).transpose() * scale_.cwiseInverse().asDiagonal();
+       (of_a.q * (svd.matrixU().leftCols(rank) * svd.singularValues().head(rank).asDiagonal())).eval();
+  b_ = (of_b.q * svd.matrixV().leftCols(rank)).transpose() * scale_.cwiseInverse().asDiagonal();
 }
 
 void IqnImvj::save(std::map<std::string, Vector>& state) const {

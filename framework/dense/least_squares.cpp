@@ -1,6 +1,7 @@
 #include "framework/dense/least_squares.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 
 #include "framework/assert.hpp"
 
@@ -32,6 +33,18 @@ Eigen::MatrixXd LeastSquares::pseudo_inverse() const { return factors_->pseudoIn
 Eigen::VectorXd solve_by_pivoted_qr(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
   SPREKK_EXPECT(matrix.rows() == right.size(), matrix.rows(), right.size());
   return matrix.colPivHouseholderQr().solve(right);
+}
+
+Eigen::MatrixXd solve_by_qr(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
+  SPREKK_EXPECT(matrix.rows() == right.rows(), matrix.rows(), right.rows());
+  return matrix.householderQr().solve(right);
+}
+
+ThinQr thin_qr(const Eigen::MatrixXd& matrix) {
+  const Eigen::Index count = std::min(matrix.rows(), matrix.cols());
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix);
+  return {qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), count),
+          qr.matrixQR().topRows(count).triangularView<Eigen::Upper>()};
 }
 
 }  // namespace sprekk

@@ -27,4 +27,13 @@ class LeastSquares {
 /// Minimizes |A x − b| for a matrix of full rank, by QR with column pivoting.
 Eigen::VectorXd solve_by_pivoted_qr(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
+/// The same for each column b of `right`, by QR without pivoting.
+Eigen::MatrixXd solve_by_qr(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
+
+/// A = Q R with orthonormal columns in Q: min(rows, columns) of A. R is upper triangular.
+struct ThinQr {
+  Eigen::MatrixXd q, r;
+};
+ThinQr thin_qr(const Eigen::MatrixXd& matrix);
+
 }  // namespace sprekk

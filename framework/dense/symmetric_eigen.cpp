@@ -17,6 +17,11 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  SPREKK_EXPECT(a.rows() == a.cols() && a.rows() == b.rows() && a.cols() == b.cols(), a.rows(), b.rows());
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(a, b, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
 PrincipalAxes principal_axes(const Tensor& tensor) {
   const Eigen::SelfAdjointEigenSolver<Tensor> solver(tensor);
   return {solver.eigenvalues(), solver.eigenvectors()};

@@ -15,6 +15,10 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 /// The eigenvalues of a symmetric matrix, in ascending order.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
+/// The numbers λ with A x = λ B x, in ascending order, for a symmetric A and a symmetric positive definite B of its
+/// size.
+Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 /// Principal values and axes of a symmetric tensor.
 struct PrincipalAxes {
   Point values;  ///< in ascending order

@@ -1,6 +1,5 @@
 #include "framework/schemes/pass_factor.hpp"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -8,6 +7,7 @@
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/block_system.hpp"
 #include "framework/assembly/holds_amounts.hpp"
+#include "framework/linear/direct/sparse_lu.hpp"
 #include "framework/schedule/held_amounts.hpp"
 
 namespace sprekk {
@@ -23,7 +23,7 @@ class PassFactor::Group {
  public:
   std::vector<int> rows;     ///< of the block
   std::vector<int> changed;  ///< places of rows whose unknowns the group changes
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
+  SparseLu factors;
   bool is_regular = false;
 };
 
@@ -112,8 +112,7 @@ const PassFactor::Group* PassFactor::group(const std::vector<std::string>& compo
   }
   Eigen::SparseMatrix<double> block(size, size);
   block.setFromTriplets(entries.begin(), entries.end());
-  group->factors.compute(block);
-  group->is_regular = size > 0 && group->factors.info() == Eigen::Success;
+  group->is_regular = group->factors.factorize(block) && size > 0;
   return group.get();
 }
 

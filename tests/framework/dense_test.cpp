@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -79,6 +80,18 @@ TEST(Dense, PivotedQrFitsExactly) {
   EXPECT_LT((solve_by_pivoted_qr(matrix, matrix * exact) - exact).norm(), 10 * round_off);
 }
 
+TEST(Dense, ThinQrHasTheNormalEquationsOfItsMatrix) {
+  for (const Eigen::MatrixXd& matrix : {Eigen::MatrixXd(symmetric(7).leftCols(3)), Eigen::MatrixXd(unsymmetric(5))}) {
+    const ThinQr qr = thin_qr(matrix);
+    const Eigen::Index count = std::min(matrix.rows(), matrix.cols());
+    EXPECT_LT((qr.q * qr.r - matrix).norm(), round_off * matrix.norm());
+    EXPECT_LT((qr.q.transpose() * qr.q - Eigen::MatrixXd::Identity(count, count)).norm(), round_off);
+    EXPECT_EQ(Eigen::MatrixXd(qr.r.triangularView<Eigen::StrictlyLower>()).norm(), 0);
+    const Eigen::MatrixXd exact = unsymmetric(static_cast<int>(matrix.cols()));
+    EXPECT_LT((solve_by_qr(matrix, matrix * exact) - exact).norm(), 100 * round_off * exact.norm());
+  }
+}
+
 TEST(Dense, CholeskySolvesOrRefuses) {
   const Eigen::MatrixXd matrix = symmetric(12), exact = unsymmetric(12).leftCols(2);
   const DenseCholesky factors(matrix);
@@ -100,6 +113,15 @@ TEST(Dense, EigenvaluesOfTheSecondDifference) {
     EXPECT_NEAR(values[k], exact, round_off);
     EXPECT_LT((matrix * found.vectors.col(k) - exact * found.vectors.col(k)).norm(), 10 * round_off);
   }
+}
+
+// A x = λ B x with A = L D L^T and B = L L^T has the entries of D.
+TEST(Dense, GeneralizedEigenvaluesOfAProduct) {
+  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(4, 4) + 0.1 * unsymmetric(4);
+  const Eigen::Vector4d exact(-1, 0.5, 2, 7);
+  const Eigen::VectorXd found =
+      generalized_eigenvalues(left * exact.asDiagonal() * left.transpose(), left * left.transpose());
+  EXPECT_LT((found - exact).norm(), 10 * round_off * exact.norm());
 }
 
 TEST(Dense, PrincipalAxesOfATurnedTensor) {

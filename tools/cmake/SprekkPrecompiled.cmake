@@ -26,7 +26,7 @@ endif()
 # precompiled headers, so these have a set of their own.
 set(test_options $<$<CONFIG:Release>:-O1>)
 set(light_options $<$<CONFIG:Release>:-O1>)
-set(light_folders "^framework/(command_line|config|output|picture|report|run|study)$")
+set(light_folders "^framework/(command_line|compare|config|converge|output|picture|report|run|schemes|study)$")
 
 # sprekk_precompiled(name headers… [LIBRARIES libraries…]): the target `name`, which compiles these headers.
 function(sprekk_precompiled name)

@@ -1,7 +1,8 @@
 #include "components/fine_fracture/boundary_element/offset_field.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
+
+#include "framework/dense/least_squares.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -40,7 +41,7 @@ OffsetField::Solution OffsetField::solution(const Eigen::Matrix3Xd& offsets,
     solution.weights_ = Vector::Zero(static_cast<Eigen::Index>(places_.size()));
     return solution;
   }
-  solution.linear_ = linear_.householderQr().solve(offsets.transpose()).transpose();
+  solution.linear_ = solve_by_qr(linear_, offsets.transpose()).transpose();
   const Eigen::Matrix3Xd rest = offsets - solution.linear_ * linear_.transpose();
   const Vector isotropic = 0.5 * (rest.row(0) + rest.row(1)).transpose();
   solution.remainder_ =

@@ -1,9 +1,9 @@
 #include "components/poromechanics/fem/fem_operators.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "components/poromechanics/fem/volumetric_split.hpp"
+#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::poromechanics {
@@ -38,8 +38,7 @@ double stiffness_together(const Eigen::MatrixXd& of_unknowns, int corners) {
   Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(size, size);
   for (int at = 0; at < size; at += dimension)
     alone.block<dimension, dimension>(at, at) = of_faces.block<dimension, dimension>(at, at);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(of_faces, alone, Eigen::EigenvaluesOnly);
-  return modes.eigenvalues()[size - 1];
+  return generalized_eigenvalues(of_faces, alone)[size - 1];
 }
 
 RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& tips,
