@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""late_counting_test.py SPREKK: what the passes of an iteration leave of the balance of fluid is counted in the next step. So fluid is conserved to
-round-off however early passes end, and their errors do not add up from step to step: after any number of steps the pressure of a sealed block
-with a source, p = Q t/(S + alpha^2/(lambda + G)), is off by what one step leaves."""
+"""late_counting_test.py SPREKK: what the passes of an iteration leave of the balance of fluid is counted in the next step. So fluid is
+conserved to round-off however early passes end, and their errors do not add up from step to step: after any number of steps the
+pressure of a sealed block with a source, p = Q t/(S + alpha^2/(lambda + G)), is off by what one step leaves."""
 
 import unittest
 
@@ -40,7 +40,8 @@ output: {{probes: {{p: {{of: pore.pressure, at: [0.4 m, 0.6 m]}}}}}}
 
 def iterated(name, flow, rock, until=EARLY):
     steps, options = IN_TWO[name]
-    return f"schedule=[{{iterate: {{fallback: none, until: {{relative: {until}, at_most: 200}}, {options}steps: [{steps.format(flow=flow, rock=rock)}]}}}}]"
+    steps = steps.format(flow=flow, rock=rock)
+    return f"schedule=[{{iterate: {{fallback: none, until: {{relative: {until}, at_most: 200}}, {options}steps: [{steps}]}}}}]"
 
 
 class LateCounting(SceneRuns):
@@ -51,7 +52,8 @@ class LateCounting(SceneRuns):
         self.assertLessEqual(found, at_most)
 
     def test_fluid_is_conserved_however_early_passes_end(self):
-        for scene, settings, flow, rock in ((MANDEL, SMALL_MANDEL, "pore", "rock"), (FRICTION, SMALL_FRICTION, "[pore, conduit]", "[rock, contact]")):
+        for scene, settings, flow, rock in ((MANDEL, SMALL_MANDEL, "pore", "rock"),
+                                            (FRICTION, SMALL_FRICTION, "[pore, conduit]", "[rock, contact]")):
             truth = self.run_scene(scene, *settings)
             right = truth.fields()["pore.pressure"]
             for name in IN_TWO:
@@ -81,7 +83,8 @@ class LateCounting(SceneRuns):
         for files in (self.turned(FRICTION, 37, *SMALL_FRICTION), self.turned(FRICTION, 0, *SMALL_FRICTION, mirror=True)):
             run = self.run_scene(files, *SMALL_FRICTION[1:], schedule)
             self.expect_all_fluid(run)
-            self.assertLess(self.largest_difference(run, straight, ["injection_pressure[Pa]", "fluid_stored[m^2]", "fluid_outflow[m^2]"]), SAME)
+            columns = ["injection_pressure[Pa]", "fluid_stored[m^2]", "fluid_outflow[m^2]"]
+            self.assertLess(self.largest_difference(run, straight, columns), SAME)
         other = self.run_scene(FRICTION, *SMALL_FRICTION, schedule, f"components.rock.boundary.top.normal_stress={-12e6 * (1 + 1e-9)!r} Pa")
         self.expect_all_fluid(other)
         self.assertLess(self.largest_difference(other, straight, ["injection_pressure[Pa]", "fluid_stored[m^2]"]), SAME)

@@ -79,14 +79,16 @@ class SplittingError(unittest.TestCase):
     def turned(self, scene, angle, *settings, mirror=False):
         """The files of the same scene, turned by an angle (degrees) after left and right have changed places, with `mirror`."""
         folder = self.folder / f"turned_{angle}"
-        done = subprocess.run([ROOT / "tools/turn_scene", scene, folder, "--angle", str(angle), "--program", SPREKK, *(["--mirror"] if mirror else []),
+        done = subprocess.run([ROOT / "tools/turn_scene", scene, folder, "--angle", str(angle), "--program", SPREKK,
+                               *(["--mirror"] if mirror else []),
                                *(word for setting in settings for word in ("--set", setting))], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         return [scene, folder / "turned.yaml"]
 
     def test_turned_and_mirrored(self):
         # A plate that moves by half a millimetre in the place of that of Mandel's solution, whose table cannot be turned.
-        block, rock_first = ("mesh.size=0.1 m", "components.rock.boundary.top.displacement_y=-0.5 mm"), "[{solve: [rock, contact]}, {solve: [pore, conduit]}]"
+        block = ("mesh.size=0.1 m", "components.rock.boundary.top.displacement_y=-0.5 mm")
+        rock_first = "[{solve: [rock, contact]}, {solve: [pore, conduit]}]"
         fracture = ("mesh={size: 1 m, fracture_size: 0.25 m}",)
         for angle, mirror in ((30, False), (-75, True)):
             for scene, settings, splits, more in ((MANDEL, block, (FLOW_FIRST, ROCK_FIRST), ("time.end=1079 s",)),

@@ -68,7 +68,8 @@ def problems():
     matrix, _ = exact.single_mode()
     around, around_answers = probes("pore.pressure", inflow, IN_ROCK)
     above, above_answers = probes("pore.pressure", barrier, [(x, abs(y)) for x, y in IN_ROCK])
-    manufactured, manufactured_answers = probes("pore.pressure", lambda x, y: exact.manufactured_biot(np.array([x]), np.array([y]))[0][0], IN_SQUARE)
+    manufactured, manufactured_answers = probes(
+        "pore.pressure", lambda x, y: exact.manufactured_biot(np.array([x]), np.array([y]))[0][0], IN_SQUARE)
     mode, mode_answers = probes("pore.pressure", matrix, [(x, y - 0.5) for x, y in IN_SQUARE])
     fault, fault_answers = probes("contact.jump", lambda x, _: exact.viesca_slip(x, 0.5), [(x, 0.0) for x in (-0.5, -0.3, 0.2, 0.4)], ".t")
     along_slope = [(x * math.cos(math.radians(20)), x * math.sin(math.radians(20))) for x, _ in ALONG]
@@ -78,9 +79,11 @@ def problems():
     return {
         "terzaghi": Problem("terzaghi", "p_closed", float(exact.terzaghi_pressure(np.array([1.0]), 0.1 / CONTINUOUS, CONTINUOUS)[0]),
                             {"mesh.cells": "[2, 20]"}, quick=True),
-        "mandel": Problem("mandel", "p_half", float(mandel.pressure(np.array([0.5]), 10790, CONTINUOUS)[0]), {"mesh.size": "0.1 m"}, quick=True),
+        "mandel": Problem("mandel", "p_half", float(mandel.pressure(np.array([0.5]), 10790, CONTINUOUS)[0]), {"mesh.size": "0.1 m"},
+                          quick=True),
         "barry_mercer": Problem("barry_mercer", "p_75_5", pressure_of_well(0.75, 0.5, 1.535889741755005e-3), {"mesh.cells": "[16, 16]"}),
-        "pressurized_crack": Problem("pressurized_crack", "opening.n", exact.SNEDDON_PEAK, {**crack, **opening}, quick=True, elsewhere=opening_answers),
+        "pressurized_crack": Problem("pressurized_crack", "opening.n", exact.SNEDDON_PEAK, {**crack, **opening}, quick=True,
+                                     elsewhere=opening_answers),
         "frictional_crack": Problem("frictional_crack", "slip.t", exact.phan_peak(), {**crack, **slip}, quick=True, elsewhere=slip_answers),
         "fracture_inflow": Problem("fracture_inflow", "p_fracture", 2.0, around, quick=True, elsewhere=around_answers),
         "fracture_barrier": Problem("fracture_barrier", "p_above", barrier(0, 0.03), above, quick=True, elsewhere=above_answers),
@@ -139,4 +142,5 @@ def judged(program, problem, folder):
         answer = problem.answers[one["quantity"]]
         sign = np.sign(one["value"] * answer)  # the sign of a slip is that of the fracture's direction
         errors[one["quantity"]] = (one["error"], abs(sign * one["value"] - answer))
-    return Verdict(found[0]["value"], errors, {one["name"]: round(one["order"], 2) if one["regular"] else None for one in found[0]["parameters"]})
+    orders = {one["name"]: round(one["order"], 2) if one["regular"] else None for one in found[0]["parameters"]}
+    return Verdict(found[0]["value"], errors, orders)
