@@ -14,6 +14,7 @@
 #include "couplers/found_modulus.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/counts_later.hpp"
 #include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/stabilizes_preconditioner.hpp"
@@ -21,6 +22,7 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -30,7 +32,8 @@ namespace {
 /// phi)/K to its storage, and −alpha (p − p_0) I to the stress.
 ///
 /// The "old" volume is the volume that the fluid balance has counted last (`counted_volume`). So a split scheme that is
-/// not iterated counts every change of volume once, if late.
+/// not iterated counts every change of volume once, if late. One that is iterated counts the volume with which each
+/// balance holds: what passes leave of it is counted in the next step.
 ///
 /// One way, the first of these terms is left out, and nothing of the rock enters the balance of the fluid.
 ///
@@ -40,6 +43,7 @@ class Biot : public Coupler,
              public StabilizesPreconditioner,
              public KeepsTotals,
              public CountsFromHere,
+             public CountsLater,
              public HoldsAmounts {
  public:
   Biot(const CouplerContext& context, const BiotOptions& options)
@@ -131,6 +135,19 @@ class Biot : public Coupler,
       counted_volume_.set(std::move(volume));
     }
     stored_.set(std::move(stored));
+  }
+
+  void count_rest_later(const Assembly& assembly) override {
+    const auto& unknowns = assembly.unknowns();
+    const auto row = std::ranges::find(unknowns, &fluid_.pressure());
+    if (row == unknowns.end() || decoupled_ || options_.one_way) return;
+    Vector rest = rest_of_balances(assembly, static_cast<int>(row - unknowns.begin()));
+    replicate(mesh_, Location::cell, 1, rest);
+    Vector volume = counted_volume_.now();
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      if (alpha_in_fluid_[c] > 0) volume[c] -= rest[c] / alpha_in_fluid_[c];
+    counted_volume_.set(std::move(volume));
+    stored_.set(stored_.now() - rest);
   }
 
   /// A change of the mesh must not change the fluid in the pores: the volume that has been counted becomes the volume
@@ -245,6 +262,22 @@ class Biot : public Coupler,
             .doc = doc,
             .accepted_with = fluid_.pressure().name(),
             .is_amount = true};
+  }
+
+  /// The residuals of the fluid balances of cells whose volume is counted, right on cells of this process. Their sum is
+  /// that without the fluxes between cells, whose round-off is no fluid.
+  Vector rest_of_balances(const Assembly& assembly, int unknown) const {
+    const Vector &residual = assembly.residual(unknown), &in_sum = assembly.balances().residual(unknown);
+    Vector rest = Vector::Zero(mesh_.cell_count()), sums = Vector::Zero(2);
+    for (int c = 0; c < mesh_.cell_count(); ++c) {
+      if (!is_owned(mesh_, Location::cell, c)) continue;
+      if (alpha_in_fluid_[c] > 0) rest[c] = residual[c];
+      sums[0] += std::abs(rest[c]);
+      sums[1] += in_sum[c] - residual[c];
+    }
+    parallel::sum(sums);
+    if (sums[0] > 0) rest += sums[1] / sums[0] * rest.cwiseAbs();
+    return rest;
   }
 
   /// Rock without a flow in it is dry.

@@ -1,5 +1,8 @@
 #include "framework/compare/compared_run.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "framework/config/input_error.hpp"
@@ -29,6 +32,18 @@ RunCost cost_of(const json& record) {
   return cost;
 }
 
+/// A history that has lost rows, or was changed by hand, would be compared as far as it can be read.
+void require_sound(const CsvTable& history, long steps, const fs::path& file) {
+  const std::vector<double> times = history.numbers("time");
+  const auto refuse = [&](const std::string& why) {
+    throw InputError({file.string()}, "this is not the history of its run", why, "run the scene again");
+  };
+  if (times.empty() && steps > 0) refuse("it has no row, and run.json has accepted steps");
+  for (std::size_t row = 0; row < times.size(); ++row)
+    if (!std::isfinite(times[row]) || (row > 0 && times[row] < times[row - 1]))
+      refuse(fmt::format("the time in its row {} is no number, or goes back", row + 1));
+}
+
 }  // namespace
 
 ComparedRun read_compared_run(const fs::path& folder) {
@@ -56,6 +71,7 @@ ComparedRun read_compared_run(const fs::path& folder) {
   run.is_done = code == 0;
   run.ending = code == -1 ? "still running, or ended without a word" : end.value("reason", "");
   run.cost = cost_of(record);
+  require_sound(run.history, run.cost.steps, folder / "history.csv");
   return run;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprekk {
 namespace {
@@ -24,17 +25,19 @@ ParameterError parameter_error(double coarse, double middle, double fine, double
     found.order = 1;
     return found;
   }
-  const double observed = second == 0 ? most_order : std::log2(first / second);
+  const double observed = second == 0 ? std::numeric_limits<double>::infinity() : std::log2(first / second);
   found.is_regular = observed >= least_order;  // NaN where the sign changes
   found.order = found.is_regular ? std::min(observed, most_order) : 1;
+  const double ratio = std::pow(2, found.order);  // of the errors of two levels
   if (found.is_regular) {
-    found.error = second / (std::pow(2, found.order) - 1);
+    found.correction = found.error = second / (ratio - 1);
+    // Beyond the highest order the last difference is small by chance: the first one says how large the error may be.
+    if (observed > most_order) found.error = first / (ratio * (ratio - 1));
   } else {
     // Where the differences at least shrink, an order of one or more is trusted.
     const bool shrinks = std::abs(second) < std::abs(first);
     found.error = std::copysign(std::max(std::abs(second), std::abs(first) / (shrinks ? 2 : 1)), second);
   }
-  if (second == 0) found.error = first / (std::pow(2, 2 * most_order) - std::pow(2, most_order));
   return found;
 }
 
@@ -64,7 +67,7 @@ ValueError value_error(const std::vector<double>& coarse, const std::vector<doub
   int acting = 0;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     const ParameterError one = parameter_error(coarse[i], middle, fine[i], scale);
-    if (one.is_regular) found.extrapolated += one.error;
+    found.extrapolated += one.correction;
     apart -= fine[i] - middle;
     if (!one.is_zero) {
       growth *= std::pow(2, one.order) - 1;

@@ -11,7 +11,8 @@ namespace sprekk {
 
 /// The error that a value owes to one parameter.
 struct ParameterError {
-  double error = 0;                ///< of the fine level; if it is regular, extrapolation adds it to the value
+  double error = 0;                ///< of the fine level
+  double correction = 0;           ///< what extrapolation adds to the value of the fine level; 0 if not regular
   double order = 0;                ///< observed, within 1/2 and 2; 1 where it is not regular
   bool is_regular = true;          ///< false where the differences do not shrink, or change their sign
   bool is_zero = false;            ///< the value does not depend on the parameter but for round-off

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <numeric>
 
+#include "framework/config/input_error.hpp"
 #include "framework/module/module.hpp"
 #include "framework/output/time_series.hpp"
 #include "framework/output/vtk_module/vtk_module.hpp"
@@ -24,6 +26,22 @@ void add_arrays(const std::vector<GridData::Array>& arrays, Grid::Place place, c
   }
 }
 
+/// Runs write files whole: one without its last tag was cut off later. VTK would read it as a file with fewer fields.
+void require_whole(const std::filesystem::path& vtu) {
+  const std::string last_tag = "</VTKFile>";
+  constexpr std::streamoff blank = 16;  // behind the tag, at most
+  std::ifstream file(vtu, std::ios::binary | std::ios::ate);
+  if (!file) return;  // the reader says so
+  const std::streamoff size = file.tellg(),
+                       length = std::min(size, static_cast<std::streamoff>(last_tag.size()) + blank);
+  std::string end(static_cast<std::size_t>(length), ' ');
+  file.seekg(size - length);
+  file.read(end.data(), length);
+  if (end.find(last_tag) == std::string::npos)
+    throw InputError({vtu.string()}, "this is not a whole file of fields", "it has no end, so it was cut off",
+                     "run the scene again");
+}
+
 }  // namespace
 
 const Grid::Values* Grid::find(const std::string& name) const {
@@ -33,6 +51,7 @@ const Grid::Values* Grid::find(const std::string& name) const {
 }
 
 Grid read_grid(const std::filesystem::path& vtu) {
+  require_whole(vtu);
   const GridData read = module<VtkModule>("vtk").read(vtu);
   Grid grid;
   for (int i = 0; i < read.point_count(); ++i) grid.points.push_back({read.points[3 * i], read.points[3 * i + 1]});

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "framework/assembly/assemble_all.hpp"
+#include "framework/assembly/counts_later.hpp"
 #include "framework/invariants.hpp"
 #include "framework/schedule/passes/pass_changes.hpp"
 #include "framework/schedule/passes/stalled_acceleration.hpp"
@@ -266,6 +267,10 @@ StepStatus IterateStep::converged(const StepTime& step, const StepStatus& status
   // Each substep has added its exchange to the cumulative balances already.
   if (options_.has_substeps || !status.converged) return status;
   for (Part* part : parts_) part->after_solve(fields_, step);
+  Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
+  assemble_all(assembly, parts_, step);
+  for (Part* part : parts_)
+    if (auto* later = dynamic_cast<CountsLater*>(part)) later->count_rest_later(assembly);
   return status;
 }
 

@@ -61,7 +61,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
  private:
   StepStatus make_passes(const StepTime& step);
   /// Counts what was exchanged with the fields of all solves together, whose equations hold: a solve has counted what
-  /// it knew of the others when it was its turn.
+  /// it knew of the others when it was its turn. What passes have left of balances is counted later (CountsLater).
   StepStatus converged(const StepTime& step, const StepStatus& status);
   ResidualCheck coupled_residual(const StepTime& step) const;
   void choose_scales();

@@ -130,9 +130,18 @@ class Compare(unittest.TestCase):
             file.unlink()
         damaged = self.copy("damaged")
         (damaged / "run.json").write_text("no record")
+        cut, lost, changed = self.copy("cut"), self.copy("lost"), self.copy("changed")
+        fields = sorted(cut.glob("matrix_*.vtu"))[-1]
+        fields.write_bytes(fields.read_bytes()[:2000])
+        (lost / "history.csv").unlink()
+        lines = (changed / "history.csv").read_text().splitlines(keepends=True)
+        (changed / "history.csv").write_text("".join([*lines[:2], "x" + lines[2], *lines[3:]]))
         for arguments, message in ((["run", "nowhere"], "nowhere: this is no folder of results (it does not exist) give"),
                                    (["run", "empty"], "empty: this is no folder of results (it has no run.json) give"),
                                    (["run", "damaged"], "this is not the record of a run (it is damaged, or another file)"),
+                                   (["run", "cut"], f"{fields.relative_to(self.folder)}: this is not a whole file of fields"),
+                                   (["run", "lost"], "lost/history.csv: this is not the history of its run (it has no row"),
+                                   (["run", "changed"], "changed/history.csv: this is not the history of its run (the time in its row 2"),
                                    (["run"], "a comparison needs two runs (there is one) give"),
                                    (["run", "other"], "run and other: there is nothing to compare (they have no quantity"),
                                    (["run", "run", "--of", "slip.y"], "unknown quantity 'slip.y'"),

@@ -15,33 +15,12 @@ SCHEMES = {
 }
 GROW = "{grow: tips, settle: [rock, contact]"
 LENGTHS = ("tips.main_first.length", "tips.main_last.length")
-# The wing of a fracture with given fluid pressure grows to another fracture in its way, and joins it (tests/verification/joining_test.cpp).
-JOINING = """
-name: joining
-geometry:
-  box: {x: [-1 m, 1 m], y: [-1 m, 1 m]}
-  fractures:
-    main: {points: [[-0.06 m, 0 m], [0.06 m, 0 m]]}
-    wall: {points: [[0.12 m, -0.03 m], [0.13 m, 0.03 m]]}
-mesh: {size: 0.2 m, fracture_size: 10 mm, growth: 0.3}
+# The wing of a fracture with given fluid pressure grows to another fracture in its way, and joins it (tests/verification/joining_test.cpp), in rock
+# with fluid in its pores.
+JOINING = ROOT / "tests/verification/scenes/joining.yaml"
+WITH_PORES = """
 components:
   pore: {type: matrix_flow/mpfa, permeability: 1e-19 m^2, viscosity: 1e-4 Pa*s, storage: 1e-11 1/Pa}
-  rock:
-    type: poromechanics/mpsa
-    young_modulus: 40 GPa
-    poisson_ratio: 0.2
-    boundary:
-      left: {displacement_x: 0 m}
-      bottom: {displacement_y: 0 m}
-  conduit:
-    type: fracture_flow/tpfa
-    viscosity: 1.0e-4 Pa*s
-    fluid_compressibility: 4.0e-10 1/Pa
-    initial_aperture: 1 mm
-    prescribed:
-      main: {fracture: main, pressure: "(t/3600) MPa"}
-      wall: {fracture: wall, pressure: "(t/3600) MPa"}
-  contact: {type: contact/coulomb, friction: 0.5}
   tips: {type: fine_fracture/quarter_point, size: 0.3 m, toughness: 0.7 MPa*m^0.5, growth: {increment: 10 mm}, meeting: join}
 couplers:
   - {type: biot, between: [pore, rock], biot_coefficient: 0.8}
@@ -50,7 +29,7 @@ couplers:
   - {type: aperture, between: [contact, conduit]}
   - {type: two_level, between: [rock, conduit, tips, contact]}
 schedule: [{solve: [pore, rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: after_step}]
-time: {start: 1.4 h, end: 4 h, step: 0.05 h, stop: {of: tips.main_last.stopped, reaches: 1 1}}
+time: {stop: {of: tips.main_last.stopped, reaches: 1 1}}
 output: {fields: false}
 """
 
@@ -77,7 +56,7 @@ class GrownSchemes(SceneRuns):
                 self.assertLess(difference, 1e-6, (name, word))
 
     def test_a_wing_that_joins(self):
-        scene = self.write(JOINING)
+        scene = [JOINING, self.write(WITH_PORES)]
         truth = self.run_scene(scene)
         self.assertEqual(truth.rows[-1]["tips.main_last.stopped"], 1)
         self.assertAlmostEqual(truth.rows[-1]["tips.main_last.length"], 0.065, delta=0.002)

@@ -12,69 +12,36 @@ namespace {
 
 constexpr double mega = 1e6, hour = 3600;
 
-/// Two fractures of an elastic block without other loads than the pressure of their fluid, which rises by 1 MPa an
-/// hour. The longer one points to the middle of the other.
+/// What the longer fracture points to.
 struct Other {
   std::string points = "[[0.12 m, -0.03 m], [0.13 m, 0.03 m]]", pressure = "(t/3600) MPa";
 };
 
-std::string pressurized(const Other& other, const std::string& tips, const std::string& coupler,
-                        const std::string& grow) {
-  return R"(
-name: joining
-geometry:
-  box: {x: [-1 m, 1 m], y: [-1 m, 1 m]}
-  fractures:
-    main: {points: [[-0.06 m, 0 m], [0.06 m, 0 m]]}
-    wall: {points: )" +
-         other.points + R"(}
-mesh: {size: 0.2 m, fracture_size: 10 mm, growth: 0.3}
-components:
-  rock:
-    type: poromechanics/mpsa
-    young_modulus: 40 GPa
-    poisson_ratio: 0.2
-    boundary:
-      left: {displacement_x: 0 m}
-      bottom: {displacement_y: 0 m}
-  conduit:
-    type: fracture_flow/tpfa
-    viscosity: 1.0e-4 Pa*s
-    fluid_compressibility: 4.0e-10 1/Pa
-    initial_aperture: 1 mm
-    transmissivity: constant
-    transmissivity_value: 1.0e-6 m^3
-    prescribed:
-      main: {fracture: main, pressure: "(t/3600) MPa"}
-      wall: {fracture: wall, pressure: ")" +
-         other.pressure + R"("}
-  contact: {type: contact/coulomb, friction: 0.5}
-)" + tips +
-         R"(
-couplers:
-  - {type: wall_traction, between: [rock, contact, conduit]}
-)" + coupler +
-         R"(
-schedule:
-  - solve: [rock, conduit, contact]
-)" + grow +
-         R"(
-time: {start: 1.4 h, end: 4 h, step: 0.05 h}
-)";
+/// The scene joining.yaml, in which nothing grows.
+SceneRun pressurized(const Other& other, const std::vector<Override>& more = {}) {
+  std::vector<Override> overrides = {{"geometry.fractures.wall.points", other.points},
+                                     {"components.conduit.prescribed.wall.pressure", '"' + other.pressure + '"'},
+                                     {"components.conduit.transmissivity", "constant"},
+                                     {"components.conduit.transmissivity_value", "1.0e-6 m^3"}};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return SceneRun("../tests/verification/scenes/joining.yaml", overrides);
 }
 
-std::string growing(const std::string& meeting, const Other& other = {}) {
+SceneRun growing(const std::string& meeting, const Other& other = {}) {
   return pressurized(
       other,
-      "  tips: {type: fine_fracture/quarter_point, size: 0.3 m, toughness: 0.7 MPa*m^0.5, growth: {increment: 10 mm}, "
-      "meeting: " +
-          meeting + "}",
-      "  - {type: two_level, between: [rock, conduit, tips]}",
-      "  - {grow: tips, settle: [rock, contact], update: after_step}");
+      {{"components.tips",
+        "{type: fine_fracture/quarter_point, size: 0.3 m, toughness: 0.7 MPa*m^0.5, growth: {increment: 10 mm}, "
+        "meeting: " +
+            meeting + "}"},
+       {"couplers",
+        "[{type: wall_traction, between: [rock, contact, conduit]}, {type: two_level, between: [rock, conduit, "
+        "tips]}]"},
+       {"schedule", "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: after_step}]"}});
 }
 
 TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
-  SceneRun run = SceneRun::from_text(growing("join"));
+  SceneRun run = growing("join");
   while (run.mesh().junctions.empty()) ASSERT_TRUE(run.step()) << run.time();
   // K_I = p sqrt(pi a) reaches the toughness at 1.61 MPa; the other fracture and the outline are worth a few percent.
   EXPECT_NEAR(run.time() / hour, 1.61, 0.08);
@@ -88,7 +55,7 @@ TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
 
   // Without friction, and in elastic rock, a state does not depend on the way to it. The new cells are bonded until the
   // next step, which is made here without further growth.
-  SceneRun without_growth = SceneRun::from_text(pressurized({}, "", "", ""));
+  SceneRun without_growth = pressurized({});
   const Scene& scene = without_growth.model().scene();
   Model goes_on(scene, run.mesh()), fresh(scene, run.mesh());
   transfer_fields(run.model().fields(), no_change(run.mesh()), run.mesh(), run.mesh(), goes_on.fields());
@@ -103,7 +70,7 @@ TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
 
 TEST(Joining, TipsThatFaceEachOtherMeet) {
   // Both grow towards each other, and one of them joins the other where that one is on the mesh.
-  SceneRun run = SceneRun::from_text(growing("join", {.points = "[[0.095 m, 0 m], [0.215 m, 0 m]]"}));
+  SceneRun run = growing("join", {.points = "[[0.095 m, 0 m], [0.215 m, 0 m]]"});
   double longest = 0;
   while (run.mesh().junctions.empty()) {
     ASSERT_TRUE(run.step()) << run.time();
@@ -121,9 +88,9 @@ TEST(Joining, TipsThatFaceEachOtherMeet) {
 
 TEST(Joining, NoTipClosesARing) {
   // The other fracture, without fluid, has an arm before each tip.
-  SceneRun run = SceneRun::from_text(growing(
+  SceneRun run = growing(
       "join",
-      {.points = "[[-0.12 m, 0.03 m], [-0.12 m, -0.2 m], [0.125 m, -0.2 m], [0.125 m, 0.03 m]]", .pressure = "0 MPa"}));
+      {.points = "[[-0.12 m, 0.03 m], [-0.12 m, -0.2 m], [0.125 m, -0.2 m], [0.125 m, 0.03 m]]", .pressure = "0 MPa"});
   const auto are_stopped = [&] {
     return run.quantity("tips.main_first.stopped") + run.quantity("tips.main_last.stopped") == 2;
   };
@@ -138,7 +105,7 @@ TEST(Joining, ATipTurnsToWhatItPassesCloselyUnlessThatIsBesideIt) {
   // Increments of 10 mm put the tip at 90 mm; the end is 7 mm above its way, seen at 54 and at 67 degrees.
   for (const auto& [x, joins] : {std::pair(95, true), {93, false}}) {
     const std::string points = "[[" + std::to_string(x) + " mm, 7 mm], [" + std::to_string(x) + " mm, 60 mm]]";
-    SceneRun run = SceneRun::from_text(growing("join", {.points = points, .pressure = "0 MPa"}));
+    SceneRun run = growing("join", {.points = points, .pressure = "0 MPa"});
     while (run.quantity("tips.main_last.stopped") == 0) ASSERT_TRUE(run.step()) << run.time();
     EXPECT_EQ(run.mesh().junctions.size(), joins ? 1u : 0u) << x;
     EXPECT_NEAR(run.quantity("tips.main_last.length"), joins ? 0.03 + std::hypot(0.005, 0.007) : 0.03, 1e-3) << x;
@@ -146,7 +113,7 @@ TEST(Joining, ATipTurnsToWhatItPassesCloselyUnlessThatIsBesideIt) {
 }
 
 TEST(Joining, ATipMayBeAskedToStopInstead) {
-  SceneRun run = SceneRun::from_text(growing("stop"));
+  SceneRun run = growing("stop");
   while (run.quantity("tips.main_last.stopped") == 0) ASSERT_TRUE(run.step()) << run.time();
   EXPECT_TRUE(run.mesh().junctions.empty());
   // One to two coarse edges before the other fracture.

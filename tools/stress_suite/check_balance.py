@@ -163,9 +163,10 @@ def matrix_mass(p, instants, brought=None):
 
 
 def left_by_passes(p, instants):
-    """m^2 that passes may leave: they end when the balances of all cells together hold to 100 times their tolerance, against what the
-    cells take up in the step, S |dp| + alpha |d eps_v|. (One Newton iteration more than asked for leaves far less.)"""
-    if p.get("solved", schemes.MONOLITHIC) == schemes.MONOLITHIC:
+    """m^2 that passes may leave in fractures that are solved apart: they end when the balances of all cells together hold to 100 times
+    their tolerance, against what the cells take up in the step, S |dp| + alpha |d eps_v|. What they leave in rock is counted in the next
+    step."""
+    if p.get("solved", schemes.MONOLITHIC) != schemes.RESPONSE:
         return 0.0
     pressure_before, mean_before, taken_up = p["initial"], 0.0, 0.0
     for instant in instants:

@@ -68,6 +68,16 @@ TEST(ErrorEstimate, takes_no_higher_order_than_two) {
   EXPECT_GE(std::abs(found.error), 1.0 / 4096);
 }
 
+TEST(ErrorEstimate, holds_where_the_last_difference_is_small_by_chance) {
+  // Errors of second order with scatter: the last two have met. Three times as large would be no news.
+  for (const double sign : {1.0, -1.0}) {
+    const ValueError found = value_error({3 + sign * 0.16}, {3 + sign * 0.01}, 3 + sign * 0.011, 3 + sign * 0.01);
+    EXPECT_GE(found.stated({0.5}), 0.01);
+    EXPECT_LE(found.stated({0.5}), 0.03);
+    EXPECT_THAT(found.extrapolated, DoubleNear(3 + sign * 0.01, 1e-3));  // nothing is made of the first difference
+  }
+}
+
 TEST(ErrorEstimate, sees_what_does_not_matter) {
   const ParameterError found = parameter_error(1, 1 + 1e-13, 1 - 1e-13, 1);
   EXPECT_TRUE(found.is_zero);
