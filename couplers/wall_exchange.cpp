@@ -45,7 +45,7 @@ class WallExchange : public Coupler {
         counted_(context.fields.add(
             mesh_, counted_field(context, "counted", fracture_.pressure(), "Of it, what the fracture has counted"))) {
     context.determine(walls_.wall_flux());
-    if (fluid_ && walls_.is_permeable()) fracture_.accept_rock_fluid(*fluid_);
+    if (fluid_ && walls_.is_permeable()) fracture_.accept_rock_fluid(*fluid_, walls_);
     std::vector<Triplet> entries, sums, counts;
     for (int w = 0; w < mesh_.wall_count(); ++w) {
       entries.emplace_back(w, w / 2, 1.0);

@@ -6,6 +6,7 @@
 namespace sprekk {
 
 class MatrixFluid;
+class MatrixWalls;
 
 /// Capability: determines the pressure in the fractures from a balance of fluid volume, and accepts their aperture.
 class FractureFluid {
@@ -44,10 +45,11 @@ class FractureFluid {
   virtual bool is_in_fracture_cell(int /*cell*/) const { return true; }
   /// Whether the pressure follows the aperture: not with a given transmissivity, nor where all of it is prescribed.
   virtual bool follows_aperture() const = 0;
-  /// The fluid of the rock, which leaves and enters through the walls; nullptr where they are sealed. To be accepted
-  /// while the scene is built; it must outlive this object.
-  virtual void accept_rock_fluid(const MatrixFluid& rock_fluid) = 0;
-  virtual const MatrixFluid* rock_fluid() const = 0;
+  /// The fluid of the rock, which leaves and enters through the walls, and its pressure there; nullptr where they are
+  /// sealed. To be accepted while the scene is built; both must outlive this object.
+  virtual void accept_rock_fluid(MatrixFluid& rock_fluid, const MatrixWalls& walls) = 0;
+  virtual MatrixFluid* rock_fluid() const = 0;
+  virtual const MatrixWalls* rock_walls() const = 0;
 };
 
 }  // namespace sprekk

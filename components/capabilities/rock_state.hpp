@@ -25,6 +25,8 @@ class RockState {
   virtual Vector outer_displacement() const = 0;
   /// The stress −alpha (p − p_0) that the pore pressure adds to xx and yy, for each cell, Pa.
   virtual Vector pore_stress() const = 0;
+  /// By how much it changes with a pressure, −alpha of each cell; empty where this pressure is no load.
+  virtual Vector pore_stress_by(const Field& pressure) const = 0;
   /// The initial stress at a point x of a cell, Pa, (xx, yy, xy); where rock is taken away, the part of it that still
   /// acts.
   virtual SymmetricTensor initial_stress(int cell, const Point& x) const = 0;

@@ -64,6 +64,7 @@ class Rock : public Component,
   const Field& displacement() const override { return displacement_; }
   Vector outer_displacement() const override;
   Vector pore_stress() const override;
+  Vector pore_stress_by(const Field& pressure) const override;
   SymmetricTensor initial_stress(int cell, const Point& x) const override;
   bool initial_stress_changes() const override { return !stiffness_.excavation().is_empty(); }
   bool has_body_force() const override { return options_.has_body_force(); }

@@ -31,6 +31,12 @@ Vector Rock::pore_stress() const {
   return stress;
 }
 
+Vector Rock::pore_stress_by(const Field& pressure) const {
+  for (const Load& load : loads_)
+    if (load.pressure == &pressure) return -load.alpha;
+  return {};
+}
+
 Vector Rock::stress_of(const Vector& forces, const Vector& moments) const {
   // The stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when constant,
   // and near tips of cracks with the moments of the singular tractions about the centres of the faces.

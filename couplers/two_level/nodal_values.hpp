@@ -32,6 +32,8 @@ class NodalValues {
     std::array<double, 3> share;
   };
   Place place(int cell, const Point& x) const;
+  /// One of the values at all nodes.
+  Vector of_nodes(int component) const { return values_.col(component); }
   /// The values at a place; `components` as they were set.
   template <int components>
   Eigen::Vector<double, components> at(const Place& place) const {

@@ -11,6 +11,7 @@
 #include "couplers/contacts.hpp"
 #include "couplers/two_level/along_fracture.hpp"
 #include "couplers/two_level/nodal_values.hpp"
+#include "couplers/two_level/pressure_near_tips.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 
 struct TwoLevelOptions {
   std::string reconstruction = "wall_traction";
+  std::string pore_pressure = "fitted";
   std::optional<double> propagation_threshold;
   Spec spec() {
     Spec spec("two_level",
@@ -38,6 +40,17 @@ struct TwoLevelOptions {
           "the same with jumps and displacements between cell centres, where strain counts as slip: for "
           "comparison with the paper's scripts only"}},
         {.doc = "What the walls of the fine level take from the coarse one.", .source = "the paper's sec. 4.4.1"});
+    spec.choice(
+        "pore_pressure", pore_pressure,
+        {{"fitted",
+          "linear functions are fitted to the cells; near tips that exchange fluid with the rock they are too smooth"},
+         {"near_tips",
+          "beside tips the pressure goes with the square root of the distance, and has the means of the cells: "
+          "the least integral of its squared gradient, with the pressures at the walls"}},
+        {.doc =
+             "How the pore pressure that loads the fine level follows from the cells. With near_tips factors of open "
+             "fractures are two to ten times as accurate shortly after an injection has begun; but where the first "
+             "segment behind a kink is divided, they move by 1 to 2.5 %, so that growth is less smooth there."});
     spec.quantity("propagation_threshold", propagation_threshold,
                   {.range = positive(),
                    .doc = "The part of the coarse mesh size at which a path is handed to the coarse level; by default "
@@ -77,6 +90,10 @@ class TwoLevel : public Coupler, public TipSurroundings {
   void assemble(Assembly&, const StepTime&) const override {}
 
   void note_input(Notes& notes) const override {
+    if (options_.pore_pressure == "near_tips" && !pressure_by_exchange())
+      notes.add(name() + " without exchange",
+                "the pore pressure near tips is that of a fit (`pore_pressure: near_tips` is for fluid that passes the "
+                "walls of fractures and loads the rock, and there is none) remove it, or add a wall_exchange");
     if (fluid_left_out_.empty()) return;
     notes.add(
         name() + " without " + fluid_left_out_,
@@ -117,7 +134,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
       displacement_.set_nodes(dimension, rock_.displacement().now());
     else
       displacement_.set(dimension, rock_.displacement().now(), rock_.outer_displacement());
-    pore_stress_.set(1, rock_.pore_stress(), {});
+    update_pore_stress();
     traction_ = walls_.wall_traction().now();
     jump_ = is_cell_centred() ? jump_between_cells() : walls_.displacement_jump().now();
     replicate(mesh_, Location::fracture_cell, 2, jump_);
@@ -161,19 +178,28 @@ class TwoLevel : public Coupler, public TipSurroundings {
     std::vector<NodalValues::Place> found;
     found.reserve(places.size());
     std::vector<int> cells;
+    std::vector<std::pair<std::size_t, PressureNearTips::Place>> near;
     for (const Point& x : places) {
       cells.push_back(cell_at(x));
       found.push_back(pore_stress_.place(cells.back(), x));
+      if (!near_tips_) continue;
+      if (const auto place = near_tips_->place(cells.back(), x)) near.emplace_back(found.size() - 1, *place);
     }
     const auto initial_stress = [this, places, cells = std::move(cells)] {
       Eigen::Matrix<double, symmetric_components, Eigen::Dynamic> initial(symmetric_components, places.size());
       for (std::size_t i = 0; i < places.size(); ++i) initial.col(i) = rock_.initial_stress(cells[i], places[i]);
       return initial;
     };
-    return [this, found = std::move(found), initial = initial_stress(), initial_stress] {
+    return [this, found = std::move(found), near_tips = std::move(near), initial = initial_stress(), initial_stress] {
       auto offsets = rock_.initial_stress_changes() ? initial_stress() : initial;
       for (std::size_t i = 0; i < found.size(); ++i)
-        offsets.col(i).head<dimension>().array() += pore_stress_.at<1>(found[i])[0];
+        offsets.col(i).head<dimension>().array() += pore_stress_.at<pore_values>(found[i])[of_stress];
+      for (const auto& [i, place] : near_tips) {
+        const auto fitted = pore_stress_.at<pore_values>(found[i]);
+        const PressureNearTips::Value near = near_tips_->at(place);
+        offsets.col(i).head<dimension>().array() +=
+            fitted[of_stress_by_pressure] * near.weight * (near.value - fitted[of_pressure]);
+      }
       return offsets;
     };
   }
@@ -224,6 +250,46 @@ class TwoLevel : public Coupler, public TipSurroundings {
   std::optional<double> propagation_threshold() const override { return options_.propagation_threshold; }
 
  private:
+  /// What is fitted to cells: the stress that pores add, the pressure, and by how much the one changes with the other.
+  enum PoreValue { of_stress, of_pressure, of_stress_by_pressure, pore_values };
+
+  /// The pressure of a fluid that passes the walls and loads the rock, or nullptr.
+  const Field* pressure_by_exchange() const {
+    MatrixFluid* fluid = fluid_ ? fluid_->rock_fluid() : nullptr;
+    return fluid && rock_.pore_stress_by(fluid->pressure()).size() > 0 ? &fluid->pressure() : nullptr;
+  }
+
+  /// Where a fluid passes the walls, its pressure near tips is more than the fit to cells.
+  void update_pore_stress() {
+    const Vector stress = rock_.pore_stress();
+    Vector values = Vector::Zero(pore_values * stress.size());
+    values(Eigen::seqN(+of_stress, stress.size(), +pore_values)) = stress;
+    const Field* field = options_.pore_pressure == "near_tips" ? pressure_by_exchange() : nullptr;
+    if (!field) {
+      pore_stress_.set(+pore_values, values, {});
+      return;
+    }
+    const Vector& pressure = field->now();
+    values(Eigen::seqN(+of_pressure, stress.size(), +pore_values)) = pressure;
+    values(Eigen::seqN(+of_stress_by_pressure, stress.size(), +pore_values)) = rock_.pore_stress_by(*field);
+    pore_stress_.set(+pore_values, values, {});
+    if (!near_tips_) near_tips_.emplace(mesh_);
+    near_tips_->set({pressure, pressures_at_walls(fluid_->rock_walls()->wall_pressure().now()),
+                     pore_stress_.of_nodes(of_pressure)});
+  }
+
+  /// Where walls let fluid through.
+  std::vector<std::optional<double>> pressures_at_walls(Vector all) const {
+    replicate(mesh_, Location::wall, 1, all);
+    const Vector permeability = fluid_->normal_permeability().value;
+    std::vector<std::optional<double>> pressures;
+    for (int wall = 0; wall < mesh_.wall_count(); ++wall)
+      pressures.push_back(permeability[wall] > 0 && fluid_->rock_walls()->is_behind_wall(wall)
+                              ? std::optional(all[wall])
+                              : std::nullopt);
+    return pressures;
+  }
+
   bool is_cell_centred() const { return options_.reconstruction == "cell_centred"; }
 
   bool is_nodal() const { return rock_.displacement().spec().location == Location::node; }
@@ -264,6 +330,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   PointLocation location_;
   mutable int last_cell_ = none;  ///< the cell of the last place that was looked for: the next is often in it, too
   NodalValues displacement_, pore_stress_;
+  mutable std::optional<PressureNearTips> near_tips_;  ///< once a fluid that passes the walls is known to load the rock
   std::vector<AlongFracture> along_;
   Vector traction_, jump_, fluid_traction_;
   std::uint64_t updated_for_ = 0;

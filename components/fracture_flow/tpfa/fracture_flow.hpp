@@ -81,8 +81,12 @@ class FractureFlow : public Component,
   const Field& flux() const override { return flux_; }
   std::vector<FluidSource> fluid_sources() const override { return sources_; }
   std::vector<FluidReservoir> fluid_reservoirs() const override;
-  void accept_rock_fluid(const MatrixFluid& rock_fluid) override { rock_fluid_ = &rock_fluid; }
-  const MatrixFluid* rock_fluid() const override { return rock_fluid_; }
+  void accept_rock_fluid(MatrixFluid& rock_fluid, const MatrixWalls& walls) override {
+    rock_fluid_ = &rock_fluid;
+    rock_walls_ = &walls;
+  }
+  MatrixFluid* rock_fluid() const override { return rock_fluid_; }
+  const MatrixWalls* rock_walls() const override { return rock_walls_; }
   bool has_gravity() const override { return !options_.gravity.is_zero(); }
   double weight_between(const Point& from, const Point& to) const override;
   bool density_varies() const override { return density_ != nullptr; }
@@ -162,7 +166,8 @@ class FractureFlow : public Component,
   void prescribe(const StepTime& step);
 
   const Mesh& mesh_;
-  const MatrixFluid* rock_fluid_ = nullptr;
+  MatrixFluid* rock_fluid_ = nullptr;
+  const MatrixWalls* rock_walls_ = nullptr;
   const FluidDensity* density_ = nullptr;  ///< nullptr for a constant one
   mutable Vector excess_;                  ///< kg/m^3, density of each cell minus the constant one
   Options options_;

@@ -323,6 +323,12 @@ Vector FemRock::pore_stress() const {
   return stress;
 }
 
+Vector FemRock::pore_stress_by(const Field& pressure) const {
+  for (const PoreLoad& load : loads_)
+    if (load.pressure == &pressure) return -load.alpha;
+  return {};
+}
+
 SymmetricTensor FemRock::initial_stress(int cell, const Point& x) const {
   SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
   const double support = stiffness_.excavation().support(cell);

@@ -1,0 +1,58 @@
+// The pore pressure within the cells around tips, from the means of the cells and the pressures at the walls.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::couplers {
+
+/// The pressure in the cells of some rings around each tip, with the least integral of its squared gradient of all
+/// pressures that have the means of the cells, the given pressures at the walls, and given values on the rim of the
+/// rings. So it solves −laplace p = f with one f in each cell, which is the equation of the cells themselves: near the
+/// tip it goes with sqrt(r), as the pressure does. It is linear in the given values, and continuous in the geometry
+/// where the topology of the mesh stays. Found on a triangulation of the cells with linear elements that become finer
+/// towards the tips as (i/n)^2.
+class PressureNearTips {
+ public:
+  /// Keeps a reference to the mesh.
+  explicit PressureNearTips(const Mesh& mesh);
+  ~PressureNearTips();
+  /// What the pressure follows from, Pa: means of the cells, pressures at the walls (none where the wall lets nothing
+  /// through), and values of the nodes of the mesh, which are taken on the rim. All must stay until the next call.
+  struct Given {
+    Vector cells;
+    std::vector<std::optional<double>> walls;
+    Vector nodes;
+  };
+  void set(Given given);
+
+  /// A place in the rings.
+  struct Place {
+    int region;
+    std::array<int, 3> nodes;
+    std::array<double, 3> share;
+  };
+  /// Nothing where the cell is in no ring.
+  std::optional<Place> place(int cell, const Point& x) const;
+  /// A pressure, and how much it counts against that of a smooth fit: 1 where it stays within all that is given. Where
+  /// fluid has reached less than about an eighth of a cell from the walls, the means do not tell how the pressure
+  /// falls; what is found then goes beyond the given pressures, and counts less, or not at all.
+  struct Value {
+    double value, weight;
+  };
+  Value at(const Place& place);  ///< Pa
+
+ private:
+  struct Region;
+  const Mesh& mesh_;
+  std::vector<std::unique_ptr<Region>> regions_;
+  std::vector<int> region_of_cell_;
+  Given given_;
+};
+
+}  // namespace sprekk::couplers
