@@ -33,7 +33,7 @@ REFUSED = {
 INEXACT = {
     "matrix_flow/tpfa": 0.1,  # fluxes that are not consistent on triangles
     "matrix_flow/ntpfa": 0.05,  # no correction at tips: of first order in the pressure of a fracture that conducts well
-    "poromechanics/fem first": 0.25,  # of first order at tips, where meshes of scenes have five cells on a fracture
+    "poromechanics/fem first": 0.02,
     "contact/penalty": 0.02,  # walls that touch overlap a little
 }
 NEAR = 0.02  # of the largest value of the same unit

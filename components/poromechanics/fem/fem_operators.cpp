@@ -60,7 +60,7 @@ SparseMatrix linear_functions(const RawDisplacement& raw, const std::vector<int>
     // The middle node lies a quarter of the face away from the tip.
     for (const int node : raw.mesh.face_nodes[f])
       for (int k = 0; k < dimension; ++k)
-        entries.emplace_back(raw.of_face(f) + k, raw.of_node(node) + k, node == tips[f] ? 0.25 : -0.25);
+        entries.emplace_back(raw.of_face(f) + k, raw.of_node(node) + k, (node == tips[f] ? 1.0 : -1.0) / 4);
   }
   return made(raw.size(), unknowns, entries);
 }
