@@ -1,6 +1,7 @@
 #include "components/poromechanics/fem/faces_together.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <map>
 #include <utility>
 
@@ -24,7 +25,15 @@ auto block(auto& matrix, int i, int j) {
   return matrix.template block<dimension, dimension>(dimension * i, dimension * j);
 }
 
-/// As FacesTogether::Displaced, of the faces of one set.
+/// The inverse of a stiffness in the directions that are not held.
+Tensor free_compliance(const Tensor& stiffness, const HeldDirections& held) {
+  if (held.is_held[0] && held.is_held[1]) return Tensor::Zero();
+  if (held.is_free()) return stiffness.inverse();
+  const Point free = held.axes.col(held.is_held[0] ? 1 : 0);
+  return free * free.transpose() / free.dot(stiffness * free);
+}
+
+/// As FacesTogether::Displaced, of the faces of one group.
 struct DisplacedSet {
   Eigen::MatrixXd of_force, of_given;
 };
@@ -54,7 +63,7 @@ DisplacedSet displaced_set(const Eigen::MatrixXd& stiffness, const std::vector<i
 }  // namespace
 
 FacesTogether::FacesTogether(const RawDisplacement& raw, std::vector<int> groups)
-    : raw_(raw), groups_(std::move(groups)) {}
+    : raw_(raw), groups_(std::move(groups)), alone_(raw.mesh.face_count(), Tensor::Zero()) {}
 
 void FacesTogether::add(int cell, const Eigen::MatrixXd& of_unknowns) {
   const Ring& faces = raw_.mesh.cell_faces[cell];
@@ -70,27 +79,38 @@ void FacesTogether::add(int cell, const Eigen::MatrixXd& of_unknowns) {
       is_one_set = is_one_set && is_same_set;
     }
   const double factor = is_one_set ? 1 : (count == 4 ? kept_of_bending : 1) * largest_ratio(together, alone);
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
+    if (groups_[faces[i]] == none) {
+      alone_[faces[i]] += factor * block(alone, i, i);
+      continue;
+    }
     for (int j = 0; j < count; ++j)
-      put(entries_, raw_.of_face(faces[i]), raw_.of_face(faces[j]), factor * block(alone, i, j));
+      put(of_groups_, raw_.of_face(faces[i]), raw_.of_face(faces[j]), factor * block(alone, i, j));
+  }
 }
 
-std::vector<std::vector<int>> FacesTogether::sets() const {
-  std::vector<std::vector<int>> sets;
+std::vector<std::vector<int>> FacesTogether::of_each_group() const {
   std::map<int, std::vector<int>> grouped;
   for (int f = 0; f < raw_.mesh.face_count(); ++f)
-    if (groups_[f] == none)
-      sets.push_back({f});
-    else
-      grouped[groups_[f]].push_back(f);
-  for (auto& [group, faces] : grouped) sets.push_back(std::move(faces));
-  return sets;
+    if (groups_[f] != none) grouped[groups_[f]].push_back(f);
+  std::vector<std::vector<int>> all;
+  for (auto& [group, faces] : grouped) all.push_back(std::move(faces));
+  return all;
 }
 
 FacesTogether::Displaced FacesTogether::displaced(const Held& held) const {
-  const SparseMatrix stiffness = made(raw_.size(), raw_.size(), entries_);
   std::vector<Triplet> of_force, of_given;
-  for (const std::vector<int>& faces : sets()) {
+  for (int f = 0; f < raw_.mesh.face_count(); ++f) {
+    if (groups_[f] != none) continue;
+    const Tensor compliance = free_compliance(alone_[f], held.faces[f]);
+    Tensor axes = Tensor::Zero();
+    for (int k = 0; k < dimension; ++k)
+      if (held.faces[f].is_held[k]) axes.col(k) = held.faces[f].axes.col(k);
+    put(of_force, raw_.of_face(f), raw_.of_face(f), compliance);
+    put(of_given, raw_.of_face(f), raw_.of_face(f), axes - compliance * alone_[f] * axes);
+  }
+  const SparseMatrix of_groups = made(raw_.size(), raw_.size(), of_groups_);
+  for (const std::vector<int>& faces : of_each_group()) {
     const int count = static_cast<int>(faces.size());
     Eigen::MatrixXd own(dimension * count, dimension * count);
     for (int i = 0; i < count; ++i)
@@ -98,7 +118,7 @@ FacesTogether::Displaced FacesTogether::displaced(const Held& held) const {
         for (int k = 0; k < dimension; ++k)
           for (int l = 0; l < dimension; ++l)
             own(dimension * i + k, dimension * j + l) =
-                stiffness.coeff(raw_.of_face(faces[i]) + k, raw_.of_face(faces[j]) + l);
+                of_groups.coeff(raw_.of_face(faces[i]) + k, raw_.of_face(faces[j]) + l);
     const DisplacedSet set = displaced_set(own, faces, held);
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j) {

@@ -28,12 +28,12 @@ class FacesTogether {
   Displaced displaced(const Held& held) const;
 
  private:
-  /// The faces of each group, and each other face by itself.
-  std::vector<std::vector<int>> sets() const;
+  std::vector<std::vector<int>> of_each_group() const;
 
   RawDisplacement raw_;
   std::vector<int> groups_;
-  std::vector<Triplet> entries_;
+  std::vector<Tensor> alone_;       ///< the stiffness of each face that is in no group
+  std::vector<Triplet> of_groups_;  ///< that of all faces in groups
 };
 
 }  // namespace sprekk::poromechanics
