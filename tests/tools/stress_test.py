@@ -122,6 +122,28 @@ class Checks(unittest.TestCase):
         pressure[::2] += 2e4
         self.assertGreater(check_pressure.alternating(pressure, fracture, pairs, walls), check_pressure.SHARE)
 
+    def test_differences_that_have_gone_are_none_to_count_against(self):
+        """A checkerboard of a tenth of the differences that there were is within what deep cells keep of them; else it is found."""
+        matrix, lines = grids(6, [1, 2, 3, 4])
+        instant = written.Instant(0.0, matrix, lines, follows=True)
+        pairs, walls = check_pressure.neighbours(instant), check_pressure.at_walls(instant)
+        pressure, fracture = 1e3 * (np.arange(len(matrix.cells)) % 2), np.zeros(4)
+        self.assertGreater(check_pressure.alternating(pressure, fracture, pairs, walls), check_pressure.SHARE)
+        self.assertGreater(check_pressure.alternating(pressure, fracture, pairs, walls, 1e4), check_pressure.SHARE)
+        self.assertEqual(check_pressure.alternating(pressure, fracture, pairs, walls, 1e5), 0)
+
+    def test_along_a_fracture_depths_explain_what_follows_them(self):
+        depths = np.array([1.0, 2, 1, 3, 2, 4, 1, 2, 1.0])
+        changes = np.diff(1 / depths)
+        mixed = np.concatenate([[0.0], np.cumsum(np.where(np.arange(8) % 2, 1, -1) * np.abs(changes))])
+        for pressure in (1 / depths, -1 / depths):
+            self.assertEqual(check_pressure.alternating_along(pressure, 0.01, 1 / depths), 0)
+            self.assertEqual(check_pressure.alternating_along(pressure, 0.01), 7)
+        self.assertEqual(check_pressure.alternating_along(mixed, 0.01, np.ones(9)), 7)  # equal depths
+        self.assertEqual(check_pressure.alternating_along(mixed, 0.01, np.full(9, np.nan)), 7)  # a layer of several cells
+        self.assertEqual(check_pressure.alternating_along(mixed, 0.01, np.array([1.0, 2, 3, 2, 1, 2, 3, 1, 2])), 7)  # other depths
+        self.assertEqual(check_pressure.alternating_along(mixed, 0.01, np.append(1 / depths[:-1], np.nan)), 7)  # one cell is shallow
+
     def test_not_finite(self):
         bad = change("matrix", "pore.pressure[Pa]", 3, np.nan)
         self.found(check_finite.failures(bad, {}), "not finite")

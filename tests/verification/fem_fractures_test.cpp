@@ -196,7 +196,7 @@ TEST(FemCracks, PressurizedCracksOpenLikeSneddonsHoweverTheyLie) {
                                                    -end[1], end[0], end[1])}}));
         ASSERT_TRUE(run.step());
         const double error = crack_error(run, 0, peak);
-        EXPECT_LT(error, std::string(order) == "second" ? 0.08 * size : 0.9 * size) << order << " " << angle;
+        EXPECT_LT(error, std::string(order) == "second" ? 0.08 * size : 0.12 * size) << order << " " << angle;
         RecordProperty(fmt::format("{}_{}_{}", order, angle, size), fmt::format("{:.3g}", error));
         if (previous > 0) {
           EXPECT_GT(std::log2(previous / error), 0.85) << order << " " << angle << " " << error;
@@ -216,7 +216,7 @@ TEST(FemCracks, FrictionalCrackSlipsLikePhans) {
       SceneRun run("verification/frictional_crack.yaml", with_fem(order, {{"mesh", graded(size)}}));
       ASSERT_TRUE(run.step());
       const double error = crack_error(run, 1, peak);
-      EXPECT_LT(error, std::string(order) == "second" ? 0.08 * size : 0.9 * size) << order;
+      EXPECT_LT(error, std::string(order) == "second" ? 0.08 * size : 0.12 * size) << order;
       RecordProperty(fmt::format("{}_{}", order, size), fmt::format("{:.3g}", error));
       if (previous > 0) {
         EXPECT_GT(std::log2(previous / error), 0.85) << order << " " << error;

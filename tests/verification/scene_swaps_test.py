@@ -33,7 +33,7 @@ REFUSED = {
 INEXACT = {
     "matrix_flow/tpfa": 0.1,  # fluxes that are not consistent on triangles
     "matrix_flow/ntpfa": 0.05,  # no correction at tips: of first order in the pressure of a fracture that conducts well
-    "poromechanics/fem first": 0.25,  # of first order at tips, where meshes of scenes have five cells on a fracture
+    "poromechanics/fem first": 0.05,  # on meshes of five cells on a fracture
     "contact/penalty": 0.02,  # walls that touch overlap a little
 }
 NEAR = 0.02  # of the largest value of the same unit
@@ -70,7 +70,7 @@ def swaps(text):
 
 def seconds(text):
     number, unit = re.fullmatch(r"([\d.e+-]+) ?(\w+)", text).groups()
-    return float(number) * {"s": 1, "min": 60, "h": 3600, "day": 86400}[unit]
+    return float(number) * {"s": 1, "min": 60, "h": 3600, "day": 86400, "year": 365.25 * 86400}[unit]
 
 
 def first_steps(text):

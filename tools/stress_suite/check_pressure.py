@@ -19,6 +19,9 @@ Alternating: a cell is a peak (a trough) when its pressure is above (below) that
 of all differences there are; the neighbour of a cell at a fracture is the fluid in it. In a checkerboard all cells are
 one or the other, side by side. Smooth pressures may have a ring of peaks, around a fracture whose load falls, but from
 there they fall to the fracture and away from it, with no trough in between.
+Cells at walls that are deeper than what a step diffuses through take up fluid as their depths say, with every flow, monotone ones
+as well. This scatter is no alternation. Along fractures it is told by rising and falling with the depths throughout (or against them:
+what earlier steps have left); in the rock it stays when the differences have gone, and counts against those that there have been.
 """
 
 import math
@@ -34,6 +37,7 @@ SHARE = 0.1
 # lie at different distances from the fracture; short steps, whose layer of diffusion is thinner, show it as a scatter.
 SCATTER = 0.05
 IN_A_ROW = 5
+SAME_DEPTH = 1e-6
 
 
 def cells_of_edges(instant):
@@ -60,10 +64,11 @@ def at_walls(instant):
     return np.array([(cell, line) for line, edge in enumerate(on_fractures) for cell in edges[edge]])
 
 
-def alternating(pressure, fracture, pairs, walls):
-    """Share of the cells with three neighbours that are peaks beside a trough, or troughs beside a peak."""
+def alternating(pressure, fracture, pairs, walls, differences=0.0):
+    """Share of the cells with three neighbours that are peaks beside a trough, or troughs beside a peak: by more than a part of the
+    differences that there are, or of those given."""
     below, above, degree = (np.zeros(len(pressure), int) for _ in range(3))
-    margin = PEAK * (pressure.max() - pressure.min())
+    margin = PEAK * max(pressure.max() - pressure.min(), differences)
     difference = pressure[pairs[:, 0]] - pressure[pairs[:, 1]]
     for cells, more in ((pairs[:, 0], difference), (pairs[:, 1], -difference),
                         (walls[:, 0], pressure[walls[:, 0]] - fracture[walls[:, 1]])):
@@ -78,13 +83,33 @@ def alternating(pressure, fracture, pairs, walls):
     return beside[inner].mean() if inner.any() else 0.0
 
 
-def alternating_along(pressure, margin):
-    """The most changes of direction one after the other along a fracture."""
+def conduction_of_deep_walls(instant, walls, layer):
+    """For every fracture cell the sum of 1/depth of the triangles at its walls, where they are deeper than `layer`; else nan."""
+    ends = instant.fractures.points[instant.fractures.cells][:, :, :2]
+    along = ends[:, 1] - ends[:, 0]
+    across = np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1)[:, None]
+    arms = instant.matrix.points[instant.matrix.cells[walls[:, 0]]].mean(1)[:, :2] - ends[walls[:, 1]].mean(1)
+    depth = 3 * np.abs((arms * across[walls[:, 1]]).sum(1))
+    sums, shallowest = np.zeros(len(ends)), np.full(len(ends), np.inf)
+    np.add.at(sums, walls[:, 1], 1 / depth)
+    np.minimum.at(shallowest, walls[:, 1], depth)
+    return np.where(shallowest > layer, sums, np.nan)
+
+
+def alternating_along(pressure, margin, conduction=None):
+    """The most changes of direction one after the other along a fracture. `conduction` of deep walls: a row of changes that all rise
+    with it, or all fall with it, does not count."""
     steps = np.diff(pressure)
+    conduction = np.full(len(pressure), np.nan) if conduction is None else conduction
+    by_depths = np.diff(conduction)
+    is_same = np.abs(by_depths) < SAME_DEPTH * np.abs(conduction[1:])
+    with_depths = np.sign(steps) * np.where(is_same, 0, np.sign(by_depths))
     longest = run = 0
-    for a, b in zip(steps, steps[1:]):
+    for i, (a, b) in enumerate(zip(steps, steps[1:])):
         run = run + 1 if a * b < 0 and min(abs(a), abs(b)) > margin else 0
-        longest = max(longest, run)
+        row = with_depths[i + 1 - run:i + 2]
+        if not (np.isfinite(row).all() and abs(row.sum()) == len(row)):
+            longest = max(longest, run)
     return longest
 
 
@@ -145,6 +170,7 @@ def differences_around(instant, pressure, fracture):
 def failures(p, instants, history=None):
     found = []
     pairs = None
+    been = 0.0  # differences until now
     stresses = Stresses(p, history["time[s]"] if history else [])
     has_opened = False
     for instant in instants:
@@ -166,14 +192,16 @@ def failures(p, instants, history=None):
                     found.append(f"pressure: {values[worst]:.6g} Pa {side} at t = {instant.time:.6g} s")
         if pairs is None:
             pairs, walls = neighbours(instant), at_walls(instant)
+            conduction = conduction_of_deep_walls(instant, walls, physics.layer(p))
         if pressure.max() - pressure.min() > 1e-8 * size:
-            share = alternating(pressure, fracture, pairs, walls)
+            been = max(been, pressure.max() - pressure.min()) if np.isfinite(conduction).all() else 0.0
+            share = alternating(pressure, fracture, pairs, walls, been)
             if share > SHARE:
                 found.append(f"alternating: {100 * share:.0f} % of the cells are peaks beside troughs at t = {instant.time:.6g} s")
         numbers = instant.fractures.cell_data["fracture"]
         for number in np.unique(numbers):
             own = fracture[numbers == number]
             margin = max(SCATTER * np.abs(own - p["initial"]).max(), 1e-8 * size)
-            if alternating_along(own, margin) > IN_A_ROW:
+            if alternating_along(own, margin, conduction[numbers == number]) > IN_A_ROW:
                 found.append(f"alternating: along fracture {number} at t = {instant.time:.6g} s")
     return found

@@ -31,6 +31,12 @@ def diffusion_time(p):
     return p["width"] ** 2 * storage * p["viscosity"] / p["permeability"]
 
 
+def layer(p):
+    """sqrt(D dt): as far as a pressure diffuses in a step (m); without any storage there is no end to it."""
+    storage = p["storage"] + p["alpha"] ** 2 / (bulk_modulus(p) + 4 / 3 * shear_modulus(p))
+    return math.sqrt(p["permeability"] / p["viscosity"] * time_step(p) / storage) if storage else math.inf
+
+
 def time_step(p):
     return p["relative_step"] * diffusion_time(p)
 

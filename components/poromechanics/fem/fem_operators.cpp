@@ -1,72 +1,68 @@
 #include "components/poromechanics/fem/fem_operators.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <utility>
 
+#include "components/poromechanics/fem/faces_together.hpp"
+#include "components/poromechanics/fem/sparse_blocks.hpp"
 #include "components/poromechanics/fem/volumetric_split.hpp"
-#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::poromechanics {
 
 namespace {
 
-SparseMatrix made(int rows, int columns, const std::vector<Triplet>& entries) {
-  SparseMatrix matrix(rows, columns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
-void put(std::vector<Triplet>& entries, int row, int column, const Tensor& block) {
-  for (int i = 0; i < dimension; ++i)
-    for (int j = 0; j < dimension; ++j)
-      if (block(i, j) != 0) entries.emplace_back(row + i, column + j, block(i, j));
-}
-
 /// The stiffness for all coefficients, and for each face alone.
 struct RawStiffness {
   SparseMatrix matrix;
-  std::vector<Tensor> of_face;            ///< N/m per m
-  std::vector<Tensor> of_face_in_shares;  ///< the same, times stiffness_together of its cells, twice in quadrilaterals
+  std::vector<Tensor> of_face;  ///< N/m per m
+  FacesTogether together;       ///< at first order
   std::vector<Eigen::Matrix2Xd> of_interior;
 };
-
-/// The largest work of displacements of faces together, over the sum of what each does alone: from 1 to the number of
-/// faces.
-double stiffness_together(const Eigen::MatrixXd& of_unknowns, int corners) {
-  const int size = dimension * corners;
-  const Eigen::MatrixXd of_faces = of_unknowns.bottomRightCorner(size, size);
-  Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(size, size);
-  for (int at = 0; at < size; at += dimension)
-    alone.block<dimension, dimension>(at, at) = of_faces.block<dimension, dimension>(at, at);
-  return generalized_eigenvalues(of_faces, alone)[size - 1];
-}
 
 RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& tips,
                            const std::vector<Stiffness>& stiffness, ElementOrder order) {
   const Mesh& mesh = raw.mesh;
-  RawStiffness result;
-  result.of_face.assign(mesh.face_count(), Tensor::Zero());
-  result.of_face_in_shares = result.of_face;
+  RawStiffness result{.matrix = {},
+                      .of_face = std::vector<Tensor>(mesh.face_count(), Tensor::Zero()),
+                      .together = FacesTogether(raw, groups_at_tips(mesh, tips)),
+                      .of_interior = {}};
   std::vector<Triplet> entries;
   for (int c = 0; c < mesh.cell_count(); ++c) {
-    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c, tips), stiffness[c], order);
+    const bool is_second = order == ElementOrder::second || is_at_tip(mesh, tips, c);
+    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c, tips), stiffness[c],
+                                           is_second ? ElementOrder::second : ElementOrder::first);
     const std::vector<int> first = raw.of_cell(c);
     const int count = static_cast<int>(first.size()), corners = mesh.cell_nodes[c].size();
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j)
         put(entries, first[i], first[j], of_cell.of_unknowns.block<dimension, dimension>(dimension * i, dimension * j));
-    constexpr double kept_of_bending = 2;
-    const double together = (corners == 4 ? kept_of_bending : 1) * stiffness_together(of_cell.of_unknowns, corners);
     for (int k = 0; k < corners; ++k) {
-      const int at = dimension * (corners + k), face = mesh.cell_faces[c][k];
-      const Tensor own = of_cell.of_unknowns.block<dimension, dimension>(at, at);
-      result.of_face[face] += own;
-      result.of_face_in_shares[face] += together * own;
+      const int at = dimension * (corners + k);
+      result.of_face[mesh.cell_faces[c][k]] += of_cell.of_unknowns.block<dimension, dimension>(at, at);
     }
+    if (order == ElementOrder::first) result.together.add(c, of_cell.of_unknowns);
     result.of_interior.push_back(std::move(of_cell.of_interior));
   }
   result.matrix = made(raw.size(), raw.size(), entries);
   return result;
+}
+
+/// All coefficients as functions of the unknowns where no force is left on functions of faces: at first order they are
+/// those of displacements that are linear along every face.
+SparseMatrix linear_functions(const RawDisplacement& raw, const std::vector<int>& tips, ElementOrder order) {
+  const int unknowns = order == ElementOrder::second ? raw.size() : raw.nodes_size();
+  std::vector<Triplet> entries;
+  for (int i = 0; i < unknowns; ++i) entries.emplace_back(i, i, 1.0);
+  for (int f = 0; order == ElementOrder::first && f < raw.mesh.face_count(); ++f) {
+    if (tips[f] == none) continue;
+    // The middle node lies a quarter of the face away from the tip.
+    for (const int node : raw.mesh.face_nodes[f])
+      for (int k = 0; k < dimension; ++k)
+        entries.emplace_back(raw.of_face(f) + k, raw.of_node(node) + k, (node == tips[f] ? 1.0 : -1.0) / 4);
+  }
+  return made(raw.size(), unknowns, entries);
 }
 
 /// div u integrated over cells: by the means over faces, since the sides of cells are straight.
@@ -119,58 +115,39 @@ SparseMatrix forces_of_traction(const Mesh& mesh, const SparseMatrix& jump) {
   return -(lengths.asDiagonal() * jump).transpose();
 }
 
-/// The inverse of a stiffness in the directions that are not held.
-Tensor free_compliance(const Tensor& stiffness, const HeldDirections& held) {
-  if (held.is_held[0] && held.is_held[1]) return Tensor::Zero();
-  if (held.is_free()) return stiffness.inverse();
-  const Point free = held.axes.col(held.is_held[0] ? 1 : 0);
-  return free * free.transpose() / free.dot(stiffness * free);
-}
-
 /// All coefficients as functions of the unknowns.
-LinearInFem all_coefficients(const RawDisplacement& raw, const RawStiffness& stiffness, const Held& held,
-                             const SparseMatrix& volume, const SparseMatrix& traction, ElementOrder order) {
-  const Mesh& mesh = raw.mesh;
-  const int all = raw.size(), unknowns = order == ElementOrder::second ? all : raw.nodes_size();
+LinearInFem all_coefficients(const RawDisplacement& raw, const SparseMatrix& linear, const RawStiffness& stiffness,
+                             const Held& held, const SparseMatrix& volume, const SparseMatrix& traction,
+                             ElementOrder order) {
+  const int all = raw.size();
   LinearInFem result;
-  std::vector<Triplet> ones;
-  for (int i = 0; i < unknowns; ++i) ones.emplace_back(i, i, 1.0);
-  result.of_displacement = made(all, unknowns, ones);
+  result.of_displacement = linear;
   if (order == ElementOrder::second) {
-    result.of_stress.resize(all, mesh.cell_count());
+    result.of_stress.resize(all, raw.mesh.cell_count());
     result.of_traction.resize(all, traction.cols());
     result.of_force.resize(all, all);
     result.of_given.resize(all, all);
     return result;
   }
-  std::vector<Triplet> compliances, given;
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    const int at = raw.of_face(f);
-    const HeldDirections& of_face = held.faces[f];
-    const Tensor compliance = free_compliance(stiffness.of_face_in_shares[f], of_face);
-    put(compliances, at, at, compliance);
-    Tensor axes = Tensor::Zero();
-    for (int k = 0; k < dimension; ++k)
-      if (of_face.is_held[k]) axes.col(k) = of_face.axes.col(k);
-    put(given, at, at, axes - compliance * stiffness.of_face_in_shares[f] * axes);
-  }
-  const SparseMatrix compliance = made(all, all, compliances);
-  result.of_displacement -= SparseMatrix(compliance * stiffness.matrix * result.of_displacement);
-  result.of_stress = compliance * SparseMatrix(volume.transpose());
-  result.of_traction = compliance * traction;
-  result.of_force = compliance;
-  result.of_given = made(all, all, given);
+  FacesTogether::Displaced faces = stiffness.together.displaced(held);
+  result.of_displacement -= SparseMatrix(faces.of_force * stiffness.matrix * linear);
+  result.of_stress = faces.of_force * SparseMatrix(volume.transpose());
+  result.of_traction = faces.of_force * traction;
+  result.of_force = std::move(faces.of_force);
+  result.of_given = std::move(faces.of_given);
   return result;
 }
 
-/// How rows of forces become those of the unknowns: in the axes of HeldDirections, without what is held.
+/// How forces on all coefficients become the rows of the unknowns: the work in displacements of `linear`, in the axes
+/// of HeldDirections, without what is held.
 struct Rows {
   SparseMatrix kept;   ///< unknowns × all coefficients
   SparseMatrix held;   ///< unknowns × unknowns: stiffness times the displacement along a held axis
   SparseMatrix given;  ///< unknowns × all coefficients: the same times the given one
 };
 
-Rows rows_of(const RawDisplacement& raw, const SparseMatrix& stiffness, const Held& held, int unknowns) {
+Rows rows_of(const RawDisplacement& raw, const SparseMatrix& linear, const SparseMatrix& stiffness, const Held& held) {
+  const int unknowns = static_cast<int>(linear.cols());
   std::vector<Triplet> kept, of_held, given;
   const int nodes = raw.mesh.node_count();
   for (int entity = 0; entity < unknowns / dimension; ++entity) {
@@ -186,7 +163,9 @@ Rows rows_of(const RawDisplacement& raw, const SparseMatrix& stiffness, const He
       if (directions.is_held[k]) given.emplace_back(at + k, at + k, scale);
     }
   }
-  return {made(unknowns, raw.size(), kept), made(unknowns, unknowns, of_held), made(unknowns, raw.size(), given)};
+  const SparseMatrix along_axes = made(unknowns, unknowns, kept);
+  return {along_axes * SparseMatrix(linear.transpose()), made(unknowns, unknowns, of_held),
+          made(unknowns, raw.size(), given)};
 }
 
 Vector compliance_of_walls(const Mesh& mesh, const std::vector<Tensor>& stiffness_of_face) {
@@ -247,16 +226,16 @@ FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiff
   const VolumetricSplit split = has_volumetric_stress ? split_volumetric(stiffness) : VolumetricSplit{stiffness, {}};
   const RawDisplacement raw{mesh};
   FemOperators result;
-  // At first order nothing of second order stands beside the linear functions of a cell.
-  if (order == ElementOrder::second) result.tips = tips_of_faces(mesh);
+  result.tips = tips_of_faces(mesh);
+  const SparseMatrix linear = linear_functions(raw, result.tips, order);
   RawStiffness forces = raw_stiffness(raw, result.tips, split.kept, order);
   result.volume = volume_of(raw, result.tips);
   result.jump = jump_of(raw, result.tips);
   result.wall_compliance = compliance_of_walls(mesh, forces.of_face);
   const SparseMatrix traction = forces_of_traction(mesh, result.jump);
-  result.all = all_coefficients(raw, forces, held, result.volume, traction, order);
+  result.all = all_coefficients(raw, linear, forces, held, result.volume, traction, order);
   const LinearInFem& all = result.all;
-  const Rows rows = rows_of(raw, forces.matrix, held, static_cast<int>(all.of_displacement.cols()));
+  const Rows rows = rows_of(raw, linear, forces.matrix, held);
   const SparseMatrix to_rows = rows.kept * forces.matrix;
   result.momentum.of_displacement = SparseMatrix(to_rows * all.of_displacement) + rows.held;
   result.momentum.of_stress =

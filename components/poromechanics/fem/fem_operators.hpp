@@ -32,18 +32,22 @@ struct FemOperators {
   SparseMatrix jump;       ///< mean of u(minus) − u(plus) over every fracture cell, (normal, tangential), of all, m
   Vector wall_compliance;  ///< how a traction on walls moves the functions of their faces alone, m/Pa, as `jump`
   std::vector<Eigen::Matrix2Xd> of_interior;  ///< see CellStiffness
-  std::vector<int> tips;                      ///< see tips_of_faces; empty at first order
+  std::vector<int> tips;                      ///< see tips_of_faces
 };
 
 /// Assembles the stiffness of a mesh. At second order every coefficient is an unknown. At first order those of faces
 /// are functions of the others, which stabilizes cellwise s and T: the residual forces on the function of a face, those
-/// of s, T and F among them, displace it as if it stood alone. Its stiffness is made larger until it is at least that
-/// of all functions of faces of a cell together, so that what is left for the nodes is positive definite (Rodrigo, Hu,
-/// Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized discretizations for poroelasticity and the Stokes' equations,
-/// with the whole vector in place of its normal component). In quadrilaterals it is twice as stiff: else the functions
-/// of faces could take all of the stiffness of a cell that bends, and with twice it they leave half of it. Nothing is
-/// displaced where displacements are linear and tractions agree, and what leaves one cell through a face enters the
-/// other.
+/// of s, T and F among them, displace it as if it stood alone (FacesTogether). Its stiffness is made larger until it is
+/// at least that of all functions of faces of a cell together, so that what is left for the nodes is positive definite
+/// (Rodrigo, Hu, Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized discretizations for poroelasticity and the
+/// Stokes' equations, with the whole vector in place of its normal component). In quadrilaterals it is twice as stiff:
+/// else the functions of faces could take all of the stiffness of a cell that bends, and with twice it they leave half
+/// of it. Nothing is displaced where displacements are linear and tractions agree, and what leaves one cell through a
+/// face enters the other.
+///
+/// Cells at tips are those of second order at either order, with their field of a tip (tips_of_faces). At first order
+/// the functions of all their faces are displaced together, as elimination would do it, so that the nodes remain the
+/// only unknowns.
 ///
 /// `has_volumetric_stress`, at first order: the stress with which nearly incompressible cells resist a change of volume
 /// (see VolumetricSplit) is an unknown of its own, which acts as s does.

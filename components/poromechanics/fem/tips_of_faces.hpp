@@ -13,6 +13,13 @@ namespace sprekk::poromechanics {
 /// root of the distance, and strains one like its inverse (Barsoum 1976; Henshell and Shaw 1975).
 std::vector<int> tips_of_faces(const Mesh& mesh);
 
+/// Whether a face of the cell ends at a tip.
+bool is_at_tip(const Mesh& mesh, const std::vector<int>& tips, int cell);
+
+/// For each face of the cells at a tip the number of its group, which the faces around one tip share (and those around
+/// two tips with a cell in common); none for all others.
+std::vector<int> groups_at_tips(const Mesh& mesh, const std::vector<int>& tips);
+
 /// The means over a face of the functions of its two ends (see CellPoint), in the order of face_nodes. `tips`: of all
 /// faces, or empty where middles are in the middle.
 std::array<double, 2> means_of_ends(const Mesh& mesh, const std::vector<int>& tips, int face);

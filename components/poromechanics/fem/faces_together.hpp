@@ -1,0 +1,39 @@
+// What displaces the functions of faces at first order, where they are no unknowns.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/poromechanics/fem/held_directions.hpp"
+#include "components/poromechanics/fem/raw_displacement.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk::poromechanics {
+
+/// The stiffness with which the functions of faces are displaced: each as if it stood alone, those of a group
+/// (groups_at_tips) together. Cell by cell it is at least that of all functions of faces of the cell, so that what is
+/// left for the nodes is positive definite; within a cell whose faces are all of one group it is just that.
+class FacesTogether {
+ public:
+  FacesTogether(const RawDisplacement& raw, std::vector<int> groups);
+
+  /// Adds the stiffness of a cell (CellStiffness::of_unknowns).
+  void add(int cell, const Eigen::MatrixXd& of_unknowns);
+
+  /// All coefficients (RawDisplacement), of which those of nodes are 0, as functions of
+  struct Displaced {
+    SparseMatrix of_force;  ///< forces on the functions of faces, N/m: a compliance, 0 along held axes
+    SparseMatrix of_given;  ///< displacements that are prescribed along held axes, m
+  };
+  Displaced displaced(const Held& held) const;
+
+ private:
+  std::vector<std::vector<int>> of_each_group() const;
+
+  RawDisplacement raw_;
+  std::vector<int> groups_;
+  std::vector<Tensor> alone_;       ///< the stiffness of each face that is in no group
+  std::vector<Triplet> of_groups_;  ///< that of all faces in groups
+};
+
+}  // namespace sprekk::poromechanics
