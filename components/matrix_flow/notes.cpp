@@ -16,6 +16,17 @@ namespace {
 
 constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest borehole has above it
 constexpr double rounding = 1e-6;           // of the initial pressure
+constexpr double on_the_line = 1e-6;        // of a fracture cell: a well that is nearer lies on it
+
+/// The name of the fracture on which a point lies, or "".
+std::string fracture_at(const Mesh& mesh, const Point& at) {
+  for (const FractureCell& cell : mesh.fracture_cells) {
+    const Point away = cell.to_local(at - cell.center);
+    if (std::abs(away[0]) < on_the_line * cell.measure && std::abs(away[1]) < (0.5 + on_the_line) * cell.measure)
+      return mesh.fractures[cell.fracture].name;
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -24,6 +35,13 @@ void MatrixFlow::note_input(Notes& notes) const {
     notes.add(name() + ".gravity without effect",
               origin_.text() + ": gravity has no effect on the flow of '" + name() +
                   "' (its fluid_density is 0) give a density, or remove the gravity");
+  for (const auto& [well, given] : options_.wells)
+    if (const std::string fracture = fracture_at(mesh_, given.at); !fracture.empty())
+      notes.add(name() + "." + well + " on a fracture",
+                fmt::format("{}: well '{}' of '{}' lies on the fracture '{}', and feeds the rock at one of its walls "
+                            "(which one is an accident of the mesh) move it into the rock, or give the fracture an "
+                            "injection",
+                            given.origin.text(), well, name(), fracture));
   for (const auto& [key, instead] : options_.without_effect)
     notes.add(name() + "." + key + " without effect",
               origin_.text() + ": '" + key + "' of '" + name() + "' has no effect (" + instead + ") remove it");

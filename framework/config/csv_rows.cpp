@@ -1,8 +1,11 @@
 #include "framework/config/csv_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 
+#include "framework/config/input_error.hpp"
 #include "framework/config/number.hpp"
 
 namespace sprekk {
@@ -60,6 +63,21 @@ CsvRows split_csv(const std::string& content) {
   csv.headings = headings_of(csv.rows.front());
   csv.rows.erase(csv.rows.begin());
   return csv;
+}
+
+void require_table(const CsvRows& csv, const std::string& file) {
+  const std::size_t columns = csv.headings.empty() ? csv.rows.front().cells.size() : csv.headings.size();
+  for (std::size_t i = 0; i < csv.headings.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!csv.headings[i].name.empty() && csv.headings[i].name == csv.headings[j].name)
+        throw InputError({file, 1}, "two columns are called " + quoted(csv.headings[i].name),
+                         fmt::format("columns {} and {}", j + 1, i + 1), "give each column a name of its own");
+  for (const CsvRow& row : csv.rows)
+    for (std::size_t i = columns; i < row.cells.size(); ++i)
+      if (!row.cells[i].empty())
+        throw InputError({file, row.line}, fmt::format("the row has {} cells", row.cells.size()),
+                         fmt::format("the table has {} columns", columns),
+                         "commas separate cells: write decimals with a point");
 }
 
 }  // namespace sprekk

@@ -28,4 +28,7 @@ struct CsvRows {
 /// begin with '#' are skipped.
 CsvRows split_csv(const std::string& content);
 
+/// Refuses two headings of one name, and a row that holds more than there are columns. `file` is for messages.
+void require_table(const CsvRows& csv, const std::string& file);
+
 }  // namespace sprekk

@@ -21,6 +21,7 @@ class TableReader {
 
   Table read() {
     CsvRows csv = split_csv(content());
+    if (!csv.rows.empty()) require_table(csv, request_.file);
     rows_ = std::move(csv.rows);
     headings_ = std::move(csv.headings);
     if (rows_.empty() && headings_.empty()) refuse_empty("it has no row of numbers");

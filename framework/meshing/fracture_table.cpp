@@ -34,6 +34,7 @@ class TableReader {
       throw refused("has no headings", "its columns are known by them", "begin it with the line 'x1,y1,x2,y2'");
     check_columns();
     if (csv_.rows.empty()) throw refused("has headings only", "it needs a row for each fracture or point", "add rows");
+    require_table(csv_, table_.file);
     return find("x1") ? segments() : polylines();
   }
 
@@ -113,11 +114,26 @@ class TableReader {
     return fractures;
   }
 
+  /// Refuses a row of a polyline that has other values than its first row: there is one value for a fracture.
+  void require_same(const FractureGeometry& first, const FractureGeometry& row) const {
+    const auto refuse = [&](const std::string& column) {
+      throw InputError(row.origin, fmt::format("fracture '{}' has two values of {}", first.name, column),
+                       "the other one is at " + first.origin.text(), "repeat the first one in all rows of a fracture");
+    };
+    if (row.size != first.size) refuse("size");
+    for (std::size_t i = 0; i < row.values.size(); ++i)
+      if (row.values[i].value != first.values[i].value) refuse(row.values[i].column);
+  }
+
   std::vector<FractureGeometry> polylines() const {
     std::vector<FractureGeometry> fractures;
     for (const CsvRow& row : csv_.rows) {
       const std::string& name = cell(row, "name");
-      if (fractures.empty() || fractures.back().name != name) fractures.push_back(fracture(row, name));
+      const FractureGeometry read = fracture(row, name);
+      if (fractures.empty() || fractures.back().name != name)
+        fractures.push_back(read);
+      else
+        require_same(fractures.back(), read);
       fractures.back().points.push_back(Point(length(row, "x"), length(row, "y")));
     }
     return fractures;

@@ -72,12 +72,26 @@ std::optional<RawMesh::Chain> follow(const Grid& grid, const FractureGeometry& f
   return chain;
 }
 
-/// The first fracture that leaves the edges of the grid, or none.
-int first_point_off_grid(const Grid& grid, const Geometry& geometry) {
-  for (std::size_t i = 0; i < geometry.fractures.size(); ++i) {
-    if (!follow(grid, geometry.fractures[i])) return static_cast<int>(i);
-  }
-  return none;
+/// Whether the outline of a region lies on edges of the grid.
+bool follows(const Grid& grid, const RegionGeometry& region) {
+  const std::vector<Point>& corners = region.polygon;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (!follow(grid, Segment{corners[i], corners[(i + 1) % corners.size()]})) return false;
+  return true;
+}
+
+/// The first fracture or region that leaves the edges of the grid.
+struct Astray {
+  std::string what;
+  Origin origin;
+};
+
+std::optional<Astray> first_off_grid(const Grid& grid, const Geometry& geometry) {
+  for (const FractureGeometry& fracture : geometry.fractures)
+    if (!follow(grid, fracture)) return Astray{"fracture '" + fracture.name + "'", fracture.origin};
+  for (const RegionGeometry& region : geometry.regions)
+    if (!follows(grid, region)) return Astray{"region '" + region.name + "'", region.origin};
+  return std::nullopt;
 }
 
 Grid choose_grid(const Geometry& geometry, const MeshOptions& options) {
@@ -88,12 +102,11 @@ Grid choose_grid(const Geometry& geometry, const MeshOptions& options) {
     grid.cells[axis] =
         std::max(1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - rounding)));
   }
-  const int astray = first_point_off_grid(grid, geometry);
-  if (astray == none) return grid;
+  const std::optional<Astray> astray = first_off_grid(grid, geometry);
+  if (!astray) return grid;
   grid.parity = 1;
-  if (first_point_off_grid(grid, geometry) == none) return grid;
-  const FractureGeometry& fracture = geometry.fractures[astray];
-  throw InputError(fracture.origin, "fracture '" + fracture.name + "' does not follow the structured mesh",
+  if (!first_off_grid(grid, geometry)) return grid;
+  throw InputError(astray->origin, astray->what + " does not follow the structured mesh",
                    "with " + std::to_string(grid.cells[0]) + " x " + std::to_string(grid.cells[1]) +
                        " cells it leaves the grid lines" + (grid.has_diagonals ? " and diagonals" : ""),
                    "choose other cells or kind: unstructured");

@@ -22,6 +22,8 @@ class EarlyEnd {
   bool is_reached() const { return steady_since_ || has_stopped_; }
   std::string text() const;                          ///< "fluid_injected has reached 3 m^2", "steady since 3 h"
   bool has_stopped() const { return has_stopped_; }  ///< by `stop:`
+  /// Says what `stop:` was reached with before the first step: "slip.t is 0 m at the start", else "".
+  std::string reached_at_start() const { return stop_.was_reached_at_start() ? stop_.start_text() : ""; }
   const std::optional<double>& steady_since() const { return steady_since_; }  ///< s
   /// Says that `stop:` has not been reached: "fluid_injected is 2 m^2, and has not reached 3 m^2".
   std::string missed_text(const std::vector<Quantity>& quantities) const { return stop_.missed_text(quantities); }

@@ -1,5 +1,7 @@
 #include "framework/run/restart.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "framework/mesh/partition.hpp"
@@ -13,12 +15,23 @@
 
 namespace sprekk {
 
+namespace {
+
+/// What may be said to have changed when the fingerprint of the scene has.
+std::string change_of(const Scene& scene, const std::filesystem::path& checkpoint) {
+  const std::string parameter = parameter_difference(checkpoint.parent_path() / "run.json", recorded_parameters(scene));
+  const std::vector<std::string> files = files_of(scene);
+  if (!parameter.empty() || files.empty()) return parameter;
+  return fmt::format("no parameter has, but the content of {}{}", files.size() > 1 ? "one of " : "", listed(files));
+}
+
+}  // namespace
+
 Restart::Restart(const Scene& scene, const std::filesystem::path& file, RunOutput& output) : file_(file) {
   // A missing file is reported by its reader below, not as a folder that cannot be locked.
   if (std::error_code error; std::filesystem::exists(file, error)) output.lock();
   checkpoint_ = read_checkpoint(file);
-  require_scene(checkpoint_, file, scene.name, scene_fingerprint(scene),
-                parameter_difference(file.parent_path() / "run.json", recorded_parameters(scene)));
+  require_scene(checkpoint_, file, scene.name, scene_fingerprint(scene), change_of(scene, file));
 }
 
 Mesh Restart::mesh() const {

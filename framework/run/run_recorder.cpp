@@ -82,6 +82,11 @@ void RunRecorder::end(ExitCode code, const std::string& reason, const Scene& sce
   if (code == ExitCode::done && scene.time.has_stop && !early.is_reached())
     start_notes_.add("time.stop not reached", "time.stop was not reached: the run went on to time.end (" +
                                                   early.missed_text(last_quantities_) + ")");
+  if (early.has_stopped() && steps_ == 1 && !early.reached_at_start().empty())
+    start_notes_.add("time.stop in the first step",
+                     "time.stop ended the run with its first step: " + early.text() + " (" + early.reached_at_start() +
+                         ": 'reaches' ends a run at this value and all larger ones, 'falls_to' at all smaller ones) "
+                         "take the other one, if the quantity is to pass the value");
   record_.seconds = Progress::steady_seconds() - began_;
   record_.timings["processor: set-up"] = processor_after_set_up_ - processor_at_start_;
   record_.timings["processor: steps and output"] = processor_now() - processor_after_set_up_;

@@ -9,6 +9,7 @@
 
 #include "framework/assembly/gains_from_stages.hpp"
 #include "framework/linear/direct/blas_memory.hpp"
+#include "framework/mesh/medium.hpp"
 #include "framework/mesh/network_shape.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -63,6 +64,21 @@ void note_pockets(const Mesh& mesh, Notes& notes) {
                         others(small.size() - 1, "pockets have few")));
 }
 
+/// Notes regions without a cell, because later ones cover them: their values have no effect.
+void note_empty_regions(const Mesh& mesh, Notes& notes) {
+  std::vector<bool> has_cell(mesh.region_names.size(), false);
+  for (const int region : mesh.cell_region) has_cell[region] = true;
+  std::vector<std::string> empty;
+  for (std::size_t i = 0; i < has_cell.size(); ++i)
+    if (!has_cell[i] && mesh.region_names[i] != medium_name()) empty.push_back(mesh.region_names[i]);
+  if (empty.empty()) return;
+  notes.add(
+      "region without cells",
+      fmt::format("no cell belongs to {}: what is given there has no effect (later regions cover earlier ones) give "
+                  "the smaller region after the larger one",
+                  listed(empty)));
+}
+
 /// Recommends two stages to a run with one, where all parts allow them.
 void note_stages(const Model& model, Notes& notes) {
   if (model.scene().time.scheme != TimeScheme::backward_euler) return;
@@ -82,6 +98,7 @@ Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns)
   Notes notes = model.input_notes();
   note_angles(model.mesh(), notes);
   note_pockets(model.mesh(), notes);
+  note_empty_regions(model.mesh(), notes);
   note_stages(model, notes);
   if (blas_in_use().is_reference)
     notes.add("reference BLAS",

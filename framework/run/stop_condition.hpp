@@ -17,14 +17,20 @@ class StopCondition {
   StopCondition(const Scene& scene, const std::vector<Quantity>& quantities);
 
   bool is_reached(const std::vector<Quantity>& quantities) const;
-  std::string text() const;  ///< "fluid_injected has reached 3 m^2"
+  /// Whether the quantities that the condition was made with have reached it: a run then ends with its first step,
+  /// unless this step leads back.
+  bool was_reached_at_start() const { return was_reached_at_start_; }
+  std::string start_text() const;  ///< "slip.t is 0 m at the start"
+  std::string text() const;        ///< "fluid_injected has reached 3 m^2"
   /// "fluid_injected is 2 m^2, and has not reached 3 m^2"
   std::string missed_text(const std::vector<Quantity>& quantities) const;
 
  private:
   std::string name_;
-  double value_ = 0;  ///< in the quantity's unit
-  std::string reaches_, unit_;
+  bool falls_ = false;            ///< whether it is reached from above
+  double value_ = 0, start_ = 0;  ///< in the quantity's unit
+  std::string limit_, unit_;      ///< the value as the scene writes it, and the quantity's unit
+  bool was_reached_at_start_ = false;
 };
 
 }  // namespace sprekk

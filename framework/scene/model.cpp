@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "framework/assembly/counts_from_here.hpp"
@@ -38,6 +39,22 @@ auto refusing_bad_data(const Build& build) {
     return build();
   } catch (const DataError& error) {
     throw InputError(error.what());
+  }
+}
+
+/// Refuses a probe that is called as another column of history.csv: readers find columns by their names.
+void require_own_columns(const OutputOptions& options, const std::vector<Probe>& probes,
+                         const std::vector<OutputField>& outputs, const std::vector<Quantity>& others) {
+  std::set<std::string> taken = {"time", "step", "iterations", "splitting_error", "coupled_residual"};
+  for (const Quantity& quantity : others) taken.insert(quantity.name);
+  std::size_t i = 0;
+  for (const auto& [name, probe] : options.probes) {
+    std::vector<Quantity> columns;
+    probes[i++].measure(columns, outputs);
+    for (const Quantity& column : columns)
+      if (!taken.insert(column.name).second)
+        throw InputError(probe.origin, "the probe '" + name + "' has no column of its own",
+                         "history.csv has a column " + column.name + " already", "give it another name");
   }
 }
 
@@ -85,6 +102,12 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_, outputs);
   check_probes();
+  std::vector<Quantity> others;
+  for (const Part* part : parts_) part->report(others);
+  for (const auto& [name, balance] : balances())
+    for (const char* what : {"_stored", "_injected", "_outflow", "_balance_error"})
+      others.push_back({name + what, balance.unit, 0});
+  require_own_columns(scene_.output, probes_, outputs, others);
   check_outputs();
 }
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "framework/config/data_reader.hpp"
+#include "framework/config/table.hpp"
 #include "framework/config/units.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
@@ -247,6 +249,49 @@ void note_unused_materials(Scene& scene, const std::set<std::string>& used) {
 }
 
 /// Notes times without effect.
+/// The times of the rows of a table that depends on time (s), in order; none for another one.
+std::vector<double> times_of_table(const Node& node, const std::string& folder) {
+  const Node* const of = node.find("of");
+  std::vector<std::string> variables;
+  if (!of) variables = {"t"};
+  if (of && of->is_scalar()) variables = {of->scalar};
+  if (of)
+    for (const Node& item : of->items) variables.push_back(item.scalar);
+  const auto time = std::ranges::find(variables, "t");
+  if (time == variables.end()) return {};
+  const auto axis = static_cast<std::size_t>(time - variables.begin());
+  for (const char* column : {"t", "1"})  // the column of times has its name, or is the first one
+    try {
+      return read_table({node.find("table")->scalar, folder, column, variables, {}, "s", "t", node.origin}).axes[axis];
+    } catch (const InputError&) {
+      // What a component uses has been read already; the table of an unused material may be anything.
+    }
+  return {};
+}
+
+/// Notes tables in time whose rows are nearer to each other than steps: a step takes the value at its end.
+void note_tables(const Node& node, Scene& scene) {
+  for (const Node& item : node.items) note_tables(item, scene);
+  for (const Node::Entry& entry : node.entries)
+    if (!node.path.empty() || (entry.key != "geometry" && entry.key != "output")) note_tables(entry.value, scene);
+  const Node* const file = node.find("table");
+  if (!file || !file->is_scalar()) return;
+  const TimeOptions& time = scene.time;
+  const double step = std::min(time.adaptive ? time.largest : time.step, time.end - time.start);
+  constexpr double rounding = 1e-9;
+  std::vector<double> times = times_of_table(node, scene.folder);
+  std::erase_if(times, [&](double t) { return t < time.start || t > time.end; });
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < times.size(); ++i) nearest = std::min(nearest, times[i] - times[i - 1]);
+  if (!(nearest < step * (1 - rounding))) return;
+  scene.notes.add(
+      "table finer than the steps",
+      node.origin.text() + ": " + sprekk::quoted(file->scalar) + " has rows that are " + quantity_text(nearest, "s") +
+          " apart (a step of up to " + quantity_text(step, "s") +
+          " takes the value at its end, and passes over what is between) lower the step, or give windows in "
+          "time, at which steps end");
+}
+
 void note_times(Scene& scene) {
   const TimeOptions& time = scene.time;
   const auto note = [&](const char* section, const std::string& key, const std::string& text) {
@@ -281,6 +326,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   data_forms()["run"] = read_run_datum;
   Scene scene;
   scene.whole = whole;
+  scene.folder = folder;
   scene.notes.of_input(0);
 
   std::set<std::string> materials_used;
@@ -326,6 +372,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   note_unused_materials(scene, materials_used);
   require_used_columns(scene.geometry.fractures, columns_used);
   note_times(scene);
+  note_tables(scene.whole, scene);
   return scene;
 }
 

@@ -54,6 +54,7 @@ struct Scene {
   };
 
   std::string name;
+  std::string folder;  ///< in which tables and mesh files are looked for
   Node whole;
   Geometry geometry;
   MeshOptions mesh;

@@ -78,7 +78,15 @@ Spec TimeOptions::spec() {
                &adaptive);
   Spec stopping("stop", "Ends the run early.");
   stopping.text("of", stop.of, {.doc = "A column of history.csv without its unit.", .required = true});
-  stopping.text("reaches", stop.reaches, {.doc = "The value, with its unit, that ends the run.", .required = true});
+  stopping.text("reaches", stop.reaches,
+                {.doc = "The value, with its unit, that ends the run: the quantity has it or a larger one."});
+  stopping.text("falls_to", stop.falls_to,
+                {.doc = "The value, with its unit, that ends the run: the quantity has it or a smaller one."});
+  stopping.check([this](const Node& node) {
+    if (stop.reaches.has_value() != stop.falls_to.has_value()) return;
+    throw InputError(node.origin, "'stop' is not complete",
+                     "a run ends where a quantity 'reaches' or 'falls_to' a value", "give one of the two");
+  });
   spec.section("stop", stopping, {.doc = "Ends the run after the step in which a quantity reaches a value."},
                &has_stop);
   spec.quantity("stop_when_steady", stop_when_steady,

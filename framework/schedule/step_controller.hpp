@@ -26,8 +26,9 @@ struct TimeOptions {
   double grow = 1.5, shrink = 0.5;
   /// Ends the run before `end`, after the first step at whose end a column of history.csv has reached a value.
   struct Stop {
-    std::string of;       ///< the quantity, without its unit
-    std::string reaches;  ///< with its unit
+    std::string of;                       ///< the quantity, without its unit
+    std::optional<std::string> reaches;   ///< from below, with its unit
+    std::optional<std::string> falls_to;  ///< from above; one of the two is given
     Origin origin;
   };
   Stop stop;

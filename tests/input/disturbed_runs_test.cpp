@@ -236,6 +236,40 @@ TEST(Restart, WithStepsThatWereCutWritesTheTablesOfAWholeRun) {
     EXPECT_EQ(text_of(folder / ("u" + table)), text_of(folder / ("whole" + table)));
 }
 
+/// The answer of a run that goes on is that of a whole one only if the tables that its scene names are the same.
+TEST(Restart, RefusesATableThatHasChanged) {
+  const Folder folder;
+  const auto write = [&](const char* last) {
+    std::ofstream(folder / "rates.csv") << "t[h],q[m^2/s]\n0,1e-7\n48," << last << "\n";
+  };
+  std::filesystem::copy_file(config("tutorial/first_scene.yaml"), folder / "scene.yaml");
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"run",
+                                          "scene.yaml",
+                                          "-q",
+                                          "-o",
+                                          "u",
+                                          "--set",
+                                          "mesh={size: 2 m}",
+                                          "--set",
+                                          "components.conduit.injection.well.rate={table: rates.csv}"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sprekk_command(arguments, folder.path());
+  };
+  write("1e-7");
+  ASSERT_EQ(run({"--set", "time.end=1 day"}).code, 0);
+  const std::string before = text_of(folder / "u/history.csv");
+  write("2e-7");
+  const Outcome changed = run({"--restart"});
+  EXPECT_EQ(changed.code, 2);
+  EXPECT_THAT(changed.err,
+              HasSubstr("has changed since it was written: no parameter has, but the content of rates.csv"));
+  EXPECT_EQ(text_of(folder / "u/history.csv"), before);
+  write("1e-7");
+  const Outcome same = run({"--restart"});
+  EXPECT_EQ(same.code, 0) << same.err;
+}
+
 TEST(Restart, RefusesTablesThatAreNotThoseOfTheRun) {
   const Folder folder;
   ASSERT_EQ(sprekk_command(tutorial({"-q", "-o", "u", "--set", "time.end=1 day"}), folder.path()).code, 0);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <ostream>
 
 #include "tests/input/notes.hpp"
@@ -35,6 +36,10 @@ Settings with_tips(const std::string& between) {
           "schedule=[{solve: [pore, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"};
 }
 
+std::string table(const char* name) {
+  return (std::filesystem::path(SPREKK_SOURCE_DIR) / "tests/input/tables" / name).string();
+}
+
 class InputNotes : public ::testing::TestWithParam<Input> {};
 
 TEST_P(InputNotes, AreToldByCheck) {
@@ -52,6 +57,26 @@ INSTANTIATE_TEST_SUITE_P(
         Input{
             "rock.yaml", {"components.rock.boundary.left.normal_stress=-1 MPa"}, "the x component of 'normal_stress'"},
         Input{"rock.yaml", {"components.rock.boundary.left.normal_stress=0 MPa"}, ""},
+        Input{"fractured.yaml",
+              {"components.pore.wells={w: {at: [0.43, 0.5], rate: 0 m^2/s}}"},
+              "lies on the fracture 'crack'"},
+        Input{"fractured.yaml", {"components.pore.wells={w: {at: [0.43, 0.5001], rate: 0 m^2/s}}"}, ""},
+        Input{"fractured.yaml", {"components.pore.wells={w: {at: [0.73, 0.5], rate: 0 m^2/s}}"}, ""},
+        Input{"flow.yaml",
+              {"components.pore.boundary.right.pressure={table: " + table("pulse.csv") + ", of: t}"},
+              "has rows that are 60 s apart"},
+        Input{"flow.yaml",
+              {"components.pore.boundary.right.pressure={table: " + table("pulse.csv") + ", of: t}", "time.step=60 s"},
+              ""},
+        Input{"flow.yaml", {"components.pore.boundary.right.pressure={table: " + table("pulse.csv") + ", of: x}"}, ""},
+        Input{"fractured.yaml",
+              {"geometry.regions={a: {polygon: [[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]]}, b: {polygon: [[0, 0], [0.3, 0], "
+               "[0.3, 0.3], [0, 0.3]]}}"},
+              "no cell belongs to a"},
+        Input{"fractured.yaml",
+              {"geometry.regions={b: {polygon: [[0, 0], [0.3, 0], [0.3, 0.3], [0, 0.3]]}, a: {polygon: [[0.1, 0.1], "
+               "[0.2, 0.1], [0.2, 0.2]]}}"},
+              ""},
         Input{"rock.yaml", {"components.rock.boundary.top.displacement_x=0 m"}, ""},  // the load is along y
         Input{"rock.yaml", {"components.rock.boundary.top.displacement_y=0 m"}, "the y component of 'normal_stress'"},
         Input{"rock.yaml",

@@ -190,7 +190,8 @@ Spec mesh_spec(MeshOptions& options) {
   spec.choice("kind", input->kind,
               {{"unstructured", "cells of varying size, made by gmsh"},
                {"structured",
-                "equal rectangles, cut into triangles by alternating diagonals; fractures must lie on their lines"}},
+                "equal rectangles, cut into triangles by alternating diagonals; fractures and edges of regions must "
+                "lie on their lines"}},
               {.doc = "What kind of mesh."});
   spec.choice("shape", input->shape,
               {{"triangles", "triangles only"},

@@ -46,6 +46,20 @@ class ReadTable : public testing::Test {
   ReadContext context_;
 };
 
+TEST_F(ReadTable, refuses_a_row_with_more_cells_than_columns) {
+  write("t[s],p[Pa]\n0,1,5\n10,2,5\n");  // 1,5 and 2,5 with a comma for the point
+  EXPECT_THAT(error(), StartsWith("p.csv:2: the row has 3 cells (the table has 2 columns)"));
+  write("0,1\n10,2\n20,2,5\n");
+  EXPECT_THAT(error(), StartsWith("p.csv:3: the row has 3 cells (the table has 2 columns)"));
+  write("t[s],p[Pa]\n0,1,\n10,3,,\n");  // empty cells at the end, as spreadsheets write them
+  EXPECT_EQ(at_time(read(), 5), 2);
+}
+
+TEST_F(ReadTable, refuses_two_columns_of_one_name) {
+  write("t,p,p\n0,1,2\n10,2,3\n");
+  EXPECT_THAT(error("column: p"), StartsWith("p.csv:1: two columns are called 'p' (columns 2 and 3)"));
+}
+
 TEST_F(ReadTable, is_linear_between_rows_and_constant_outside) {
   write("# measured\nt,p\n0,1\n10,3\n\n20,-1\n");
   const Data p = read();

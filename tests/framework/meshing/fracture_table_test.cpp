@@ -101,6 +101,18 @@ TEST_F(FractureTables, AreNotWrittenWithNamesThatTheyCannotHold) {
   EXPECT_THROW(fracture_table({}), InputError);
 }
 
+TEST_F(FractureTables, HaveOneValueForAllPointsOfAPolyline) {
+  EXPECT_EQ(mistake("name,x,y,friction\na,0,1,0.3\na,2,1,0.3\n"), "");
+  EXPECT_THAT(mistake("name,x,y,friction\na,0,1,0.3\na,2,1,0.6\n"),
+              ::testing::StartsWith("f.csv:3: fracture 'a' has two values of friction (the other one is at f.csv:2)"));
+  EXPECT_THAT(mistake("name,x,y,size\na,0,1,0.3\na,2,1,0.6\n"),
+              ::testing::StartsWith("f.csv:3: fracture 'a' has two values of size"));
+}
+
+TEST_F(FractureTables, RefuseARowWithMoreCellsThanColumns) {
+  EXPECT_THAT(mistake("x1,y1,x2,y2\n0,0,1,5,1\n"), ::testing::StartsWith("f.csv:2: the row has 5 cells"));
+}
+
 TEST_F(FractureTables, TellWhatIsWrongAndWhere) {
   using ::testing::AllOf;
   using ::testing::HasSubstr;
