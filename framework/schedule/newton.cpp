@@ -305,6 +305,15 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
   return status;
 }
 
+bool Newton::take_coupled_sums(ResidualCheck& check) {
+  if (!system_.sums().are_used || system_.sums().are_used_where_coupled) return false;
+  system_.use_coupled_sums(true);
+  const std::vector<char> seeks_balance = check.is_unbalanced;
+  check = check_residual(*assembly_, system_, options_.residual);
+  check.is_unbalanced = seeks_balance;
+  return true;
+}
+
 StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
   was_singular_ = was_left_ = is_used_up_ = false;
   std::multiset<std::uint64_t> seen_states;
@@ -355,14 +364,17 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
                           check.equation, check.largest),
               iteration};
 
-    const LinearReport factoring = linear_->factor(system_.matrix(*assembly_));
+    LinearReport factoring = linear_->factor(system_.matrix(*assembly_));
+    if (!factoring.solved && take_coupled_sums(check)) factoring = linear_->factor(system_.matrix(*assembly_));
     if (!factoring.solved) {
       was_singular_ = true;
       return {false, "singular system: " + factoring.reason, iteration};
     }
     factored = true;
     Vector update;
-    const LinearReport report = linear_->solve(right_hand_side(check), update);
+    LinearReport report = linear_->solve(right_hand_side(check), update);
+    if (!report.solved && take_coupled_sums(check) && linear_->factor(system_.matrix(*assembly_)).solved)
+      report = linear_->solve(right_hand_side(check), update);
     if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
     SPREKK_ASSERT(update.size() == system_.size(), update.size(), system_.size());
 

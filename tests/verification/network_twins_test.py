@@ -133,6 +133,13 @@ class NetworkTwins(SceneRuns):
         self.assertEqual(counters["linear: orderings"], counters["assembly: patterns"])
         self.assertGreater(max(self.base.history["contact.cells_slip[1]"]), 0)
 
+    def test_sums_that_come_and_go_need_no_other_ordering(self):
+        """With four times the rate the rows of balances that are summed change as apertures do."""
+        counters = self.injected(4 * RATE).record["counters"]
+        print(counters["linear: orderings"], "orderings,", counters["linear: factorizations"], "factorizations", flush=True)
+        self.assertEqual(counters["linear: orderings"], 1)
+        self.assertEqual(counters["steps rejected"], 0)
+
     def test_turned_and_mirrored(self):
         for name in MATRICES:
             with self.subTest(name):

@@ -89,12 +89,27 @@ Vector without_resistance(const LinearSystem& system, const SparseMatrix& rows, 
   return v;
 }
 
+/// The largest |A v| of a row over its terms |A| |v|, among rows in which v is noticeable. Where A has a null vector
+/// but for the rounding of its entries, this is round-off for it in every row, whatever the scales of rows and columns.
+/// A norm alone would take a vector for a null vector that is none in rows which are scaled down. Terms below 1e-4 of
+/// the largest do not count, since a vector found by inverse iteration is inaccurate there.
+double worst_row(const SparseMatrix& rows, const Vector& v) {
+  constexpr double noticeable = 1e-4;
+  const Vector residual = (rows * v).cwiseAbs(), terms = rows.cwiseAbs() * v.cwiseAbs();
+  const double largest = parallel::max(terms.size() > 0 ? terms.maxCoeff() : 0.0);
+  double worst = 0;
+  for (int row = 0; row < terms.size(); ++row)
+    if (terms[row] > noticeable * largest) worst = std::max(worst, residual[row] / terms[row]);
+  return parallel::max(worst);
+}
+
 }  // namespace
 
 std::string find_singularity(const LinearSystem& system, const SparseMatrix& rows, const SolveInPlace& solve,
                              const SolveInPlace& solve_transposed) {
   constexpr double suspicious = 1e8;  // a singular matrix grows a random vector by 1e16 / sqrt(n), roughly
   constexpr double singular = 3e-15;  // a floating rock shows 1e-16; an open fracture in tight rock has 5e-15
+  constexpr double rounded = 1e-13;   // in a row: some hundred roundings
   const int unknowns = static_cast<int>(rows.cols());
   std::vector<Vector> resting;  // nearly null vectors, orthogonal to one another
   for (std::size_t number = 0; number <= system.sums.size(); ++number) {
@@ -131,7 +146,7 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
       remove_from(v, resting);
       normalize(v);
     }
-    if (!(smallest <= singular)) return "";
+    if (!(smallest <= singular) || !(worst_row(rows, best) <= rounded)) return "";
     resting.push_back(std::move(best));
     const Vector found = without_resistance(system, rows, resting);
     if (found.size() == 0) continue;

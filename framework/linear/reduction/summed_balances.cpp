@@ -152,7 +152,60 @@ std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows
   return sum;
 }
 
+/// Adds, as zeros, the entries that rows have where they are sums: for the first row of each group that exchanges may
+/// join, those that the sum of the group may have. Which groups are summed follows from values, these entries do not.
+void add_pattern_of_sums(const SparseMatrix& all, const LinearSystem& system, std::vector<Triplet>& entries) {
+  for (const PossibleSum& sum : possible_sums(all, system.blocks)) {
+    const auto found = std::lower_bound(system.rows.begin(), system.rows.end(), sum.rows.front());
+    if (found == system.rows.end() || *found != sum.rows.front()) continue;
+    const int place = static_cast<int>(found - system.rows.begin());
+    for (const int column : sum.columns) entries.emplace_back(place, column, 0.0);
+  }
+}
+
 }  // namespace
+
+std::vector<PossibleSum> possible_sums(const SparseMatrix& rows, const std::vector<UnknownBlock>& blocks) {
+  std::vector<PossibleSum> possible;
+  struct Entries {
+    int count = 0, first = -1, second = -1;
+  };
+  std::vector<Entries> columns(rows.cols());
+  for (const UnknownBlock& block : blocks) {
+    if (block.kind != BlockKind::interface || !block.may_store) continue;
+    const int first = block.first, size = block.entities * block.components;
+    std::vector<int> seen;
+    for (int row = first; row < first + size; ++row)
+      for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry) {
+        Entries& column = columns[entry.col()];
+        if (++column.count == 1) seen.push_back(static_cast<int>(entry.col()));
+        (column.count == 1 ? column.first : column.second) = row;
+      }
+    std::vector<int> parent(size);
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto joins = [&](int column) {
+      return columns[column].count == 2 && (column < first || column >= first + size);
+    };
+    for (const int column : seen)
+      if (joins(column))
+        parent[root_of(parent, columns[column].second - first)] = root_of(parent, columns[column].first - first);
+    std::map<int, PossibleSum> groups;
+    for (int row = first; row < first + size; ++row) {
+      PossibleSum& group = groups[root_of(parent, row - first)];
+      group.rows.push_back(row);
+      for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry)
+        if (!joins(static_cast<int>(entry.col()))) group.columns.push_back(static_cast<int>(entry.col()));
+    }
+    for (const int column : seen) columns[column] = {};
+    for (auto& [root, group] : groups) {
+      if (group.rows.size() == 1) continue;
+      std::sort(group.columns.begin(), group.columns.end());
+      group.columns.erase(std::unique(group.columns.begin(), group.columns.end()), group.columns.end());
+      possible.push_back(std::move(group));
+    }
+  }
+  return possible;
+}
 
 std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const std::vector<UnknownBlock>& blocks) {
   constexpr double weak = 1e-6, closed = 1e-3;
@@ -243,12 +296,13 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
   entries.reserve(system.local.nonZeros());
   for (int row = 0; row < system.local.rows(); ++row) {
     const auto sum = replaced.find(row);
-    if (sum == replaced.end())
-      for (SparseMatrix::InnerIterator entry(system.local, row); entry; ++entry)
-        entries.emplace_back(row, static_cast<int>(entry.col()), entry.value());
-    else
+    const bool is_sum = sum != replaced.end();
+    for (SparseMatrix::InnerIterator entry(system.local, row); entry; ++entry)
+      entries.emplace_back(row, static_cast<int>(entry.col()), is_sum ? 0.0 : entry.value());
+    if (is_sum)
       for (const auto& [column, value] : sum->second) entries.emplace_back(row, column, value);
   }
+  add_pattern_of_sums(rows, system, entries);
   summed.local = SparseMatrix(system.local.rows(), system.local.cols());
   summed.local.setFromTriplets(entries.begin(), entries.end());
   return solver_->factor(summed);

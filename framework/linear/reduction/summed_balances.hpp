@@ -18,6 +18,11 @@ namespace sprekk {
 /// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A flux out of
 /// the rows that another row gives, such as the rate of a well, does not count for that, and is taken out of the sum by
 /// adding a multiple of that row. A sum that is zero belongs to a singular matrix, whose constant mode nothing holds.
+///
+/// In systems with a sum the first row of every group that may be summed has all columns of such a sum beside its own,
+/// as zeros where it has no such entry: the pattern does not change with the groups that values single out, and so one
+/// ordering serves all. It depends on no earlier system, so that a run that is continued has the bits of one that was
+/// not interrupted.
 class SummedBalances final : public LinearSolver {
  public:
   explicit SummedBalances(std::unique_ptr<LinearSolver> solver);
@@ -42,6 +47,15 @@ class SummedBalances final : public LinearSolver {
   std::unique_ptr<LinearSolver> solver_;
   std::vector<Sum> sums_;
 };
+
+/// A group of rows that exchanges may join, ascending, and the columns that their sum may have.
+struct PossibleSum {
+  std::vector<int> rows, columns;
+};
+
+/// All groups of rows that SummedBalances may sum, by the pattern and the blocks alone: those joined by columns with
+/// two entries, which are no columns of the sum. `rows` as below.
+std::vector<PossibleSum> possible_sums(const SparseMatrix& rows, const std::vector<UnknownBlock>& blocks);
 
 /// The groups of rows that SummedBalances sums, each in ascending order. `rows` has at least all rows of the local
 /// blocks.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -265,6 +266,25 @@ TEST_P(EveryDirectSolver, TakesWhatIsSmallInASumForWhatItIs) {
     }
     ASSERT_TRUE(solver->solve(system.local * exact, x).solved);
     EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-10);
+  }
+}
+
+// Two unknowns that differ by d in one of two rows, which stands in scales that are set by a third unknown: to the
+// norms of all rows this is round-off, but not to its own row. In other scales the matrix is well away from a singular
+// one.
+TEST_P(EveryDirectSolver, TellsARowThatIsScaledDownFromRoundOff) {
+  for (const double d : {0.0, 4e-12}) {
+    const LinearSystem system =
+        test::make_system(3, {{0, 0, 1}, {0, 1, -1}, {1, 0, 1e-3}, {1, 1, -1e-3 * (1 - d)}, {1, 2, 1}, {2, 2, 1}}, {});
+    const auto solver = make();
+    const LinearReport factored = solver->factor(system);
+    EXPECT_EQ(factored.solved, d > 0) << factored.reason;
+    if (d == 0) continue;
+    const Vector exact = test::random_vector(3, 1);
+    Vector x;
+    ASSERT_TRUE(solver->solve(system.local * exact, x).solved);
+    // Round-off of the row, over what determines the difference in it.
+    EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::epsilon() / (1e-3 * d));
   }
 }
 

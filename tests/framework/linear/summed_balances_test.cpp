@@ -88,6 +88,50 @@ TEST_P(SummedBalancesOf, OrdersOnce) {
   EXPECT_EQ(solver->counts().orderings, 1);
 }
 
+// Two chains, of which one stores little in all systems and the other in some: the pattern is that of both sums. The
+// same system has the same bits whatever has been solved before, as a run that is continued needs.
+TEST_P(SummedBalancesOf, OrdersOnceWhereASumComesAndGoes) {
+  const auto chains = [](double storage) {
+    const LinearSystem one = test::Exchange{30, 1e-14, 1}.build(), other = test::Exchange{30, storage, 1}.build();
+    const int size = static_cast<int>(one.local.cols());
+    // Contents of both, then exchanges of both: the balances are one block.
+    const auto place = [](int chain, int unknown) {
+      return unknown < 30 ? 30 * chain + unknown : 30 + unknown + 29 * chain;
+    };
+    std::vector<Triplet> entries;
+    for (const auto& [chain, system] : {std::pair<int, const LinearSystem*>{0, &one}, {1, &other}})
+      for (int row = 0; row < size; ++row)
+        for (SparseMatrix::InnerIterator entry(system->local, row); entry; ++entry)
+          entries.emplace_back(place(chain, row), place(chain, static_cast<int>(entry.col())), entry.value());
+    std::vector<UnknownBlock> blocks = one.blocks;
+    blocks[0].entities = 60;
+    blocks[1].first = 60;
+    blocks[1].entities = 58;
+    blocks[1].may_store = false;
+    return test::make_system(2 * size, entries, blocks);
+  };
+  EXPECT_THAT(possible_sums(chains(1).local, chains(1).blocks), testing::SizeIs(2));
+  const Vector exact = test::random_vector(118, 5);
+  const auto solver = make();
+  for (const double storage : {1e-14, 1e3, 1e-14, 1e2}) {
+    const LinearSystem system = chains(storage);
+    EXPECT_THAT(exchanging_rows(system.local, system.blocks), testing::SizeIs(storage < 1 ? 2 : 1));
+    Vector x, alone;
+    const auto other = make();
+    ASSERT_TRUE(solver->factor(system).solved);
+    ASSERT_TRUE(solver->solve(system.local * exact, x).solved);
+    ASSERT_TRUE(other->factor(system).solved);
+    ASSERT_TRUE(other->solve(system.local * exact, alone).solved);
+    EXPECT_EQ(x, alone) << storage;
+    EXPECT_LT(((system.local * (x - exact)).cwiseAbs().array() / (system.local.cwiseAbs() * exact.cwiseAbs()).array())
+                  .maxCoeff(),
+              1e-9)
+        << storage;
+  }
+  EXPECT_EQ(solver->counts().orderings, 1);
+  EXPECT_EQ(solver->counts().factorizations, 4);
+}
+
 // The last flux leaves what the chain has: the constant is determined from outside.
 TEST(ExchangingRows, DoNotLeadOut) {
   LinearSystem open = test::Exchange{4, 1e-12, 1}.build();
