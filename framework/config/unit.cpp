@@ -85,6 +85,10 @@ Unit unit_of_name(const std::string& name) {
       if (named.takes_prefix && rest == named.name) return {prefix.scale * named.unit.scale, named.unit.dimension};
     }
   }
+  for (const char* degrees : {"C", "F", "degC", "degF", "°C", "°F", "celsius", "Celsius", "fahrenheit", "Fahrenheit"})
+    if (name == degrees)
+      throw UnitProblem{"unknown unit " + quoted(name), "temperatures are in K, since a unit is a factor and has no zero of its own",
+                        "write 353.15 K for 80 degrees Celsius"};
   const std::string nearest = nearest_name(name, common_names());
   throw UnitProblem{"unknown unit " + quoted(name),
                     "units are m g s min h d day year K rad deg Hz N Pa bar J W P l D %, with prefixes n u m c d k M G",

@@ -85,6 +85,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"1 m^3*K", "m", "has the dimension of m^3*K"}, Wrong{"1 m^0.5", "m^0.4999", "has the dimension of"},
         Wrong{"2 Mpa", "Pa", "unknown unit 'Mpa' in '2 Mpa' for 'k'"}, Wrong{"2 Mpa", "Pa", "did you mean 'MPa'?"},
         Wrong{"2 hours", "s", "unknown unit 'hours'"}, Wrong{"2 kmin", "s", "unknown unit 'kmin'"},
+        Wrong{"80 degC", "K", "unknown unit 'degC' in '80 degC' for 'k' (temperatures are in K"},
+        Wrong{"80 C", "K", "write 353.15 K for 80 degrees Celsius"},
         Wrong{"1 Pa s", "Pa*s", "an operator is missing before 's') products are written with '*': Pa*s"},
         Wrong{"1 m2", "m^2", "unknown unit 'm2'"}, Wrong{"1 m^1/2", "m^0.5", "the number 2 stands in the unit"},
         Wrong{"1 m^", "m", "a power must be a number"}, Wrong{"1 m^99", "m", "a power must be a number from -12 to 12"},
