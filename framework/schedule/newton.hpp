@@ -85,8 +85,8 @@ class Newton {
   /// For each unknown: whether its equation and the sums that contain the equation ask for no further update.
   std::vector<char> is_settled(const ResidualCheck& check) const;
   /// Lets sums of balances take the place of rows also where other unknowns of the bulk respond to their constant mode,
-  /// if they do not yet, and checks the residual anew. To be tried where the system is singular: rows in which round-off
-  /// hides what determines the constant are so, too; the equations stay equivalent.
+  /// if they do not yet, and checks the residual anew. To be tried where the system is singular: rows in which
+  /// round-off hides what determines the constant are so, too; the equations stay equivalent.
   bool take_coupled_sums(ResidualCheck& check);
   /// When an attempt ends. `end`: after all iterations. `search`: where a line search would begin, if the discrete
   /// state has changed by then.
