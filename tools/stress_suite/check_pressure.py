@@ -18,8 +18,8 @@ Bounds: a pressure lies between those that were given, widened by what loads and
 Alternating: a cell is a peak (a trough) when its pressure is above (below) that of all its neighbours by more than 2 %
 of all differences there are; the neighbour of a cell at a fracture is the fluid in it. In a checkerboard all cells are
 one or the other, side by side. Smooth pressures may have a ring of peaks, around a fracture whose load falls, but from
-there they fall to the fracture and away from it, with no trough in between. The fluxes that two-point fluxes give a weight on
-twisted cells do not add up to nothing, and raise and lower pressures cell by cell: there peaks are not counted.
+there they fall to the fracture and away from it, with no trough in between. Two-point fluxes of a weight do not add up to
+nothing in triangles that are not orthogonal, and raise and lower pressures cell by cell: there peaks are not counted.
 Cells at walls that are deeper than what a step diffuses through take up fluid as their depths say, with every flow, monotone ones
 as well. This scatter is no alternation. Along fractures it is told by rising and falling with the depths throughout (or against them:
 what earlier steps have left); in the rock it stays when the differences have gone, and counts against those that there have been.
@@ -115,8 +115,8 @@ def alternating_along(pressure, margin, conduction=None):
 
 
 def has_uneven_weight(p):
-    """Whether two-point fluxes of the weight of fluid differ from cell to cell: the mesh is not orthogonal."""
-    return "buoyancy" in p and p["discretization"] == "tpfa" and p["mesh"] == "twisted"
+    """Whether two-point fluxes of the weight of fluid differ from cell to cell: no mesh here is orthogonal."""
+    return "buoyancy" in p and p["discretization"] == "tpfa"
 
 
 class Stresses:
