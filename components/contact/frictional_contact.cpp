@@ -331,18 +331,13 @@ void FrictionalContact::count_from_here() {
 }
 
 void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
-  constexpr double rounding = 1e-12;  // m
-  if (slip_at_start_ > rounding)
-    notes.add(
-        name() + " has slid at the start",
-        fmt::format("walls have slid by up to {:.3g} m while the state at the start was settled (friction does not "
-                    "hold them there, and their slip and opening are part of the results) look at the initial "
-                    "stress and at the friction, if they were meant to stick",
-                    slip_at_start_),
-        slip_at_start_);
   std::vector<char> is_open(mesh_.fracture_cell_count());
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_open[i] = is_on_fracture_cell(i) && state(i) == State::open;
-  note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, options_->large_jump});
+  std::vector<double> springs;
+  if (multiplier_ == Multiplier::none)
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+      springs.push_back(is_on_fracture_cell(i) ? compliance(i)[1] : 0);
+  note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, options_->large_jump, slip_at_start_, springs});
   if (rate_and_state_) rate_and_state_->note_step(name(), traction_.now(), slips(), notes);
 }
 

@@ -8,8 +8,54 @@
 
 namespace sprekk::contact {
 
+namespace {
+
+/// The largest slip, and the largest that springs have before friction gives way, m.
+struct Slips {
+  double all = 0, of_springs = 0;
+};
+
+Slips largest_slips(const JumpsOfStep& step) {
+  Slips largest;
+  for (std::size_t i = 0; i < step.is_open.size(); ++i) {
+    if (step.is_open[i]) continue;
+    const auto tangential = [i](const Field& field) {
+      return field.now().segment<dimension - 1>(dimension * static_cast<Eigen::Index>(i) + 1).norm();
+    };
+    largest.all = std::max(largest.all, tangential(step.jump));
+    if (!step.springs.empty())
+      largest.of_springs = std::max(largest.of_springs, step.springs[i] * tangential(step.traction));
+  }
+  return largest;
+}
+
+void note_slips(Notes& notes, const std::string& name, const JumpsOfStep& step) {
+  constexpr double rounding = 1e-12;     // m
+  constexpr double springs_show = 0.05;  // of the slip
+  const Slips largest = largest_slips(step);
+  const bool is_of_springs = largest.of_springs > step.slip_at_start / 2;
+  if (step.slip_at_start > rounding && !is_of_springs)
+    notes.add(
+        name + " has slid at the start",
+        fmt::format("walls have slid by up to {:.3g} m while the state at the start was settled (friction does not "
+                    "hold them there, and their slip and opening are part of the results) look at the initial "
+                    "stress and at the friction, if they were meant to stick",
+                    step.slip_at_start),
+        step.slip_at_start);
+  if (largest.of_springs > rounding && largest.of_springs > springs_show * largest.all)
+    notes.add(name + " slips by springs",
+              fmt::format("of a slip of up to {:.3g} m, up to {:.3g} m may be that of the springs between the walls "
+                          "(with a penalty they give way before friction does) raise 'stiffness_factor', or take "
+                          "contact/coulomb or contact/augmented_lagrangian",
+                          largest.all, largest.of_springs),
+              largest.of_springs / largest.all);
+}
+
+}  // namespace
+
 void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const JumpsOfStep& step) {
   SPREKK_EXPECT(static_cast<int>(step.is_open.size()) == mesh.fracture_cell_count(), step.is_open.size());
+  note_slips(notes, name, step);
   for (const Fracture& fracture : mesh.fractures) {
     double length = 0, jump = 0;
     bool all_open = true, was_in_contact = false;

@@ -1,4 +1,4 @@
-// Notes on jumps that are large, and on fractures that have opened as a whole.
+// Notes on jumps that are large, or of springs between the walls, and on fractures that have opened as a whole.
 #pragma once
 
 #include <string>
@@ -16,6 +16,9 @@ struct JumpsOfStep {
   const Field& jump;                 ///< m, the same
   const std::vector<char>& is_open;  ///< of each fracture cell
   double large_jump;                 ///< over the length of its fracture
+  double slip_at_start;              ///< m, the largest while the state at the start was settled
+  /// m/Pa, of the springs along the walls of each cell that a penalty method has; empty for exact conditions.
+  const std::vector<double>& springs;
 };
 
 /// Adds the notes of the component `name` on the step that is about to be accepted.

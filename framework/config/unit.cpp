@@ -87,7 +87,8 @@ Unit unit_of_name(const std::string& name) {
   }
   for (const char* degrees : {"C", "F", "degC", "degF", "°C", "°F", "celsius", "Celsius", "fahrenheit", "Fahrenheit"})
     if (name == degrees)
-      throw UnitProblem{"unknown unit " + quoted(name), "temperatures are in K, since a unit is a factor and has no zero of its own",
+      throw UnitProblem{"unknown unit " + quoted(name),
+                        "temperatures are in K, since a unit is a factor and has no zero of its own",
                         "write 353.15 K for 80 degrees Celsius"};
   const std::string nearest = nearest_name(name, common_names());
   throw UnitProblem{"unknown unit " + quoted(name),

@@ -57,6 +57,20 @@ TEST(StateNotes, WallsThatOverlapByMoreThanTheApertureAreTold) {
   EXPECT_TRUE(note("100").is_null());
 }
 
+// Slip that friction would not allow: the springs of a penalty are its cause, and stiffer ones leave less of it.
+TEST(StateNotes, SlipOfSpringsIsTold) {
+  const auto note = [](const std::string& factor) {
+    return run_of("fractured.yaml",
+                  {"components.contact={type: contact/penalty, friction: 0.5, stiffness_factor: " + factor + "}"})
+        .note("slips by springs");
+  };
+  const Json soft = note("2");
+  ASSERT_FALSE(soft.is_null());
+  EXPECT_THAT(soft["text"].get<std::string>(), HasSubstr("raise 'stiffness_factor'"));
+  EXPECT_TRUE(note("1e5").is_null());
+  EXPECT_TRUE(run_of("fractured.yaml", {}).note("slips by springs").is_null());
+}
+
 TEST(StateNotes, LargeStrainsAreTold) {
   // Uniaxial plane strain: (1 − nu^2)/E = 0.9375e-10 1/Pa of the load.
   const Ended large = run_of("rock.yaml", {"components.rock.boundary.top.normal_stress=-200 MPa"});
