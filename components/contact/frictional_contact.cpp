@@ -331,13 +331,16 @@ void FrictionalContact::count_from_here() {
 }
 
 void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
-  std::vector<char> is_open(mesh_.fracture_cell_count());
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_open[i] = is_on_fracture_cell(i) && state(i) == State::open;
+  std::vector<char> is_open(mesh_.fracture_cell_count()), slides = is_open;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    is_open[i] = is_on_fracture_cell(i) && state(i) == State::open;
+    slides[i] = is_on_fracture_cell(i) && state(i) == State::slip;
+  }
   std::vector<double> springs;
   if (multiplier_ == Multiplier::none)
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
       springs.push_back(is_on_fracture_cell(i) ? compliance(i)[1] : 0);
-  note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, options_->large_jump, slip_at_start_, springs});
+  note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, slides, options_->large_jump, slip_at_start_, springs});
   if (rate_and_state_) rate_and_state_->note_step(name(), traction_.now(), slips(), notes);
 }
 

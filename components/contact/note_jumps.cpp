@@ -10,9 +10,9 @@ namespace sprekk::contact {
 
 namespace {
 
-/// The largest slip, and the largest that springs have before friction gives way, m.
+/// The largest slip of cells that slide, and the largest that springs have before friction gives way, m.
 struct Slips {
-  double all = 0, of_springs = 0;
+  double sliding = 0, of_springs = 0;
 };
 
 Slips largest_slips(const JumpsOfStep& step) {
@@ -22,7 +22,7 @@ Slips largest_slips(const JumpsOfStep& step) {
     const auto tangential = [i](const Field& field) {
       return field.now().segment<dimension - 1>(dimension * static_cast<Eigen::Index>(i) + 1).norm();
     };
-    largest.all = std::max(largest.all, tangential(step.jump));
+    if (step.slides[i]) largest.sliding = std::max(largest.sliding, tangential(step.jump));
     if (!step.springs.empty())
       largest.of_springs = std::max(largest.of_springs, step.springs[i] * tangential(step.traction));
   }
@@ -42,13 +42,13 @@ void note_slips(Notes& notes, const std::string& name, const JumpsOfStep& step) 
                     "stress and at the friction, if they were meant to stick",
                     step.slip_at_start),
         step.slip_at_start);
-  if (largest.of_springs > rounding && largest.of_springs > springs_show * largest.all)
+  if (largest.sliding > rounding && largest.of_springs > springs_show * largest.sliding)
     notes.add(name + " slips by springs",
               fmt::format("of a slip of up to {:.3g} m, up to {:.3g} m may be that of the springs between the walls "
                           "(with a penalty they give way before friction does) raise 'stiffness_factor', or take "
                           "contact/coulomb or contact/augmented_lagrangian",
-                          largest.all, largest.of_springs),
-              largest.of_springs / largest.all);
+                          largest.sliding, largest.of_springs),
+              largest.of_springs / largest.sliding);
 }
 
 }  // namespace

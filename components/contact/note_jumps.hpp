@@ -15,6 +15,7 @@ struct JumpsOfStep {
   const Field& traction;             ///< Pa, (normal, tangential) of each fracture cell
   const Field& jump;                 ///< m, the same
   const std::vector<char>& is_open;  ///< of each fracture cell
+  const std::vector<char>& slides;   ///< the same
   double large_jump;                 ///< over the length of its fracture
   double slip_at_start;              ///< m, the largest while the state at the start was settled
   /// m/Pa, of the springs along the walls of each cell that a penalty method has; empty for exact conditions.

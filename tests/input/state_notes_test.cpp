@@ -57,18 +57,20 @@ TEST(StateNotes, WallsThatOverlapByMoreThanTheApertureAreTold) {
   EXPECT_TRUE(note("100").is_null());
 }
 
-// Slip that friction would not allow: the springs of a penalty are its cause, and stiffer ones leave less of it.
+// A crack at 45 degrees slides under a vertical load; the softer the springs of a penalty, the more of its slip is
+// theirs. Where it sticks there is no such note.
 TEST(StateNotes, SlipOfSpringsIsTold) {
-  const auto note = [](const std::string& factor) {
-    return run_of("fractured.yaml",
-                  {"components.contact={type: contact/penalty, friction: 0.5, stiffness_factor: " + factor + "}"})
+  const auto note = [](const std::string& contact, const std::string& friction) {
+    return run_of("fractured.yaml", {"geometry.fractures.crack.points=[[0.35 m, 0.35 m], [0.65 m, 0.65 m]]",
+                                     "components.contact={type: contact/" + contact + ", friction: " + friction + "}"})
         .note("slips by springs");
   };
-  const Json soft = note("2");
+  const Json soft = note("penalty, stiffness_factor: 2", "0.6");
   ASSERT_FALSE(soft.is_null());
   EXPECT_THAT(soft["text"].get<std::string>(), HasSubstr("raise 'stiffness_factor'"));
-  EXPECT_TRUE(note("1e5").is_null());
-  EXPECT_TRUE(run_of("fractured.yaml", {}).note("slips by springs").is_null());
+  EXPECT_TRUE(note("penalty, stiffness_factor: 1e4", "0.6").is_null());
+  EXPECT_TRUE(note("penalty, stiffness_factor: 2", "2").is_null());
+  EXPECT_TRUE(note("coulomb", "0.6").is_null());
 }
 
 TEST(StateNotes, LargeStrainsAreTold) {
