@@ -267,10 +267,13 @@ StepStatus IterateStep::converged(const StepTime& step, const StepStatus& status
   // Each substep has added its exchange to the cumulative balances already.
   if (options_.has_substeps || !status.converged) return status;
   for (Part* part : parts_) part->after_solve(fields_, step);
+  std::vector<CountsLater*> counting;
+  for (Part* part : parts_)
+    if (auto* later = dynamic_cast<CountsLater*>(part)) counting.push_back(later);
+  if (counting.empty()) return status;
   Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
   assemble_all(assembly, parts_, step);
-  for (Part* part : parts_)
-    if (auto* later = dynamic_cast<CountsLater*>(part)) later->count_rest_later(assembly);
+  for (CountsLater* later : counting) later->count_rest_later(assembly);
   return status;
 }
 
