@@ -15,6 +15,7 @@
 #include "framework/output/activity.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/scene/probe_checks.hpp"
 #include "framework/schedule/gaps.hpp"
 #include "framework/schedule/limits_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
@@ -39,22 +40,6 @@ auto refusing_bad_data(const Build& build) {
     return build();
   } catch (const DataError& error) {
     throw InputError(error.what());
-  }
-}
-
-/// Refuses a probe that is called as another column of history.csv: readers find columns by their names.
-void require_own_columns(const OutputOptions& options, const std::vector<Probe>& probes,
-                         const std::vector<OutputField>& outputs, const std::vector<Quantity>& others) {
-  std::set<std::string> taken = {"time", "step", "iterations", "splitting_error", "coupled_residual"};
-  for (const Quantity& quantity : others) taken.insert(quantity.name);
-  std::size_t i = 0;
-  for (const auto& [name, probe] : options.probes) {
-    std::vector<Quantity> columns;
-    probes[i++].measure(columns, outputs);
-    for (const Quantity& column : columns)
-      if (!taken.insert(column.name).second)
-        throw InputError(probe.origin, "the probe '" + name + "' has no column of its own",
-                         "history.csv has a column " + column.name + " already", "give it another name");
   }
 }
 
@@ -101,7 +86,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
       std::ranges::any_of(scene_.output.probes, [&](const auto& probe) { return !fields_.has(probe.second.of); });
   const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_, outputs);
-  check_probes();
+  require_values(scene_.output, components_, mesh_);
   std::vector<Quantity> others;
   for (const Part* part : parts_) part->report(others);
   for (const auto& [name, balance] : balances())
@@ -109,44 +94,6 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
       others.push_back({name + what, balance.unit, 0});
   require_own_columns(scene_.output, probes_, outputs, others);
   check_outputs();
-}
-
-void Model::check_probes() const {
-  for (const auto& [name, options] : scene_.output.probes)
-    for (const auto& component : components_) {
-      const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
-      if (!partial || partial->inhabited_cells().empty() || !options.of.starts_with(component->name() + ".")) continue;
-      if (partial->lives_on_fractures()) {
-        int nearest = none;
-        const auto distance = [&](int cell) { return (mesh_.fracture_cells[cell].center - *options.at).norm(); };
-        for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-          const std::string& fracture = mesh_.fractures[mesh_.fracture_cells[i].fracture].name;
-          if (!options.fracture.empty() && fracture != options.fracture) continue;
-          if (!options.at && !partial->inhabited_cells()[i])
-            throw InputError(options.origin, "probe '" + name + "' reaches where there is no value",
-                             "'" + component->name() + "' does not live on fracture '" + fracture + "'",
-                             "take a fracture on which it does");
-          if (options.at && (nearest == none || distance(i) < distance(nearest))) nearest = i;
-        }
-        if (nearest != none && !partial->inhabited_cells()[nearest])
-          throw InputError(options.origin, "probe '" + name + "' reaches where there is no value",
-                           "'" + component->name() + "' does not live on the fracture there",
-                           "take a point on a fracture on which it does");
-        continue;
-      }
-      const int home = options.at ? PointLocation(mesh_).cell_at(*options.at) : none;
-      for (int c = 0; c < mesh_.cell_count(); ++c) {
-        const bool counts =
-            options.at ? c == home
-                       : options.fracture.empty() &&
-                             (options.region.empty() || mesh_.region_names[mesh_.cell_region[c]] == options.region);
-        if (counts && !partial->inhabited_cells()[c])
-          throw InputError(
-              options.origin, "probe '" + name + "' reaches where there is no value",
-              "'" + component->name() + "' does not live in the region " + mesh_.region_names[mesh_.cell_region[c]],
-              "take a region, or a point, in which it does");
-      }
-    }
 }
 
 void Model::check_outputs() const {

@@ -65,7 +65,6 @@ class Model {
 
  private:
   void make_start(const ScheduleContext& context);
-  void check_probes() const;
   void check_outputs() const;
   /// Sets values to NaN where a component does not live (LivesInPart).
   void hide_uninhabited(std::vector<OutputField>& fields) const;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/counts_later.hpp"
 #include "framework/invariants.hpp"
+#include "framework/schedule/passes/ends_of_passes.hpp"
 #include "framework/schedule/passes/pass_changes.hpp"
 #include "framework/schedule/passes/stalled_acceleration.hpp"
 
@@ -184,23 +184,14 @@ StepStatus IterateStep::without_end(const StepTime& step, const std::string& wha
       what + " (the steps inside act on one another too strongly) solve them in one 'solve'" +
           (accelerator_ ? ", or stabilize the first" : ", stabilize the first, or accelerate with 'anderson'"),
       pass};
-  status.is_hopeless = is_no_better(step, factor);
+  status.is_hopeless = diverging_.is_no_better(step, factor);
   if (!status.is_hopeless) return status;
   status.reason += "; shorter steps do no better";
   constexpr double clearly_less = 0.5;  // a factor that is bounded by other equations says little
-  if (factor < clearly_less * divergence_->largest)
+  if (factor < clearly_less * diverging_.largest())
     status.reason += fmt::format(", and in longer ones each pass changed {:.3g} times as much as the one before",
-                                 divergence_->largest);
+                                 diverging_.largest());
   return status;
-}
-
-bool IterateStep::is_no_better(const StepTime& step, double factor) {
-  constexpr double much_shorter = 0.3, better = 0.9;  // two cuts by half
-  const bool is_same = divergence_ && divergence_->step.start == step.start && step.dt < divergence_->step.dt;
-  const double largest = is_same ? std::max(divergence_->largest, factor) : factor;
-  if (is_same && factor > better * divergence_->factor) return step.dt < much_shorter * divergence_->step.dt;
-  divergence_ = {step, factor, largest};
-  return false;
 }
 
 ResidualCheck IterateStep::check_changes(const std::vector<Vector>& before) const {
@@ -227,39 +218,11 @@ ResidualCheck IterateStep::check_changes(const std::vector<Vector>& before) cons
 
 namespace {
 
-/// Whether the least of the last values is hardly less than that of all before. Residuals that fall by a hundredth in a
-/// pass and scatter by as much again fall by a fifth in 25 passes.
-bool hardly_fall(const std::vector<double>& values, std::size_t last_passes) {
-  constexpr double hardly_less = 0.9;
-  if (values.size() <= last_passes) return false;
-  const auto last = values.end() - static_cast<std::ptrdiff_t>(last_passes);
-  return *std::min_element(last, values.end()) > hardly_less * *std::min_element(values.begin(), last);
-}
-constexpr std::size_t without_progress = 25, without_better_balance = 10;  // passes
-constexpr std::size_t patience = 10, patience_accelerated = 20;            // passes whose changes stay large
-
-/// Whether errors of balances no longer fall, but scatter. Where passes converge slowly, errors fall in each pass.
-bool are_round_off_of_balances(const std::vector<double>& imbalances) {
-  return hardly_fall(imbalances, without_better_balance) &&
-         !std::is_sorted(imbalances.end() - without_better_balance, imbalances.end(), std::greater<>());
-}
-
-/// The tolerance to suggest where passes do not get below this residual.
-std::string looser(double residual) {
-  constexpr double sensible = 1e-5;
-  if (residual > sensible) return "";
-  return fmt::format(", or ask for {:.0e} in 'until'", std::pow(10, std::floor(std::log10(residual)) + 1));
-}
+constexpr std::size_t without_progress = 25;                     // passes
+constexpr std::size_t patience = 10, patience_accelerated = 20;  // passes whose changes stay large
 
 /// "pore" of "pore.pressure".
 std::string owner_of(const std::string& field) { return field.substr(0, field.find('.')); }
-
-/// Whether the error that passes leave is below a bound, from what the last two of them have changed.
-bool is_error_below(double bound, double change, double change_before) {
-  constexpr double far_below = 1e-2;  // of the bound: changes so small may be round-off, and fall no more
-  if (change <= far_below * bound) return true;
-  return change <= bound && change < change_before && change * change / (change_before - change) <= bound;
-}
 
 }  // namespace
 
@@ -373,7 +336,7 @@ StepStatus IterateStep::make_passes(const StepTime& step) {
                       "passes change {} most, by round-off, {:.3g} times as much as the one before (the fields have "
                       "no more digits in this split) solve '{}' with what it is coupled to in one 'solve'{}",
                       pass, check.equation, check.largest, most_changed(change), changes.factor(),
-                      owner_of(check.equation), looser(check.largest)),
+                      owner_of(check.equation), looser_tolerance(check.largest)),
           pass};
     if (const bool explode = !accelerator_ && changes.explode(); explode || changes.only_grow()) {
       const double factor = explode ? changes.last_factor() : changes.factor();

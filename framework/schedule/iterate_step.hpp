@@ -12,6 +12,7 @@
 #include "framework/config/spec.hpp"
 #include "framework/schedule/convergence_criteria.hpp"
 #include "framework/schedule/fallback_solve.hpp"
+#include "framework/schedule/passes/diverging_steps.hpp"
 #include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/step_history.hpp"
@@ -76,8 +77,6 @@ class IterateStep : public ScheduleStep, public StepHistory {
   /// The status of passes that do not converge. `what`: what they do instead; `factor`: by which changes grow from pass
   /// to pass.
   StepStatus without_end(const StepTime& step, const std::string& what, double factor, int pass);
-  /// Whether a step that diverges by this factor is much shorter than one from the same start that diverged no faster.
-  bool is_no_better(const StepTime& step, double factor);
   std::string most_changed(const Vector& change) const;  ///< the field whose part of a scaled change is largest
   Vector scaled_values() const;
   void set_scaled_values(const Vector& values);
@@ -96,12 +95,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   std::shared_ptr<int> pass_;                 ///< the number of the pass, for the log
   std::string history_;                       ///< what its values in a checkpoint begin with
   std::optional<FallbackSolve> fallback_;
-  struct Divergence {
-    StepTime step;
-    double factor;
-    double largest;  ///< largest factor of any step from the same start
-  };
-  std::optional<Divergence> divergence_;  ///< the longest step from its start that has diverged no faster
+  DivergingSteps diverging_;
 };
 
 }  // namespace sprekk

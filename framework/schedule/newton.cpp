@@ -53,30 +53,7 @@ std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
       assembly->add(*field, diagonal.cwiseProduct(field->now() - start_.at(field)));
       assembly->diagonal(*field, *field, diagonal);
     }
-  if (responses_) {
-    for (const auto& [row, values] : responses_->pending) assembly->add(*row, values);
-    for (const ResponseTerm& response : responses_->terms) {
-      if (!assembly->has_row(*response.row)) continue;
-      SPREKK_EXPECT(response.matrix.cols() == response.column->size(), response.column->name());
-      const Vector &now = response.column->now(), &start = start_.at(response.column);
-      Vector term = response.matrix * (now - start);
-      Vector follows;  // 1 where the change is not at its bound
-      if (response.least.size() > 0) {
-        SPREKK_EXPECT(response.least.size() == term.size(), response.row->name(), term.size());
-        follows = (term.array() < -response.least.array()).cast<double>();
-        term = term.cwiseMin(-response.least);
-      }
-      assembly->add(*response.row, term);
-      const bool is_copy = !response.row->is_solved();  // by a part: it follows from differences of larger numbers
-      if (is_copy && now.size() > 0)
-        assembly->compare_round_off(
-            *response.row, (response.matrix.cwiseAbs() * now.cwiseAbs().cwiseMax(start.cwiseAbs())).maxCoeff());
-      if (follows.size() == 0 || follows.minCoeff() == 1)
-        assembly->derivative(*response.row, *response.column, response.matrix);
-      else
-        assembly->derivative(*response.row, *response.column, SparseMatrix(follows.asDiagonal() * response.matrix));
-    }
-  }
+  if (responses_) add_responses(*assembly, *responses_, start_);
   for (const Part* part : parts_) part->constrain(*assembly);
   return assembly;
 }

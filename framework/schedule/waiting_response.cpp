@@ -325,4 +325,29 @@ LinearCounts WaitingResponse::counts() const {
   return counts;
 }
 
+void add_responses(Assembly& assembly, const Responses& responses, const std::map<const Field*, Vector>& start) {
+  for (const auto& [row, values] : responses.pending) assembly.add(*row, values);
+  for (const ResponseTerm& response : responses.terms) {
+    if (!assembly.has_row(*response.row)) continue;
+    SPREKK_EXPECT(response.matrix.cols() == response.column->size(), response.column->name());
+    const Vector &now = response.column->now(), &first = start.at(response.column);
+    Vector term = response.matrix * (now - first);
+    Vector follows;  // 1 where the change is not at its bound
+    if (response.least.size() > 0) {
+      SPREKK_EXPECT(response.least.size() == term.size(), response.row->name(), term.size());
+      follows = (term.array() < -response.least.array()).cast<double>();
+      term = term.cwiseMin(-response.least);
+    }
+    assembly.add(*response.row, term);
+    const bool is_copy = !response.row->is_solved();  // by a part: it follows from differences of larger numbers
+    if (is_copy && now.size() > 0)
+      assembly.compare_round_off(*response.row,
+                                 (response.matrix.cwiseAbs() * now.cwiseAbs().cwiseMax(first.cwiseAbs())).maxCoeff());
+    if (follows.size() == 0 || follows.minCoeff() == 1)
+      assembly.derivative(*response.row, *response.column, response.matrix);
+    else
+      assembly.derivative(*response.row, *response.column, SparseMatrix(follows.asDiagonal() * response.matrix));
+  }
+}
+
 }  // namespace sprekk

@@ -28,6 +28,10 @@ struct Responses {
   std::map<const Field*, Vector> pending;
 };
 
+/// Adds `responses` and their derivatives to the rows that `assembly` has. `start`: the values at the solve's start of
+/// the fields that are columns of terms.
+void add_responses(Assembly& assembly, const Responses& responses, const std::map<const Field*, Vector>& start);
+
 /// For which fields of a solve the Schur complement is added: pairs of row and column.
 struct ResponseOptions {
   std::vector<Following> pairs;

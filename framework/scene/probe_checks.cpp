@@ -1,0 +1,65 @@
+#include "framework/scene/probe_checks.hpp"
+
+#include <cstddef>
+#include <set>
+
+#include "framework/assembly/lives_in_part.hpp"
+#include "framework/mesh/point_location.hpp"
+
+namespace sprekk {
+
+void require_values(const OutputOptions& options, const std::vector<std::unique_ptr<Component>>& components,
+                    const Mesh& mesh) {
+  for (const auto& [name, probe] : options.probes)
+    for (const auto& component : components) {
+      const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
+      if (!partial || partial->inhabited_cells().empty() || !probe.of.starts_with(component->name() + ".")) continue;
+      if (partial->lives_on_fractures()) {
+        int nearest = none;
+        const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *probe.at).norm(); };
+        for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+          const std::string& fracture = mesh.fractures[mesh.fracture_cells[i].fracture].name;
+          if (!probe.fracture.empty() && fracture != probe.fracture) continue;
+          if (!probe.at && !partial->inhabited_cells()[i])
+            throw InputError(probe.origin, "probe '" + name + "' reaches where there is no value",
+                             "'" + component->name() + "' does not live on fracture '" + fracture + "'",
+                             "take a fracture on which it does");
+          if (probe.at && (nearest == none || distance(i) < distance(nearest))) nearest = i;
+        }
+        if (nearest != none && !partial->inhabited_cells()[nearest])
+          throw InputError(probe.origin, "probe '" + name + "' reaches where there is no value",
+                           "'" + component->name() + "' does not live on the fracture there",
+                           "take a point on a fracture on which it does");
+        continue;
+      }
+      const int home = probe.at ? PointLocation(mesh).cell_at(*probe.at) : none;
+      for (int c = 0; c < mesh.cell_count(); ++c) {
+        const bool counts = probe.at
+                                ? c == home
+                                : probe.fracture.empty() &&
+                                      (probe.region.empty() || mesh.region_names[mesh.cell_region[c]] == probe.region);
+        if (counts && !partial->inhabited_cells()[c])
+          throw InputError(
+              probe.origin, "probe '" + name + "' reaches where there is no value",
+              "'" + component->name() + "' does not live in the region " + mesh.region_names[mesh.cell_region[c]],
+              "take a region, or a point, in which it does");
+      }
+    }
+}
+
+void require_own_columns(const OutputOptions& options, const std::vector<Probe>& probes,
+                         const std::vector<OutputField>& outputs, const std::vector<Quantity>& others) {
+  std::set<std::string> taken = {"time", "step", "iterations", "splitting_error", "coupled_residual"};
+  for (const Quantity& quantity : others) taken.insert(quantity.name);
+  std::size_t i = 0;
+  for (const auto& [name, probe] : options.probes) {
+    std::vector<Quantity> columns;
+    probes[i++].measure(columns, outputs);
+    for (const Quantity& column : columns)
+      if (!taken.insert(column.name).second)
+        throw InputError(probe.origin, "the probe '" + name + "' has no column of its own",
+                         "history.csv has a column " + column.name + " already", "give it another name");
+  }
+}
+
+}  // namespace sprekk

@@ -1,0 +1,28 @@
+// Whether shorter time steps help an iteration whose passes diverge.
+#pragma once
+
+#include <optional>
+
+#include "framework/assembly/step_time.hpp"
+
+namespace sprekk {
+
+/// Remembers by which factor changes grew from pass to pass in the steps that were tried from one start.
+class DivergingSteps {
+ public:
+  /// To be called when the passes of `step` diverge; `factor`: by which changes grow from pass to pass. Returns whether
+  /// the step is much shorter than one from the same start that diverged no faster.
+  bool is_no_better(const StepTime& step, double factor);
+  /// The largest factor of any step from the start of the last one.
+  double largest() const { return longest_->largest; }
+
+ private:
+  struct Divergence {
+    StepTime step;
+    double factor;
+    double largest;
+  };
+  std::optional<Divergence> longest_;  ///< the longest step from its start that has diverged no faster
+};
+
+}  // namespace sprekk

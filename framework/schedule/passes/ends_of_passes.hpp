@@ -1,0 +1,21 @@
+// How residuals, errors of balances and changes tell that more passes bring no more.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+/// Whether the least of the last values is hardly less than that of all before. Residuals that fall by a hundredth in a
+/// pass and scatter by as much again fall by a fifth in 25 passes.
+bool hardly_fall(const std::vector<double>& values, std::size_t last_passes);
+/// Whether errors of balances no longer fall, but scatter. Where passes converge slowly, errors fall in each pass.
+bool are_round_off_of_balances(const std::vector<double>& imbalances);
+/// Whether the error that passes leave is below a bound, from what the last two of them have changed.
+bool is_error_below(double bound, double change, double change_before);
+/// ", or ask for 1e-07 in 'until'": the tolerance to suggest where passes do not get below this residual; empty where
+/// none is sensible.
+std::string looser_tolerance(double residual);
+
+}  // namespace sprekk
