@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "framework/invariants.hpp"
+#include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/mesh_quality.hpp"
 
 namespace sprekk {
 
@@ -63,6 +65,16 @@ Adjacency outer_faces_of_nodes(const Mesh& mesh) {
     outer.offsets.push_back(static_cast<int>(outer.items.size()));
   }
   return outer;
+}
+
+std::runtime_error unsolvable_region(const std::string& method, const Mesh& mesh, const InteractionRegion& region,
+                                     const std::string& coefficient) {
+  const auto angle = [&](const Subcell& subcell) { return angles(mesh.nodes, mesh.cell_nodes[subcell.cell]).smallest; };
+  const Subcell& flattest = *std::ranges::min_element(region.subcells, {}, angle);
+  return std::runtime_error(method + ": the local problem at a node cannot be solved, where the mesh has " +
+                            flatness_text(mesh, flattest.cell) + " (cells that flat leave no digits, or the " +
+                            coefficient + " is not positive definite) move lines apart, join them, or let them meet " +
+                            "at a larger angle");
 }
 
 }  // namespace sprekk

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "framework/mesh/mesh.hpp"
@@ -40,5 +42,10 @@ struct InteractionRegion {
 
 /// For every node, its faces with one cell, in ascending order.
 Adjacency outer_faces_of_nodes(const Mesh& mesh);
+
+/// The error of a method whose local problem in a region cannot be solved: where, how flat the cells are, and what to
+/// do. `coefficient`: what else may be wrong, "stiffness".
+std::runtime_error unsolvable_region(const std::string& method, const Mesh& mesh, const InteractionRegion& region,
+                                     const std::string& coefficient);
 
 }  // namespace sprekk

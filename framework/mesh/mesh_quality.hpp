@@ -1,6 +1,8 @@
 // Figures about a mesh for run.json and for tests.
 #pragma once
 
+#include <string>
+
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk {
@@ -11,10 +13,15 @@ struct MeshQuality {
   double area = 0;                                                        ///< m^2
   double fracture_length = 0;                                             ///< m
   double smallest_angle = 0, mean_smallest_angle = 0, largest_angle = 0;  ///< rad; the mean is over cells
+  int flattest_cell = none;                                               ///< the one with the smallest angle
   double shortest_face = 0, mean_face = 0, longest_face = 0;              ///< m
   int cells_with_one_neighbour = 0;  ///< all other faces lie on the outer boundary or on walls
 };
 
 MeshQuality mesh_quality(const Mesh& mesh);
+
+/// "an angle of 0.029 degrees at (1, 0.9), between fractures 'a' and 'b' in a cell 1e-05 m high": the smallest angle of
+/// a cell, where it is, and the fractures that corners of the cell lie on, if they are two or more.
+std::string flatness_text(const Mesh& mesh, int cell);
 
 }  // namespace sprekk

@@ -106,9 +106,9 @@ Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns)
               "install libopenblas0-pthread");
   if (const double angle = quality.smallest_angle * 180 / std::numbers::pi; angle < least_good_angle)
     notes.add("small angle of the mesh",
-              fmt::format("the mesh has an angle of {:.2g} degrees, where multi-point discretizations may overshoot "
-                          "(lines that meet at a small angle, or a gap narrower than mesh.gap_size)",
-                          angle));
+              "the mesh has " + flatness_text(model.mesh(), quality.flattest_cell) +
+                  ", where multi-point discretizations may overshoot (lines that meet at a small angle, or a gap "
+                  "narrower than mesh.gap_size) move lines apart or join them");
   if (parallel::size() > 1 && unknowns < worth_sharing)
     notes.add(
         "too few unknowns for several processes",

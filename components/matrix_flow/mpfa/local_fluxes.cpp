@@ -1,8 +1,5 @@
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 
-#include <stdexcept>
-#include <string>
-
 #include "framework/invariants.hpp"
 #include "framework/linear/eliminate.hpp"
 
@@ -70,13 +67,13 @@ LocalFluxes::Stabilizer LocalFluxes::solve(const Mesh& mesh, int node, const Int
   for (const Subcell& subcell : region.subcells)
     has_triangles_only = has_triangles_only && is_triangle(mesh, subcell.cell);
   find_arms(mesh, node, region);
-  solve_with(&LocalFluxes::consistent, region, mobility, conditions);
+  solve_with(&LocalFluxes::consistent, mesh, region, mobility, conditions);
   if (has_triangles_only || each_subcell_dissipates() || dissipates(region, conditions)) return Stabilizer::none;
   return stabilize(mesh, node, region, mobility, conditions);
 }
 
-void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& region, const std::vector<Tensor>& mobility,
-                             const std::vector<FlowCondition>& conditions) {
+void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const InteractionRegion& region,
+                             const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
   const int subcells = region.subcell_count();
   SPREKK_EXPECT(static_cast<int>(towards_node_.size()) == region.subface_count(), towards_node_.size());
   SPREKK_EXPECT(static_cast<int>(arm_.size()) == subcells, arm_.size(), subcells);
@@ -110,9 +107,7 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const InteractionRegion& regi
     if (!region.is_inner(f)) row[boundary_column++] = 0.5;
   }
   constexpr double singular = 1e-14;  // of the largest entry of a row; smaller pivots are round-off
-  if (eliminate(system_.data(), subfaces_, width) < singular)
-    throw std::runtime_error("MPFA: singular local problem at a node of cell " +
-                             std::to_string(region.subcells[0].cell) + " (is its mobility positive definite?)");
+  if (eliminate(system_.data(), subfaces_, width) < singular) throw unsolvable_region("MPFA", mesh, region, "mobility");
   pressures_.resize(subfaces_ * columns_);
   for (int f = 0; f < subfaces_; ++f)
     std::copy_n(system_.data() + f * width + subfaces_, columns_, pressures_.data() + f * columns_);

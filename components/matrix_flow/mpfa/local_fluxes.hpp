@@ -45,8 +45,8 @@ class LocalFluxes {
   Weights consistent(const Subcell& subcell, const Tensor& mobility, int k) const;
   Weights symmetric(const Subcell& subcell, const Tensor& mobility, int k) const;
   using WeightsOf = Weights (LocalFluxes::*)(const Subcell&, const Tensor&, int) const;
-  void solve_with(WeightsOf weights_of, const InteractionRegion& region, const std::vector<Tensor>& mobility,
-                  const std::vector<FlowCondition>& conditions);
+  void solve_with(WeightsOf weights_of, const Mesh& mesh, const InteractionRegion& region,
+                  const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
   Stabilizer stabilize(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
                        const std::vector<FlowCondition>& conditions);
   bool each_subcell_dissipates() const;

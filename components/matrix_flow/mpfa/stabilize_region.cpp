@@ -89,15 +89,15 @@ LocalFluxes::Stabilizer LocalFluxes::stabilize(const Mesh& mesh, int node, const
     for (int f = 0; f < subfaces_; ++f)
       if (region.is_inner(f)) towards_node_[f] = other;
     find_arms(mesh, node, region);
-    solve_with(&LocalFluxes::consistent, region, mobility, conditions);
+    solve_with(&LocalFluxes::consistent, mesh, region, mobility, conditions);
     if (dissipates(region, conditions)) return Stabilizer::points;
   }
   towards_node_ = points;
   find_arms(mesh, node, region);
-  solve_with(&LocalFluxes::consistent, region, mobility, conditions);
+  solve_with(&LocalFluxes::consistent, mesh, region, mobility, conditions);
   const std::vector<double> exact_pressures = pressures_, exact_fluxes = fluxes_;
   const Eigen::MatrixXd kinks = this->kinks(mesh, node, region);
-  solve_with(&LocalFluxes::symmetric, region, mobility, conditions);
+  solve_with(&LocalFluxes::symmetric, mesh, region, mobility, conditions);
   const std::vector<double> symmetric_pressures = pressures_, symmetric_fluxes = fluxes_;
   const Eigen::VectorXd scale = scale_of(dissipation(region, conditions));
 

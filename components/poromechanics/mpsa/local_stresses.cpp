@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "components/poromechanics/mpsa/tip_correction.hpp"
 #include "framework/invariants.hpp"
@@ -95,9 +93,7 @@ void LocalStresses::solve(const Mesh& mesh, const InteractionRegion& region, std
     assemble(region, conditions);
     pivot = smallest_pivot();
   }
-  if (pivot < singular)
-    throw std::runtime_error("MPSA: singular local problem at a node of cell " +
-                             std::to_string(region.subcells[0].cell) + " (is its stiffness positive definite?)");
+  if (pivot < singular) throw unsolvable_region("MPSA", mesh, region, "stiffness");
   find_gradients(region);
   find_forces(region, stiffness);
   prescribe_forces(region, conditions);
