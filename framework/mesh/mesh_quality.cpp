@@ -1,12 +1,11 @@
 #include "framework/mesh/mesh_quality.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
 #include <numbers>
-#include <set>
+#include <vector>
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_shape.hpp"
@@ -16,16 +15,24 @@ namespace sprekk {
 
 namespace {
 
-/// The names of fractures on whose walls corners of the cell lie.
-std::set<std::string> fractures_at_corners(const Mesh& mesh, int cell) {
-  std::set<std::string> names;
-  const auto corners = mesh.cell_nodes[cell];
-  for (const FractureCell& wall : mesh.fracture_cells)
-    for (const int face : wall.faces)
-      for (const int node : mesh.face_nodes[face])
-        if (std::find(corners.begin(), corners.end(), node) != corners.end())
-          names.insert("'" + mesh.fractures[wall.fracture].name + "'");
-  return names;
+struct FractureNearby {
+  int fracture;
+  double distance;  ///< m
+};
+
+/// The fractures that are nearer to a point than `within` (m), the nearest first.
+std::vector<FractureNearby> fractures_nearby(const Mesh& mesh, const Point& point, double within) {
+  std::vector<double> distances(mesh.fractures.size(), std::numeric_limits<double>::infinity());
+  for (const FractureCell& cell : mesh.fracture_cells) {
+    const auto& ends = mesh.face_nodes[cell.faces[0]];
+    double& least = distances[cell.fracture];
+    least = std::min(least, distance(point, Segment{mesh.nodes[ends[0]], mesh.nodes[ends[1]]}));
+  }
+  std::vector<FractureNearby> nearby;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (distances[i] < within) nearby.push_back({static_cast<int>(i), distances[i]});
+  std::ranges::sort(nearby, {}, &FractureNearby::distance);
+  return nearby;
 }
 
 }  // namespace
@@ -66,13 +73,16 @@ std::string flatness_text(const Mesh& mesh, int cell) {
   SPREKK_EXPECT(is_index(cell, mesh.cell_count()), cell);
   const double degrees = angles(mesh.nodes, mesh.cell_nodes[cell]).smallest * 180 / std::numbers::pi;
   std::string text = fmt::format("an angle of {:.2g} degrees at {}", degrees, to_text(mesh.cell_center[cell]));
-  const std::set<std::string> names = fractures_at_corners(mesh, cell);
-  if (names.size() < 2) return text;
   double longest = 0;
   for (const int face : mesh.cell_faces[cell]) longest = std::max(longest, mesh.face_measure[face]);
-  const bool is_triangle = mesh.cell_faces[cell].size() == 3;
-  return text + fmt::format(", between fractures {} in a cell {:.2g} m high", fmt::join(names, " and "),
-                            (is_triangle ? 2 : 1) * mesh.cell_measure[cell] / longest);
+  constexpr double lines_of_cells = 8;  // between two fractures, at most
+  const double height = mesh.cell_measure[cell] / longest;
+  const std::vector<FractureNearby> near = fractures_nearby(mesh, mesh.cell_center[cell], lines_of_cells * height);
+  if (near.size() < 2) return text;
+  return text + fmt::format(", between fractures '{}' and '{}', which are {:.2g} m apart there",
+                            mesh.fractures[std::min(near[0].fracture, near[1].fracture)].name,
+                            mesh.fractures[std::max(near[0].fracture, near[1].fracture)].name,
+                            near[0].distance + near[1].distance);
 }
 
 }  // namespace sprekk

@@ -20,8 +20,8 @@ struct MeshQuality {
 
 MeshQuality mesh_quality(const Mesh& mesh);
 
-/// "an angle of 0.029 degrees at (1, 0.9), between fractures 'a' and 'b' in a cell 1e-05 m high": the smallest angle of
-/// a cell, where it is, and the fractures that corners of the cell lie on, if they are two or more.
+/// "an angle of 0.029 degrees at (1, 0.9), between fractures 'a' and 'b', which are 1e-05 m apart there": the smallest
+/// angle of a cell, its centre, and the fractures that it lies between, if there are two as near as the cell is high.
 std::string flatness_text(const Mesh& mesh, int cell);
 
 }  // namespace sprekk

@@ -58,6 +58,12 @@ class Python(unittest.TestCase):
             self.assertFalse(run.is_done)
             self.assertEqual(run.at("tip.length", 30), 2)
             self.assertTrue(np.isnan(run.at("tip.length", 50)) and np.isnan(run["tip.length"][0]))
+            for damaged, told in (("20,1..5", r"history.csv, line 3, column tip.length\[m\]: '1..5' is no number"), ("20", "line 3: 1 cells, and 2 columns")):
+                (folder / "history.csv").write_text(f"time[s],tip.length[m]\n10,\n{damaged}\n40,3\n")
+                with self.assertRaisesRegex(ValueError, told):
+                    sprekk.read_table(folder / "history.csv")
+            (folder / "coupling.csv").write_text("time[s],field\n10,pore.pressure\n")
+            self.assertEqual(sprekk.read_table(folder / "coupling.csv")["field"], ["pore.pressure"])
             self.assertEqual(run.rows[2], {"time": 40, "tip.length": 3})
             self.assertEqual(run.written(), [])
             with self.assertRaisesRegex(FileNotFoundError, "has no fields"):

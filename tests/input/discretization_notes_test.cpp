@@ -7,7 +7,9 @@
 namespace sprekk::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Rock that conducts 10,000 times better at 30 degrees to the x axis than across; `mirrored`: at -30 degrees.
 std::string anisotropic(bool mirrored = false) {
@@ -70,6 +72,39 @@ TEST(DiscretizationNotes, ASmallAngleOfTheMeshIsTold) {
     EXPECT_LE(std::stod(text.substr(before.size())), 3) << text;
   }
   EXPECT_TRUE(note("30 deg").is_null());
+}
+
+TEST(DiscretizationNotes, FlatCellsTellBetweenWhichFracturesTheyLie) {
+  // Parallel lines 1e-5 m apart, along x, along y, and along a line between.
+  const auto fractured = [](const std::string& crack, const std::string& other) {
+    return run_of("fractured.yaml",
+                  {"geometry.fractures.crack.points=" + crack, "geometry.fractures.other={points: " + other + "}"});
+  };
+  const auto told = [&](const std::string& crack, const std::string& other) {
+    const Json note = fractured(crack, other).note("small angle of the mesh");
+    return note.is_null() ? std::string() : note["text"].get<std::string>();
+  };
+  const char* between = "between fractures 'crack' and 'other', which are 1e-05 m apart there";
+  EXPECT_THAT(told("[[0.3 m, 0.5 m], [0.7 m, 0.5 m]]", "[[0.3 m, 0.50001 m], [0.7 m, 0.50001 m]]"), HasSubstr(between));
+  EXPECT_THAT(told("[[0.5 m, 0.3 m], [0.5 m, 0.7 m]]", "[[0.50001 m, 0.3 m], [0.50001 m, 0.7 m]]"), HasSubstr(between));
+  EXPECT_THAT(told("[[0.3 m, 0.3 m], [0.7 m, 0.6 m]]", "[[0.299994 m, 0.300008 m], [0.699994 m, 0.600008 m]]"),
+              HasSubstr(between));
+  EXPECT_THAT(told("[[0.3 m, 0.5 m], [0.7 m, 0.5 m]]", "[[0.3 m, 0.6 m], [0.7 m, 0.6 m]]"), Not(HasSubstr("apart")));
+}
+
+TEST(DiscretizationNotes, CellsTooFlatForMpsaAreRefusedWithTheirPlace) {
+  const Folder folder;
+  const Outcome outcome =
+      sprekk_command(call("run", "fractured.yaml",
+                          {"geometry.box={x: [0 m, 2 m], y: [0 m, 2 m]}", "mesh={size: 0.2 m, fracture_size: 50 mm}",
+                           "geometry.fractures.crack.points=[[0.5 m, 1 m], [1.5 m, 1 m]]",
+                           "geometry.fractures.other={points: [[0.5 m, 0.99999 m], [1.5 m, 1.00001 m]]}",
+                           "components.conduit.injection.well.at=[1 m, 1 m]"}),
+                     folder.path());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("the mesh has an angle of 0.00057 degrees at (0.96"),
+                                 HasSubstr("between fractures 'crack' and 'other', which are "),
+                                 HasSubstr("move lines apart, join them, or let them meet at a larger angle")));
 }
 
 TEST(DiscretizationNotes, FracturesThatMeetAtASmallAngleAreNamed) {

@@ -5,6 +5,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -112,6 +114,13 @@ class Results(unittest.TestCase):
         for name in ("mesh", "matrix_a_pressure", "matrix_a_displacement_length", "fractures_a_pressure", "fractures_a_jump", "history"):
             picture = (self.folder / "plots" / f"{name}.png").read_bytes()
             self.assertTrue(picture.startswith(b"\x89PNG"), name)
+
+    def test_one_time_is_the_last(self):
+        spec = spec_from_loader("plot", SourceFileLoader("plot", str(ROOT / "tools/plot")))
+        plot = module_from_spec(spec)
+        spec.loader.exec_module(plot)
+        for count, times in ((1, [7]), (2, [0, 7]), (3, [0, 4, 7]), (20, list(range(8)))):
+            self.assertEqual(plot.choose(list(range(8)), count), times)
 
     def test_paths_beyond_the_mesh_are_drawn(self):
         def drawn():

@@ -89,13 +89,28 @@ def read_pvd(path):
     return sorted((float(entry.get("timestep")), folder / entry.get("file")) for entry in entries)
 
 
+def number(text, path, line, column):
+    try:
+        return float(text) if text else np.nan
+    except ValueError:
+        raise ValueError(f"{path}, line {line}, column {column}: '{text}' is no number (the file is damaged)") from None
+
+
 def read_table(path):
-    """{column: values}; numbers as an array with nan where the table is empty, texts as a list."""
+    """{column: values}; numbers as an array with nan where the table is empty, texts as a list.
+
+    Columns whose names have a unit are numbers. ValueError where one of them is not, and where a row is not complete."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
+    for line, row in enumerate(rows, 1):
+        if len(row) != len(rows[0]):
+            raise ValueError(f"{path}, line {line}: {len(row)} cells, and {len(rows[0])} columns (the file is cut off or damaged)")
     columns = {}
     for i, name in enumerate(rows[0] if rows else []):
         texts = [row[i] for row in rows[1:]]
+        if name.endswith("]"):
+            columns[name] = np.array([number(text, path, line, name) for line, text in enumerate(texts, 2)])
+            continue
         try:
             columns[name] = np.array([float(text) if text else np.nan for text in texts])
         except ValueError:
