@@ -39,9 +39,10 @@ class Balances {
   /// The throughput of each row, not negative: what it stores, what sources bring in and what leaves all rows. Right on
   /// rows that this process owns.
   const Vector& throughput(int unknown) const { return of_[unknown].throughput; }
-  /// For the sum of all rows: the largest sum of the absolute values of a term, and of the numbers whose differences
-  /// the term is.
+  /// Of the sum of all rows: the size of its largest term (the sum of the absolute values of that term in all rows).
   double magnitude(int unknown) const { return of_[unknown].magnitude; }
+  /// Of the sum of all rows: the size of the numbers whose differences the terms are, which leave round-off of their
+  /// own size in the sum.
   double round_off_base(int unknown) const { return of_[unknown].round_off_base; }
 
  private:

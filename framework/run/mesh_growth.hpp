@@ -73,7 +73,7 @@ class MeshGrowth {
   int refusals_ = 0;       ///< refusals of the growth in the step from refused_at_
   double smallest_angle_ = above_all_triangles;
   int passes_ = 0;
-  bool was_left_out_ = false;  ///< by a `when`: growth in the trial that was solved last
+  bool was_left_out_ = false;  ///< whether a `when` has left out the `grow` step in the last trial
 };
 
 }  // namespace sprekk

@@ -118,10 +118,10 @@ class Newton {
   BlockSystem system_;
   std::unique_ptr<LinearSolver> linear_;
   Products products_;
-  std::unique_ptr<Assembly> assembly_;  ///< of the state that was looked at last
+  std::unique_ptr<Assembly> assembly_;  ///< the equations at the last values that were checked
   int assemblies_ = 0;
   int least_iterations_ = 0;
-  std::vector<ResidualCheck> recent_;  ///< the last states
+  std::vector<ResidualCheck> recent_;  ///< the checks of the last iterates, oldest first
   bool state_has_changed_ = false;     ///< whether the discrete state has changed in this solve
   bool was_singular_ = false;          ///< whether the last attempt ended with a singular system
   bool is_used_up_ = false;            ///< whether the last attempt has used up its iterations

@@ -74,7 +74,7 @@ class SubcycleStep : public ScheduleStep {
   std::vector<Field*> waiting_;                ///< solved for outside, and the cumulative balances kept of them
   std::shared_ptr<const int> pass_;            ///< of the iteration around it, nullptr without one
   std::vector<Values> last_begin_, last_end_;  ///< of each piece: where it began and ended in the last pass
-  Values moved_;                               ///< by which others have moved the end of the last pass
+  Values moved_;  ///< by how much others, an accelerator say, have changed the fields since the end of the last pass
 };
 
 }  // namespace sprekk

@@ -34,7 +34,7 @@ class MumpsSolver final : public LinearSolver {
   /// Columns and rows around the matrix that are not eliminated, scaled.
   struct Border {
     SparseMatrix columns, rows;
-    Vector column_scale, row_scale;  ///< with which they have been multiplied, powers of two
+    Vector column_scale, row_scale;  ///< the factors, powers of two, by which columns and rows have been multiplied
     int size() const { return static_cast<int>(std::max(columns.cols(), rows.rows())); }
   };
   Border scaled(const SparseMatrix& columns, const SparseMatrix& rows);

@@ -25,7 +25,7 @@ class BelosSolver final : public LinearSolver {
   struct Data;
   struct BlockResidual {
     double largest_ratio = 0;      ///< ||r|| / || |A| |y| + |b| || of the worst block
-    double smallest_size = 1e300;  ///< of these denominators
+    double smallest_size = 1e300;  ///< the smallest of the blocks' || |A| |y| + |b| ||
   };
   BlockResidual measure(const Vector& whole_y, const Vector& b, const Vector& r) const;
 

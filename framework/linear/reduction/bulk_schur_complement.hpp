@@ -46,8 +46,8 @@ class BulkSchurComplement {
   bool is_whole_ = false;
   Eigen::MatrixXd columns_;                   ///< X, if it is whole
   RowMatrix near_;                            ///< the rows of X that A_FB has columns for: BulkSplitting::near
-  RowMatrix bordered_;                        ///< A_FB X as the factorization gave it,
-  std::vector<double> of_bordered_;           ///< and the values of A_FB that it had
+  RowMatrix bordered_;                        ///< A_FB X as the last bordered factorization gave it
+  std::vector<double> of_bordered_;           ///< the values of A_FB in that factorization
   RowMatrix schur_rows_;                      ///< A_FB X
   std::vector<double> schur_rows_made_with_;  ///< the values of A_FB that they were made with; empty for none
 };

@@ -14,7 +14,8 @@ class StalledAcceleration {
   /// The kind of the next pass. `back`: an accelerated pass from the values before the first plain pass.
   enum class Next { accelerated, plain, back };
 
-  /// `change`: of the fields by the pass, scaled.
+  /// To be called after each pass; returns the kind of the next one. `change`: norm of the change of the fields by the
+  /// pass, scaled.
   Next after(double change) {
     if (is_plain_) {
       constexpr double clearly_more = 2;
@@ -27,7 +28,7 @@ class StalledAcceleration {
     first_ = best_ = change;
     return Next::plain;
   }
-  /// Passes are another map from here on.
+  /// To be called when the discrete state has changed: what earlier passes have shown does not hold for later ones.
   void forget() { *this = {}; }
 
  private:
@@ -44,7 +45,7 @@ class StalledAcceleration {
   }
 
   bool is_plain_ = false, was_tried_ = false;
-  int passes_ = 0;  ///< since one that has come nearer
+  int passes_ = 0;  ///< number of passes since the last one whose change was clearly smaller than all before
   double best_ = std::numeric_limits<double>::infinity(), first_ = 0;
 };
 
