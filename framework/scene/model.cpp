@@ -86,7 +86,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
       std::ranges::any_of(scene_.output.probes, [&](const auto& probe) { return !fields_.has(probe.second.of); });
   const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_, outputs);
-  require_values(scene_.output, components_, mesh_);
+  require_values_at_probes(scene_.output, components_, mesh_);
   std::vector<Quantity> others;
   for (const Part* part : parts_) part->report(others);
   for (const auto& [name, balance] : balances())

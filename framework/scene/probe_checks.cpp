@@ -8,8 +8,8 @@
 
 namespace sprekk {
 
-void require_values(const OutputOptions& options, const std::vector<std::unique_ptr<Component>>& components,
-                    const Mesh& mesh) {
+void require_values_at_probes(const OutputOptions& options, const std::vector<std::unique_ptr<Component>>& components,
+                              const Mesh& mesh) {
   for (const auto& [name, probe] : options.probes)
     for (const auto& component : components) {
       const auto* partial = dynamic_cast<const LivesInPart*>(component.get());

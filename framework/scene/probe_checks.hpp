@@ -1,4 +1,4 @@
-// What is asked of the probes of a scene.
+// Refuses probes that cannot be measured, or have no column of their own.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,11 @@
 
 namespace sprekk {
 
-/// Refuses a probe of a component that has no value there (LivesInPart). Throws InputError.
-void require_values(const OutputOptions& options, const std::vector<std::unique_ptr<Component>>& components,
-                    const Mesh& mesh);
-/// Refuses a probe that is called as another column of history.csv: readers find columns by their names. `probes`: in
+/// Refuses a probe at a place where the component that it measures has no value, because the component lives in a part
+/// of the mesh alone (LivesInPart). Throws InputError.
+void require_values_at_probes(const OutputOptions& options, const std::vector<std::unique_ptr<Component>>& components,
+                              const Mesh& mesh);
+/// Refuses a probe with the name of another column of history.csv: readers find columns by their names. `probes`: in
 /// the order of `options`; `others`: the other columns. Throws InputError.
 void require_own_columns(const OutputOptions& options, const std::vector<Probe>& probes,
                          const std::vector<OutputField>& outputs, const std::vector<Quantity>& others);

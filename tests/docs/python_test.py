@@ -62,6 +62,8 @@ class Python(unittest.TestCase):
                 (folder / "history.csv").write_text(f"time[s],tip.length[m]\n10,\n{damaged}\n40,3\n")
                 with self.assertRaisesRegex(ValueError, told):
                     sprekk.read_table(folder / "history.csv")
+            (folder / "history.csv").write_text("time[s],tip.length[m]\n10,1.25\n20,1.2")  # the rest of 1.25 was not written
+            np.testing.assert_array_equal(sprekk.read_table(folder / "history.csv")["tip.length[m]"], [1.25])
             (folder / "coupling.csv").write_text("time[s],field\n10,pore.pressure\n")
             self.assertEqual(sprekk.read_table(folder / "coupling.csv")["field"], ["pore.pressure"])
             self.assertEqual(run.rows[2], {"time": 40, "tip.length": 3})

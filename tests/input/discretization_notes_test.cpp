@@ -75,7 +75,7 @@ TEST(DiscretizationNotes, ASmallAngleOfTheMeshIsTold) {
 }
 
 TEST(DiscretizationNotes, FlatCellsTellBetweenWhichFracturesTheyLie) {
-  // Parallel lines 1e-5 m apart, along x, along y, and along a line between.
+  // Parallel lines 1e-5 m apart: along x, along y, the mirror image of the first, and along a line between.
   const auto fractured = [](const std::string& crack, const std::string& other) {
     return run_of("fractured.yaml",
                   {"geometry.fractures.crack.points=" + crack, "geometry.fractures.other={points: " + other + "}"});
@@ -87,24 +87,36 @@ TEST(DiscretizationNotes, FlatCellsTellBetweenWhichFracturesTheyLie) {
   const char* between = "between fractures 'crack' and 'other', which are 1e-05 m apart there";
   EXPECT_THAT(told("[[0.3 m, 0.5 m], [0.7 m, 0.5 m]]", "[[0.3 m, 0.50001 m], [0.7 m, 0.50001 m]]"), HasSubstr(between));
   EXPECT_THAT(told("[[0.5 m, 0.3 m], [0.5 m, 0.7 m]]", "[[0.50001 m, 0.3 m], [0.50001 m, 0.7 m]]"), HasSubstr(between));
+  EXPECT_THAT(told("[[0.3 m, 0.5 m], [0.7 m, 0.5 m]]", "[[0.3 m, 0.49999 m], [0.7 m, 0.49999 m]]"), HasSubstr(between));
   EXPECT_THAT(told("[[0.3 m, 0.3 m], [0.7 m, 0.6 m]]", "[[0.299994 m, 0.300008 m], [0.699994 m, 0.600008 m]]"),
               HasSubstr(between));
   EXPECT_THAT(told("[[0.3 m, 0.5 m], [0.7 m, 0.5 m]]", "[[0.3 m, 0.6 m], [0.7 m, 0.6 m]]"), Not(HasSubstr("apart")));
 }
 
 TEST(DiscretizationNotes, CellsTooFlatForMpsaAreRefusedWithTheirPlace) {
-  const Folder folder;
-  const Outcome outcome =
-      sprekk_command(call("run", "fractured.yaml",
-                          {"geometry.box={x: [0 m, 2 m], y: [0 m, 2 m]}", "mesh={size: 0.2 m, fracture_size: 50 mm}",
-                           "geometry.fractures.crack.points=[[0.5 m, 1 m], [1.5 m, 1 m]]",
-                           "geometry.fractures.other={points: [[0.5 m, 0.99999 m], [1.5 m, 1.00001 m]]}",
-                           "components.conduit.injection.well.at=[1 m, 1 m]"}),
-                     folder.path());
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("the mesh has an angle of 0.00057 degrees at (0.96"),
-                                 HasSubstr("between fractures 'crack' and 'other', which are "),
-                                 HasSubstr("move lines apart, join them, or let them meet at a larger angle")));
+  // Lines that cross at 2e-5 rad in (1, 1) m: as given, turned by 90 degrees, and turned by 37 degrees.
+  const struct {
+    const char *crack, *other, *place;
+  } crossings[] = {
+      {"[[0.5 m, 1 m], [1.5 m, 1 m]]", "[[0.5 m, 0.99999 m], [1.5 m, 1.00001 m]]", "at (0.96"},
+      {"[[1 m, 0.5 m], [1 m, 1.5 m]]", "[[1.00001 m, 0.5 m], [0.99999 m, 1.5 m]]", "at (1, 0.96"},
+      {"[[0.600682245 m, 0.699092489 m], [1.399317755 m, 1.300907511 m]]",
+       "[[0.600688263 m, 0.699084502 m], [1.399311737 m, 1.300915498 m]]", "at (0.97"},
+  };
+  for (const auto& crossing : crossings) {
+    const Folder folder;
+    const Outcome outcome =
+        sprekk_command(call("run", "fractured.yaml",
+                            {"geometry.box={x: [0 m, 2 m], y: [0 m, 2 m]}", "mesh={size: 0.2 m, fracture_size: 50 mm}",
+                             std::string("geometry.fractures.crack.points=") + crossing.crack,
+                             std::string("geometry.fractures.other={points: ") + crossing.other + "}",
+                             "components.conduit.injection.well.at=[1 m, 1 m]"}),
+                       folder.path());
+    EXPECT_EQ(outcome.code, 1) << crossing.crack;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(std::string("the mesh has an angle of 0.00057 degrees ") + crossing.place),
+                                   HasSubstr("between fractures 'crack' and 'other', which are "),
+                                   HasSubstr("move lines apart, join them, or let them meet at a larger angle")));
+  }
 }
 
 TEST(DiscretizationNotes, FracturesThatMeetAtASmallAngleAreNamed) {

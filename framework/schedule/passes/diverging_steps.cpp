@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/assert.hpp"
+
 namespace sprekk {
 
 bool DivergingSteps::is_no_better(const StepTime& step, double factor) {
@@ -11,6 +13,11 @@ bool DivergingSteps::is_no_better(const StepTime& step, double factor) {
   if (is_same && factor > better * longest_->factor) return step.dt < much_shorter * longest_->step.dt;
   longest_ = {step, factor, largest};
   return false;
+}
+
+double DivergingSteps::largest() const {
+  SPREKK_EXPECT(longest_.has_value());
+  return longest_->largest;
 }
 
 }  // namespace sprekk

@@ -13,8 +13,8 @@ class DivergingSteps {
   /// To be called when the passes of `step` diverge; `factor`: by which changes grow from pass to pass. Returns whether
   /// the step is much shorter than one from the same start that diverged no faster.
   bool is_no_better(const StepTime& step, double factor);
-  /// The largest factor of any step from the start of the last one.
-  double largest() const { return longest_->largest; }
+  /// The largest factor of any step from the start of the last one. To be called after is_no_better.
+  double largest() const;
 
  private:
   struct Divergence {

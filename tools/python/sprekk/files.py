@@ -99,9 +99,10 @@ def number(text, path, line, column):
 def read_table(path):
     """{column: values}; numbers as an array with nan where the table is empty, texts as a list.
 
-    Columns whose names have a unit are numbers. ValueError where one of them is not, and where a row is not complete."""
+    A last row without the end of its line was cut short when its writer ended, and is left out, as Sprekk does itself. Columns whose
+    names have a unit are numbers. ValueError where one of them is not, and where another row is not complete."""
     with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
+        rows = list(csv.reader(line for line in file if line.endswith("\n")))
     for line, row in enumerate(rows, 1):
         if len(row) != len(rows[0]):
             raise ValueError(f"{path}, line {line}: {len(row)} cells, and {len(rows[0])} columns (the file is cut off or damaged)")
