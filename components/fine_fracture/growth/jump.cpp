@@ -14,11 +14,12 @@ constexpr double part_of_increment = 0.25;  ///< that the leading tip advances f
 constexpr double length_power = 0.35;       ///< Eq. 13 of the paper
 constexpr double largest_turn = 0.3;        ///< rad, between two trials
 constexpr double close_enough = 1e-3;       ///< |ln(K_eq/K_IC)| of the leading tip where a jump ends
-constexpr int most_closings = 6;            ///< trials of regula falsi
 constexpr double least_part = 0.1;          ///< of the last part that regula falsi leaves
-constexpr double shortest_retreat = 1e-2;  ///< of an increment: a trial that cannot be solved is shortened down to this
-constexpr double at_limit = 1e-9;          ///< of a length that is at its limit, but for rounding
-constexpr double least_load = 1e-3;        ///< for the logarithm
+constexpr double shortest_part = 1e-2;  ///< of an increment: a trial that cannot be solved is shortened down to this
+constexpr double least_drop = 0.02;     ///< ln(K_eq/K_IC) by which two trials this near to each other differ at a drop
+constexpr double drop_part = 1e-4;      ///< of an increment: a drop is found to this
+constexpr double at_limit = 1e-9;       ///< of a length that is at its limit, but for rounding
+constexpr double least_load = 1e-3;     ///< for the logarithm
 
 double log_load(double load) { return std::log(std::max(least_load, load)); }
 
@@ -52,6 +53,7 @@ FrontJump::FrontJump(std::vector<FrontTip> tips, const std::vector<FrontState>& 
     now_.angle[i] = tip.first_angle;
   }
   from_ = now_;
+  from_.excess = log_load(largest_load(without_growth));
   advance(without_growth);
 }
 
@@ -66,12 +68,17 @@ void FrontJump::stop(int tip) {
   }
 }
 
-/// From the last trial, `from_`, to the next one.
-void FrontJump::advance(const std::vector<FrontState>& states) {
-  now_ = from_;
+double FrontJump::largest_load(const std::vector<FrontState>& states) const {
   double largest = 0;
   for (int i = 0; i < count(); ++i)
     if (counts(i, states)) largest = std::max(largest, states[i].load);
+  return largest;
+}
+
+/// From the last trial, `from_`, to the next one.
+void FrontJump::advance(const std::vector<FrontState>& states) {
+  now_ = from_;
+  const double largest = largest_load(states);
   bool has_advanced = false;
   for (int i = 0; i < count(); ++i) {
     if (!counts(i, states)) continue;
@@ -89,52 +96,64 @@ void FrontJump::advance(const std::vector<FrontState>& states) {
   if (!has_advanced) verdict_ = Front::Verdict::too_far;
 }
 
-/// The next trial between one above the toughness and one below it.
+/// The next trial between one above the toughness and one below it, by regula falsi. From two trials on one side in
+/// turn on the interval is halved, since the load may drop within it.
 void FrontJump::interpolate() {
-  const double part =
-      std::clamp(from_.excess / (from_.excess - to_.excess), closings_ > 1 ? least_part : 0.0, 1 - least_part);
+  const double zero = from_.excess / (from_.excess - to_.excess);
+  const double part = halves_ ? 0.5 : std::clamp(zero, least_part, 1 - least_part);
   for (int i = 0; i < count(); ++i) {
     now_.length[i] = from_.length[i] + part * (to_.length[i] - from_.length[i]);
     now_.angle[i] = from_.angle[i] + part * (to_.angle[i] - from_.angle[i]);
   }
 }
 
+/// Whether no tip advances by more than this part of an increment between `from_` and the place.
+bool FrontJump::is_near(const Place& place, double part) const {
+  for (int i = 0; i < count(); ++i)
+    if (place.length[i] - from_.length[i] > part * options_.increment) return false;
+  return true;
+}
+
 bool FrontJump::retreat() {
-  double longest = 0;
-  for (int i = 0; i < count(); ++i) {
-    now_.length[i] = 0.5 * (from_.length[i] + now_.length[i]);
-    longest = std::max(longest, now_.length[i] - from_.length[i]);
-  }
-  return longest > shortest_retreat * options_.increment;
+  for (int i = 0; i < count(); ++i) now_.length[i] = 0.5 * (from_.length[i] + now_.length[i]);
+  return !is_near(now_, shortest_part);
 }
 
 void FrontJump::learn(const std::vector<FrontState>& states) {
   SPREKK_EXPECT(verdict_ == Front::Verdict::again);
   SPREKK_EXPECT(static_cast<int>(states.size()) == count(), states.size(), count());
-  ++trials_;
-  now_.excess = log_load(0);
-  for (int i = 0; i < count(); ++i) {
-    now_.load[i] = counts(i, states) ? states[i].load : 0;
-    if (counts(i, states)) now_.excess = std::max(now_.excess, log_load(states[i].load));
-  }
-  worst_ = now_.excess;
-  const bool is_near = std::abs(now_.excess) <= close_enough;
-  if (is_near || closings_ >= most_closings) {
+  for (int i = 0; i < count(); ++i) now_.load[i] = counts(i, states) ? states[i].load : 0;
+  worst_ = now_.excess = log_load(largest_load(states));
+  if (std::abs(now_.excess) <= close_enough || is_last_) {
     conclude();
     verdict_ = Front::Verdict::found;
   } else if (now_.excess > 0) {
     conclude();
     from_ = now_;
     if (is_closing_)
-      interpolate();
+      close_in();
     else
       advance(states);
   } else {
     to_ = now_;
     is_closing_ = true;
-    interpolate();
+    close_in();
   }
-  if (is_closing_) ++closings_;
+}
+
+/// After a trial that is an end of the interval between `from_` and `to_`.
+void FrontJump::close_in() {
+  const bool is_below = now_.excess < 0;
+  halves_ = halves_ || is_below == was_below_;
+  was_below_ = is_below;
+  const bool drops = from_.excess - to_.excess > least_drop;
+  if (!is_near(to_, drops ? drop_part : shortest_part)) return interpolate();
+  if (drops) drop_ = Drop{std::exp(from_.excess), std::exp(to_.excess)};
+  is_last_ = true;
+  now_ = to_;
+  if (!is_below) return;  // one more trial, for the state there
+  conclude();
+  verdict_ = Front::Verdict::found;
 }
 
 /// Adds the part from `from_` to the trial to what is known of the jump.

@@ -1,6 +1,7 @@
 // The advance of tips at one time where no stable growth is found: in small parts, until the load has come down.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "components/fine_fracture/growth/front.hpp"
@@ -12,8 +13,9 @@ namespace sprekk::fine_fracture {
 /// is used as Front is: trials with lengths() and angles(), and learn() after each.
 ///
 /// In each trial tips above the toughness advance by lengths in the ratio (G_i/max G)^0.35 (Eq. 13 of the paper), and
-/// turn to where K_II vanishes by the expansion of a kink. When all are below it, the last part is shortened by regula
-/// falsi until the largest load is at the toughness.
+/// turn to where K_II vanishes by the expansion of a kink. When all are below it, the last part is shortened until the
+/// largest load is at the toughness. Where the load drops from above the toughness to below it, as at the border of a
+/// tougher layer, the jump ends behind the drop, by at most 1e-4 increments.
 class FrontJump {
  public:
   FrontJump(std::vector<FrontTip> tips, const std::vector<FrontState>& without_growth, const FrontOptions& options);
@@ -41,6 +43,14 @@ class FrontJump {
   };
   const Record& record(int tip) const { return records_[tip]; }
 
+  /// The largest K_eq over K_IC of all tips in the two trials between which the load drops, less than 1e-4 increments
+  /// apart.
+  struct Drop {
+    double before = 0, behind = 0;
+  };
+  /// Where the jump has ended because the load drops. Empty where it has ended at the toughness.
+  const std::optional<Drop>& drop() const { return drop_; }
+
  private:
   /// Positions of all tips, and their loads there.
   struct Place {
@@ -53,8 +63,11 @@ class FrontJump {
     const bool has_segment = tips_[tip].covered > 0 || tips_[tip].first_length > 0;
     return has_segment && !is_stopped_[tip] && states[tip].is_evaluated;
   }
+  double largest_load(const std::vector<FrontState>& states) const;  ///< K_eq over K_IC
   void advance(const std::vector<FrontState>& states);
   void interpolate();
+  void close_in();
+  bool is_near(const Place& place, double part) const;
   void conclude();
 
   std::vector<FrontTip> tips_;
@@ -62,9 +75,12 @@ class FrontJump {
   std::vector<char> is_laid_, is_stopped_;
   Place from_, to_, now_;    ///< above the toughness; below it, if known; the trial
   bool is_closing_ = false;  ///< whether `to_` is known
+  bool was_below_ = false;   ///< whether the trial before the last one was below the toughness
+  bool halves_ = false;      ///< the interval, in place of regula falsi
+  bool is_last_ = false;     ///< the trial
+  std::optional<Drop> drop_;
   std::vector<Record> records_;
   Front::Verdict verdict_ = Front::Verdict::again;
-  int trials_ = 0, closings_ = 0;
   double worst_ = 0;
 };
 

@@ -61,7 +61,14 @@ FrontSearch::Verdict TipsFront::end_jump(Tips& there) {
                      record.largest_load, energy),
          energy});
   }
-  if (!is_jump) note_rest(jump_->worst());
+  if (const auto& drop = jump_->drop())
+    notes_.push_back({tips_.name() + " rests where its load drops",
+                      fmt::format("tips of {} come to rest where K_eq/K_IC drops from {:.3g} to {:.3g}, as at the "
+                                  "border of a tougher layer or where the walls close",
+                                  tips_.name(), drop->before, drop->behind),
+                      drop->before - drop->behind});
+  else if (!is_jump)
+    note_rest(jump_->worst());
   return finish(there);
 }
 

@@ -77,6 +77,7 @@ TEST(FrontJump, ACrackWithAFixedVolumeIsStable) {
   const FrontJump jump = crack.jump();
   ASSERT_EQ(jump.verdict(), Front::Verdict::found);
   EXPECT_FALSE(jump.record(0).is_unstable);
+  EXPECT_FALSE(jump.drop().has_value());
   EXPECT_NEAR(crack.half_length(jump.length(0)), rest, 1e-3 * rest);
   // G/G_c = 1.44 (start/a)^3; trapezoids over parts of a quarter of an increment.
   const double surplus = 0.72 * start * (1 - std::pow(start / rest, 2)) - (rest - start);
@@ -94,6 +95,31 @@ TEST(FrontJump, ComesToRestBehindAWeakLayer) {
   EXPECT_TRUE(jump.record(0).is_unstable);
   EXPECT_NEAR(crack.half_length(jump.length(0)), top + (0.001 + rise) / fall, 1e-3 / fall);
   EXPECT_NEAR(jump.angle(0), 0.4, 1e-12);
+}
+
+/// At the border of a tougher layer the load drops across the toughness: the jump ends behind it by at most 1e-4
+/// increments, wherever between two trials the border lies, however far the load drops, and whether it rises or falls
+/// on the way.
+TEST(FrontJump, ComesToRestBehindABorder) {
+  for (const double rate : {-2.0, 0.5, 15.0})
+    for (const double behind_it : {0.98, 0.81, 0.2})
+      for (const double border : {0.0004, 0.0011, 0.00249, 0.0051, 0.00742, 0.0099}) {
+        const Crack crack{
+            [=](double a) { return a - start > border ? behind_it : std::exp(0.05 + rate * (a - start)); }};
+        int trials = 0;
+        FrontJump jump({crack.tip()}, crack.states(0.008, 0.4), crack.options());
+        for (; trials < 30 && jump.verdict() == Front::Verdict::again; ++trials)
+          jump.learn(crack.states(jump.length(0), jump.angle(0)));
+        SCOPED_TRACE(testing::Message() << "rate " << rate << ", behind it " << behind_it << ", border " << border);
+        ASSERT_EQ(jump.verdict(), Front::Verdict::found);
+        const double behind = crack.half_length(jump.length(0)) - start - border;
+        EXPECT_GT(behind, 0);
+        EXPECT_LE(behind, 1e-4 * increment);
+        EXPECT_LE(trials, 20);
+        ASSERT_TRUE(jump.drop().has_value());
+        EXPECT_NEAR(jump.drop()->before, crack.load(start + (1 - 1e-9) * border), 0.002);
+        EXPECT_DOUBLE_EQ(jump.drop()->behind, behind_it);
+      }
 }
 
 /// Two tips in mirrored directions that share their fluid stay mirrored.
