@@ -92,6 +92,9 @@ void TipsFront::add(Tips::Tip& tip) {
       start.angle = angle_of(end - start.anchor);
       segment.before.push_back(start.anchor);
       tip.next_start = place.direction;
+    } else if (!tip.next_start && !tip.now.way.empty()) {
+      // The first segment behind a kink was straight when the mesh began to follow it; from then on it is an arc.
+      tip.next_start = tip.now.way.front().direction;
     }
     start.is_bent = tip.next_start.has_value();
     if (start.is_bent)

@@ -9,15 +9,13 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double full_segment = 1;          ///< of an increment: a longer segment is divided
-constexpr double rest_of_segment = 0.5;     ///< of an increment: what of a divided segment is laid anew
-constexpr double longest_segment = 1.5;     ///< of an increment: a longer one is divided in a short step, too
-constexpr double turn_of_segment = 0.06;    ///< rad: one that turns further is divided when it is shorter
-constexpr double least_full = 0.4;          ///< of the length of a straight segment that is divided
-constexpr double least_advance = 0.05;      ///< of an increment: a step in which a tip advances by less divides nothing
-constexpr double least_first_part = 0.2;    ///< of an increment: what stays of a first segment behind a kink
-constexpr double largest_first_part = 0.8;  ///< of a first segment: the same
-constexpr double on_the_way = 0.2;          ///< of an increment: of nearer places only one gives a direction
+constexpr double full_segment = 1;        ///< of an increment: a longer segment is divided
+constexpr double rest_of_segment = 0.5;   ///< of an increment: what of a divided segment is laid anew
+constexpr double longest_segment = 1.5;   ///< of an increment: a longer one is divided in a short step, too
+constexpr double turn_of_segment = 0.06;  ///< rad: one that turns further is divided when it is shorter
+constexpr double least_full = 0.4;        ///< of the length of a straight segment that is divided
+constexpr double least_advance = 0.05;    ///< of an increment: a step in which a tip advances by less divides nothing
+constexpr double on_the_way = 0.2;        ///< of an increment: of nearer places only one gives a direction
 
 }  // namespace
 
@@ -31,26 +29,19 @@ double TipsFront::part_by_turn(const Tips::Tip& tip) const {
   return turn > turn_of_segment ? std::max(least_full, turn_of_segment / turn) : 1;
 }
 
-/// The length of the last segment that is fixed from now on, m. The first segment behind a kink ends where the tip was
-/// when the mesh began to follow it: there the path is most curved, and no earlier place tells its direction.
+/// The length of the last segment that is fixed from now on, m.
 double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const {
-  const std::vector<PlaceOnWay>& way = tip.now.way;
   const double increment = tips_.options_.growth.increment;
-  if (way.empty()) return 0;
+  if (tip.now.way.empty()) return 0;
   // A step in which the tip hardly advances keeps its cells: dividing one would change K by more than the advance does.
   const bool is_short = start.speed > 0 && start.speed * dt_ < least_advance * increment;
   if (is_short && start.covered < longest_segment * increment) return 0;
-  if (!tip.now.segment_start)
-    for (const PlaceOnWay& place : way) {
-      const double length = (place.position - start.anchor).norm();
-      if (length > least_first_part * increment && length < largest_first_part * start.covered) return length;
-    }
   const double full = full_segment * increment * part_by_turn(tip);
   return start.covered > full ? start.covered - rest_of_segment * full : 0;
 }
 
 /// The places of the tip in the last segment of the new mesh. `before`: the places in the last segment of the mesh
-/// before the step. The first place behind a kink is kept even if the next ones are near: the segment is divided there.
+/// before the step.
 std::vector<PlaceOnWay> TipsFront::way_to(const Tips& there, const Tips::Tip& tip,
                                           const std::vector<PlaceOnWay>& before) const {
   if (!tip.now.is_extendable) return {};
@@ -58,11 +49,8 @@ std::vector<PlaceOnWay> TipsFront::way_to(const Tips& there, const Tips::Tip& ti
   const Point end = there.position(tip, {}), ahead = there.direction(tip);
   const Point anchor = end - there.last_cell(tip.end).measure * ahead;
   std::vector<PlaceOnWay> way;
-  for (const PlaceOnWay& place : before) {
-    const bool is_first = !tip.now.segment_start && &place == &before.front();
-    if ((place.position - anchor).dot(ahead) > least && (is_first || (place.position - end).norm() > least))
-      way.push_back(place);
-  }
+  for (const PlaceOnWay& place : before)
+    if ((place.position - anchor).dot(ahead) > least && (place.position - end).norm() > least) way.push_back(place);
   way.push_back({end, there.end_direction(tip)});
   return way;
 }
