@@ -1,13 +1,12 @@
 #include "couplers/two_level/pressure_near_tips.hpp"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
 
-#include "framework/dense/cholesky.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::couplers {
@@ -59,11 +58,8 @@ struct PressureNearTips::Region {
   // For one set of walls that let fluid through.
   std::vector<bool> conducting;
   std::vector<int> unknown;  ///< of each node, or none
-  Matrix stiffness, by_given;
-  Matrix means, means_by_given;
-  Eigen::SimplicialLLT<Matrix> factors;
-  Eigen::MatrixXd solved_means;
-  std::optional<DenseCholesky> of_means;
+  Matrix by_given;  ///< what nodes with values contribute to the equations of the others, and to the means of the cells
+  Eigen::SparseLU<Matrix> factors;
 
   std::optional<Vector> solution;
   double weight = 1;
@@ -231,7 +227,9 @@ void PressureNearTips::Region::factorize(const std::vector<std::optional<double>
   int count = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (!conducting[i]) unknown[i] = count++;
-  std::vector<Triplet> free, given, mean, mean_given;
+  // The least integral of the squared gradient under the condition that each cell has its mean: after the unknown nodes
+  // come the multipliers of these conditions.
+  std::vector<Triplet> entries, given;
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (const std::array<int, 3>& t : triangles[c]) {
       const Point ab = nodes[t[1]] - nodes[t[0]], ac = nodes[t[2]] - nodes[t[0]];
@@ -239,31 +237,32 @@ void PressureNearTips::Region::factorize(const std::vector<std::optional<double>
       SPREKK_ASSERT(area > 0, area);
       const std::array<Point, 3> opposite{nodes[t[2]] - nodes[t[1]], nodes[t[0]] - nodes[t[2]],
                                           nodes[t[1]] - nodes[t[0]]};
+      const int mean = count + static_cast<int>(c);
       for (int i = 0; i < 3; ++i) {
+        const int row = unknown[t[i]];
         const double part = area / 3 / mesh.cell_measure[cells[c]];
-        (unknown[t[i]] == none ? mean_given : mean)
-            .emplace_back(static_cast<int>(c), unknown[t[i]] == none ? t[i] : unknown[t[i]], part);
-        if (unknown[t[i]] == none) continue;
-        for (int k = 0; k < 3; ++k)
-          (unknown[t[k]] == none ? given : free)
-              .emplace_back(unknown[t[i]], unknown[t[k]] == none ? t[k] : unknown[t[k]],
-                            opposite[i].dot(opposite[k]) / (4 * area));
+        if (row == none) {
+          given.emplace_back(mean, t[i], part);
+          continue;
+        }
+        entries.emplace_back(mean, row, part);
+        entries.emplace_back(row, mean, part);
+        for (int k = 0; k < 3; ++k) {
+          const double value = opposite[i].dot(opposite[k]) / (4 * area);
+          if (unknown[t[k]] == none)
+            given.emplace_back(row, t[k], value);
+          else
+            entries.emplace_back(row, unknown[t[k]], value);
+        }
       }
     }
-  const auto fill = [](Matrix& matrix, Eigen::Index rows, Eigen::Index columns, const std::vector<Triplet>& entries) {
-    matrix.resize(rows, columns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-  };
-  const auto all = static_cast<Eigen::Index>(nodes.size()), cell_count = static_cast<Eigen::Index>(cells.size());
-  fill(stiffness, count, count, free);
-  fill(by_given, count, all, given);
-  fill(means, cell_count, count, mean);
-  fill(means_by_given, cell_count, all, mean_given);
-  factors.compute(stiffness);
-  if (factors.info() != Eigen::Success) throw std::runtime_error("the pressure around a tip has no values on its rim");
-  solved_means = factors.solve(Eigen::MatrixXd(means.transpose()));
-  of_means.emplace(means * solved_means);
-  if (!of_means->is_positive_definite()) throw std::runtime_error("the pressure around a tip is not determined");
+  const int size = count + static_cast<int>(cells.size());
+  Matrix equations(size, size);
+  equations.setFromTriplets(entries.begin(), entries.end());
+  by_given.resize(size, static_cast<Eigen::Index>(nodes.size()));
+  by_given.setFromTriplets(given.begin(), given.end());
+  factors.compute(equations);
+  if (factors.info() != Eigen::Success) throw std::runtime_error("the pressure around a tip is not determined");
 }
 
 void PressureNearTips::Region::solve(const Given& given) {
@@ -301,9 +300,9 @@ void PressureNearTips::Region::solve(const Given& given) {
   }
   Vector cell_means(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) cell_means[c] = given.cells[cells[c]];
-  const Vector without = factors.solve(Vector(-(by_given * fixed)));
-  const Vector lack = means * without + means_by_given * fixed - cell_means;
-  const Vector found = without - solved_means * of_means->solve_columns(lack);
+  Vector right = -(by_given * fixed);
+  right.tail(cell_means.size()) += cell_means;
+  const Vector found = factors.solve(right);
   solution = fixed;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (unknown[i] != none) (*solution)[i] = found[unknown[i]];

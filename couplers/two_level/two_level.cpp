@@ -20,7 +20,7 @@ namespace {
 
 struct TwoLevelOptions {
   std::string reconstruction = "wall_traction";
-  std::string pore_pressure = "fitted";
+  std::string pore_pressure = "near_tips";
   std::optional<double> propagation_threshold;
   Spec spec() {
     Spec spec("two_level",
@@ -42,15 +42,14 @@ struct TwoLevelOptions {
         {.doc = "What the walls of the fine level take from the coarse one.", .source = "the paper's sec. 4.4.1"});
     spec.choice(
         "pore_pressure", pore_pressure,
-        {{"fitted",
-          "linear functions are fitted to the cells; near tips that exchange fluid with the rock they are too smooth"},
-         {"near_tips",
-          "beside tips the pressure goes with the square root of the distance, and has the means of the cells: "
-          "the least integral of its squared gradient, with the pressures at the walls"}},
-        {.doc =
-             "How the pore pressure that loads the fine level follows from the cells. With near_tips factors of open "
-             "fractures are two to ten times as accurate shortly after an injection has begun; but where the first "
-             "segment behind a kink is divided, they move by 1 to 2.5 %, so that growth is less smooth there."});
+        {{"near_tips",
+          "where fluid passes the walls, the pressure beside tips goes with the square root of the distance, and has "
+          "the means of the cells: the least integral of its squared gradient, with the pressures at the walls; "
+          "elsewhere as fitted"},
+         {"fitted",
+          "linear functions are fitted to the cells; near tips that exchange fluid with the rock they are too smooth"}},
+        {.doc = "How the pore pressure that loads the fine level follows from the cells. With near_tips factors of "
+                "open fractures are two to ten times as accurate shortly after an injection has begun."});
     spec.quantity("propagation_threshold", propagation_threshold,
                   {.range = positive(),
                    .doc = "The part of the coarse mesh size at which a path is handed to the coarse level; by default "
@@ -90,10 +89,6 @@ class TwoLevel : public Coupler, public TipSurroundings {
   void assemble(Assembly&, const StepTime&) const override {}
 
   void note_input(Notes& notes) const override {
-    if (options_.pore_pressure == "near_tips" && !pressure_by_exchange())
-      notes.add(name() + " without exchange",
-                "the pore pressure near tips is that of a fit (`pore_pressure: near_tips` is for fluid that passes the "
-                "walls of fractures and loads the rock, and there is none) remove it, or add a wall_exchange");
     if (fluid_left_out_.empty()) return;
     notes.add(
         name() + " without " + fluid_left_out_,

@@ -7,6 +7,7 @@
 #include <complex>
 #include <functional>
 #include <random>
+#include <string>
 
 #include "tests/components/meshes.hpp"
 
@@ -56,6 +57,23 @@ PressureNearTips::Given given(const Mesh& mesh, const Function& f) {
   return given;
 }
 
+/// The mean over a cell, from the midpoints of many small triangles.
+double mean_over(const Mesh& mesh, int cell, const Function& f) {
+  const Ring& nodes = mesh.cell_nodes[cell];
+  const Point &a = mesh.nodes[nodes[0]], &b = mesh.nodes[nodes[1]], &c = mesh.nodes[nodes[2]];
+  constexpr int n = 60;
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n - i; ++k)
+      for (const double third : {1.0 / 3, 2.0 / 3}) {
+        if (third > 0.5 && i + k + 1 >= n) continue;
+        sum += f(a + (i + third) / n * (b - a) + (k + third) / n * (c - a));
+        ++count;
+      }
+  return sum / count;
+}
+
 /// The largest error in the cells around the tip, and the mean of each cell over that which was given, less 1.
 struct Errors {
   double largest = 0, mean = 0;
@@ -78,19 +96,8 @@ Errors errors(const Mesh& mesh, const Function& f) {
       const Point x = a + s * (b - a) + t * (c - a);
       errors.largest = std::max(errors.largest, std::abs(near.at(*near.place(cell, x)).value - f(x)));
     }
-    // Midpoints of many small triangles.
-    constexpr int n = 60;
-    double sum = 0;
-    int count = 0;
-    for (int i = 0; i < n; ++i)
-      for (int k = 0; k < n - i; ++k)
-        for (const double third : {1.0 / 3, 2.0 / 3}) {
-          if (third > 0.5 && i + k + 1 >= n) continue;
-          const Point x = a + (i + third) / n * (b - a) + (k + third) / n * (c - a);
-          sum += near.at(*near.place(cell, x)).value;
-          ++count;
-        }
-    errors.mean = std::max(errors.mean, std::abs(sum / count - all.cells[cell]));
+    const double mean = mean_over(mesh, cell, [&](const Point& x) { return near.at(*near.place(cell, x)).value; });
+    errors.mean = std::max(errors.mean, std::abs(mean - all.cells[cell]));
   }
   return errors;
 }
@@ -115,6 +122,67 @@ TEST(PressureNearTips, HasTheRootAtATip) {
       EXPECT_LT(found.largest, std::sqrt(1.5 * size / 16) / 4) << angle << " " << size;
       EXPECT_LT(found.mean, 3e-4 * std::sqrt(size)) << angle << " " << size;
     }
+  }
+}
+
+// Rings that touch are one region: its cost is that of a sparse system, however many tips it has.
+TEST(PressureNearTips, OfManyTipsIsLinearWhereThePressureIs) {
+  Geometry geometry = box(1, 1);
+  for (int row = 0; row < 8; ++row)
+    for (int column = 0; column < 8; ++column) {
+      const double x = 0.09 + 0.11 * column, y = 0.11 + 0.11 * row;
+      geometry.fractures.emplace_back();
+      geometry.fractures.back().name = "f" + std::to_string(8 * row + column);
+      geometry.fractures.back().points = {{x, y}, {x + 0.05, y}};
+    }
+  const Mesh mesh = generate_mesh(geometry, unstructured(0.02, 0.2));
+  const auto f = [](const Point& x) { return 2 - 3 * x[1]; };
+  PressureNearTips near(mesh);
+  near.set(given(mesh, f));
+  int places = 0;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    if (const auto place = near.place(cell, mesh.cell_center[cell])) {
+      ++places;
+      const PressureNearTips::Value found = near.at(*place);
+      EXPECT_NEAR(found.value, f(mesh.cell_center[cell]), 1e-12);
+      EXPECT_DOUBLE_EQ(found.weight, 1);
+    }
+  EXPECT_GT(places, 3000);
+}
+
+// A pressure that falls from 1 at the walls to 0 over a small part of a cell makes means that do not tell how it falls.
+TEST(PressureNearTips, CountsLessTheThinnerTheFrontIs) {
+  constexpr double size = 0.05;
+  for (const double angle : {0.0, 0.4}) {
+    const Mesh mesh = with_tip(size, angle);
+    const Point along(std::cos(angle), std::sin(angle));
+    const auto weight = [&](double thickness) {
+      const auto f = [&](const Point& x) {
+        const double ahead = along.dot(x - tip);
+        const double distance =
+            ahead > 0 ? (x - tip).norm() : std::abs(along[0] * (x - tip)[1] - along[1] * (x - tip)[0]);
+        return std::exp(-distance / thickness);
+      };
+      PressureNearTips near(mesh);
+      PressureNearTips::Given all = given(mesh, f);
+      int last = 0;
+      for (int cell = 0; cell < mesh.cell_count(); ++cell)
+        if (near.place(cell, mesh.cell_center[cell])) all.cells[last = cell] = mean_over(mesh, cell, f);
+      near.set(all);
+      return near.at(*near.place(last, mesh.cell_center[last])).weight;
+    };
+    EXPECT_DOUBLE_EQ(weight(2 * size), 1);
+    EXPECT_DOUBLE_EQ(weight(0.02 * size), 0);
+    double before = 1;
+    int between = 0;
+    for (double thickness = size; thickness > 0.02 * size; thickness *= 0.8) {
+      const double now = weight(thickness), next = weight((1 + 1e-6) * thickness);
+      EXPECT_LE(now, before + 1e-12) << angle << " " << thickness;
+      EXPECT_NEAR(now, next, 1e-4) << angle << " " << thickness;
+      between += now > 0 && now < 1;
+      before = now;
+    }
+    EXPECT_GE(between, 2) << angle;
   }
 }
 
