@@ -206,11 +206,10 @@ Triangulated triangulate(const DrawingFrame& frame, const FineGeometry& geometry
 std::optional<OutsideMesh> made_by_rounding(const FineGeometry& geometry, const std::vector<TipRoom>& rooms,
                                             const FineMeshOptions& options, const Point& anchor, Triangulated& made) {
   if (options.size_limit) return std::nullopt;
-  const std::optional<RoundedGeometry> rounded = rounded_geometry(geometry, rooms, anchor);
-  if (!rounded) return std::nullopt;
+  const RoundedGeometry rounded = rounded_geometry(geometry, rooms, anchor);
   try {
-    made = triangulate(rounded->frame, rounded->geometry, rounded->rooms, rounded->bends,
-                       rounded_options(options, rounded->frame.unit()));
+    made = triangulate(rounded.frame, rounded.geometry, rounded.rooms, rounded.bends,
+                       rounded_options(options, rounded.frame.unit()));
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
@@ -222,7 +221,8 @@ std::optional<OutsideMesh> made_by_rounding(const FineGeometry& geometry, const 
 FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& options, TriangulationKeeper* keeper) {
   validate(geometry);
   validate(options);
-  const std::vector<TipRoom> rooms = tip_rooms(geometry, options.tip_size);
+  const std::vector<TipRoom> rooms =
+      tip_rooms(geometry, options.tip_size, keeper ? StraightPoints::end_it : StraightPoints::nothing);
   const auto built = [&](const OutsideMesh& mesh) {
     return Builder(geometry, rooms, options.sectors, build_mesh(mesh.raw)).take();
   };

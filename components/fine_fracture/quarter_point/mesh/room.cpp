@@ -26,7 +26,7 @@ Walk walk_from(const CrackPath& crack, bool from_last) {
   return walk;
 }
 
-TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double largest_radius) {
+TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double largest_radius, StraightPoints points) {
   const Walk walk = walk_from(geometry.cracks[c], is_last);
   const Point tip = walk.points[0];
   const Point along = (walk.points[1] - tip).normalized();
@@ -36,6 +36,7 @@ TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double larges
   while (segments < walk.walls.size()) {
     const Point step = (walk.points[segments + 1] - walk.points[segments]).normalized();
     if (std::abs(cross(along, step)) > largest_bend || along.dot(step) < 0) break;
+    if (segments > 0 && points == StraightPoints::end_it && walk.walls[segments] == walk.walls[segments - 1]) break;
     ++segments;
     room.straight = (walk.points[segments] - tip).norm();
     if (std::all_of(walk.walls.begin(), walk.walls.begin() + segments, [&](auto w) { return w == walk.walls[0]; })) {
@@ -67,11 +68,14 @@ TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double larges
 
 }  // namespace
 
-std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radius) {
+std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radius, StraightPoints points) {
   std::vector<TipRoom> rooms;
+  const auto add = [&](std::size_t crack, bool is_last) {
+    rooms.push_back(room_of(geometry, static_cast<int>(crack), is_last, largest_radius, points));
+  };
   for (std::size_t c = 0; c < geometry.cracks.size(); ++c) {
-    if (geometry.cracks[c].first_is_tip) rooms.push_back(room_of(geometry, static_cast<int>(c), false, largest_radius));
-    if (geometry.cracks[c].last_is_tip) rooms.push_back(room_of(geometry, static_cast<int>(c), true, largest_radius));
+    if (geometry.cracks[c].first_is_tip) add(c, false);
+    if (geometry.cracks[c].last_is_tip) add(c, true);
   }
   // The clearance also excludes the rosettes of other tips.
   for (TipRoom& room : rooms)

@@ -7,6 +7,10 @@
 
 namespace sprekk::fine_fracture {
 
+/// What points in the straight end of a crack do, at which the kind of walls stays the same. Where rooms are to be
+/// continuous in the bends of a path, they end the straight end, however small the bend is there.
+enum class StraightPoints { nothing, end_it };
+
 /// A tip with the straight end of its crack.
 struct TipRoom {
   int crack;
@@ -22,6 +26,7 @@ struct TipRoom {
 /// All tips with their rooms. The radius of a rosette is the least of: `largest_radius` (m); half of the straight end
 /// of the crack (a third, if this has two tips); half of its part with the same kind of walls; a third of the distance
 /// to other cracks and to the other tip of its own crack; half of the distance to anything else.
-std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radius);
+std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radius,
+                               StraightPoints points = StraightPoints::nothing);
 
 }  // namespace sprekk::fine_fracture

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int radii_in_octave = 16;       ///< rounded radii of rosettes
 constexpr double lengths_in_radii = 4;    ///< local lengths are no longer than this, in rounded radii
-constexpr double around_rosette = 1.05;   ///< of its radius: points of a path in it are part of the rosette
 constexpr int bends_in_right_angle = 64;  ///< rounded bends
 
 DrawingFrame frame_of(const FineGeometry& geometry, const Point& anchor) {
@@ -81,13 +80,6 @@ class Places {
   std::vector<std::pair<int, int>> on_edges_;  ///< points on an edge of the outline, and the edge
 };
 
-bool has_point_in_rosette(const FineGeometry& geometry, const TipRoom& room) {
-  const std::vector<Point>& points = geometry.cracks[room.crack].points;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i)
-    if ((points[i] - room.position).norm() < around_rosette * room.radius) return true;
-  return false;
-}
-
 }  // namespace
 
 std::vector<std::vector<double>> bends_of(const FineGeometry& geometry) {
@@ -102,10 +94,7 @@ std::vector<std::vector<double>> bends_of(const FineGeometry& geometry) {
   return bends;
 }
 
-std::optional<RoundedGeometry> rounded_geometry(const FineGeometry& geometry, const std::vector<TipRoom>& rooms,
-                                                const Point& anchor) {
-  for (const TipRoom& room : rooms)
-    if (has_point_in_rosette(geometry, room)) return std::nullopt;
+RoundedGeometry rounded_geometry(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, const Point& anchor) {
   RoundedGeometry result;
   result.frame = frame_of(geometry, anchor);
   const double scale = result.frame.unit();

@@ -1,7 +1,6 @@
 // The geometry of a fine level without its last digits, for which its triangulation is made.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "components/fine_fracture/fine_level/geometry.hpp"
@@ -21,9 +20,9 @@ struct RoundedGeometry {
 };
 
 /// `anchor`: the origin of the frame, m; a place that stays where it is while cracks grow keeps the rounding of their
-/// older points. Nothing where a path has a point within a rosette: such a geometry is not rounded.
-std::optional<RoundedGeometry> rounded_geometry(const FineGeometry& geometry, const std::vector<TipRoom>& rooms,
-                                                const Point& anchor);
+/// older points. `rooms`: those of tip_rooms with StraightPoints::end_it, so that no rosette has a point of a path in
+/// it.
+RoundedGeometry rounded_geometry(const FineGeometry& geometry, const std::vector<TipRoom>& rooms, const Point& anchor);
 
 /// The bends of all paths at their points, rad; 0 at their ends.
 std::vector<std::vector<double>> bends_of(const FineGeometry& geometry);
