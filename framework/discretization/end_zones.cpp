@@ -27,26 +27,32 @@ std::vector<int> outer_nodes(const Mesh& mesh) {
   return {nodes.begin(), nodes.end()};
 }
 
-/// The nearest obstacle to the field of an end.
-struct Obstacle {
-  double distance = std::numeric_limits<double>::infinity();  ///< m
-  bool is_other_tip = false;                                  ///< the other tip of the same, straight fracture
+/// How far from an end its field is undisturbed.
+struct Room {
+  double free = std::numeric_limits<double>::infinity();       ///< m, to what disturbs it
+  double other_tip = std::numeric_limits<double>::infinity();  ///< m, to the tip at the other end of its fracture
 };
 
-Obstacle nearest_obstacle(const Mesh& mesh, int end, const std::vector<int>& outer, const ZoneLimits& limits) {
+Room room_around(const Mesh& mesh, int end, const std::vector<int>& outer, const ZoneLimits& limits) {
   const EndFrame frame(mesh, end);
   SPREKK_ASSERT(is_fracture_end(mesh, end), end);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
-  Obstacle nearest;
+  Room room;
   for (const int node : outer) {
     if (node == end) continue;
     const Point from_end = mesh.nodes[node] - mesh.nodes[end];
-    if (from_end.squaredNorm() >= nearest.distance * nearest.distance) continue;
-    const bool is_on_line = std::abs(frame.axes().col(1).dot(from_end)) <= limits.off_line * from_end.norm();
-    const bool ends = is_fracture_end(mesh, node), goes_on = is_on_line && is_field_undisturbed(mesh, node, last);
-    if (ends || !goes_on) nearest = {from_end.norm(), ends && goes_on};
+    const double distance = from_end.norm();
+    if (distance >= room.free) continue;
+    double reach = distance;
+    if (is_field_undisturbed(mesh, node, last)) {
+      // On the end's own fracture: the less it leaves the line there, the farther it counts.
+      const double part = std::abs(frame.axes().col(1).dot(from_end)) / distance;
+      reach = part > 0 ? distance * std::max(1.0, limits.off_line / part) : std::numeric_limits<double>::infinity();
+      if (is_fracture_end(mesh, node)) room.other_tip = std::min(room.other_tip, distance);
+    }
+    room.free = std::min(room.free, reach);
   }
-  return nearest;
+  return room;
 }
 
 struct Reached {
@@ -54,17 +60,17 @@ struct Reached {
   double weight;
 };
 
-/// The nodes of a zone that ends half of the way to an obstacle, as far as they are connected along nodes with an
-/// undisturbed field.
-std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Obstacle& obstacle, const ZoneLimits& limits) {
-  const double radius = 0.5 * obstacle.distance;
-  const double width = obstacle.is_other_tip ? limits.joining_part : limits.fading_part;
+/// The nodes of a zone that ends half of the way to what disturbs the field and to the fracture's other tip, as far as
+/// they are connected along nodes with an undisturbed field.
+std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Room& room, const ZoneLimits& limits) {
   const EndFrame frame(mesh, end);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
   const auto weight = [&](int node) {
     const Point local = frame.axes().transpose() * (mesh.nodes[node] - mesh.nodes[end]);
     const double from_fracture = local.x() < 0 ? std::abs(local.y()) : local.norm();
-    return fading(local.norm() / radius, width) *
+    const double radius = local.norm();
+    return std::min(fading(2 * radius / room.free, limits.fading_part),
+                    fading(2 * radius / room.other_tip, limits.joining_part)) *
            fading(from_fracture / (limits.half_width * frame.size()), limits.fading_part);
   };
   std::vector<Reached> reached{{end, 1}};
@@ -94,7 +100,7 @@ EndZones end_zones(const Mesh& mesh, const ZoneLimits& limits) {
   for (int end = 0; end < mesh.node_count(); ++end) {
     if (!is_fracture_end(mesh, end)) continue;
     zones.cells[end] = cells_next_to(mesh, end);
-    for (const auto& [node, weight] : nodes_of_zone(mesh, end, nearest_obstacle(mesh, end, outer, limits), limits)) {
+    for (const auto& [node, weight] : nodes_of_zone(mesh, end, room_around(mesh, end, outer, limits), limits)) {
       if (zones.end[node] != none) continue;
       zones.end[node] = end;
       SPREKK_ASSERT(weight > 0 && weight <= 1, node, weight);

@@ -1,0 +1,78 @@
+// Zones around the ends of fractures are continuous in the shape of the mesh.
+#include "framework/discretization/end_zones.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/discretization/end_surroundings.hpp"
+#include "framework/mesh/build_mesh.hpp"
+#include "framework/meshing/generate_mesh.hpp"
+#include "tests/framework/mesh/mesh_checks.hpp"
+
+namespace sprekk::test {
+namespace {
+
+/// A crack of 2 m, turned by an angle, in a mesh whose part behind `corner` (of -1 to 1 m along the crack) is sheared:
+/// so the crack has a bend there (rad).
+class BentCrack {
+ public:
+  BentCrack(double turn, double corner) : along_(std::cos(turn), std::sin(turn)), corner_(corner) {
+    Geometry geometry = box(-4, 4, -4, 4);
+    geometry.fractures = {fracture("crack", {-along_, corner * along_, along_})};
+    const MeshOptions options{.size = 1, .fracture_size = 0.1, .growth = 0.3};
+    mesh_ = generate_mesh(geometry, options);
+  }
+
+  Mesh with_bend(double bend) const {
+    RawMesh raw = to_raw_mesh(mesh_);
+    const Point aside(-along_.y(), along_.x());
+    for (Point& x : raw.nodes) x += std::tan(bend) * std::max(0.0, x.dot(along_) - corner_) * aside;
+    return build_mesh(raw);
+  }
+
+ private:
+  Point along_;
+  double corner_;
+  Mesh mesh_;
+};
+
+// A field fades out over a tenth of a radius with a slope of at most 1.5, and the radius goes with the bend: a weight
+// changes by at most 15 times the part by which the bend does.
+TEST(EndZones, AreContinuousInABendOfTheFracture) {
+  constexpr double part = 0.01;
+  for (const double turn : {0.0, 0.4})
+    for (const double corner : {-0.8, -0.3, 0.5}) {
+      const BentCrack crack(turn, corner);
+      EndZones before = end_zones(crack.with_bend(0));
+      double total = 0;
+      for (double bend = 1e-3; bend < 0.1; bend *= 1 + part) {
+        const EndZones zones = end_zones(crack.with_bend(bend));
+        for (std::size_t node = 0; node < zones.weight.size(); ++node) {
+          const double change = zones.end[node] == before.end[node] ? std::abs(zones.weight[node] - before.weight[node])
+                                                                    : std::max(zones.weight[node], before.weight[node]);
+          ASSERT_LT(change, 1.2 * 15 * part) << "turned by " << turn << ", corner " << corner << ", bend " << bend;
+          total += change;
+        }
+        before = zones;
+      }
+      EXPECT_GT(total, 1) << "turned by " << turn << ", corner " << corner;
+    }
+}
+
+TEST(EndZones, OfAStraightCrackMeetInItsMiddle) {
+  const Mesh mesh = BentCrack(0.4, 0.5).with_bend(0);
+  const EndZones zones = end_zones(mesh);
+  const Point along(std::cos(0.4), std::sin(0.4));
+  for (const FractureCell& cell : mesh.fracture_cells)
+    for (const int node : mesh.face_nodes[cell.faces[0]]) {
+      const double place = mesh.nodes[node].dot(along);
+      if (std::abs(place) < 0.02) continue;
+      ASSERT_NE(zones.end[node], none) << place;
+      EXPECT_NEAR((mesh.nodes[zones.end[node]] - (place < 0 ? -along : along).eval()).norm(), 0, 1e-9) << place;
+      EXPECT_EQ(zones.weight[node], 1) << place;
+    }
+}
+
+}  // namespace
+}  // namespace sprekk::test
