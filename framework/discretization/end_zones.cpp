@@ -37,21 +37,29 @@ Room room_around(const Mesh& mesh, int end, const std::vector<int>& outer, const
   const EndFrame frame(mesh, end);
   SPREKK_ASSERT(is_fracture_end(mesh, end), end);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
+  struct Place {
+    double distance, off_line;  ///< m, and the distance from the line of the end over that from the end
+  };
+  std::vector<Place> on_own_fracture;
   Room room;
   for (const int node : outer) {
     if (node == end) continue;
     const Point from_end = mesh.nodes[node] - mesh.nodes[end];
     const double distance = from_end.norm();
-    if (distance >= room.free) continue;
-    double reach = distance;
-    if (is_field_undisturbed(mesh, node, last)) {
-      // On the end's own fracture: the less it leaves the line there, the farther it counts.
-      const double part = std::abs(frame.axes().col(1).dot(from_end)) / distance;
-      reach = part > 0 ? distance * std::max(1.0, limits.off_line / part) : std::numeric_limits<double>::infinity();
-      if (is_fracture_end(mesh, node)) room.other_tip = std::min(room.other_tip, distance);
+    if (!is_field_undisturbed(mesh, node, last)) {
+      room.free = std::min(room.free, distance);
+      continue;
     }
-    room.free = std::min(room.free, reach);
+    on_own_fracture.push_back({distance, std::abs(frame.axes().col(1).dot(from_end)) / distance});
+    if (is_fracture_end(mesh, node)) room.other_tip = std::min(room.other_tip, distance);
   }
+  constexpr double beyond = 1.25;  // a zone as long as this without bends is limited by other things alone
+  const double without_bends = beyond * std::min(room.free, room.other_tip);
+  for (const auto& [distance, off_line] : on_own_fracture)
+    if (distance < without_bends) {
+      const double straight = std::max(0.0, 1 - off_line / limits.off_line);
+      room.free = std::min(room.free, distance + straight * (without_bends - distance));
+    }
   return room;
 }
 

@@ -16,7 +16,7 @@ struct ZoneLimits {
   double half_width = 8;       ///< of a zone along the fracture, in lengths of the cell at the end
   double fading_part = 0.1;    ///< of the way, where the correction fades out
   double joining_part = 0.01;  ///< the same where the zone of the fracture's other end goes on
-  double off_line = 3e-2;      ///< how far a fracture may leave the line of its end, of the distance from it
+  double off_line = 3e-3;      ///< how far a fracture may leave the line of its end, of the distance from it
 };
 
 /// For every node an end (a node, see ends_nearby) or none, and how much of its field counts there: 1 near the end, and
@@ -26,9 +26,9 @@ struct ZoneLimits {
 ///
 /// A zone reaches half of the way to the nearest other end, side, junction, other fracture, or place where the end's
 /// own fracture leaves its line: so the error at the end of the zone decreases with the cell size. A place that is off
-/// the line by less than `off_line` counts as farther away by the ratio of the two: the zone is continuous in the bend
-/// of a path. To both sides of the fracture it reaches eight times the length of the cell at the end: this limits how
-/// many nodes read the same cells.
+/// the line by a part of `off_line` shortens the zone by this part of what it would beyond `off_line`: the zone is
+/// continuous in the bend of a path. To both sides of the fracture it reaches eight times the length of the cell at the
+/// end: this limits how many nodes read the same cells.
 /// All nodes that ends_nearby assigns to the end belong to the zone in any case.
 struct EndZones {
   std::vector<int> end;                   ///< for each node: its end, or none

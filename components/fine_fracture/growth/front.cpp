@@ -15,6 +15,7 @@ constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter on
 constexpr double gain = 0.5;                  ///< of the norm of the best trial: what counts as progress
 constexpr int patience = 8;                   ///< trials without progress
 constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
+constexpr double of_meshes = 0.01;            ///< ln K: ten times what it differs by between two meshes
 constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
 constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
 constexpr double of_difference = 30;  ///< that of differences of advances: slopes of loads, 0.3, over those of H, 0.01
@@ -122,6 +123,7 @@ void Front::learn(const std::vector<FrontState>& states) {
   SPREKK_EXPECT(static_cast<int>(states.size()) == count(), states.size(), count());
   ++trials_;
   const Eigen::VectorXd found = residual(states);
+  if (is_other_mesh_) leave_mesh(found);
   update_jacobian(found);
   last_ = states;
   const FrontEquations front = equations(found);
@@ -152,6 +154,17 @@ void Front::learn(const std::vector<FrontState>& states) {
     return;
   }
   step(from);
+}
+
+/// Trials on the last mesh are not repeated on this one: none is the best. Their difference from this one tells a slope
+/// where it is large beside the error of a mesh.
+void Front::leave_mesh(const Eigen::VectorXd& residual) {
+  is_other_mesh_ = false;
+  best_.reset();
+  last_gain_ = trials_;
+  part_ = 1;
+  if (before_place_.size() > 0 && (residual - before_residual_).lpNorm<Eigen::Infinity>() < of_meshes)
+    before_place_.resize(0);
 }
 
 /// After a trial that is much worse than the best one, a warm start is dropped, or else the next

@@ -83,6 +83,8 @@ class Front {
   void stop(int tip);
   /// A tip that has no segment in the trials yet begins with this one (m, rad from the x axis) once it is to grow.
   void begin_with(int tip, double length, double angle);
+  /// The next states are those of a mesh with another topology than the last one: K differs by the error of a mesh.
+  void change_mesh() { is_other_mesh_ = true; }
   void learn(const std::vector<FrontState>& states);
   Verdict verdict() const { return verdict_; }
   int trials() const { return trials_; }
@@ -115,6 +117,7 @@ class Front {
   Eigen::VectorXd residual(const std::vector<FrontState>& states) const;
   Eigen::VectorXd place() const;
   void update_jacobian(const Eigen::VectorXd& residual);
+  void leave_mesh(const Eigen::VectorXd& residual);
   bool may_start(int tip) const { return !grows_[tip] && !is_stopped_[tip] && last_[tip].is_evaluated; }
   std::vector<int> front_tips() const;
   double advance(int tip) const;                                 ///< in increments
@@ -155,7 +158,8 @@ class Front {
   };
   std::optional<Best> best_;
   bool is_warm_ = false;  ///< whether the Jacobian comes from an earlier search: a warm start
-  double part_ = 1;       ///< of steps, smaller after trials that were worse
+  bool is_other_mesh_ = false;
+  double part_ = 1;  ///< of steps, smaller after trials that were worse
   Verdict verdict_ = Verdict::again;
   int trials_ = 0, last_gain_ = 0;
   double worst_ = 0;

@@ -5,6 +5,7 @@
 
 #include "components/fine_fracture/growth/viscous_state.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/topology_hash.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -106,6 +107,11 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
     propose();
     return Verdict::again;
   }
+  TopologyHash topology;
+  topology.add(topology_hash(there.mesh_));
+  topology.add(there.topology());
+  if (topology_ && *topology_ != topology.value()) front_->change_mesh();
+  topology_ = topology.value();
   if (front_->verdict() == Front::Verdict::again) front_->learn(states_);
   switch (front_->verdict()) {
     case Front::Verdict::again:

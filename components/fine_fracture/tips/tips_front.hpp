@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +68,7 @@ class TipsFront : public FrontSearch {
   std::unique_ptr<FrontJump> jump_;  ///< where the front was not found in the shortest step
   std::vector<PathExtension> paths_;
   std::vector<int> tip_of_path_;
+  std::optional<std::uint64_t> topology_;  ///< of the meshes of both levels in the last trial
   std::vector<Tips::EndNote> notes_;
   std::string reason_;
   double dt_;

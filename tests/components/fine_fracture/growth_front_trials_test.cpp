@@ -94,6 +94,28 @@ TEST(Front, NeedsFewTrialsAfterStepsAtRest) {
   EXPECT_LE(front.trials(), 6);
 }
 
+/// When the mesh of the trials is made anew, K is 1e-3 larger from then on, as it is between two meshes: a trial near
+/// the front on the old mesh is no best one any more.
+TEST(Front, ForgetsTrialsOnAnotherMesh) {
+  for (const int change : {2, 3, 4}) {
+    const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
+    Front front(form.tips, form.without_growth(), exact(), 3600);
+    while (front.verdict() == Front::Verdict::again) {
+      const bool is_other = front.trials() >= change;
+      if (front.trials() == change) front.change_mesh();
+      ClosedForm on_mesh = form;
+      if (is_other)
+        for (double& rise : on_mesh.rise) rise += 1e-3;
+      front.learn(on_mesh.states({front.length(0), front.length(1)}, {front.angle(0), front.angle(1)}));
+    }
+    ASSERT_EQ(front.verdict(), Front::Verdict::found) << change;
+    ASSERT_GT(front.trials(), change);
+    EXPECT_LE(front.trials(), change + 7) << change;
+    const double sum = 0.632 / (form.own + 2 * form.shared);
+    EXPECT_NEAR(front.length(0) - 0.008, (0.301 - form.shared * sum) / form.own, 2e-8) << change;
+  }
+}
+
 /// K of a wing falls with its own length, as 1 / sqrt(length), whatever the length of the fracture that it belongs to.
 /// The search begins with the new segment of the kink; the next one knows the slope from it, at twice the length.
 TEST(Front, NeedsFewTrialsBehindAKink) {
