@@ -128,7 +128,7 @@ TEST(MpsaLimits, ACrackThatIsNearlyStraightHardlyDependsOnThem) {
       const Mesh mesh = generate_mesh(geometry, options);
       const double usual = error_of_walls(mesh, angle, {});
       EXPECT_LT(usual, 0.03) << "angle " << angle << ", size " << size;
-      for (const double off_line : {1e-3, 1e-2, 0.1, 1.0}) {
+      for (const double off_line : {1e-5, 1e-4, 1e-2, 1e-1, 1.0}) {
         MpsaLimits limits;
         limits.zones.off_line = off_line;
         const double e = error_of_walls(mesh, angle, limits);

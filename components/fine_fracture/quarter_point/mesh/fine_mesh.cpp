@@ -222,7 +222,7 @@ FineMesh make_fine_mesh(const FineGeometry& geometry, const FineMeshOptions& opt
   validate(geometry);
   validate(options);
   const std::vector<TipRoom> rooms =
-      tip_rooms(geometry, options.tip_size, keeper ? StraightPoints::end_it : StraightPoints::nothing);
+      tip_rooms(geometry, options.tip_size, keeper ? StraightPoints::end_it : StraightPoints::are_passed);
   const auto built = [&](const OutsideMesh& mesh) {
     return Builder(geometry, rooms, options.sectors, build_mesh(mesh.raw)).take();
   };

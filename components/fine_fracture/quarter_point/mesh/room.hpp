@@ -7,9 +7,9 @@
 
 namespace sprekk::fine_fracture {
 
-/// What points in the straight end of a crack do, at which the kind of walls stays the same. Where rooms are to be
-/// continuous in the bends of a path, they end the straight end, however small the bend is there.
-enum class StraightPoints { nothing, end_it };
+/// Points of a path without a bend, with one kind of walls on both sides: they are passed as if they were not there, or
+/// the straight end of the crack ends at them, so that rooms are continuous in the bends of the path.
+enum class StraightPoints { are_passed, end_it };
 
 /// A tip with the straight end of its crack.
 struct TipRoom {
@@ -27,6 +27,6 @@ struct TipRoom {
 /// of the crack (a third, if this has two tips); half of its part with the same kind of walls; a third of the distance
 /// to other cracks and to the other tip of its own crack; half of the distance to anything else.
 std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radius,
-                               StraightPoints points = StraightPoints::nothing);
+                               StraightPoints points = StraightPoints::are_passed);
 
 }  // namespace sprekk::fine_fracture
