@@ -54,7 +54,7 @@ class MatrixExchange : public Coupler {
     if (std::ranges::count(in_both_, 0.0) == mesh_.cell_count())
       throw InputError(context.origin, "coupler " + name() + " passes nothing",
                        "no cell has both flows: it exchanges fluid within rock, not across the border of regions",
-                       "let both live in the same regions, or take one flow whose parameters differ by region");
+                       "let both live in the same regions, or take border_exchange");
     exchange_ = Property(options.exchange, cell_places(mesh_), context.start_time);
   }
 
@@ -90,7 +90,7 @@ class MatrixExchange : public Coupler {
     if (!exchange_.values().cwiseProduct(in_both_).isZero(0)) modes.tie(*pressures_[0], *pressures_[1]);
   }
 
-  /// Flows in one rock between which nothing passes: each ends at the border of its regions.
+  /// Flows in one rock between which nothing passes.
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     std::vector<std::pair<std::string, MatrixFluid*>> flows;
     for (Component* component : components)
@@ -101,14 +101,11 @@ class MatrixExchange : public Coupler {
       const auto& [second, other] = flows[i];
       bool share = false;
       for (int c = 0; c < one->pressure().size() && !share; ++c) share = one->is_in_cell(c) && other->is_in_cell(c);
+      if (!share) continue;
       notes.add("nothing passes between " + first + " and " + second,
-                share ? fmt::format("no fluid passes between '{}' and '{}', which flow in the same rock (no coupler "
-                                    "stands between them) add matrix_exchange, unless that is meant",
-                                    first, second)
-                      : fmt::format("no fluid passes between '{}' and '{}' (each ends at the border of its regions, "
-                                    "which is sealed) take one flow whose parameters differ by region, unless that is "
-                                    "meant",
-                                    first, second));
+                fmt::format("no fluid passes between '{}' and '{}', which flow in the same rock (no coupler "
+                            "stands between them) add matrix_exchange, unless that is meant",
+                            first, second));
     }
   }
 

@@ -61,6 +61,7 @@ void MatrixFlow::find_conditions() {
     if (!is_in_cell(mesh_.face_cells[f][0])) continue;
     if (condition != options_.boundary.end() && condition->second.pressure) conditions_[f] = FlowCondition::pressure;
   }
+  open_conditions();
 }
 
 bool MatrixFlow::is_discretized() const {
@@ -76,13 +77,18 @@ void MatrixFlow::discretize() {
   } else if (!mobility_of_operators_.empty()) {
     return discretize_from({mesh_, mobility_of_operators_, conditions_}, operators_, no_change(mesh_));
   } else {
-    const std::vector<char> nodes = nodes_to_discretize(separated_ ? *separated_ : mesh_);
+    std::vector<char> nodes = nodes_to_discretize(separated_ ? *separated_ : mesh_);
+    // The face belongs to one of the processes that have the cells beside it, which needs the pressures of both.
+    if (!nodes.empty())
+      for (int f = 0; f < static_cast<int>(open_faces_.size()); ++f)
+        if (open_faces_[f])
+          for (const int node : separated_->face_nodes[f]) nodes[node] = 1;
     ++discretizations_;
     discretized_cells_ += inside_.empty() ? mesh_.cell_count() : std::count(inside_.begin(), inside_.end(), 1);
     discretized_regions_ += nodes.empty() ? mesh_.node_count() : std::count(nodes.begin(), nodes.end(), 1);
-    FluxOperators made =
-        separated_ ? discretize_inside(discretize_, {mesh_, mobility_, conditions_}, *separated_, inside_, nodes)
-                   : discretize_(mesh_, mobility_, conditions_, nodes);
+    FluxOperators made = separated_ ? discretize_inside(discretize_, {mesh_, mobility_, conditions_}, *separated_,
+                                                        inside_, open_faces_, nodes)
+                                    : discretize_(mesh_, mobility_, conditions_, nodes);
     operators_.swap(made);
   }
   use_operators();
@@ -140,7 +146,7 @@ void MatrixFlow::use_operators() {
   if (is_limited_ && !is_sealed_) use_limited();
   if (!wall_flux_) {
     if (face_pressure_) use_face_operators();
-    return;
+    return use_borders();
   }
 
   // The flux out of the rock through a wall is −lambda times its length.
@@ -162,6 +168,10 @@ void MatrixFlow::use_operators() {
   pick_walls.setFromTriplets(entries.begin(), entries.end());
   wall_pressure_.terms = {{&pressure_, Operator(pick_walls * operators_.trace_cell)},
                           {wall_flux_, Operator(pick_walls * operators_.trace_boundary * boundary_of_wall_flux_)}};
+  use_borders();
+  for (const OpenBorder& border : borders_)
+    wall_pressure_.terms.push_back(
+        {border.outflow, Operator(pick_walls * operators_.trace_boundary * border.boundary)});
   if (!face_pressure_) return;
   wall_pressure_.terms.push_back({face_pressure_, Operator(pick_walls * operators_.faces.trace)});
   use_face_operators();

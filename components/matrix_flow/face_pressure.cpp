@@ -57,6 +57,7 @@ void MatrixFlow::assemble_face_pressure(Assembly& assembly, const StepTime& step
   assembly.derivative(face_pressure, pressure_, continuity_of_pressure_, step.dt);
   assembly.derivative(face_pressure, face_pressure, continuity_of_face_pressure_, step.dt);
   if (wall_flux_) assembly.linear(face_pressure, continuity_of_wall_flux_, *wall_flux_, step.dt);
+  for (const OpenBorder& border : borders_) assembly.linear(face_pressure, border.continuity, *border.outflow, step.dt);
   if (buoyancy_) assemble_density_on_faces(assembly, step.dt);
   assembly.compare_with(face_pressure, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(face_pressure, step.dt * flow(State::accepted).largest_outflow);

@@ -22,7 +22,8 @@ void keep_values(SparseMatrix& continuity, const std::vector<char>& keeps) {
 }  // namespace
 
 FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, const Mesh& separated,
-                                const std::vector<char>& inside, const std::vector<char>& nodes) {
+                                const std::vector<char>& inside, const std::vector<char>& open,
+                                const std::vector<char>& nodes) {
   const Mesh& mesh = flow.mesh;
   SPREKK_EXPECT(separated.face_count() >= mesh.face_count(), separated.face_count(), mesh.face_count());
   std::vector<FlowCondition> conditions = flow.conditions;
@@ -39,11 +40,13 @@ FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, c
     if (!inside[cell]) mobility[cell] = Tensor::Identity();
 
   FluxOperators made = discretize(separated, mobility, conditions, wanted);
-  // Faces between cells with and without flow are inner faces of the whole mesh: nothing is prescribed there, and no
-  // traces are needed.
+  // Faces between cells with and without flow are inner faces of the whole mesh: unless they are open, nothing is
+  // prescribed there, and no traces are needed.
   std::vector<char> keeps(separated.face_count(), 0);
-  for (int face = 0; face < mesh.face_count(); ++face)
-    keeps[face] = separated.face_cells[face] == mesh.face_cells[face] && inside[mesh.face_cells[face][0]];
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    const bool is_cut = separated.face_cells[face] != mesh.face_cells[face];
+    keeps[face] = is_cut ? !open.empty() && open[face] : inside[mesh.face_cells[face][0]];
+  }
   const auto reduce = [&](SparseMatrix& matrix, bool has_faces) {
     if (matrix.rows() == 0) return;
     std::vector<Triplet> entries;
@@ -71,6 +74,11 @@ FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, c
     reduce(one.boundary, true);
     reduce(one.change, true);
   }
+  if (open.empty()) return made;
+  // A face of the cut points out of the cell inside, and in the whole mesh out of its first cell.
+  for (SparseMatrix* flux : {&made.flux_cell, &made.flux_boundary, &made.flux_change, &faces.flux})
+    for (int face = 0; face < flux->rows(); ++face)
+      if (open[face] && !inside[mesh.face_cells[face][0]]) flux->row(face) *= -1;
   return made;
 }
 

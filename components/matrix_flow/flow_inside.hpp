@@ -1,4 +1,4 @@
-// A discretization of the flux in some of the cells, with an impermeable boundary around them.
+// A discretization of the flux in some of the cells, with a boundary around them.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,13 @@
 
 namespace sprekk::matrix_flow {
 
-/// The operators that `discretize` gives for the cells `inside` (one flag a cell) alone: no flux passes a face between
-/// one of them and another cell, whatever the mesh around. `separated` is the mesh cut along these faces
-/// (separated_mesh), `nodes` those of it that the process discretizes (none for all). Rows and columns are those of
-/// `flow.mesh`; what belongs to other cells is empty. The mobility of other cells is not used.
+/// The operators that `discretize` gives for the cells `inside` (one flag a cell) alone, whatever the mesh around.
+/// `separated` is the mesh cut along the faces between one of them and another cell (separated_mesh), `nodes` those of
+/// it that the process discretizes (none for all). Rows and columns are those of `flow.mesh`; what belongs to other
+/// cells is empty. The mobility of other cells is not used. No flux passes a face of the cut, unless it is `open` (one
+/// flag a face, or none for none): then its boundary value is the flux out of `inside`, and it has traces.
 FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, const Mesh& separated,
-                                const std::vector<char>& inside, const std::vector<char>& nodes);
+                                const std::vector<char>& inside, const std::vector<char>& open,
+                                const std::vector<char>& nodes);
 
 }  // namespace sprekk::matrix_flow

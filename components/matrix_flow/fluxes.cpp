@@ -59,12 +59,18 @@ const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
 
 const Vector& MatrixFlow::face_fluxes() const {
   const Flow& flow = this->flow(State::now);
-  if (!wall_flux_) return flow.fluxes;
+  if (!wall_flux_ && borders_.empty()) return flow.fluxes;
+  const std::uint64_t wall_version = wall_flux_ ? wall_flux_->version() : 0;
+  std::vector<std::uint64_t> border_versions;
+  for (const OpenBorder& border : borders_) border_versions.push_back(border.outflow->version());
   if (with_walls_.fluxes.size() == 0 || with_walls_.pressure != flow.pressure ||
-      with_walls_.face_pressure != flow.face_pressure || with_walls_.wall_flux != wall_flux_->version() ||
-      with_walls_.density != flow.density)
-    with_walls_ = {flow.pressure, flow.face_pressure, wall_flux_->version(), flow.density,
-                   flow.fluxes + flux_of_wall_flux_ * wall_flux_->now()};
+      with_walls_.face_pressure != flow.face_pressure || with_walls_.wall_flux != wall_version ||
+      with_walls_.borders != border_versions || with_walls_.density != flow.density) {
+    with_walls_ = {flow.pressure, flow.face_pressure, wall_version, std::move(border_versions),
+                   flow.density,  flow.fluxes};
+    if (wall_flux_) with_walls_.fluxes += flux_of_wall_flux_ * wall_flux_->now();
+    for (const OpenBorder& border : borders_) with_walls_.fluxes += border.carrying * border.outflow->now();
+  }
   return with_walls_.fluxes;
 }
 
@@ -72,6 +78,7 @@ std::vector<MatrixFluxes::Derivative> MatrixFlow::face_flux_derivatives() const 
   std::vector<Derivative> derivatives = {{&pressure_, &operators_.flux_cell}};
   if (face_pressure_) derivatives.push_back({face_pressure_, &operators_.faces.flux});
   if (wall_flux_) derivatives.push_back({wall_flux_, &flux_of_wall_flux_});
+  for (const OpenBorder& border : borders_) derivatives.push_back({border.outflow, &border.carrying});
   if (buoyancy_) {
     fluxes_by_density_ = fluxes_by_density(this->flow(State::now));
     for (const auto& [field, matrix] : fluxes_by_density_) derivatives.push_back({field, &matrix});
@@ -125,13 +132,17 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
     fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
     return;
   }
-  const Vector& fluxes = face_fluxes();
-  for (int c = 0; c < mesh_.cell_count(); ++c)
+  Vector fluxes = face_fluxes();
+  for (const OpenBorder& border : borders_)
+    if (border.sign < 0) fluxes += (border.flux - border.carrying) * border.outflow->now();
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    if (!is_in_cell(c)) continue;
     for (const int face : mesh_.cell_faces[c]) {
       const double out = mesh_.face_cells[face][0] == c ? fluxes[face] : -fluxes[face];
       velocity.segment<dimension>(dimension * c) +=
           out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
     }
+  }
   replicate(mesh_, Location::cell, dimension, velocity);
   fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
 }

@@ -111,6 +111,7 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * largest_before);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
+  for (const OpenBorder& border : borders_) assembly.linear(pressure_, border.of_cells, *border.outflow, step.dt);
   if (!source_.isZero(0)) fluid.supply(step.dt * source_);
 }
 

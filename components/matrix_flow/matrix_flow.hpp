@@ -10,8 +10,10 @@
 
 #include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
+#include "components/capabilities/matrix_border.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/matrix_flow/flux_operators.hpp"
+#include "components/matrix_flow/open_border.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
@@ -74,6 +76,7 @@ class MatrixFlow : public Component,
                    public MatrixFluid,
                    public MatrixWalls,
                    public MatrixFluxes,
+                   public MatrixBorder,
                    public BuoyantMatrix,
                    public KeepsTotals,
                    public LivesInPart,
@@ -128,6 +131,8 @@ class MatrixFlow : public Component,
   const std::vector<char>& inhabited_cells() const override { return inside_; }
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override;
+  void open_border(const Field& outflow, double sign, const std::vector<char>& faces) override;
+  const LinearExpression& border_pressure(const Field& outflow) const override;
   bool has_gravity() const override { return !options_.gravity.is_zero(); }
   double weight_between(const Point& from, const Point& to) const override {
     return gravity_potential(to) - gravity_potential(from);
@@ -183,6 +188,12 @@ class MatrixFlow : public Component,
   void find_conditions();
   /// Updates the matrices of balances and walls after the operators have changed.
   void use_operators();
+  /// What borders that fluid crosses add to operators and conditions.
+  void use_borders();
+  void make_border_traces();
+  void apply_boundary_at_borders();
+  void open_conditions();
+  [[noreturn]] void refuse_density_at_border() const;
   void use_storage();
   /// Of the unknowns on faces: start values from the pressures of cells, the matrices, the equations.
   void start_face_pressure();
@@ -221,6 +232,9 @@ class MatrixFlow : public Component,
   Field& cumulative_;               ///< (stored, injected, outflow) of each cell since the start, m^2
   std::vector<char> inside_;       ///< one flag a cell: whether there is a flow; empty where there is a flow everywhere
   std::optional<Mesh> separated_;  ///< the mesh cut around these cells
+  std::vector<OpenBorder> borders_;
+  BorderTraces border_traces_;
+  std::vector<char> open_faces_;  ///< of all of them, one flag a face; empty for none
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, 3> permeability_;  ///< xx, yy, xy
   Property viscosity_, porosity_, compressibility_, storage_;
@@ -272,8 +286,9 @@ class MatrixFlow : public Component,
   mutable std::uint64_t flow_uses_ = 0;
   struct WithWalls {
     std::uint64_t pressure = 0, face_pressure = 0, wall_flux = 0;  ///< versions of the fields
+    std::vector<std::uint64_t> borders = {};                       ///< the same
     FluidDensity::Version density = {};                            ///< the same
-    Vector fluxes;                                                 ///< empty for none
+    Vector fluxes = {};                                            ///< empty for none
   };
   mutable WithWalls with_walls_;
   /// Of limited fluxes at the last state for which face_flux_derivatives was called.

@@ -30,6 +30,11 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
                                "what enters a cell could not leave it",
                                "remove the coupler of its walls, or give it a permeability")
                         .what());
+  if (is_sealed_ && !borders_.empty())
+    throw DataError(InputError(origin_, "fluid is to cross the border of rock that has no permeability",
+                               "what enters a cell could not leave it",
+                               "remove the coupler at the border, or give it a permeability")
+                        .what());
   if (is_evaluated) return;
   data_evaluated_ = true;
   evaluated_for_ = step;
@@ -105,6 +110,7 @@ void MatrixFlow::apply_boundary() {
       limited_constant_[side] =
           operators_.limited[side].boundary * boundary_values_ + operators_.limited[side].change * boundary_changes_;
   if (face_pressure_) continuity_constant_ = operators_.faces.continuity_boundary * boundary_values_;
+  apply_boundary_at_borders();
   if (!wall_flux_) return;
   Vector trace = operators_.trace_boundary * boundary_values_ + operators_.trace_change * boundary_changes_ -
                  operators_.trace_cell * gravity_potential_cell_ + gravity_potential_face_;

@@ -24,6 +24,7 @@ constexpr double hardly_moves = 0.01;
 
 void MatrixFlow::accept_density(const FluidDensity& in_rock, const FluidDensity* in_fractures) {
   SPREKK_EXPECT(has_gravity() && !buoyancy_, name());
+  if (!borders_.empty()) refuse_density_at_border();
   buoyancy_ = std::make_unique<Buoyancy>(mesh_, options_.gravity, options_.fluid_density, in_rock, in_fractures);
 }
 

@@ -150,6 +150,19 @@ std::vector<Override> with_other_flows() {
           {"schedule", "[{solve: [pore, blocks, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"}};
 }
 
+/// The scene with another flow in the upper quarter of the rock.
+std::vector<Override> with_a_flow_beside() {
+  return {{"geometry.regions", "{top: {polygon: [[0 m, 1.6 m], [2 m, 1.6 m], [2 m, 2 m], [0 m, 2 m]]}}"},
+          {"components.pore.regions", "[rock]"},
+          {"components.beside", "{type: matrix_flow/rt0, regions: [top]}"},
+          {"couplers",
+           "[{type: biot, between: [pore, rock]}, {type: biot, between: [beside, rock]}, {type: border_exchange, "
+           "between: [beside, pore], resistance: 1e12 Pa*s/m}, {type: wall_exchange, between: [pore, conduit]}, {type: "
+           "wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, {type: "
+           "two_level, between: [rock, conduit, tips, contact]}]"},
+          {"schedule", "[{solve: [pore, beside, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"}};
+}
+
 const std::vector<std::vector<Override>> scenes = {
     {},
     {{"components.pore.type", "matrix_flow/tpfa"}},
@@ -164,6 +177,7 @@ const std::vector<std::vector<Override>> scenes = {
     with_heat("tpfa"),
     with_wells(),
     with_other_flows(),
+    with_a_flow_beside(),
     {{"components.tips.sectors", ""},
      {"components.tips.mesh_ratio", ""},
      {"components.tips.type", "fine_fracture/boundary_element"}},
@@ -173,13 +187,28 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa",       "poromechanics/fem",      "matrix_flow/rt0",
-                                 "matrix_flow/ntpfa",      "contact/penalty",        "contact/augmented_lagrangian",
-                                 "fine_fracture/jump_fit", "matrix_heat/mpfa",       "matrix_heat/tpfa",
-                                 "fracture_heat/tpfa",     "heat_advection",         "heat_exchange",
-                                 "thermal_stress",         "thermal_viscosity",      "buoyancy",
-                                 "wells/limited",          "well_exchange",          "matrix_exchange",
-                                 "matrix_flow/prescribed", "matrix_heat/prescribed", "fine_fracture/boundary_element"},
+  std::set<std::string> types = {"matrix_flow/tpfa",
+                                 "poromechanics/fem",
+                                 "matrix_flow/rt0",
+                                 "matrix_flow/ntpfa",
+                                 "contact/penalty",
+                                 "contact/augmented_lagrangian",
+                                 "fine_fracture/jump_fit",
+                                 "matrix_heat/mpfa",
+                                 "matrix_heat/tpfa",
+                                 "fracture_heat/tpfa",
+                                 "heat_advection",
+                                 "heat_exchange",
+                                 "thermal_stress",
+                                 "thermal_viscosity",
+                                 "buoyancy",
+                                 "wells/limited",
+                                 "well_exchange",
+                                 "matrix_exchange",
+                                 "border_exchange",
+                                 "matrix_flow/prescribed",
+                                 "matrix_heat/prescribed",
+                                 "fine_fracture/boundary_element"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {

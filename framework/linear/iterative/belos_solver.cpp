@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 
 #include "framework/linear/equilibration.hpp"
@@ -85,6 +86,19 @@ LinearReport BelosSolver::factor(const LinearSystem& system) {
   return last_report_;
 }
 
+int BelosSolver::block_of(int row) const {
+  const std::vector<int>& ends = data_->block_ends;
+  return static_cast<int>(std::upper_bound(ends.begin(), ends.end(), data_->rows[row]) - ends.begin());
+}
+
+// In the residual of all, that of a block whose values are small beside those of others is lost in their round-off.
+Vector BelosSolver::left_to_solve(const Vector& r, const BlockResidual& measured, double converged) const {
+  Vector left = r;
+  for (int row = 0; row < left.size(); ++row)
+    if (measured.ratios[block_of(row)] <= converged) left[row] = 0;
+  return left;
+}
+
 // ||r|| / || |A| |y| + |b| || of every block that has rows on any process, and the smallest of the denominators. With
 // one norm over all unknowns GMRES would neglect a block whose values are small beside those of others.
 BelosSolver::BlockResidual BelosSolver::measure(const Vector& whole_y, const Vector& b, const Vector& r) const {
@@ -95,16 +109,21 @@ BelosSolver::BlockResidual BelosSolver::measure(const Vector& whole_y, const Vec
     double size = std::abs(b[row]);
     for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry)
       size += std::abs(entry.value() * whole_y[entry.col()]);
-    const auto block = std::upper_bound(data_->block_ends.begin(), data_->block_ends.end(), data_->rows[row]) -
-                       data_->block_ends.begin();
+    const int block = block_of(row);
     sums[2 * block] += r[row] * r[row];
     sums[2 * block + 1] += size * size;
   }
   parallel::sum(sums);
+  // Where nothing drives a block, its values are round-off of others, and its terms are as small as its residual.
+  double size_of_all = 0;
+  for (int block = 0; block < blocks; ++block) size_of_all += sums[2 * block + 1];
+  const double negligible = tolerance_ * std::numeric_limits<double>::epsilon() * std::sqrt(size_of_all);
   BlockResidual result;
   for (int block = 0; block < blocks; ++block) {
     const double residual = std::sqrt(sums[2 * block]), size = std::sqrt(sums[2 * block + 1]);
-    if (residual == 0) continue;
+    const bool is_zero = residual <= negligible;
+    result.ratios.push_back(is_zero ? 0 : residual / size);
+    if (is_zero) continue;
     result.largest_ratio = std::max(result.largest_ratio, residual / size);
     result.smallest_size = std::min(result.smallest_size, size);
   }
@@ -128,8 +147,8 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   constexpr int most_restarts = 6;
   double r_norm = b_norm, wanted_norm = safely * tolerance_ * b_norm;
   BlockResidual measured;
+  constexpr double rounding = 1e-14, useless = 1e-3;
   const auto is_converged = [&] {
-    constexpr double rounding = 1e-14, useless = 1e-3;
     const bool is_at_rounding = measured.largest_ratio <= rounding && r_norm <= useless * b_norm;
     return measured.largest_ratio <= tolerance_ && (r_norm <= tolerance_ * b_norm || is_at_rounding);
   };
@@ -138,8 +157,12 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   for (int restart = 0; restart < most_restarts && report.iterations < max_iterations_; ++restart) {
     constexpr double deepest = 1e-12, shallowest = 0.1;  // of one restart
     Gmres::Result step;
+    const bool some_are_left = r_norm <= tolerance_ * b_norm;
+    const Vector left = restart == 0 ? r : left_to_solve(r, measured, some_are_left ? tolerance_ : rounding);
+    const double left_norm = std::sqrt(parallel::sum(left.squaredNorm()));
+    if (left_norm == 0) break;
     try {
-      step = data_->gmres->solve(r, std::clamp(wanted_norm / r_norm, deepest, shallowest),
+      step = data_->gmres->solve(left, std::clamp(wanted_norm / left_norm, deepest, shallowest),
                                  max_iterations_ - report.iterations);
     } catch (const std::exception& error) {
       return LinearReport::failure(std::string("GMRES broke down: ") + error.what());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "framework/linear/last_system.hpp"
 #include "framework/linear/linear_solver.hpp"
@@ -26,8 +27,12 @@ class BelosSolver final : public LinearSolver {
   struct BlockResidual {
     double largest_ratio = 0;      ///< ||r|| / || |A| |y| + |b| || of the worst block
     double smallest_size = 1e300;  ///< the smallest of the blocks' || |A| |y| + |b| ||
+    std::vector<double> ratios;    ///< of each block
   };
   BlockResidual measure(const Vector& whole_y, const Vector& b, const Vector& r) const;
+  int block_of(int row) const;  ///< of an own row
+  /// The residual of blocks whose ratio exceeds `converged`.
+  Vector left_to_solve(const Vector& r, const BlockResidual& measured, double converged) const;
 
   double tolerance_;
   int max_iterations_;
