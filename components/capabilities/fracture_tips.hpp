@@ -28,6 +28,13 @@ class TipSurroundings {
   virtual LameParameters stiffness(const Point& x) const = 0;
   /// 0 where one stiffness holds everywhere; otherwise a number that changes whenever that of some place has changed.
   virtual std::uint64_t stiffness_by_place() const { return 0; }
+  /// The faces between cells of different stiffness, but for walls of fractures, each by its nodes, m. They may change
+  /// with stiffness_by_place.
+  using Border = std::array<Point, dimension>;
+  virtual const std::vector<Border>& stiffness_borders() const {
+    static const std::vector<Border> none_at_all;
+    return none_at_all;
+  }
   /// The displacement at x, m. `inside` is a point near x on the side of the fracture that is meant.
   virtual Point displacement(const Point& x, const Point& inside) const = 0;
   /// A function that gives the stress without strain (of the pore pressure and the initial stress) at the last update:

@@ -165,6 +165,22 @@ class TwoLevel : public Coupler, public TipSurroundings {
     return is_uniform_ ? 0 : version;
   }
 
+  const std::vector<Border>& stiffness_borders() const override {
+    const std::uint64_t version = rock_.properties_version() + 1;
+    if (version == borders_for_) return stiffness_borders_;
+    borders_for_ = version;
+    stiffness_borders_.clear();
+    for (int face = 0; face < mesh_.face_count(); ++face) {
+      const auto [cell, other] = mesh_.face_cells[face];
+      if (other == none) continue;
+      const auto one = rock_.stiffness(cell), two = rock_.stiffness(other);
+      if (!one || !two || (one->lambda == two->lambda && one->shear == two->shear)) continue;
+      Border& border = stiffness_borders_.emplace_back();
+      for (int k = 0; k < dimension; ++k) border[k] = mesh_.nodes[mesh_.face_nodes[face][k]];
+    }
+    return stiffness_borders_;
+  }
+
   Point displacement(const Point& x, const Point& inside) const override {
     return displacement_.at<dimension>(cell_at(inside), x);
   }
@@ -330,7 +346,9 @@ class TwoLevel : public Coupler, public TipSurroundings {
   Vector traction_, jump_, fluid_traction_;
   std::uint64_t updated_for_ = 0;
   mutable std::uint64_t compared_for_ = 0;  ///< version of the properties for which is_uniform_ has been found
-  mutable bool is_uniform_ = true;          ///< whether one stiffness holds everywhere
+  mutable std::uint64_t borders_for_ = 0;   ///< for which stiffness_borders_ was made
+  mutable std::vector<Border> stiffness_borders_;
+  mutable bool is_uniform_ = true;  ///< whether one stiffness holds everywhere
 };
 
 const RegisterCoupler<TwoLevel, TwoLevelOptions> registration("two_level");

@@ -1,9 +1,11 @@
 // The stiffness of the rock of a fine level.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "components/fine_fracture/fine_level/elasticity.hpp"
 
@@ -13,11 +15,16 @@ namespace sprekk::fine_fracture {
 class FineRock {
  public:
   FineRock(const Elasticity& everywhere) : everywhere_(everywhere) {}
+  using Border = std::array<Point, 2>;
   /// `at`: the stiffness at a place (m) in the domain. Functions with different values have different versions.
-  FineRock(std::function<Elasticity(const Point&)> at, std::uint64_t version) : at_(std::move(at)), version_(version) {}
+  /// `borders`: the segments (m) across which it jumps; a border that is missing, or a change that is no jump, costs
+  /// accuracy only.
+  FineRock(std::function<Elasticity(const Point&)> at, std::uint64_t version, std::vector<Border> borders = {})
+      : at_(std::move(at)), version_(version), borders_(std::move(borders)) {}
 
   bool is_uniform() const { return everywhere_.has_value(); }
   Elasticity at(const Point& x) const { return everywhere_ ? *everywhere_ : at_(x); }
+  const std::vector<Border>& borders() const { return borders_; }
   bool operator==(const FineRock& other) const {
     return everywhere_ == other.everywhere_ && version_ == other.version_;
   }
@@ -26,6 +33,7 @@ class FineRock {
   std::optional<Elasticity> everywhere_;
   std::function<Elasticity(const Point&)> at_;
   std::uint64_t version_ = 0;
+  std::vector<Border> borders_;
 };
 
 }  // namespace sprekk::fine_fracture

@@ -131,7 +131,17 @@ FineRock Tips::rock_around(const Point& center) const {
     return Elasticity{lame.lambda, lame.shear};
   };
   const std::uint64_t version = surroundings_->stiffness_by_place();
-  return version == 0 ? FineRock(at(center)) : FineRock(at, version);
+  if (version == 0) return FineRock(at(center));
+  // Of rock whose stiffness differs from cell to cell there are too many to cut elements along them.
+  constexpr std::size_t most_borders = 200;
+  std::vector<FineRock::Border> borders;
+  const double reach = largest_enlargement * options_.size;
+  for (const FineRock::Border& border : surroundings_->stiffness_borders()) {
+    const Point low = border[0].cwiseMin(border[1]) - center, high = border[0].cwiseMax(border[1]) - center;
+    if (low.maxCoeff() <= reach && high.minCoeff() >= -reach) borders.push_back(border);
+  }
+  if (borders.size() > most_borders) borders.clear();
+  return FineRock(at, version, std::move(borders));
 }
 
 Sifs Tips::keep_factors(Tip& tip, const TipFactors& factors) const {

@@ -2,14 +2,21 @@
 #pragma once
 
 #include "components/fine_fracture/fine_level/fine_rock.hpp"
+#include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/mesh/fine_mesh.hpp"
 
 namespace sprekk::fine_fracture {
 
-/// Of the rule for stiffness and stress offset in elements that are cut; both have to be taken at the same places.
-constexpr int degree_of_cut = 6;
+/// The rule for an element outside of rosettes, which have rules of their own: for polynomials of `degree`, on each
+/// side of a border (FineRock::borders) that cuts it in two. So integrals are continuous when the mesh moves across a
+/// border. Where the stiffness differs in another way, a rule with many points, the same for every degree below theirs.
+/// Valid until the next call.
+const std::vector<TrianglePoint>& element_rule(const FineMesh& mesh, const FineMesh::Element& element,
+                                               const FineRock& rock, int degree);
 
-/// Whether the element has two stiffnesses; false in rosettes, which have rules of their own.
-bool is_cut(const FineMesh& mesh, const FineMesh::Element& element, const FineRock& rock);
+/// The stiffness of an element of a rosette: the mean over it where a border cuts it in two. The theory of
+/// quarter-point elements is that of one rock, so K is a value of the field around a place so near to a border; with a
+/// mean it is a continuous one.
+Elasticity rosette_stiffness(const FineMesh& mesh, const FineMesh::Element& element, const FineRock& rock);
 
 }  // namespace sprekk::fine_fracture

@@ -59,9 +59,8 @@ Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const
 VolumeForces::VolumeForces(const FineMesh& mesh, const FineRock& rock) {
   constexpr int degree = 4, along_rays = 3, across = 4;
   for (const FineMesh::Element& element : mesh.elements) {
-    const int of_element = is_cut(mesh, element, rock) ? degree_of_cut : degree;
     for (const TrianglePoint& place :
-         element.tip == none ? triangle_rule(of_element) : polar_rule(along_rays, across)) {
+         element.tip == none ? element_rule(mesh, element, rock, degree) : polar_rule(along_rays, across)) {
       const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
       SPREKK_ASSERT(p.jacobian > 0, p.jacobian, place.xi, place.eta);
       places_.push_back(p.x);

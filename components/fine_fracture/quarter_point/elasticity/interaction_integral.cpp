@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "components/fine_fracture/quarter_point/elasticity/auxiliary_field.hpp"
+#include "components/fine_fracture/quarter_point/elasticity/cut_elements.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
 #include "framework/invariants.hpp"
@@ -84,13 +86,17 @@ void InteractionIntegrals::add_element(const FineMesh::Element& element) {
     dq[d] = is_rosette ? Point(0, 0) : weight_gradient(element, q[d]);
   }
   constexpr int along_rays = 4, across = 5, degree = 6;
-  for (const TrianglePoint& place : is_rosette ? polar_rule(along_rays, across) : triangle_rule(degree)) {
+  std::optional<Elasticity> of_rosette;
+  if (is_rosette) of_rosette = rosette_stiffness(mesh_, element, rock_by_place_);
+  for (const TrianglePoint& place :
+       is_rosette ? polar_rule(along_rays, across) : element_rule(mesh_, element, rock_by_place_, degree)) {
     const ShapePoint p = shape_point(mesh_, element, place.xi, place.eta);
     const Point x = frame_.transpose() * (p.x - tip_.room.position);
     const Eigen::Matrix<double, 6, 2> along_frame = p.gradient * frame_;
     const double factor = place.weight * p.jacobian;
     const std::array<AuxiliaryPoint, fields> auxiliary = auxiliary_points(rock_, x);
-    const Elasticity here = rock_by_place_.at(p.x), more{here.lambda - rock_.lambda, here.shear - rock_.shear};
+    const Elasticity here = is_rosette ? *of_rosette : rock_by_place_.at(p.x),
+                     more{here.lambda - rock_.lambda, here.shear - rock_.shear};
     Rows<3> of_offset;
     Rows<2> of_body_force;
     for (int d = 0; d < domains; ++d) {

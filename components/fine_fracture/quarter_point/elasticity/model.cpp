@@ -1,5 +1,6 @@
 #include "components/fine_fracture/quarter_point/elasticity/model.hpp"
 
+#include <optional>
 #include <stdexcept>
 
 #include "components/fine_fracture/fine_level/quadrature.hpp"
@@ -17,11 +18,13 @@ ElementMatrix element_stiffness(const FineMesh& mesh, const FineMesh::Element& e
   ElementMatrix stiffness = ElementMatrix::Zero();
   // Exact for straight elements. In quarter-point elements the usual rule misses a little of the energy, which makes
   // them less stiff and their stress-intensity factors better than exact integration (2 x 3 polar points) does.
-  const int degree = element.tip != none ? 5 : is_cut(mesh, element, rock) ? degree_of_cut : 2;
-  for (const TrianglePoint& place : triangle_rule(degree)) {
+  const bool is_rosette = element.tip != none;
+  std::optional<Elasticity> of_rosette;
+  if (is_rosette) of_rosette = rosette_stiffness(mesh, element, rock);
+  for (const TrianglePoint& place : is_rosette ? triangle_rule(5) : element_rule(mesh, element, rock, 2)) {
     const ShapePoint p = shape_point(mesh, element, place.xi, place.eta);
     const double factor = place.weight * p.jacobian;
-    const auto [lambda, shear] = rock.at(p.x);
+    const auto [lambda, shear] = is_rosette ? *of_rosette : rock.at(p.x);
     for (int a = 0; a < 6; ++a) {
       const double ax = factor * p.gradient(a, 0), ay = factor * p.gradient(a, 1);
       for (int b = 0; b < 6; ++b) {

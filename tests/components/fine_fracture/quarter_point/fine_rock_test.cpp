@@ -2,6 +2,8 @@
 // the other rock carries less or more, (C - C(x)) eps of the exact strain. Then the exact field solves, and factors are
 // known.
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 
@@ -43,6 +45,47 @@ TEST(FineRock, FactorsAreThoseOfTheCrackWhereverTheOtherRockBegins) {
   for (const Border& border : borders)
     for (const double factor : {0.3, 0.7, 3.0})
       EXPECT_LT(error_with(factor, border.is_behind), 1e-3) << border.name << factor;
+}
+
+/// K_I of the last tip where the rock is three times as stiff behind a line through (0.05, height) m with an angle.
+double load_with_border(double height, double angle, bool tells_border) {
+  const Griffith exact = paper_crack(1e6, 0.7e6, -3e6);
+  const Elasticity other = times(exact.rock, 3);
+  const Point along(std::cos(angle), std::sin(angle)), on_line(0.05, height);
+  const auto at = [=](const Point& x) { return cross(along, x - on_line) > 0 ? other : exact.rock; };
+  // In several pieces, as a coarse mesh gives them.
+  std::vector<FineRock::Border> border;
+  for (int piece = -40; piece < 40 && tells_border; ++piece)
+    border.push_back({on_line + 0.0237 * piece * along, on_line + 0.0237 * (piece + 1) * along});
+  const FineSolution solution =
+      FineModel(paper_box(), paper_mesh(), FineRock(at, 1, border)).solve(exact_outline(exact));
+  return solution.tips[1].K[0];
+}
+
+/// The largest step between neighbouring values, over the mean one.
+double largest_step(double height, double angle, bool tells_border) {
+  constexpr int count = 24;
+  constexpr double shift = 5e-6;  // m
+  std::vector<double> steps;
+  double last = load_with_border(height, angle, tells_border), sum = 0;
+  for (int i = 1; i <= count; ++i) {
+    const double load = load_with_border(height + i * shift, angle, tells_border);
+    steps.push_back(std::abs(load - last));
+    sum += load - last;
+    last = load;
+  }
+  return *std::max_element(steps.begin(), steps.end()) / std::max(std::abs(sum) / count, 1e-12);
+}
+
+TEST(FineRock, FactorsAreContinuousWhenABorderMoves) {
+  // Outside of the rosette of 17 mm, and through it.
+  for (const double height : {0.0301, 0.0453, 0.0081})
+    for (const double angle : {0.0, 0.3, -1.1}) {
+      const double step = largest_step(height, angle, true), sampled = largest_step(height, angle, false);
+      std::printf("at %.4f m, %.1f rad: largest step %.3f of the mean one, without borders %.1f\n", height, angle, step,
+                  sampled);
+      EXPECT_LT(step, 1.2) << height << ' ' << angle;
+    }
 }
 
 TEST(FineRock, OneStiffnessByPlaceHasTheBitsOfOneEverywhere) {
