@@ -16,9 +16,10 @@ class MatrixBorder {
   /// Opens faces between a cell with and a cell without this flow (one flag a face of the mesh): `outflow` (one a face,
   /// m/s) crosses them, out of this flow, or into it with `sign` −1. Until it is opened, a border is sealed. To be
   /// called in the constructor of a coupler, once for each border; the flow keeps a reference to the field.
-  /// Fluxes through these faces are among MatrixFluxes::face_fluxes of the flow with `sign` 1 alone, so that what
-  /// fluid carries crosses once. Throws InputError where the flow cannot be open there, saying why.
+  /// Fluxes through these faces are among MatrixFluxes::face_fluxes of both flows. Throws InputError where the flow
+  /// cannot be open there, saying why.
   virtual void open_border(const Field& outflow, double sign, const std::vector<char>& faces) = 0;
+  virtual bool has_open_border() const = 0;
   /// The pressure at the centre of each face of the border that `outflow` crosses, Pa; rows of other faces are empty.
   /// To be used after Part::begin_step of the flow.
   virtual const LinearExpression& border_pressure(const Field& outflow) const = 0;

@@ -30,7 +30,7 @@ void MatrixFlow::open_border(const Field& outflow, double sign, const std::vecto
       SPREKK_EXPECT(other != none && is_in_cell(cell) != is_in_cell(other), f, cell, other);
       open_faces_[f] = 1;
     }
-  borders_.push_back({&outflow, sign, faces, {}, {}, {}, {}, {}});
+  borders_.push_back({&outflow, sign, faces, {}, {}, {}, {}});
 }
 
 void MatrixFlow::refuse_density_at_border() const {
@@ -53,12 +53,6 @@ void MatrixFlow::use_borders() {
     border.boundary.resize(faces, faces);
     border.boundary.setFromTriplets(values.begin(), values.end());
     border.flux = operators_.flux_boundary * border.boundary;
-    border.carrying = border.flux;
-    if (border.sign < 0) {
-      std::vector<char> inner(faces);
-      for (int f = 0; f < faces; ++f) inner[f] = !border.faces[f];
-      border.carrying = keep_rows(border.flux, inner);
-    }
     const auto sums = [&](const SparseMatrix& fluxes) {
       return keep_rows(cell_sums(mesh_, fluxes, 1, parallel::rank()), inside_);
     };

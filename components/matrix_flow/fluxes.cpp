@@ -69,7 +69,7 @@ const Vector& MatrixFlow::face_fluxes() const {
     with_walls_ = {flow.pressure, flow.face_pressure, wall_version, std::move(border_versions),
                    flow.density,  flow.fluxes};
     if (wall_flux_) with_walls_.fluxes += flux_of_wall_flux_ * wall_flux_->now();
-    for (const OpenBorder& border : borders_) with_walls_.fluxes += border.carrying * border.outflow->now();
+    for (const OpenBorder& border : borders_) with_walls_.fluxes += border.flux * border.outflow->now();
   }
   return with_walls_.fluxes;
 }
@@ -78,7 +78,7 @@ std::vector<MatrixFluxes::Derivative> MatrixFlow::face_flux_derivatives() const 
   std::vector<Derivative> derivatives = {{&pressure_, &operators_.flux_cell}};
   if (face_pressure_) derivatives.push_back({face_pressure_, &operators_.faces.flux});
   if (wall_flux_) derivatives.push_back({wall_flux_, &flux_of_wall_flux_});
-  for (const OpenBorder& border : borders_) derivatives.push_back({border.outflow, &border.carrying});
+  for (const OpenBorder& border : borders_) derivatives.push_back({border.outflow, &border.flux});
   if (buoyancy_) {
     fluxes_by_density_ = fluxes_by_density(this->flow(State::now));
     for (const auto& [field, matrix] : fluxes_by_density_) derivatives.push_back({field, &matrix});
@@ -132,9 +132,7 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
     fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
     return;
   }
-  Vector fluxes = face_fluxes();
-  for (const OpenBorder& border : borders_)
-    if (border.sign < 0) fluxes += (border.flux - border.carrying) * border.outflow->now();
+  const Vector& fluxes = face_fluxes();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     if (!is_in_cell(c)) continue;
     for (const int face : mesh_.cell_faces[c]) {

@@ -132,6 +132,7 @@ class MatrixFlow : public Component,
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override;
   void open_border(const Field& outflow, double sign, const std::vector<char>& faces) override;
+  bool has_open_border() const override { return !borders_.empty(); }
   const LinearExpression& border_pressure(const Field& outflow) const override;
   bool has_gravity() const override { return !options_.gravity.is_zero(); }
   double weight_between(const Point& from, const Point& to) const override {

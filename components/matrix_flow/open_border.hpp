@@ -15,7 +15,6 @@ struct OpenBorder {
   std::vector<char> faces;         ///< one flag a face
   SparseMatrix boundary;           ///< faces × faces: the boundary value
   SparseMatrix flux;               ///< faces × faces: what is added to the flux through every face
-  SparseMatrix carrying;           ///< the same of MatrixFluxes::face_fluxes
   Operator of_cells;               ///< cells × faces: sums of the fluxes out of cells, an exchange
   Operator continuity;             ///< faces × faces: of the equations of face pressures
   LinearExpression pressure = {};  ///< see MatrixBorder::border_pressure

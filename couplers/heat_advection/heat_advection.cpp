@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/matrix_border.hpp"
 #include "couplers/heat_advection/carried_heat.hpp"
 #include "couplers/heat_advection/held_flux.hpp"
 #include "couplers/heat_advection/options.hpp"
@@ -26,7 +27,11 @@ namespace {
 class HeatAdvection : public Coupler, public KeepsTotals {
  public:
   HeatAdvection(const CouplerContext& context, const HeatAdvectionOptions& options)
-      : Coupler(context.name), mesh_(context.mesh), options_(options), start_(context.start_time) {
+      : Coupler(context.name),
+        mesh_(context.mesh),
+        options_(options),
+        origin_(context.origin),
+        start_(context.start_time) {
     matrix_ = context.find<MatrixFluxes>();
     fracture_ = context.find<FractureFluxes>();
     walls_ = context.find<MatrixWalls>();
@@ -54,6 +59,12 @@ class HeatAdvection : public Coupler, public KeepsTotals {
   }
 
   void evaluate_data(const StepTime& step) override {
+    const auto* border = dynamic_cast<const MatrixBorder*>(matrix_);
+    if (border && border->has_open_border())
+      throw DataError(InputError(origin_, "the fluid of coupler " + name() + " crosses the border to another flow",
+                                 "heat is carried by one flow, which has all the fluid of the rock",
+                                 "take one flow whose parameters differ by region")
+                          .what());
     injected_.clear();
     for (const auto& [name, given] : options_.injected)
       injected_.emplace_back(name, value_in_step(given.temperature, Place{}, step));
@@ -338,6 +349,7 @@ class HeatAdvection : public Coupler, public KeepsTotals {
 
   const Mesh& mesh_;
   HeatAdvectionOptions options_;
+  Origin origin_;
   MatrixFluxes* matrix_ = nullptr;
   FractureFluxes* fracture_ = nullptr;
   MatrixFluid* flow_in_rock_ = nullptr;

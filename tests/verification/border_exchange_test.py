@@ -255,6 +255,9 @@ class BorderExchange(SceneRuns):
         scene = self.write(IN_TURN)
         for settings, words in ((["components.pore.regions=[rock]", "components.pore.boundary=", "output.probes="], ("both flows", "'rock'", "matrix_exchange")),
                                 (["components.beside.type=matrix_flow/ntpfa"], ("border of 'beside'", "limited")),
+                                (["components.heat={type: matrix_heat/tpfa, conductivity: 1 W/(m*K), heat_capacity: 2 J/(m^3*K), initial_temperature: 300 K}",
+                                  "couplers=[{type: border_exchange, between: [pore, beside]}, {type: heat_advection, between: [heat, beside], "
+                                  "fluid_heat_capacity: 1 J/(m^3*K)}]", "schedule=[{solve: [pore, beside, heat]}]"], ("crosses the border", "one flow")),
                                 (["couplers=[{type: border_exchange, between: [pore]}]"], ("border_exchange", "two components")),
                                 (["couplers=[{type: border_exchange, between: [pore, beside], resistance: -1 Pa*s/m}]"], ("resistance", "-1")),
                                 (["components.beside.permeability=0 m^2", "components.beside.boundary="], ("border", "no permeability")),

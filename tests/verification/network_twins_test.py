@@ -116,7 +116,7 @@ class NetworkTwins(SceneRuns):
         if np.linalg.det(matrix) < 0:
             cells = [cell[::-1] for cell in cells]
         places = (places - middle) @ matrix.T + middle
-        turn_scene.write_msh(self.folder / f"{name}.msh", places, cells, turn_scene.sides_of_box(places, cells), named)
+        turn_scene.write_msh(self.folder / f"{name}.msh", places, {"rock": cells}, turn_scene.sides_of_box(places, cells), named)
         aperture = {"column": None, "fractures": {key: f"{value} mm" for key, value in apertures.items()}}
         change = {"geometry": {"box": None, "fractures": None, "file": str(self.folder / f"{name}.msh")}, "mesh": None,
                   "components": {"conduit": {"initial_aperture": aperture}}}
