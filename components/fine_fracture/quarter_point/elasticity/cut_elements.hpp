@@ -9,14 +9,12 @@ namespace sprekk::fine_fracture {
 
 /// The rule for an element outside of rosettes, which have rules of their own: for polynomials of `degree`, on each
 /// side of a border (FineRock::borders) that cuts it in two. So integrals are continuous when the mesh moves across a
-/// border. Where the stiffness differs in another way, a rule with many points, the same for every degree below theirs.
-/// Valid until the next call.
+/// border. Where the stiffness differs in another way, a rule of degree 6 or higher. Valid until the next call.
 const std::vector<TrianglePoint>& element_rule(const FineMesh& mesh, const FineMesh::Element& element,
                                                const FineRock& rock, int degree);
 
-/// The stiffness of an element of a rosette: the mean over it where a border cuts it in two. The theory of
-/// quarter-point elements is that of one rock, so K is a value of the field around a place so near to a border; with a
-/// mean it is a continuous one.
+/// The stiffness of an element of a rosette: the mean over it where a border cuts it in two. Quarter-point elements
+/// assume one rock around the tip, so K so near to a border is an approximation; the mean makes it continuous.
 Elasticity rosette_stiffness(const FineMesh& mesh, const FineMesh::Element& element, const FineRock& rock);
 
 }  // namespace sprekk::fine_fracture
