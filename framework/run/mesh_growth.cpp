@@ -120,8 +120,8 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
         smallest_angle_ = std::min(smallest_angle_, changed.smallest_angle);
         grown = std::move(changed.model);
       } catch (const ExtensionError& error) {
-        search.give_up(error.extension(), error.what());
-        continue;
+        if (search.give_up(error.extension(), error.what()) == FrontSearch::Verdict::again) continue;
+        return refused(search, step);
       } catch (const std::runtime_error& error) {
         if (search.retreat()) continue;
         return {false, std::string("the mesh cannot follow a fracture: ") + error.what(), 0};
@@ -149,12 +149,14 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
     if (grown && retire_) retire_(*grown, nullptr);
     if (verdict == FrontSearch::Verdict::found) return status;
     if (!grown) model_->rewind();
-    if (verdict == FrontSearch::Verdict::refused) {
-      StepStatus refused{false, search.reason(), 0, search.retry_dt()};
-      shorten(step, refused);
-      return refused;
-    }
+    if (verdict == FrontSearch::Verdict::refused) return refused(search, step);
   }
+}
+
+StepStatus MeshGrowth::refused(const FrontSearch& search, const StepTime& step) {
+  StepStatus status{false, search.reason(), 0, search.retry_dt()};
+  shorten(step, status);
+  return status;
 }
 
 /// Solves the step of a trial and lets the search learn from it. There is no verdict if growth is left out of the step

@@ -55,6 +55,8 @@ class MeshGrowth {
   StepStatus attempt_within(const StepTime& step);
   StepStatus attempt_held(const StepTime& step);
   void shorten(const StepTime& step, StepStatus& refused);
+  /// What a search for a front says of a step that is too long for it.
+  StepStatus refused(const FrontSearch& search, const StepTime& step);
   Outcome follow_held(std::size_t grow_step);
   StepStatus evaluate(Model& trial, const StepTime& step, std::size_t grow_step, FrontSearch& search,
                       std::optional<FrontSearch::Verdict>& verdict);

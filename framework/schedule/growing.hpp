@@ -28,8 +28,9 @@ class FrontSearch {
   /// `trial`: the same component after the step on the mesh with these paths. After `found` it is the one to go on
   /// with.
   virtual Verdict learn(Growing& trial, const StepTime& step) = 0;
-  /// The mesh cannot take a path, an index into paths(): its tip stops for good. The next trial is without it.
-  virtual void give_up(int path, const std::string& why) = 0;
+  /// The mesh cannot take a path, an index into paths(). `again`: its tip stops for good, and the next trial is without
+  /// it; `refused`: the search had come there from paths that the mesh could take, and the step is too long for it.
+  virtual Verdict give_up(int path, const std::string& why) = 0;
   /// The step with the last paths could not be solved. Whether there are others, with less growth, to try instead.
   virtual bool retreat() = 0;
   virtual std::string reason() const = 0;  ///< why the step was refused

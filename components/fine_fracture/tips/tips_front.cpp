@@ -55,8 +55,15 @@ void TipsFront::propose() {
   }
 }
 
-void TipsFront::give_up(int path, const std::string& why) {
+FrontSearch::Verdict TipsFront::give_up(int path, const std::string& why) {
   const int tip = tip_of_path_[path];
+  // A search that has begun where the mesh could follow went astray: as where K jumps at a border. It begins anew in a
+  // shorter step, and in the shortest one tips jump.
+  if (tip != none && !jump_ && front_->trials() > 0) {
+    reason_ = why;
+    if (may_shrink_) return Verdict::refused;
+    if (begin_jump()) return Verdict::again;
+  }
   if (tip == none) {
     joinings_.erase(joinings_.begin() + path);
   } else {
@@ -68,6 +75,7 @@ void TipsFront::give_up(int path, const std::string& why) {
                       fmt::format("{} stays where it is for good (the mesh cannot follow it: {})", name, why), 0});
   }
   propose();
+  return Verdict::again;
 }
 
 Tips::Tip* TipsFront::same_tip(Tips& there, int tip) const {

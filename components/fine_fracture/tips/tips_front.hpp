@@ -26,7 +26,7 @@ class TipsFront : public FrontSearch {
   bool is_needed() const { return !paths_.empty(); }
   const std::vector<PathExtension>& paths() const override { return paths_; }
   Verdict learn(Growing& trial, const StepTime& step) override;
-  void give_up(int path, const std::string& why) override;
+  Verdict give_up(int path, const std::string& why) override;
   bool retreat() override;
   /// Tips that are blocked stop; everything else stays.
   void finish_without_growth() { finish(tips_); }
