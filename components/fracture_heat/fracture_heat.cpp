@@ -171,7 +171,7 @@ void FractureHeat::assemble(Assembly& assembly, const StepTime& step) const {
   BalanceRows heat(assembly, temperature_, "heat");
   const double largest = temperature_.now().lpNorm<Eigen::Infinity>();
   heat.store(capacity_.cwiseProduct(temperature_.now() - temperature_.accepted()),
-             capacity_.lpNorm<Eigen::Infinity>() * largest);
+             BalanceRows::round_off_of_change * capacity_.lpNorm<Eigen::Infinity>() * largest);
   assembly.derivative(temperature_, temperature_, capacity_of_temperature_);
   Vector outflow = outflow_of_temperature_.entries() * temperature_.now();
   for (int p = 0; p < conductance_to_end_.size(); ++p)

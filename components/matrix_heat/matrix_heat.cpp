@@ -176,7 +176,7 @@ void MatrixHeat::assemble(Assembly& assembly, const StepTime& step) const {
   SPREKK_EXPECT(step.dt > 0 && is_discretized_, step.dt, name());
   BalanceRows heat(assembly, temperature_, "heat");
   heat.store(capacity_.cwiseProduct(temperature_.now() - temperature_.accepted()),
-             capacity_.cwiseProduct(temperature_.now()).lpNorm<Eigen::Infinity>());
+             BalanceRows::round_off_of_change * capacity_.cwiseProduct(temperature_.now()).lpNorm<Eigen::Infinity>());
   assembly.derivative(temperature_, temperature_, capacity_of_temperature_);
   const Vector fluxes = face_heat_fluxes();
   Vector leaving = Vector::Zero(mesh_.cell_count());

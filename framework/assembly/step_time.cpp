@@ -9,14 +9,14 @@
 namespace sprekk {
 
 double value_in_step(const Data& data, Place place, const StepTime& step) {
-  SPREKK_EXPECT(step.dt > 0, step.start, step.dt, step.end);
+  SPREKK_EXPECT(step.dt >= 0, step.start, step.dt, step.end);
   SPREKK_ASSERT(std::is_sorted(data.switch_times().begin(), data.switch_times().end()));
   const std::vector<double>& jumps = data.switch_times();
   // The end of a step and a jump at that time may differ by round-off.
   constexpr double rounding = 1e-9;  // of a step: times are sums of steps
   const double tolerance = rounding * step.dt;
   const auto jump = std::lower_bound(jumps.begin(), jumps.end(), step.end - tolerance);
-  const bool jumps_at_end = jump != jumps.end() && *jump <= step.end + tolerance;
+  const bool jumps_at_end = step.dt > 0 && jump != jumps.end() && *jump <= step.end + tolerance;
   place.t =
       jumps_at_end ? std::nextafter(std::min(*jump, step.end), -std::numeric_limits<double>::infinity()) : step.end;
   return data.at(place);

@@ -13,7 +13,8 @@ struct StepTime {
 };
 
 /// The datum as backward Euler takes it: at the end of the step; where it jumps there (Data::switch_times), the value
-/// that held until then. `place.t` is not read.
+/// that held until then. Without a length (dt = 0, before the first step) the step has the value that holds from its
+/// end on. `place.t` is not read.
 double value_in_step(const Data& data, Place place, const StepTime& step);
 Point value_in_step(const VectorData& data, const Place& place, const StepTime& step);
 

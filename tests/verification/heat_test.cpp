@@ -118,6 +118,35 @@ TEST(Heat, FlowInAFractureWarmsTheRockAsInLauwerier) {
   EXPECT_LT(errors.back(), 0.02);
 }
 
+/// Reference: what is conducted in, 2 W per metre and kelvin, for 1e-4 s; 1e-6 s move a temperature of 400 K by 35 of
+/// its last digits, of which rounding takes half of one in each step.
+TEST(Heat, StepsThatMoveTheLastDigitsOfATemperatureLoseNothing) {
+  const std::string rock = "{type: matrix_heat/tpfa, conductivity: 1 W/(m*K), ",
+                    water = "{type: fracture_heat/tpfa, aperture: 1 m, conductivity: 1 W/(m*K), ";
+  for (const std::string& kind : {rock, water})
+    for (const std::string side : {"left", "right", "bottom", "top"}) {
+      const bool along_x = side == "left" || side == "right", in_rock = kind == rock;
+      SceneRun run =
+          SceneRun::from_text(fmt::format("geometry: {{box: {{{}: [0, 10], {}: [-1, 1]}}{}}}\n"
+                                          "mesh: {{kind: structured, cells: {}, shape: quadrilaterals}}\n"
+                                          "components: {{heat: {}heat_capacity: 1e6 J/(m^3*K), initial_temperature: "
+                                          "400 K, boundary: {{{}: {{temperature: "
+                                          "401 K}}}}}}}}\n"
+                                          "schedule: [{{solve: heat}}]\ntime: {{end: 1e-4 s, step: 1e-6 s}}\n",
+                                          along_x ? "x" : "y", along_x ? "y" : "x",
+                                          in_rock ? ""
+                                                  : fmt::format(", fractures: {{f: {{points: {}}}}}",
+                                                                along_x ? "[[0, 0], [10, 0]]" : "[[0, 0], [0, 10]]"),
+                                          along_x ? "[10, 2]" : "[2, 10]", kind, side));
+      run.run();
+      const double width = in_rock ? 2 : 1, area = in_rock ? 20 : 10;
+      const double stored =
+          1e6 * area / run.field("heat.temperature").size() * (run.field("heat.temperature").array() - 400).sum();
+      EXPECT_NEAR(stored / (2 * width * 1e-4), 1, 0.5 / 35) << kind << side;
+      EXPECT_LT(balance_error(run, "heat"), 0.5 / 35) << kind << side;
+    }
+}
+
 /// A map of the plane by whole right angles and mirrors, and the sides that it takes to one another.
 struct Twin {
   double xx, xy, yx, yy;

@@ -26,6 +26,12 @@ TEST(ValueInStep, IsTheOneThatHeldUntilAJumpAtTheEnd) {
   EXPECT_EQ(value(window(), 21, 22), 0);
 }
 
+TEST(ValueInStep, IsTheOneThatHoldsFromThenOnWithoutALength) {
+  EXPECT_EQ(value(window(), 5, 5), 0);
+  EXPECT_EQ(value(window(), 6, 6), 2);
+  EXPECT_EQ(value(window(), 21, 21), 0);
+}
+
 TEST(ValueInStep, OverlooksRoundOffBetweenTheEndAndTheJump) {
   EXPECT_EQ(value(window(), 20, 21 * (1 + 1e-15)), 2);
   EXPECT_EQ(value(window(), 20, 21 * (1 - 1e-15)), 2);
