@@ -63,8 +63,7 @@ class MatrixExchange : public Coupler {
     if (used_ == std::pair(exchange_.version(), step.dt)) return;
     conductance_ = Vector(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c) conductance_[c] = step.dt * exchange_[c] * in_both_[c];
-    // What leaves one balance enters the other.
-    of_difference_ = Operator(diagonal_matrix(conductance_), SparseMatrix(mesh_.cell_count(), mesh_.cell_count()));
+    of_difference_ = Operator::between_fields(diagonal_matrix(conductance_));
     used_ = {exchange_.version(), step.dt};
   }
 

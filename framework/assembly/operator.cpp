@@ -45,6 +45,16 @@ Operator::Operator(SparseMatrix entries, SparseMatrix leaving) : Operator(std::m
                 leaving.cols());
   SPREKK_EXPECT(is_finite(leaving), leaving.rows());
   SPREKK_EXPECT(columns_add_up_alike(*entries_, leaving), leaving.rows(), leaving.cols());
+  exchange(std::move(leaving));
+}
+
+Operator Operator::between_fields(SparseMatrix entries) {
+  Operator made(std::move(entries));
+  made.exchange(SparseMatrix(made.entries_->rows(), made.entries_->cols()));
+  return made;
+}
+
+void Operator::exchange(SparseMatrix leaving) {
   leaving_ = std::make_shared<const SparseMatrix>(std::move(leaving));
   for (int k = 0; k < entries_->nonZeros(); ++k)
     largest_exchange_ = std::max(largest_exchange_, std::abs(entries_->valuePtr()[k]));

@@ -22,6 +22,9 @@ class Operator {
   /// An exchange. `leaving` has the shape of `entries`, and its column sums are what those of `entries` would be
   /// without round-off.
   Operator(SparseMatrix entries, SparseMatrix leaving);
+  /// An exchange of rows of one field with those of another, in both of which the matrix stands, with opposite signs:
+  /// nothing of it leaves the rows of both together. Both fields have to be solved together.
+  static Operator between_fields(SparseMatrix entries);
   const SparseMatrix& entries() const { return *entries_; }
   bool is_exchange() const { return leaving_ != nullptr; }
   /// The matrix to use in a sum of rows; entries() if this is no exchange.
@@ -32,6 +35,8 @@ class Operator {
   std::uint64_t number() const { return number_; }
 
  private:
+  void exchange(SparseMatrix leaving);
+
   std::shared_ptr<const SparseMatrix> entries_, leaving_;
   double largest_exchange_ = 0;
   std::uint64_t number_;

@@ -273,7 +273,8 @@ bool SolveStep::is_good_enough(const StepTime& step) {
 }
 
 StepStatus SolveStep::run(const StepTime& step) {
-  SPREKK_EXPECT(step.dt > 0 && step.end > step.start, step.start, step.dt, step.end);
+  // A state that is settled before the first step has the length of that step, and ends at the start.
+  SPREKK_EXPECT(step.dt > 0 && step.end >= step.start, step.start, step.dt, step.end);
   Stabilization stabilization, preconditioning;
   for (const Part* part : parts_) {
     if (const auto* offer = dynamic_cast<const StabilizesPreconditioner*>(part))

@@ -238,7 +238,7 @@ void StepController::release(double level) {
 
 void StepController::observe(double level) {
   Recurrence& last = recurrence_;
-  if (!last.expected || *last.expected > time_ + rounding * options_.step || level >= 1) return;
+  if (!last.released || !last.expected || *last.expected > time_ + rounding * options_.step || level >= 1) return;
   const double rest = (time_ - *last.released) * (1 - level) / std::max(level - last.level, least_rise);
   last.patience = std::max({rest, 2 * last.patience, shortest_wait()});
   last.expected = time_ + last.patience;

@@ -37,7 +37,8 @@ struct Equation {
     geometry.box.high = Point(1, 1);
     MeshOptions options;
     options.kind = MeshOptions::Kind::structured;
-    options.cells = {1, 1};
+    options.cells = {2, 1};
+    options.shape = MeshOptions::Shape::quadrilaterals;
     mesh = generate_mesh(geometry, options);
     partition(mesh, 1);
     x.set_both(Vector::Constant(2, 10));
