@@ -74,7 +74,9 @@ class TipAtBorder(SceneRuns):
         self.assertLess(max(row[TIP + "K_eq"] for row in run.rows), 1.005 * TOUGHNESS)  # at the onset: as in notes of growth into shear
         for row in after_onset:
             self.assertEqual(row[TIP + "grows"], 1)
-            self.assertAlmostEqual(row[TIP + "K_eq"] / TOUGHNESS, 1, delta=5e-6)
+            # Found to 1e-7, against the toughness with what the viscosity of the fluid adds at this speed.
+            self.assertAlmostEqual(row[TIP + "K_eq"] / row[TIP + "apparent_toughness"], 1, delta=2e-7)
+            self.assertAlmostEqual(row[TIP + "apparent_toughness"] / TOUGHNESS, 1, delta=1e-5)
             self.assertAlmostEqual(row[TIP + "K_II"] / TOUGHNESS, 0, delta=1e-5)
 
     def test_it_keeps_to_the_condition_of_growth(self):

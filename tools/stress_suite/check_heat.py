@@ -61,11 +61,10 @@ def row(history, time):
     return int(np.argmin(abs(np.asarray(history["time[s]"]) - time)))
 
 
-def allowed_exchange(p, instants, steps):
+def allowed_exchange(p, instants):
     """J/m that all cells together may be wrong by, in all steps: a residual of the largest heat that conduction and fluid
-    exchange between two cells, round-off of the temperatures from which heat that flows is computed, and, in each of the steps,
-    of which some may end between two instants, the last digit of those from which the heat of cells is: in a short step it may
-    hold more than all that moves."""
+    exchange between two cells, round-off of the temperatures from which heat that flows is computed, and the last digit of those
+    from which the heat of cells is: in a short step it may hold more than all that moves."""
     allowed = 0.0
     for instant in instants:
         rock, water = instant.cell("heat.temperature[K]"), instant.on_fractures("water.temperature", "K")
@@ -74,8 +73,7 @@ def allowed_exchange(p, instants, steps):
         flow, flow_level = check_balance.flows(p, instant)
         residual = conductance * difference + p["fluid_heat_capacity"] * level * flow
         digits = conductance * level + p["fluid_heat_capacity"] * (level * flow + difference * flow_level)
-        digit = LAST_DIGIT * level * p["heat_capacity"] * check_balance.cell_areas(instant.matrix).sum()
-        allowed += digit * max(steps / len(instants), 1)
+        allowed += LAST_DIGIT * level * p["heat_capacity"] * check_balance.cell_areas(instant.matrix).sum()
         allowed += (check_balance.RESIDUAL * residual + check_balance.ROUND_OFF * digits) * physics.time_step(p) * len(rock)
     return allowed
 
@@ -83,7 +81,7 @@ def allowed_exchange(p, instants, steps):
 def balances(p, instants, history):
     stored, injected, outflow, error = (np.asarray(history[f"heat_{name}[J/m]"]) for name in ("stored", "injected", "outflow", "balance_error"))
     size = max(np.abs(stored).max(), np.abs(injected).max(), np.abs(outflow).max())
-    allowed = PRECISION * size + allowed_exchange(p, instants, len(stored))
+    allowed = PRECISION * size + allowed_exchange(p, instants)
     found = []
     if np.abs(error).max() > allowed:
         found.append(f"heat: the balance is wrong by {np.abs(error).max():.3g} of {size:.3g} J/m (allowed {allowed:.2g})")

@@ -81,8 +81,7 @@ void JumpFit::report(std::vector<Quantity>& quantities) const {
     const FittedFactors fitted = has_begun_ ? factors_of(tip) : FittedFactors{{unknown, unknown, unknown}, unknown};
     quantities.push_back({prefix + "K_I", "Pa*m^0.5", fitted.sifs.k1});
     quantities.push_back({prefix + "K_II", "Pa*m^0.5", fitted.sifs.k2});
-    const bool is_known = std::isfinite(fitted.sifs.k1) && std::isfinite(fitted.sifs.k2);
-    quantities.push_back({prefix + "K_eq", "Pa*m^0.5", is_known ? equivalent_sif(fitted.sifs) : unknown});
+    quantities.push_back({prefix + "K_eq", "Pa*m^0.5", has_begun_ ? equivalent_sif(fitted.sifs) : unknown});
     quantities.push_back({prefix + "K_error_fit", "Pa*m^0.5", fitted.error});
   }
 }

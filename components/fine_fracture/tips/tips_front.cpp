@@ -57,8 +57,8 @@ void TipsFront::propose() {
 
 FrontSearch::Verdict TipsFront::give_up(int path, const std::string& why) {
   const int tip = tip_of_path_[path];
-  // A search that has begun where the mesh could follow went astray: as where K jumps at a border. It begins anew in a
-  // shorter step, and in the shortest one tips jump.
+  // The mesh could follow the first paths of this search, and cannot follow where it has led since: K falls steeply
+  // with the advance, as next to stiffer rock. The search begins anew in a shorter step; in the shortest one tips jump.
   if (tip != none && !jump_ && front_->trials() > 0) {
     reason_ = why;
     if (may_shrink_) return Verdict::refused;
