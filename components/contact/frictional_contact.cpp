@@ -311,7 +311,11 @@ void FrictionalContact::output(std::vector<OutputField>& fields) const {
   Vector states(mesh_.fracture_cell_count());
   const bool is_at_start = traction_.now().isZero(0) && jump_.now().isZero(0);  // walls touch, and carry nothing yet
   for (int i = 0; i < states.size(); ++i) states[i] = is_at_start ? 0.0 : static_cast<double>(state(i));
-  fields.push_back({name() + ".state_0_stick_1_slip_2_open", "1", Location::fracture_cell, 1, std::move(states)});
+  fields.push_back({.name = name() + ".state_0_stick_1_slip_2_open",
+                    .unit = "1",
+                    .location = Location::fracture_cell,
+                    .values = std::move(states),
+                    .is_a_choice = true});
   Vector tendency(mesh_.fracture_cell_count()), used(mesh_.fracture_cell_count());
   for (int i = 0; i < tendency.size(); ++i) {
     const Trial t = trial(i);

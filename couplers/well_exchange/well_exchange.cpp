@@ -237,7 +237,8 @@ class WellExchange : public Coupler {
     std::vector<std::string> names;
     for (const Fracture& each : mesh_.fractures) names.push_back(each.name);
     if (fracture == none) throw unknown_name(place.origin, "fracture", *place.fracture, names);
-    const int nearest = nearest_fracture_cell(mesh_, fracture, place.at);
+    const int nearest = nearest_fracture_cell(
+        mesh_, place.at, [&](int cell) { return mesh_.fracture_cells[cell].fracture == fracture; });
     const FractureCell& cell = mesh_.fracture_cells[nearest];
     const double away = (cell.center - place.at).norm();
     if (away > cell.measure)

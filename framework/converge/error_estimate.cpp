@@ -34,9 +34,16 @@ ParameterError parameter_error(double coarse, double middle, double fine, double
     // Beyond the highest order the last difference is small by chance: the first one says how large the error may be.
     if (observed > most_order) found.error = first / (ratio * (ratio - 1));
   } else {
-    // Where the differences at least shrink, an order of one or more is trusted.
-    const bool shrinks = std::abs(second) < std::abs(first);
-    found.error = std::copysign(std::max(std::abs(second), std::abs(first) / (shrinks ? 2 : 1)), second);
+    double error = std::max(std::abs(first), std::abs(second));
+    if (first * second > 0) {
+      // In one direction the value is still on its way; an order below the least one is chance, of which one is
+      // assumed, as uncertain as an observed one.
+      error = safety * std::abs(second);
+    } else if (std::abs(second) < std::abs(first)) {
+      // The sizes shrink with an order of two at most, as above: a smaller last one is chance.
+      error = std::max(std::abs(second), std::abs(first) / std::pow(2, most_order));
+    }
+    found.error = std::copysign(error, second);
   }
   return found;
 }

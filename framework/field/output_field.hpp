@@ -14,6 +14,7 @@ struct OutputField {
   Location location;
   int components = 1;
   Vector values;
+  bool is_a_choice = false;  ///< numbers of states: a value between two of them means nothing
 };
 
 }  // namespace sprekk

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <map>
 
-#include "framework/discretization/linear_fit.hpp"
+#include "framework/discretization/quadratic_fit.hpp"
 #include "framework/field/component_names.hpp"
 #include "framework/field/weights_in_cell.hpp"
 #include "framework/frame_output/registry.hpp"
@@ -47,9 +47,9 @@ const OutputField* find(const Frame& frame, const std::string& name) {
 /// Entities and weights: the value of the field at x is the sum of weight · value. Empty outside of the mesh.
 std::vector<std::pair<int, double>> weights_at(const Mesh& mesh, const PointLocation& cells, Location location,
                                                const Point& x) {
-  if (location == Location::cell) return linear_fit(mesh, x);
   const int home = cells.cell_at(x);
-  return home == none ? std::vector<std::pair<int, double>>() : weights_in_cell(mesh, location, home, x);
+  if (home == none) return {};
+  return location == Location::cell ? quadratic_fit(mesh, home, x) : weights_in_cell(mesh, location, home, x);
 }
 
 /// The table of one line: each time of output adds a row for each point.

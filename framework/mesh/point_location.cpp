@@ -11,6 +11,8 @@
 namespace sprekk {
 namespace {
 
+constexpr double tie = 1e-6;  ///< of the length of a fracture cell: how much nearer one must be
+
 struct Extent {
   Point low = Point::Constant(std::numeric_limits<double>::infinity());
   Point high = -low;
@@ -108,14 +110,14 @@ int find_fracture(const Mesh& mesh, const std::string& name) {
   return none;
 }
 
-int nearest_fracture_cell(const Mesh& mesh, int fracture, const Point& x) {
-  const auto& [name, first, count] = mesh.fractures[fracture];
+int nearest_fracture_cell(const Mesh& mesh, const Point& x, const std::function<bool(int cell)>& counts) {
   int nearest = none;
   double least = std::numeric_limits<double>::infinity();
-  for (int i = first; i < first + count; ++i) {
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+    if (counts && !counts(i)) continue;
     const auto [from, to] = mesh.fracture_cells[i].points;
     const double d = distance(x, Segment{mesh.fracture_points[from].position, mesh.fracture_points[to].position});
-    if (d < least) least = d, nearest = i;
+    if (d < least - tie * mesh.fracture_cells[i].measure) least = d, nearest = i;
   }
   return nearest;
 }

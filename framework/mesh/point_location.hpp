@@ -1,6 +1,7 @@
 // Which cell holds a point.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "framework/mesh/mesh.hpp"
@@ -33,7 +34,8 @@ class PointLocation {
 /// The index of a fracture, or none.
 int find_fracture(const Mesh& mesh, const std::string& name);
 
-/// The cell of a fracture (by index) that is nearest to a point; of equally near ones the first.
-int nearest_fracture_cell(const Mesh& mesh, int fracture, const Point& x);
+/// The fracture cell that is nearest to a point, of those that count (all without `counts`); of cells that are equally
+/// near, but for a millionth of their length, the first. none where no cell counts.
+int nearest_fracture_cell(const Mesh& mesh, const Point& x, const std::function<bool(int cell)>& counts = {});
 
 }  // namespace sprekk

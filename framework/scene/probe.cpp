@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "framework/discretization/linear_fit.hpp"
+#include "framework/discretization/along_fracture.hpp"
+#include "framework/discretization/quadratic_fit.hpp"
 #include "framework/field/component_names.hpp"
 #include "framework/field/weights_in_cell.hpp"
 #include "framework/invariants.hpp"
@@ -67,6 +68,7 @@ Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& m
     location_ = output->location;
     components_ = output->components;
     unit_ = output->unit;
+    is_a_choice_ = output->is_a_choice;
   } else {
     throw unknown_name(options.origin, "field", of_, names_of(fields, outputs));
   }
@@ -99,13 +101,9 @@ void Probe::check_names(const Mesh& mesh, const ProbeOptions& options) const {
 
 void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
   if (location_ == Location::fracture_cell) {
-    int best = none;
-    for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
-      if (!options.fracture.empty() && mesh.fractures[mesh.fracture_cells[i].fracture].name != options.fracture)
-        continue;
-      const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *options.at).norm(); };
-      if (best == none || distance(i) < distance(best)) best = i;
-    }
+    const int best = nearest_fracture_cell(mesh, *options.at, [&](int cell) {
+      return options.fracture.empty() || mesh.fractures[mesh.fracture_cells[cell].fracture].name == options.fracture;
+    });
     if (best == none)
       throw InputError(options.origin, "probe '" + name_ + "' finds no fracture", "there is none of this name");
     const double away = (mesh.fracture_cells[best].center - *options.at).norm();
@@ -114,14 +112,16 @@ void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
                        "the nearest fracture cell is " + fmt::format("{:.3g} m", away) + " away and only " +
                            fmt::format("{:.3g} m", mesh.fracture_cells[best].measure) + " long",
                        "choose a point on a fracture");
-    weights_ = {{best, 1.0}};
+    if (is_a_choice_)
+      weights_ = {{best, 1.0}};
+    else
+      weights_ = along_fracture(mesh, best, *options.at);
     return;
   }
-  const int home = location_ == Location::cell ? none : PointLocation(mesh).cell_at(*options.at);
+  const int home = PointLocation(mesh).cell_at(*options.at);
   if (home != none)
-    weights_ = weights_in_cell(mesh, location_, home, *options.at);
-  else if (location_ == Location::cell)
-    weights_ = linear_fit(mesh, *options.at);
+    weights_ = location_ == Location::cell ? quadratic_fit(mesh, home, *options.at)
+                                           : weights_in_cell(mesh, location_, home, *options.at);
   if (weights_.empty())
     throw InputError(options.origin, "probe '" + name_ + "' lies outside the " + medium_name(),
                      "there is no cell at its position", "move it inside");
@@ -165,7 +165,15 @@ void Probe::measure(std::vector<Quantity>& quantities, const std::vector<OutputF
       for (const auto& [entity, weight] : weights_)
         if (sign * value(entity) > sign * result) result = value(entity);
     } else {
-      for (const auto& [entity, weight] : weights_) result += weight * value(entity);
+      double smallest = value(weights_.front().first), largest = smallest;
+      for (const auto& [entity, weight] : weights_) {
+        result += weight * value(entity);
+        smallest = std::min(smallest, value(entity));
+        largest = std::max(largest, value(entity));
+      }
+      // Next to closed or sticking cells the polynomial would swing to the other side of zero.
+      if (on_fracture && smallest >= 0) result = std::max(result, 0.0);
+      if (on_fracture && largest <= 0) result = std::min(result, 0.0);
     }
     std::string unit = unit_;
     if (take_ == "integral") unit += on_fracture ? "*m" : "*m^2";

@@ -24,10 +24,10 @@ struct ProbeOptions {
 };
 
 /// Measures one figure of a field, or of an output of a part (Part::output): a weighted sum of values, or the smallest
-/// or largest one. At a point of the matrix this is a linear fit to the cells around the point (least squares; exact
-/// for linear fields), and for fields on nodes and faces the linear value in the cell of the point; at a point of a
-/// fracture the value of the nearest fracture cell. Over a fracture or region it is the mean, integral, smallest or
-/// largest value.
+/// or largest one. At a point of the matrix this is a quadratic fit to the cells around the point (quadratic_fit), and
+/// for fields on nodes and faces the linear value in the cell of the point; at a point of a fracture the value of a
+/// polynomial along it (along_fracture), with the sign that all its cells have, or for a choice that of the cell. Over
+/// a fracture or region it is the mean, integral, smallest or largest value.
 class Probe {
  public:
   /// `outputs`: what parts write beside their fields. Throws InputError for names that are neither a field nor an
@@ -47,6 +47,7 @@ class Probe {
 
   std::string name_, take_, of_;
   const Field* field_ = nullptr;  ///< nullptr where the probe measures an output
+  bool is_a_choice_ = false;      ///< as that of the output
   Location location_;
   int components_;
   std::string unit_;

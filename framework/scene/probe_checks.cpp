@@ -15,17 +15,14 @@ void require_values_at_probes(const OutputOptions& options, const std::vector<st
       const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
       if (!partial || partial->inhabited_cells().empty() || !probe.of.starts_with(component->name() + ".")) continue;
       if (partial->lives_on_fractures()) {
-        int nearest = none;
-        const auto distance = [&](int cell) { return (mesh.fracture_cells[cell].center - *probe.at).norm(); };
-        for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
-          const std::string& fracture = mesh.fractures[mesh.fracture_cells[i].fracture].name;
-          if (!probe.fracture.empty() && fracture != probe.fracture) continue;
-          if (!probe.at && !partial->inhabited_cells()[i])
+        const auto fracture_of = [&](int cell) { return mesh.fractures[mesh.fracture_cells[cell].fracture].name; };
+        const auto counts = [&](int cell) { return probe.fracture.empty() || fracture_of(cell) == probe.fracture; };
+        for (int i = 0; !probe.at && i < mesh.fracture_cell_count(); ++i)
+          if (counts(i) && !partial->inhabited_cells()[i])
             throw InputError(probe.origin, "probe '" + name + "' reaches where there is no value",
-                             "'" + component->name() + "' does not live on fracture '" + fracture + "'",
+                             "'" + component->name() + "' does not live on fracture '" + fracture_of(i) + "'",
                              "take a fracture on which it does");
-          if (probe.at && (nearest == none || distance(i) < distance(nearest))) nearest = i;
-        }
+        const int nearest = probe.at ? nearest_fracture_cell(mesh, *probe.at, counts) : none;
         if (nearest != none && !partial->inhabited_cells()[nearest])
           throw InputError(probe.origin, "probe '" + name + "' reaches where there is no value",
                            "'" + component->name() + "' does not live on the fracture there",

@@ -221,7 +221,7 @@ TEST(Restart, WithStepsThatWereCutWritesTheTablesOfAWholeRun) {
   const Folder folder;
   const auto arguments = [](std::vector<std::string> more) {
     for (const std::string setting :
-         {"newton={at_most: 2, residual: 0.1, update: 0.1, pieces: 0}", "time={end: 8 h, step: 4 h}"})
+         {"newton={at_most: 2, residual: 0.2, update: 0.2, pieces: 0}", "time={end: 8 h, step: 4 h}"})
       more.insert(more.end(), {"--set", setting});
     return tutorial(more);
   };

@@ -58,9 +58,23 @@ def pressure_of_well(x, y, time):
     return float(np.sin(n * x) @ (source * wave / (decay**2 + frequency**2)) @ np.sin(n * y))
 
 
-IN_ROCK = [(0.31, 0.17), (-0.42, 0.23), (0.15, -0.36), (-0.27, -0.19), (0.55, 0.48)]  # m, around a fracture of 0.2 m
-IN_SQUARE = [(0.61, 0.31), (0.23, 0.71), (0.79, 0.83), (0.42, 0.14), (0.15, 0.37)]  # m, of a square of 1 m
-ALONG = [(x, 0.0) for x in (-0.7, -0.45, -0.2, 0.3, 0.6)]  # m, of a fracture of 2 m
+PLACES = 30
+DRAWN = np.random.default_rng(20261127)
+
+
+def drawn(low, high, fits):
+    """Points of a square that fit."""
+    found = []
+    while len(found) < PLACES:
+        x, y = DRAWN.uniform(low, high, 2)
+        if fits(x, y):
+            found.append((float(x), float(y)))
+    return found
+
+
+IN_ROCK = drawn(-0.9, 0.9, lambda x, y: math.hypot(max(abs(x) - 0.1, 0), y) > 0.08)  # m, off a fracture from -0.1 to 0.1 m
+IN_SQUARE = drawn(0.07, 0.93, lambda x, y: abs(y - 0.5) > 0.05)  # m, off the middle of a square of 1 m
+ALONG = [(float(x), 0.0) for x in DRAWN.uniform(-0.85, 0.85, PLACES)]  # m, of a fracture from -1 to 1 m
 
 
 def problems():
@@ -71,7 +85,7 @@ def problems():
     manufactured, manufactured_answers = probes(
         "pore.pressure", lambda x, y: exact.manufactured_biot(np.array([x]), np.array([y]))[0][0], IN_SQUARE)
     mode, mode_answers = probes("pore.pressure", matrix, [(x, y - 0.5) for x, y in IN_SQUARE])
-    fault, fault_answers = probes("contact.jump", lambda x, _: exact.viesca_slip(x, 0.5), [(x, 0.0) for x in (-0.5, -0.3, 0.2, 0.4)], ".t")
+    fault, fault_answers = probes("contact.jump", lambda x, _: exact.viesca_slip(x, 0.5), [(0.6 * x, 0.0) for x, _ in ALONG], ".t")
     along_slope = [(x * math.cos(math.radians(20)), x * math.sin(math.radians(20))) for x, _ in ALONG]
     slip, slip_answers = probes("contact.jump", lambda x, y: exact.elliptic(math.hypot(x, y), 1.0, exact.phan_peak()), along_slope, ".t")
     opening, opening_answers = probes("contact.jump", lambda x, _: exact.elliptic(x, 1.0, exact.SNEDDON_PEAK), ALONG, ".n")

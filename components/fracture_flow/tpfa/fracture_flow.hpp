@@ -161,6 +161,10 @@ class FractureFlow : public Component,
     return aperture_.accepted()[cell] - (empty_ ? empty_->accepted()[cell] : 0);
   }
   std::vector<int> cells_of(const FracturePlace& where) const;
+  /// The cells that an injection at a place goes into, and their shares, which add up to 1.
+  std::vector<std::pair<int, double>> shares_of(const FracturePlace& where) const;
+  std::vector<int> cells_at(const FracturePoint& end) const;
+  double pressure_at(const FracturePlace& where, double rate) const;  ///< Pa
   std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);
   void prescribe(const StepTime& step);

@@ -4,16 +4,15 @@ namespace sprekk::fracture_flow {
 
 namespace {
 
-void add_where(Spec& spec, FracturePlace& where) {
+void add_where(Spec& spec, FracturePlace& where, const std::string& point) {
   spec.text("fracture", where.fracture, {.doc = "Name of the fracture; all fractures without it."});
-  spec.point(
-      "at", where.at,
-      {.unit = "m", .doc = "The nearest cell to this point; without it the whole fracture, but for what grows."});
+  spec.point("at", where.at, {.unit = "m", .doc = point + "; without it the whole fracture, but for what grows."});
 }
 
 Spec injection_spec(Injection& injection) {
   Spec spec("injection", "Fluid injected into a fracture; extracted with a negative rate.");
-  add_where(spec, injection.where);
+  add_where(spec, injection.where,
+            "A point of a fracture, whose rate the two cells share between whose centres it lies");
   spec.data("rate", injection.rate,
             {.unit = "m^2/s",
              .doc = "Volume of fluid per time and metre of depth, in all.",
@@ -25,7 +24,7 @@ Spec injection_spec(Injection& injection) {
 
 Spec prescribed_spec(PrescribedPressure& prescribed) {
   Spec spec("prescribed pressure", "A part of a fracture whose pressure is given instead of its balance of fluid.");
-  add_where(spec, prescribed.where);
+  add_where(spec, prescribed.where, "The nearest cell to this point");
   spec.data("pressure", prescribed.pressure, {.unit = "Pa", .doc = "The pressure.", .required = true, .in_time = true});
   return spec;
 }

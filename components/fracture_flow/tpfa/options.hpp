@@ -22,7 +22,7 @@ struct FracturePlace {
 /// A rate of fluid that is injected at a place.
 struct Injection {
   FracturePlace where;
-  Data rate;  ///< m^2/s in all, spread evenly over the length
+  Data rate;  ///< m^2/s in all, spread evenly over the length; at a point shared by the two cells around it
 };
 
 /// A pressure that is prescribed at a place.

@@ -68,12 +68,22 @@ TEST(NearestFractureCell, IsTheOneBelowThePoint) {
   const Mesh mesh = generate_mesh(geometry, {.size = 1});
   EXPECT_EQ(find_fracture(mesh, "two"), 1);
   EXPECT_EQ(find_fracture(mesh, "three"), none);
+  const auto of = [&](int fracture) {
+    return [&, fracture](int cell) { return mesh.fracture_cells[cell].fracture == fracture; };
+  };
   for (double x = 1.05; x < 9; x += 0.3) {
-    const int cell = nearest_fracture_cell(mesh, 1, {x, 3});
+    const int cell = nearest_fracture_cell(mesh, {x, 3}, of(1));
     EXPECT_EQ(mesh.fracture_cells[cell].fracture, 1);
     EXPECT_LE(std::abs(mesh.fracture_cells[cell].center.x() - x), 0.5 * mesh.fracture_cells[cell].measure + 1e-12);
   }
-  EXPECT_EQ(nearest_fracture_cell(mesh, 0, {0, 0}), mesh.fractures[0].first_cell);
+  EXPECT_EQ(nearest_fracture_cell(mesh, {0, 0}, of(0)), mesh.fractures[0].first_cell);
+  EXPECT_EQ(nearest_fracture_cell(mesh, {0, 0}), mesh.fractures[0].first_cell);
+  EXPECT_EQ(nearest_fracture_cell(mesh, {0, 0}, [](int) { return false; }), none);
+  // Round-off does not choose between cells that meet at a node.
+  const FractureCell& first = mesh.fracture_cells[mesh.fractures[0].first_cell];
+  const Point node = mesh.fracture_points[first.points[1]].position;
+  for (const double off : {-1e-9, 0.0, 1e-9})
+    EXPECT_EQ(nearest_fracture_cell(mesh, node + Point(off, off)), mesh.fractures[0].first_cell);
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// Values at a point of a fracture, from the cells around it.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// Cells and weights, which add up to 1, of the value at a point `x` of a fracture; `cell` holds it. Between the
+/// centres of two cells it goes over, linearly, from the polynomial of second degree through three centres around the
+/// one to that around the other: continuous along the fracture, exact for quadratic values, and off by O(h^3).
+/// Distances are along the fracture, which may have corners.
+///
+/// Across a point where fractures touch or cross nothing is interpolated. Next to it, and to an end, the polynomial is
+/// linear, and beyond the last centre it is the value of the cell.
+std::vector<std::pair<int, double>> along_fracture(const Mesh& mesh, int cell, const Point& x);
+
+}  // namespace sprekk

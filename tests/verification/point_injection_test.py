@@ -1,0 +1,113 @@
+#!/usr/bin/python3
+"""point_injection_test.py SPREKK [MPIEXEC]: fluid that is injected at a point of a fracture comes from there, not from the centre of a cell:
+the cells around share it. Steady flow to both ends of a fracture from side to side, whose pressure falls linearly from the well to each
+end: p(s) = Q μ/K s (L - s_w)/L before the well, and with s and s_w counted from the other end behind it."""
+
+import math
+import unittest
+
+from scene_runs import SceneRuns, on_two_processes
+
+RATE, MOBILITY = 1e-6, 1e-9 / 1e-3  # m^2/s; K/μ, m^3/(Pa s)
+SCENE = """
+name: point_injection
+geometry:
+  box: {{x: [-1 m, 1 m], y: [-1 m, 1 m]}}
+  fractures: {{main: {{points: [{start}, {end}]}}}}
+mesh: {{size: 0.4 m, fracture_size: {size!r} m}}
+components:
+  conduit:
+    type: fracture_flow/tpfa
+    viscosity: 1 mPa*s
+    fluid_compressibility: 0 1/Pa
+    initial_aperture: 1 mm
+    transmissivity: constant
+    transmissivity_value: 1e-9 m^3
+    injection: {{well: {{at: {well}, rate: {rate!r} m^2/s}}}}
+    boundary: {{left: {{pressure: 0 Pa}}, right: {{pressure: 0 Pa}}}}
+schedule: [{{solve: conduit}}]
+time: {{end: 1 s, step: 1 s}}
+output:
+  fields: false
+  probes: {{{probes}}}
+"""
+CROSS = """
+name: crossing
+geometry:
+  box: {{x: [-1 m, 1 m], y: [-1 m, 1 m]}}
+  fractures: {{one: {{points: {ends[0]}}}, two: {{points: {ends[1]}}}}}
+mesh: {{size: 0.4 m, fracture_size: 0.1 m}}
+components:
+  conduit:
+    type: fracture_flow/tpfa
+    viscosity: 1 mPa*s
+    fluid_compressibility: 4e-10 1/Pa
+    initial_aperture: 0.1 mm
+    initial_pressure: 0 Pa
+    injection: {{well: {{at: {well}, rate: {rate!r} m^2/s}}}}
+schedule: [{{solve: conduit}}]
+time: {{end: 1 s, step: 0.1 s}}
+output:
+  fields: false
+  probes: {{{probes}}}
+"""
+PLACES = (0.13, 0.22, 0.31, 0.7, 0.79, 0.9)  # of the fracture: at least a cell and a half from all wells
+
+
+class PointInjection(SceneRuns):
+    def pressures(self, rise, well, size=0.1, processes=1):
+        """At PLACES of the fracture from (-1, -rise) to (1, rise), and at the well, which is at a part of its length."""
+        def at(part):
+            return f"[{2 * part - 1!r} m, {rise * (2 * part - 1)!r} m]"
+        probes = ", ".join(f"p{i}: {{of: conduit.pressure, at: {at(part)}}}" for i, part in enumerate(PLACES))
+        scene = SCENE.format(start=at(0), end=at(1), size=size, well=at(well), rate=RATE, probes=probes)
+        table = self.run_scene(self.write(scene), processes=processes).history
+        return [table[f"p{i}[Pa]"][-1] for i in range(len(PLACES))] + [table["conduit.well.pressure[Pa]"][-1]]
+
+    def exact(self, rise, well):
+        length = 2 * math.hypot(1, rise)
+        return [RATE / MOBILITY * length * min(part, well) * (1 - max(part, well)) for part in (*PLACES, well)]
+
+    def test_wells_anywhere_in_a_cell(self):
+        for rise in (0.0, 0.37, -0.8):
+            for well in (0.5, 0.5 + 1e-9, 0.5 - 1e-9, 0.51, 0.533, 0.487, 0.46):
+                for ours, exact in zip(self.pressures(rise, well), self.exact(rise, well)):
+                    self.assertAlmostEqual(ours / exact, 1, delta=1e-9, msg=f"rise {rise}, well at {well}")
+
+    def test_a_symmetric_well_feeds_both_sides_alike(self):
+        for size in (0.1, 0.08):  # an even and an odd number of cells
+            pressures = self.pressures(0.37, 0.5, size)
+            mirrored = self.pressures(-0.37, 0.5, size)
+            for i, (ours, other) in enumerate(zip(pressures, mirrored)):
+                self.assertAlmostEqual(ours / other, 1, delta=1e-12)
+                self.assertAlmostEqual(ours / self.exact(0.37, 0.5)[i], 1, delta=1e-9)
+
+    def test_a_well_at_a_crossing_feeds_all_arms_alike(self):
+        """Four arms of one length hold as much, with the well at their crossing; with the well in one of them, a quarter of a cell from the
+        crossing, both arms beside it do. The mean is that of the fluid: p = Q t/(L a c)."""
+        for turn in (0.0, 0.4):
+            c, s = math.cos(turn), math.sin(turn)
+            arms = [(c, s), (-s, c), (-c, -s), (s, -c)]
+            for before in (0.0, 0.025):
+                probes = ", ".join(f"p{i}: {{of: conduit.pressure, at: [{0.35 * x!r} m, {0.35 * y!r} m]}}" for i, (x, y) in enumerate(arms))
+                table = self.run_scene(self.write(CROSS.format(
+                    ends=[[[-0.7 * c, -0.7 * s], [0.7 * c, 0.7 * s]], [[0.7 * s, -0.7 * c], [-0.7 * s, 0.7 * c]]],
+                    well=[-before * c, -before * s], rate=RATE, probes=probes))).history
+                pressures = [table[f"p{i}[Pa]"][-1] for i in range(4)]
+                mean = RATE * 1.0 / (4 * 0.7 * 1e-4 * 4e-10)
+                self.assertAlmostEqual(sum(pressures) / 4 / mean, 1, delta=1e-3)
+                self.assertAlmostEqual(pressures[1] / pressures[3], 1, delta=1e-12)
+                if before:
+                    self.assertGreater(pressures[2], pressures[0] * (1 + 1e-6))
+                else:
+                    for one in pressures:
+                        self.assertAlmostEqual(one / pressures[0], 1, delta=1e-9)
+
+    @on_two_processes
+    def test_two_processes(self):
+        for ours, exact in zip(self.pressures(0.37, 0.5, processes=2), self.exact(0.37, 0.5)):
+            self.assertAlmostEqual(ours / exact, 1, delta=1e-9)
+
+
+if __name__ == "__main__":
+    unittest.main()
