@@ -1,11 +1,14 @@
 #include "framework/discretization/quadratic_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "framework/dense/least_squares.hpp"
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/corner_weights.hpp"
 
 namespace sprekk {
 namespace {
@@ -46,6 +49,17 @@ std::set<int> with_neighbours(const Mesh& mesh, int home, const std::set<int>& c
   return seen;
 }
 
+/// The cells of the fit at a node of `home`: those around it, and where these are few those next to them.
+std::set<int> around_node(const Mesh& mesh, int home, int node) {
+  std::set<int> cells = {home};
+  for (const int cell : with_neighbours(mesh, home, cells))
+    if (std::ranges::count(mesh.cell_nodes[cell], node) > 0) cells.insert(cell);
+  constexpr int rings = 2;
+  for (int ring = 0; ring < rings && cells.size() < 2 * coefficients; ++ring)
+    cells = with_neighbours(mesh, home, cells);
+  return cells;
+}
+
 /// The monomials of degree two and less of an offset, the constant first.
 Eigen::Matrix<double, 1, coefficients> monomials(const Point& offset) {
   Eigen::Matrix<double, 1, coefficients> row;
@@ -80,15 +94,9 @@ Eigen::MatrixXd independent_columns(const Eigen::MatrixXd& all) {
   return kept;
 }
 
-}  // namespace
-
-std::vector<std::pair<int, double>> quadratic_fit(const Mesh& mesh, int home, const Point& x) {
-  SPREKK_EXPECT(is_finite(x));
-  if (home == none) return {};
-  std::set<int> around = with_neighbours(mesh, home, {home});
-  if (around.size() < 2 * coefficients) around = with_neighbours(mesh, home, around);
-  const double size = std::pow(mesh.cell_measure[home], 1.0 / dimension);
-  SPREKK_ASSERT(size > 0, home, size);
+/// The weights of the fit to some cells, at x. `size`: of one of them, m.
+void add_fit(const Mesh& mesh, const std::set<int>& around, const Point& x, double size, double share,
+             std::map<int, double>& result) {
   std::vector<Point> offsets;
   for (const int cell : around) offsets.push_back((mesh.cell_center[cell] - x) / size);
   const auto count = static_cast<Eigen::Index>(offsets.size());
@@ -100,12 +108,27 @@ std::vector<std::pair<int, double>> quadratic_fit(const Mesh& mesh, int home, co
   for (Eigen::Index i = 0; i < count; ++i)
     basis.row(i) = weights[i] * monomials(turn * offsets[static_cast<std::size_t>(i)]);
   const Eigen::MatrixXd inverse = LeastSquares(independent_columns(basis)).pseudo_inverse();
-  std::vector<std::pair<int, double>> result;
   for (Eigen::Index i = 0; const int cell : around) {
-    result.emplace_back(cell, inverse(0, i) * weights[i]);
+    result[cell] += share * inverse(0, i) * weights[i];
     ++i;
   }
-  return result;
+}
+
+}  // namespace
+
+std::vector<std::pair<int, double>> quadratic_fit(const Mesh& mesh, int home, const Point& x) {
+  SPREKK_EXPECT(is_finite(x));
+  if (home == none) return {};
+  std::map<int, double> result;
+  for (const auto& [node, share] : corner_weights(mesh, home, x)) {
+    double measure = 0;  // of the cells at the node: not that of `home`, which one cell of several may be
+    for (const int cell : mesh.node_cells[node])
+      measure += mesh.cell_measure[cell] / static_cast<double>(mesh.node_cells[node].size());
+    const double size = std::pow(measure, 1.0 / dimension);
+    SPREKK_ASSERT(size > 0, home, size);
+    add_fit(mesh, around_node(mesh, home, node), x, size, share, result);
+  }
+  return {result.begin(), result.end()};
 }
 
 }  // namespace sprekk

@@ -85,6 +85,27 @@ TEST(QuadraticFit, IsQuadraticAlongAStripOfCells) {
       }
 }
 
+TEST(QuadraticFit, DoesNotDependOnTheCellAtANodeOrAFace) {
+  for (const Mesh& mesh :
+       {generate_mesh(box(1, 1), unstructured(0.2, 0.3)), generate_mesh(box(1, 1), mixed(0.2, 0.3))}) {
+    std::vector<double> values;
+    for (int i = 0; i < mesh.cell_count(); ++i) values.push_back(std::sin(3.0 * i * i));
+    const auto value = [&](int home, const Point& x) {
+      double sum = 0;
+      for (const auto& [cell, weight] : quadratic_fit(mesh, home, x)) sum += weight * values[cell];
+      return sum;
+    };
+    for (int node = 0; node < mesh.node_count(); ++node)
+      for (const int home : mesh.node_cells[node])
+        EXPECT_NEAR(value(home, mesh.nodes[node]), value(mesh.node_cells[node][0], mesh.nodes[node]), 1e-9) << node;
+    for (std::size_t face = 0; face < mesh.face_center.size(); ++face) {
+      const auto& cells = mesh.face_cells[face];
+      if (cells[1] == none) continue;
+      EXPECT_NEAR(value(cells[0], mesh.face_center[face]), value(cells[1], mesh.face_center[face]), 1e-9) << face;
+    }
+  }
+}
+
 TEST(QuadraticFit, HasTheValueOfTheOnlyCell) {
   const Mesh mesh = grid_of({0, 1}, {0, 1});
   const auto weights = quadratic_fit(mesh, 0, {0.2, 0.9});

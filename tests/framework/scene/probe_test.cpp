@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "framework/config/input_error.hpp"
 #include "tests/components/meshes.hpp"
 
@@ -59,6 +61,80 @@ TEST(Probe, IsExactForLinearFieldsOnCellsNodesAndFaces) {
   walls.of = "part.walls";
   walls.take = "mean";
   EXPECT_THROW(probed.value(walls), InputError);
+}
+
+/// A field on a straight fracture of cells of one length, and what a probe of it says at a point.
+struct OnFracture {
+  Mesh mesh;
+  FieldStore fields;
+  Field* field = nullptr;
+
+  OnFracture() : mesh(made()) {
+    field = &fields.add(mesh, {.owner = "part",
+                               .name = "walls",
+                               .location = Location::fracture_cell,
+                               .role = Role::derived(),
+                               .unit = "m",
+                               .doc = ""});
+  }
+  static Mesh made() {
+    Geometry geometry = box(1, 1);
+    FractureGeometry main;
+    main.name = "main";
+    main.points = {Point(0.2, 0.35), Point(0.8, 0.65)};
+    geometry.fractures = {main};
+    return generate_mesh(geometry, unstructured(0.1));
+  }
+  /// At a share of the fracture.
+  double value(double share, const Vector& values, bool is_a_choice = false) {
+    field->set_both(values);
+    ProbeOptions options;
+    options.of = is_a_choice ? "part.states" : "part.walls";
+    options.at = Point(0.2, 0.35) + share * Point(0.6, 0.3);
+    std::vector<OutputField> outputs;
+    if (is_a_choice)
+      outputs.push_back({.name = "part.states",
+                         .unit = "1",
+                         .location = Location::fracture_cell,
+                         .values = values,
+                         .is_a_choice = true});
+    std::vector<Quantity> quantities;
+    Probe("probe", options, mesh, fields, outputs).measure(quantities, outputs);
+    return quantities.at(0).value;
+  }
+};
+
+TEST(Probe, IsExactForQuadraticFieldsAlongAFracture) {
+  OnFracture fracture;
+  const int cells = fracture.mesh.fracture_cell_count();
+  Vector values(cells);
+  const auto quadratic_at = [](double share) { return 2 - share + 3 * share * share; };
+  for (int i = 0; i < cells; ++i) values[i] = quadratic_at((i + 0.5) / cells);
+  for (const double share : {0.31, 0.5, 0.5 + 1e-9, 0.62})
+    EXPECT_NEAR(fracture.value(share, values), quadratic_at(share), 1e-8);
+  Vector mirrored = values.reverse();
+  EXPECT_NEAR(fracture.value(0.31, values), fracture.value(0.69, mirrored), 1e-10);
+  EXPECT_NEAR(fracture.value(0.5, values), fracture.value(0.5, mirrored), 1e-10);
+}
+
+TEST(Probe, KeepsTheSignOfTheCellsAround) {
+  OnFracture fracture;
+  const int cells = fracture.mesh.fracture_cell_count(), open = cells / 2;
+  Vector opening = Vector::Zero(cells);
+  for (int i = open; i < cells; ++i) opening[i] = i - open + 1.0;
+  const double between_closed = (open - 1.0) / cells;
+  EXPECT_EQ(fracture.value(between_closed, opening), 0);
+  EXPECT_EQ(fracture.value(between_closed, -opening), 0);
+}
+
+TEST(Probe, TakesStatesFromTheCell) {
+  OnFracture fracture;
+  Vector states(fracture.mesh.fracture_cell_count());
+  for (int i = 0; i < states.size(); ++i) states[i] = i % 3;
+  for (const double share : {0.03, 0.2, 0.41, 0.5, 0.77, 0.99}) {
+    const double state = fracture.value(share, states, true);
+    EXPECT_EQ(state, std::round(state)) << share;
+  }
 }
 
 }  // namespace
