@@ -22,7 +22,7 @@ components:
          initial_pressure: "(cos(pi*x/{LENGTH})) MPa"}}
 schedule: [{{solve: pore}}]
 time: {{end: 4 h, step: 900 s}}
-output: {{probes: {{p: {{of: pore.pressure, at: [0.25 m, 0.25 m]}}}}}}
+output: {{probes: {{p: {{of: pore.pressure, take: largest}}}}}}  # that of the first cells: a probe at their centre would be a fit
 """
 # A column whose load comes and goes smoothly: q = 2 Pa sin^2(omega t) instead of 2 Pa at once.
 OMEGA = math.pi / 0.2
