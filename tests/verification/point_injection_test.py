@@ -6,7 +6,7 @@ end: p(s) = Q μ/K s (L - s_w)/L before the well, and with s and s_w counted fro
 import math
 import unittest
 
-from scene_runs import SceneRuns, on_two_processes
+from scene_runs import MPIEXEC, SceneRuns, on_two_processes
 
 RATE, MOBILITY = 1e-6, 1e-9 / 1e-3  # m^2/s; K/μ, m^3/(Pa s)
 SCENE = """
@@ -88,20 +88,28 @@ class PointInjection(SceneRuns):
         for turn in (0.0, 0.4):
             c, s = math.cos(turn), math.sin(turn)
             arms = [(c, s), (-s, c), (-c, -s), (s, -c)]
-            for before in (0.0, 0.025):
+            for before, processes in ((0.0, 1), (1e-9, 1), (0.025, 1), (0.0, 2 if MPIEXEC else 1)):
                 probes = ", ".join(f"p{i}: {{of: conduit.pressure, at: [{0.35 * x!r} m, {0.35 * y!r} m]}}" for i, (x, y) in enumerate(arms))
                 table = self.run_scene(self.write(CROSS.format(
                     ends=[[[-0.7 * c, -0.7 * s], [0.7 * c, 0.7 * s]], [[0.7 * s, -0.7 * c], [-0.7 * s, 0.7 * c]]],
-                    well=[-before * c, -before * s], rate=RATE, probes=probes))).history
+                    well=[-before * c, -before * s], rate=RATE, probes=probes)), processes=processes).history
                 pressures = [table[f"p{i}[Pa]"][-1] for i in range(4)]
                 mean = RATE * 1.0 / (4 * 0.7 * 1e-4 * 4e-10)
                 self.assertAlmostEqual(sum(pressures) / 4 / mean, 1, delta=1e-3)
                 self.assertAlmostEqual(pressures[1] / pressures[3], 1, delta=1e-12)
-                if before:
+                if before > 1e-6:
                     self.assertGreater(pressures[2], pressures[0] * (1 + 1e-6))
                 else:
                     for one in pressures:
                         self.assertAlmostEqual(one / pressures[0], 1, delta=1e-9)
+
+    def test_neighbours_with_a_prescribed_pressure_take_nothing(self):
+        """The well is between the centres of two cells: with a pressure in the other one its own takes all, with one in its own none enters."""
+        for at, rate in (("[0.05 m, 0 m]", RATE), ("[-0.05 m, 0 m]", 0)):
+            scene = SCENE.format(start="[-1 m, 0 m]", end="[1 m, 0 m]", size=0.1, well="[-0.03 m, 0 m]", rate=RATE,
+                                 probes="p: {of: conduit.pressure, at: [0.5 m, 0 m]}")
+            table = self.run_scene(self.write(scene), f"components.conduit.prescribed={{held: {{at: {at}, pressure: 0 Pa}}}}").history
+            self.assertAlmostEqual(table["conduit.well.rate[m^2/s]"][-1], rate, delta=1e-20)
 
     @on_two_processes
     def test_two_processes(self):

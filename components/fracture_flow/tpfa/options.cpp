@@ -11,8 +11,7 @@ void add_where(Spec& spec, FracturePlace& where, const std::string& point) {
 
 Spec injection_spec(Injection& injection) {
   Spec spec("injection", "Fluid injected into a fracture; extracted with a negative rate.");
-  add_where(spec, injection.where,
-            "A point of a fracture, whose rate the two cells share between whose centres it lies");
+  add_where(spec, injection.where, "A point of a fracture; the cells whose centres are around it share the rate");
   spec.data("rate", injection.rate,
             {.unit = "m^2/s",
              .doc = "Volume of fluid per time and metre of depth, in all.",

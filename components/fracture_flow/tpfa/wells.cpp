@@ -69,8 +69,8 @@ std::vector<int> FractureFlow::cells_of(const FracturePlace& where) const {
 
 /// A whole fracture takes as much in each metre. At a point, between the centre of a cell and its end on that side, the
 /// cell has its share of what lies between both, and all cells that meet at the end the rest, in proportion to the
-/// inverse of their lengths: so the mean place of the fluid is the point. Cells that have grown, that are not in the
-/// flow, or whose pressure is prescribed take none.
+/// inverse of their lengths: so the mean place of the fluid is the point. Neighbours that have grown, that are not in
+/// the flow, or whose pressure is prescribed take none.
 std::vector<std::pair<int, double>> FractureFlow::shares_of(const FracturePlace& where) const {
   const std::vector<int> cells = cells_of(where);
   std::vector<std::pair<int, double>> shares;
@@ -82,6 +82,7 @@ std::vector<std::pair<int, double>> FractureFlow::shares_of(const FracturePlace&
   }
   if (cells.empty()) return shares;
   const int home = cells.front();
+  if (is_prescribed_[home]) return {{home, 1.0}};  // has no effect, and is noted
   const FractureCell& at = mesh_.fracture_cells[home];
   const auto end_of = [&](int k) -> const FracturePoint& { return mesh_.fracture_points[at.points[k]]; };
   const Point along = (end_of(1).position - end_of(0).position).normalized();
