@@ -157,7 +157,7 @@ StepStatus GrowStep::run(const StepTime& step) {
   if (rests_) return {true, "", 0};
   last_ = step;
   extensions_.clear();
-  has_grown_ = false;
+  growth_load_ = 0;
   now_doing("looking at what may grow");
   load_ = examine(step);
   SPREKK_ASSERT(!std::isnan(load_.now) && !std::isnan(load_.onset), load_.now, load_.onset);
@@ -172,7 +172,7 @@ StepStatus GrowStep::run(const StepTime& step) {
   if (!growth.arrested && load_.now > most && may_shrink(step))
     return refused("tips grow further than the mesh can follow in one step", step, load_.accepted, load_.now);
   extensions_ = std::move(growth.extensions);
-  has_grown_ = growth.any;
+  growth_load_ = growth.load;
   return {true, "", 0};
 }
 

@@ -64,10 +64,11 @@ class GrowStep : public ScheduleStep {
   CavityOptions cavity() const { return growing_->cavity(); }
   /// Whether a growth event still shows at the tips.
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
-  /// Whether growth in the last attempt is at its end, and has settled: no tip was above its toughness by more than the
-  /// overshoot, or none grew. Tips that are closed, or would grow by less than the shortest increment, do not.
+  /// Whether growth in the last attempt is at its end, and has settled: no tip that grew was above its toughness by
+  /// more than the overshoot, and the state at the tips is as before, or drifts evenly. Tips that are closed, or would
+  /// grow by less than the shortest increment, do not count: they may stay above their toughness while others grow.
   bool has_come_to_rest() const {
-    return extensions_.empty() && (load_.now <= 1 + options_.overshoot || !has_grown_) && !is_unsettled();
+    return extensions_.empty() && growth_load_ <= 1 + options_.overshoot && load_.uneven <= options_.settled;
   }
   /// The largest load of all tips over the load 1 + overshoot/2 at which a refused step would be made to end.
   double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * options_.overshoot); }
@@ -92,7 +93,8 @@ class GrowStep : public ScheduleStep {
   std::optional<StepTime> last_;    ///< the time step of the last run
   std::vector<PathExtension> extensions_;
   Holding holding_ = Holding::never;
-  bool is_held_ = false, rests_ = false, has_grown_ = false;
+  double growth_load_ = 0;  ///< Growing::Growth::load of the last attempt
+  bool is_held_ = false, rests_ = false;
 };
 
 }  // namespace sprekk

@@ -57,13 +57,18 @@ class Growing {
     double onset_accepted = 0;  ///< the same at the start of the step
     /// Largest relative change over the step of the state at the tips that a growth event disturbs.
     double unsettled = 0;
+    /// The same of what its rate of change in the last step does not foretell: 0 where it drifts evenly, as under an
+    /// injection. At most `unsettled`.
+    double uneven = 0;
   };
   virtual Load examine(const StepTime& step) = 0;
   /// The growth of all tips in a step.
   struct Growth {
     std::vector<PathExtension> extensions;  ///< the paths that the mesh is to take over
     bool arrested = true;                   ///< whether all tips came to rest before the mesh had to take paths over
-    bool any = false;                       ///< whether a tip has grown, in a path or in what the component keeps
+    /// Of the tips that have grown, in a path or in what the component keeps: the largest load, before they grew, as
+    /// in Load::now. 0 where none has.
+    double load = 0;
   };
   /// Lets the tips grow until they arrest, or until the mesh must take their paths over. The component keeps a path
   /// that is too short for the mesh; such a path counts from the next step on, if this one is accepted. With growth

@@ -16,6 +16,13 @@ void Tips::note_start(const StepTime& step) {
 
 double Tips::rest_tolerance() const { return options_.growth.seeks_arrest() ? options_.growth.arrest_tolerance : 0; }
 
+/// The load above which the tip grows is 1. At the end of an increment K_eq is the toughness within a tolerance, and
+/// the tip must not grow again for that difference. A tip that has not grown yet has no such rest: refused steps aim at
+/// the load 1 + overshoot/2, where it has to grow.
+double Tips::growth_load(const Tip& tip) const {
+  return tip.now.load / (1 + (tip.now.has_started ? rest_tolerance() : 0));
+}
+
 Growing::Load Tips::examine(const StepTime& step) {
   note_start(step);
   surroundings_->update();
@@ -33,7 +40,13 @@ Growing::Load Tips::examine(const StepTime& step) {
     }
     const double now = surroundings_->fluid_pressure(tip.end.fracture, tip.end.at_end);
     const double before = surroundings_->accepted_fluid_pressure(tip.end.fracture, tip.end.at_end);
-    if (now != before) loads.unsettled = std::max(loads.unsettled, std::abs(now - before) / std::max(now, before));
+    tip.now.pressure_rate = (now - before) / step.dt;
+    if (now != before) {
+      const double change = std::abs(now - before), size = std::max(now, before),
+                   uneven = std::abs(now - before - tip.accepted.pressure_rate * step.dt);
+      loads.unsettled = std::max(loads.unsettled, change / size);
+      loads.uneven = std::max(loads.uneven, std::min(change, uneven) / size);
+    }
     const double estimate = may_rule_out && tip.now.path.added.empty() ? estimated_load(tip) : 0;
     if (tip.evaluated_for == surroundings_->version()) {
       ++kept_;
@@ -46,11 +59,9 @@ Growing::Load Tips::examine(const StepTime& step) {
       tip.evaluated_for = surroundings_->version();
     }
     if (turns_sharply(tip)) tip.now.is_extendable = false;
-    // At the end of an increment the load is 1 within a tolerance; the tip must not grow again for that difference. A
-    // tip that has not grown yet has no such rest: refused steps aim at the load 1 + overshoot/2, where it has to grow.
     if (is_followed(tip)) continue;
     const double rest = tip.now.has_started ? rest_tolerance() : 0;
-    loads.now = std::max(loads.now, tip.now.load / (1 + rest));
+    loads.now = std::max(loads.now, growth_load(tip));
     loads.accepted = std::max(loads.accepted, tip.accepted.load / (1 + rest));
     if (tip.now.has_started) continue;
     loads.onset = std::max(loads.onset, tip.now.load);

@@ -107,6 +107,7 @@ Growing::Growth Tips::grow(const StepTime&) {
     Tip& tip = tips_[i];
     if (is_followed(tip)) continue;
     const TipOutcome& outcome = outcomes[i];
+    if (outcome.increments > 0) result.load = std::max(result.load, growth_load(tip));
     tip.now.has_started = tip.now.has_started || outcome.increments > 0 || tip.now.load >= 1 + rest_tolerance();
     increments_ += outcome.increments;
     const bool was_stopped = tip.now.is_stopped;
@@ -120,7 +121,6 @@ Growing::Growth Tips::grow(const StepTime&) {
     tip.now.warm_start = outcome.warm_start;
     if (outcome.blocked && options_.meeting == "join") blocked.push_back(i);
     if (outcome.increments == 0) continue;
-    result.any = true;
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
     if (!is_long_enough(tip, tip.now.path)) continue;
     extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});

@@ -6,7 +6,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int state_size = 21;  ///< numbers of a state, without its way and its path
+constexpr int state_size = 22;  ///< numbers of a state, without its way and its path
 
 void append(Vector& values, const Point& point) {
   values.conservativeResize(values.size() + 2);
@@ -23,7 +23,7 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     values << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started,
         kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated, kept.load,
         kept.is_extendable, kept.speed, kept.turning, static_cast<double>(kept.way.size()), start, kept.speed_before,
-        kept.turning_before, kept.lasted, kept.lasted_before;
+        kept.turning_before, kept.lasted, kept.lasted_before, kept.pressure_rate;
     for (const PlaceOnWay& place : kept.way) append(values, place.position), append(values, place.direction);
     for (const Point& place : kept.path.added) append(values, place);
     state[name() + "." + tip.name] = std::move(values);
@@ -53,6 +53,7 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.turning_before = values[18];
     kept.lasted = values[19];
     kept.lasted_before = values[20];
+    kept.pressure_rate = values[21];
     if (const Point start(values[15], values[16]); start != Point::Zero()) kept.segment_start = start;
     int at = state_size;
     const auto next = [&] {

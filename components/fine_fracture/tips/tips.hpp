@@ -93,7 +93,8 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
     /// The direction of the path at the beginning of the last segment. With one the fine level has an arc in place of
     /// the segment.
     std::optional<Point> segment_start;
-    bool is_stopped = false;  ///< for good, at or before another fracture, or before the boundary
+    double pressure_rate = 0;  ///< Pa/s, of the fluid in the last cell, in the last step
+    bool is_stopped = false;   ///< for good, at or before another fracture, or before the boundary
   };
   /// A tip, its state, and what is kept of its fine level.
   struct Tip {
@@ -189,6 +190,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   bool turns_sharply(const Tip& tip) const;
   /// By which part the load of a tip that has come to rest may exceed 1.
   double rest_tolerance() const;
+  double growth_load(const Tip& tip) const;
   double threshold(const Tip& tip) const;
   /// The longest path that a tip may have in the fine level alone, m.
   double longest_path(const Tip& tip) const;
