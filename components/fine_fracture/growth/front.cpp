@@ -12,7 +12,10 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one gives no slope from two meshes
+constexpr double least_warm_advance = 1e-3;   ///< of an increment, where a slope is known
 constexpr double gain = 0.5;                  ///< of the norm of the best trial: what counts as progress
+constexpr double noise = 1e-5;                ///< of that norm: steps of the factors that no mesh error explains
+constexpr int patience_with_noise = 4;        ///< trials without progress, below it
 constexpr int patience = 8;                   ///< trials without progress
 constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
 constexpr double of_meshes = 0.01;            ///< ln K: ten times what it differs by between two meshes
@@ -42,12 +45,16 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
     angle_[i] = tips_[i].angle;
   }
   make_jacobian();
+  is_warm_ = slopes.rows() == 2 * count();
+  for (int i = 0; i < count(); ++i)
+    if (is_warm_ && !is_new(i))
+      slopes_.jacobian(2 * i, 2 * i) =
+          slopes(2 * i, 2 * i) * (tips_[i].size > 0 ? options_.increment / tips_[i].size : 1);
   for (int i = 0; i < count(); ++i)
     if (tips_[i].goes_on || tips_[i].first_length > 0 || (without_growth[i].is_evaluated && without_growth[i].load > 1))
       begin(i, without_growth[i]);
   if (!any_grows()) verdict_ = Verdict::found;
-  if (slopes.rows() == 2 * count()) {
-    is_warm_ = true;
+  if (is_warm_) {
     slopes_.jacobian = slopes;
     scale(slopes_.jacobian, without_growth, false);
     return;
@@ -94,6 +101,12 @@ void Front::begin_with(int tip, double length, double angle) {
   tips_[tip].first_angle = angle;
 }
 
+/// Increments, of a tip whose speed is not known: to where its load falls to the toughness, by the slope that is known.
+double Front::first_advance(int i, const FrontState& state) const {
+  const double slope = slopes_.jacobian(2 * i, 2 * i), least = is_warm_ ? least_warm_advance : least_first_advance;
+  return slope < 0 ? std::clamp(excess(state) / -slope, least, first_part) : first_part;
+}
+
 /// The first trial of a tip: from its speed, or else from the expansion of a short kink.
 void Front::begin(int i, const FrontState& state) {
   grows_[i] = is_laid_[i] = 1;
@@ -105,7 +118,7 @@ void Front::begin(int i, const FrontState& state) {
     return;
   }
   if (!is_new(i)) {
-    const double expected = tip.speed > 0 ? tip.speed * dt_ : first_part * options_.increment;
+    const double expected = tip.speed > 0 ? tip.speed * dt_ : first_advance(i, state) * options_.increment;
     length_[i] = std::min(tip.longest, tip.covered + std::min(expected, options_.increment));
     angle_[i] = tip.ahead + std::clamp(tip.turning * (length_[i] - tip.covered), -largest_turn, largest_turn);
     return;
@@ -128,7 +141,7 @@ void Front::learn(const std::vector<FrontState>& states) {
   last_ = states;
   const FrontEquations front = equations(found);
   const Eigen::VectorXd counted = count_loads(found, front);
-  worst_ = 0;
+  worst_ = worst_shear_ = 0;
   bool is_met = has_equal_advances(found) &&
                 front.difference.lpNorm<Eigen::Infinity>() <= of_differences * options_.load_tolerance;
   for (int i = 0; i < count(); ++i) {
@@ -140,11 +153,17 @@ void Front::learn(const std::vector<FrontState>& states) {
     const bool is_shortest = is_new(i) && length_[i] <= shortest(i) * (1 + at_limit);
     if (is_shortest && load < 0) continue;  // at rest, whatever its direction
     worst_ = std::max(worst_, std::abs(load));
+    worst_shear_ = std::max(worst_shear_, std::abs(found[2 * i + 1]));
     if (std::abs(load) > options_.load_tolerance || std::abs(found[2 * i + 1]) > options_.direction_tolerance)
       is_met = false;
   }
   if (is_met) {
     verdict_ = Verdict::found;
+    return;
+  }
+  if (is_met_but_for_noise(found)) {
+    verdict_ = Verdict::found;
+    is_rough_ = true;
     return;
   }
   const Eigen::VectorXd from = return_to_best(found);
@@ -167,17 +186,32 @@ void Front::leave_mesh(const Eigen::VectorXd& residual) {
     before_place_.resize(0);
 }
 
-/// After a trial that is much worse than the best one, a warm start is dropped, or else the next
-/// step is shorter.
-Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
+/// The largest of what has to vanish, of the tips that grow.
+double Front::norm(const Eigen::VectorXd& residual) const {
   const FrontEquations front = equations(residual);
   const Eigen::VectorXd counted = count_loads(residual, front);
   double norm = of_difference * front.difference.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) norm = std::max({norm, std::abs(counted[2 * i]), of_direction * std::abs(residual[2 * i + 1])});
-  if (!best_ || norm <= much_worse * best_->norm) {
-    if (!best_ || norm < gain * best_->norm) last_gain_ = trials_;
-    if (!best_ || norm < best_->norm) best_ = Best{place(), residual, norm};
+  return norm;
+}
+
+/// Whether trials come no nearer to the front since factors have small steps, or a state is not known better.
+bool Front::is_met_but_for_noise(const Eigen::VectorXd& residual) const {
+  if (!best_ || trials_ - last_gain_ < patience_with_noise) return false;
+  for (int i = 0; i < count(); ++i)
+    if (may_start(i) && load_at_rest(i, residual) > noise) return false;
+  const double now = norm(residual);
+  return now <= noise && now >= gain * best_->norm;
+}
+
+/// After a trial that is much worse than the best one, a warm start is dropped, or else the next
+/// step is shorter.
+Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
+  const double now = norm(residual);
+  if (!best_ || now <= much_worse * best_->norm) {
+    if (!best_ || now < gain * best_->norm) last_gain_ = trials_;
+    if (!best_ || now < best_->norm) best_ = Best{place(), residual, now};
     part_ = 1;
     return residual;
   }

@@ -88,8 +88,11 @@ class Front {
   void learn(const std::vector<FrontState>& states);
   Verdict verdict() const { return verdict_; }
   int trials() const { return trials_; }
+  /// Whether a front was found to 1e-5 of K and 1e-4 of K_II/K_I only, since trials came no nearer to it.
+  bool is_rough() const { return is_rough_; }
   /// The largest residual of the load of a growing tip in the last trial; of a tip alone |ln(K_eq/K_IC)|.
   double worst() const { return worst_; }
+  double worst_shear() const { return worst_shear_; }  ///< the largest |K_II/K_I| of a growing tip there
   const std::string& reason() const { return reason_; }
   /// The derivative of (ln(K/K_IC), K_II/K_I) by (length/increment, angle), per tip, as it was learnt, without the
   /// parts that depend on the lengths of segments and fractures; for the next step.
@@ -101,6 +104,8 @@ class Front {
   double shortest(int tip) const { return std::max(options_.shortest, tips_[tip].least); }
   /// The length of a last segment that does not grow.
   double least(int tip) const { return is_new(tip) ? shortest(tip) : tips_[tip].covered; }
+  static double excess(const FrontState& state);  ///< ln(load), or what takes its place
+  double first_advance(int tip, const FrontState& state) const;
   void begin(int tip, const FrontState& state);
   void set_turn_slope(int tip, const Sifs& sifs);
   bool learns_from_start() const;
@@ -138,6 +143,8 @@ class Front {
                                        const Eigen::VectorXd& full);
   std::optional<Eigen::VectorXd> step_to_linear_front(const std::vector<int>& free,
                                                       const Eigen::VectorXd& residual) const;
+  double norm(const Eigen::VectorXd& residual) const;
+  bool is_met_but_for_noise(const Eigen::VectorXd& residual) const;
   /// The residual to go on from: that of the last trial, or of the best one if the last was much worse.
   Eigen::VectorXd return_to_best(const Eigen::VectorXd& residual);
   void step(const Eigen::VectorXd& residual);
@@ -158,11 +165,11 @@ class Front {
   };
   std::optional<Best> best_;
   bool is_warm_ = false;  ///< whether the Jacobian comes from an earlier search: a warm start
-  bool is_other_mesh_ = false;
+  bool is_other_mesh_ = false, is_rough_ = false;
   double part_ = 1;  ///< of steps, smaller after trials that were worse
   Verdict verdict_ = Verdict::again;
   int trials_ = 0, last_gain_ = 0;
-  double worst_ = 0;
+  double worst_ = 0, worst_shear_ = 0;
   std::string reason_;
 };
 

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double shared_slope = -0.2;  ///< of ln K_eq by one increment of another tip, as long as none is known
 
-double excess(const FrontState& state) {
+double shear(const FrontState& state) { return std::atan2(state.sifs.k2, state.sifs.k1); }
+
+}  // namespace
+
+double Front::excess(const FrontState& state) {
   if (state.excess) return *state.excess;
   constexpr double least = 1e-3;
   return std::log(std::max(least, state.load));
 }
-
-double shear(const FrontState& state) { return std::atan2(state.sifs.k2, state.sifs.k1); }
-
-}  // namespace
 
 double Front::turn_slope_of(int tip, const Sifs& sifs, double length) const {
   return turn_slope(sifs, tips_[tip].toughness, length, tips_[tip].is_bent);

@@ -115,7 +115,10 @@ bool FrontJump::is_near(const Place& place, double part) const {
 }
 
 bool FrontJump::retreat() {
-  for (int i = 0; i < count(); ++i) now_.length[i] = 0.5 * (from_.length[i] + now_.length[i]);
+  for (int i = 0; i < count(); ++i) {
+    now_.length[i] = 0.5 * (from_.length[i] + now_.length[i]);
+    now_.angle[i] = 0.5 * (from_.angle[i] + now_.angle[i]);
+  }
   return !is_near(now_, shortest_part);
 }
 

@@ -26,7 +26,7 @@ class FrontJump {
   /// The tip stays where it was at the start of the step, whatever its load.
   void stop(int tip);
   void learn(const std::vector<FrontState>& states);
-  /// The last trial could not be solved: it is made shorter. False when it is short already.
+  /// The last trial could not be solved, or laid: it is made shorter, and turns less. False when it is short already.
   bool retreat();
   /// too_far: a tip is still above its toughness where its advance in one step ends. The last trial holds all the same.
   Front::Verdict verdict() const { return verdict_; }

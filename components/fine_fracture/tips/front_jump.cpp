@@ -22,6 +22,18 @@ void TipsFront::note_rest(double worst) {
                     worst});
 }
 
+void TipsFront::note_rough_front() {
+  const std::string name = tips_.name();
+  const double worst = std::max(front_->worst(), front_->worst_shear());
+  notes_.push_back(
+      {name + " ends steps at a front that is less exact",
+       fmt::format("tips of {} end a step with K_eq/K_IC off by {:.1e} and K_II/K_I off by {:.1e} (between "
+                   "trials of a step factors jump by that much) a smaller 'newton.update' of the solves "
+                   "before 'grow' may help",
+                   name, front_->worst(), front_->worst_shear()),
+       worst});
+}
+
 /// Returns false where no tip can advance.
 bool TipsFront::begin_jump() {
   jump_ = std::make_unique<FrontJump>(at_start_, without_growth_, options_);

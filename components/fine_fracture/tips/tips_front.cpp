@@ -64,6 +64,11 @@ FrontSearch::Verdict TipsFront::give_up(int path, const std::string& why) {
     if (may_shrink_) return Verdict::refused;
     if (begin_jump()) return Verdict::again;
   }
+  // A jump that leads where the mesh cannot follow begins anew with a shorter trial that turns less.
+  if (tip != none && jump_ && jump_->retreat()) {
+    propose();
+    return Verdict::again;
+  }
   if (tip == none) {
     joinings_.erase(joinings_.begin() + path);
   } else {
@@ -117,7 +122,10 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
   }
   TopologyHash topology;
   topology.add(topology_hash(there.mesh_));
-  topology.add(there.topology());
+  // The factors of others do not count in the search, and where they still grow their meshes differ from trial to
+  // trial.
+  for (const Tips::Tip& tip : there.tips_)
+    if (there.is_followed(tip)) topology.add(tip.topology);
   if (topology_ && *topology_ != topology.value()) front_->change_mesh();
   topology_ = topology.value();
   if (front_->verdict() == Front::Verdict::again) front_->learn(states_);
@@ -126,6 +134,7 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
       propose();
       return Verdict::again;
     case Front::Verdict::found:
+      if (front_->is_rough()) note_rough_front();
       return finish(there);
     case Front::Verdict::too_far:
     case Front::Verdict::failed:

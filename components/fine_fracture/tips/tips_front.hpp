@@ -53,6 +53,7 @@ class TipsFront : public FrontSearch {
   Verdict settle_for_less(Tips& there);
   bool begin_jump();
   void note_rest(double worst);
+  void note_rough_front();
   Verdict end_jump(Tips& there);
 
   Tips& tips_;

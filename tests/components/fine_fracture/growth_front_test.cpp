@@ -167,6 +167,50 @@ TEST(Front, TipsThatWereTakenToGoOnMayRest) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(front.length(i), 0.008);
 }
 
+/// A tip that starts hardly above its toughness, with slopes that are known, advances in the first trial by what they
+/// foretell: K of a short wing falls ten times as fast as that of a long one, and a trial of a quarter of an increment
+/// would lead far beyond the front.
+TEST(Front, TheFirstTrialFollowsSlopesThatAreKnown) {
+  ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
+  form.own = 200;
+  const Eigen::MatrixXd slopes = form.solved(exact()).slopes();
+  form.rise = {0.01, -0.1};
+  const Front begin(form.tips, form.without_growth(), exact(), 3600, slopes);
+  EXPECT_NEAR(begin.length(0) - 0.008, 0.01 / (form.own + form.shared), 0.1 * 0.01 / (form.own + form.shared));
+  const Front front = form.solved(exact(), slopes);
+  ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_NEAR(front.length(0) - 0.008, 0.01 / (form.own + form.shared), 1e-9);
+  EXPECT_LE(front.trials(), 5);
+}
+
+/// Factors that jump by 3e-6 and 3e-5 wherever a trial comes near the front: no trial meets the tolerances, and the
+/// front is found to the size of the jumps. Where they jump by a hundred times as much, there is none.
+TEST(Front, IsFoundToTheStepsOfTheFactors) {
+  for (const double size : {1.0, 100.0}) {
+    const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
+    Front front(form.tips, form.without_growth(), exact(), 3600);
+    int trial = 0;
+    while (front.verdict() == Front::Verdict::again) {
+      std::vector<FrontState> states =
+          form.states({front.length(0), front.length(1)}, {front.angle(0), front.angle(1)});
+      const double sign = ++trial % 2 == 0 ? size : -size;
+      for (FrontState& state : states) {
+        state.sifs.k2 += sign * 3e-5 * state.sifs.k1;
+        state.load *= 1 + sign * 3e-6;
+      }
+      front.learn(states);
+    }
+    ASSERT_EQ(front.verdict(), size > 1 ? Front::Verdict::failed : Front::Verdict::found);
+    if (size > 1) continue;
+    EXPECT_TRUE(front.is_rough());
+    EXPECT_GT(front.worst_shear(), options().direction_tolerance);
+    EXPECT_LT(front.worst_shear(), 1e-4);
+    const double sum = 0.63 / (form.own + 2 * form.shared);
+    EXPECT_NEAR(front.length(0) - 0.008, (0.3 - form.shared * sum) / form.own, 1e-5 / form.own);
+  }
+  EXPECT_FALSE((ClosedForm{{0.3}, {tip(0.4)}}.solved(options()).is_rough()));
+}
+
 TEST(Front, NothingGrowsBelowTheToughness) {
   const Front front = ClosedForm{{-0.01, -0.2}, {tip(0.4), tip(-2.0)}}.solved(options());
   EXPECT_EQ(front.verdict(), Front::Verdict::found);
