@@ -11,17 +11,18 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one gives no slope from two meshes
-constexpr double least_warm_advance = 1e-3;   ///< of an increment, where a slope is known
-constexpr double gain = 0.5;                  ///< of the norm of the best trial: what counts as progress
-constexpr double noise = 1e-5;                ///< of that norm: steps of the factors that no mesh error explains
-constexpr int patience_with_noise = 4;        ///< trials without progress, below it
-constexpr int patience = 8;                   ///< trials without progress
-constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
-constexpr double of_meshes = 0.01;            ///< ln K: ten times what it differs by between two meshes
-constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
-constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
-constexpr double of_difference = 30;  ///< that of differences of advances: slopes of loads, 0.3, over those of H, 0.01
+constexpr double least_first_advance = 0.05;   ///< of an increment: a shorter one gives no slope from two meshes
+constexpr double least_warm_advance = 1e-3;    ///< of an increment, where a slope is known
+constexpr double gain = 0.5;                   ///< of the norm of the best trial: what counts as progress
+constexpr double noise = 1e-5;                 ///< of that norm: steps of the factors that no mesh error explains
+constexpr int patience_with_noise = 4;         ///< trials without progress, below it
+constexpr int patience = 8;                    ///< trials without progress
+constexpr double much_worse = 2;               ///< of the norm of a trial over the best so far
+constexpr double of_meshes = 0.01;             ///< ln K: ten times what it differs by between two meshes
+constexpr double shorter = 0.5;                ///< steps after a trial that was much worse
+constexpr double of_direction = 0.1;           ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
+constexpr double slope_of_differences = 0.01;  ///< of H by an advance, see most_equal_front.hpp
+constexpr double least_of_difference = 1;
 constexpr double of_differences = 0.1;  ///< the tolerance of differences of advances over that of loads
 
 }  // namespace
@@ -57,6 +58,7 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
   if (is_warm_) {
     slopes_.jacobian = slopes;
     scale(slopes_.jacobian, without_growth, false);
+    weigh_differences();
     return;
   }
   for (int i = 0; i < count(); ++i)
@@ -68,6 +70,20 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
   before_residual_ = residual(without_growth);
   length_ = lengths;
   angle_ = angles;
+}
+
+/// In the norm of a trial an error in the equations for differences of advances, and one in a load, count alike if they
+/// are worth the same advance of all tips.
+void Front::weigh_differences() {
+  double steepest = 0;
+  for (int i = 0; i < count(); ++i) {
+    double slope = 0;
+    for (int j = 0; j < count(); ++j)
+      if (grows_[j] && !is_new(j)) slope += slopes_.jacobian(2 * i, 2 * j);
+    if (grows_[i] && !is_new(i)) steepest = std::max(steepest, std::abs(slope));
+  }
+  if (steepest > 0)
+    of_difference_ = std::clamp(steepest / slope_of_differences, least_of_difference, most_of_difference);
 }
 
 /// Whether the state without growth is a trial that Broyden's method may learn from: where segments go on, and by so
@@ -190,7 +206,7 @@ void Front::leave_mesh(const Eigen::VectorXd& residual) {
 double Front::norm(const Eigen::VectorXd& residual) const {
   const FrontEquations front = equations(residual);
   const Eigen::VectorXd counted = count_loads(residual, front);
-  double norm = of_difference * front.difference.lpNorm<Eigen::Infinity>();
+  double norm = of_difference_ * front.difference.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) norm = std::max({norm, std::abs(counted[2 * i]), of_direction * std::abs(residual[2 * i + 1])});
   return norm;

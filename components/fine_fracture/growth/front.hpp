@@ -109,6 +109,7 @@ class Front {
   void begin(int tip, const FrontState& state);
   void set_turn_slope(int tip, const Sifs& sifs);
   bool learns_from_start() const;
+  void weigh_differences();
   void make_jacobian();
   void forget();
   double size_of(int tip) const;
@@ -166,7 +167,9 @@ class Front {
   std::optional<Best> best_;
   bool is_warm_ = false;  ///< whether the Jacobian comes from an earlier search: a warm start
   bool is_other_mesh_ = false, is_rough_ = false;
-  double part_ = 1;  ///< of steps, smaller after trials that were worse
+  static constexpr double most_of_difference = 30;  ///< slopes of loads, 0.3, over those of H, 0.01
+  double of_difference_ = most_of_difference;       ///< the weight of differences of advances in norm()
+  double part_ = 1;                                 ///< of steps, smaller after trials that were worse
   Verdict verdict_ = Verdict::again;
   int trials_ = 0, last_gain_ = 0;
   double worst_ = 0, worst_shear_ = 0;
