@@ -159,17 +159,28 @@ StepStatus MeshGrowth::refused(const FrontSearch& search, const StepTime& step) 
   return status;
 }
 
-/// Solves the step of a trial and lets the search learn from it. There is no verdict if growth is left out of the step
+/// Solves the step of a trial and lets the search learn from it. Tips that are not searched for grow in the trial that
+/// is the right one. There is no verdict if growth is left out of the step
 /// or the step is not solved. Paths that come too near to one another on the fine level count as a step that is not
 /// solved.
 StepStatus MeshGrowth::evaluate(Model& trial, const StepTime& step, std::size_t grow_step, FrontSearch& search,
                                 std::optional<FrontSearch::Verdict>& verdict) {
+  GrowStep& grow = *trial.growing()[grow_step];
   try {
-    const StepStatus status = trial.attempt(step);
-    const GrowStep& grow = *trial.growing()[grow_step];
-    if (status.converged && grow.was_run(step)) verdict = search.learn(grow.component(), step);
+    grow.examine_followed_only(true);
+    StepStatus status = trial.attempt(step);
+    grow.examine_followed_only(false);
+    if (!status.converged || !grow.was_run(step)) return status;
+    const FrontSearch::Verdict learnt = search.learn(grow.component(), step);
+    if (learnt == FrontSearch::Verdict::found) {
+      status = grow.run(step);
+      if (status.converged) verdict = search.conclude(grow.component(), step);
+    } else {
+      verdict = learnt;
+    }
     return status;
   } catch (const std::invalid_argument& error) {
+    grow.examine_followed_only(false);
     return {false, error.what(), 0};
   }
 }

@@ -159,6 +159,12 @@ StepStatus GrowStep::run(const StepTime& step) {
   extensions_.clear();
   growth_load_ = 0;
   now_doing("looking at what may grow");
+  if (followed_only_) {
+    is_held_ = false;
+    growing_->hold(false);
+    growing_->examine_followed(step);
+    return {true, "", 0};
+  }
   load_ = examine(step);
   SPREKK_ASSERT(!std::isnan(load_.now) && !std::isnan(load_.onset), load_.now, load_.onset);
   const double most = 1 + options_.overshoot;

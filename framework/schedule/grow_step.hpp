@@ -53,6 +53,9 @@ class GrowStep : public ScheduleStep {
   };
   void choose(Holding holding) { holding_ = holding; }
   bool is_held() const { return is_held_; }  ///< in the last attempt
+  /// In a trial of a search for growth within the step, whose other tips grow once it is the right one: run() only
+  /// examines the tips that are searched for.
+  void examine_followed_only(bool only) { followed_only_ = only; }
   /// At rest the step does nothing, and all that it has found in its last attempt stays.
   void rest(bool rests) { rests_ = rests; }
   /// Whether the step was run in an attempt at this time step: a `when` may leave it out.
@@ -94,7 +97,7 @@ class GrowStep : public ScheduleStep {
   std::vector<PathExtension> extensions_;
   Holding holding_ = Holding::never;
   double growth_load_ = 0;  ///< Growing::Growth::load of the last attempt
-  bool is_held_ = false, rests_ = false;
+  bool is_held_ = false, rests_ = false, followed_only_ = false;
 };
 
 }  // namespace sprekk

@@ -25,9 +25,12 @@ class FrontSearch {
 
   /// The paths of the next trial, from the mesh at the start of the step; empty where nothing grows.
   virtual const std::vector<PathExtension>& paths() const = 0;
-  /// `trial`: the same component after the step on the mesh with these paths. After `found` it is the one to go on
-  /// with.
+  /// `trial`: the same component after the step on the mesh with these paths, with examine_followed(). After `found`
+  /// the other tips grow in this state, by examine() and grow(), and conclude() tells whether the trial is the step.
   virtual Verdict learn(Growing& trial, const StepTime& step) = 0;
+  /// After `found` the trial is the one to go on with; `again` where a tip that has grown now is to be searched for,
+  /// too.
+  virtual Verdict conclude(Growing& trial, const StepTime& step) = 0;
   /// The mesh cannot take a path, an index into paths(). `again`: its tip stops for good, and the next trial is without
   /// it; `refused`: the search had come there from paths that the mesh could take, and the step is too long for it.
   virtual Verdict give_up(int path, const std::string& why) = 0;
@@ -62,6 +65,8 @@ class Growing {
     double uneven = 0;
   };
   virtual Load examine(const StepTime& step) = 0;
+  /// Examines those tips alone whose growth search_front() finds: others do not count in trials.
+  virtual void examine_followed(const StepTime& step) = 0;
   /// The growth of all tips in a step.
   struct Growth {
     std::vector<PathExtension> extensions;  ///< the paths that the mesh is to take over

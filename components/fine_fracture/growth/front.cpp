@@ -191,6 +191,19 @@ void Front::learn(const std::vector<FrontState>& states) {
   step(from);
 }
 
+void Front::learn_of_others(const std::vector<FrontState>& states) {
+  SPREKK_EXPECT(verdict_ == Verdict::found);
+  SPREKK_EXPECT(static_cast<int>(states.size()) == count(), states.size(), count());
+  last_ = states;
+  const Eigen::VectorXd found = residual(states);
+  for (int i = 0; i < count(); ++i) {
+    if (!may_start(i) || load_at_rest(i, found) <= options_.load_tolerance) continue;
+    verdict_ = Verdict::again;
+    is_rough_ = false;
+    return step(found);
+  }
+}
+
 /// Trials on the last mesh are not repeated on this one: none is the best. Their difference from this one tells a slope
 /// where it is large beside the error of a mesh.
 void Front::leave_mesh(const Eigen::VectorXd& residual) {

@@ -86,6 +86,9 @@ class Front {
   /// The next states are those of a mesh with another topology than the last one: K differs by the error of a mesh.
   void change_mesh() { is_other_mesh_ = true; }
   void learn(const std::vector<FrontState>& states);
+  /// After a front was found: the states of the same trial, with those of tips that are evaluated from now on. If one
+  /// of them has to grow, the search goes on.
+  void learn_of_others(const std::vector<FrontState>& states);
   Verdict verdict() const { return verdict_; }
   int trials() const { return trials_; }
   /// Whether a front was found to 1e-5 of K and 1e-4 of K_II/K_I only, since trials came no nearer to it.

@@ -23,7 +23,7 @@ double Tips::growth_load(const Tip& tip) const {
   return tip.now.load / (1 + (tip.now.has_started ? rest_tolerance() : 0));
 }
 
-Growing::Load Tips::examine(const StepTime& step) {
+Growing::Load Tips::examine(const StepTime& step, bool followed_only) {
   note_start(step);
   surroundings_->update();
   notes_.clear();
@@ -47,6 +47,7 @@ Growing::Load Tips::examine(const StepTime& step) {
       loads.unsettled = std::max(loads.unsettled, change / size);
       loads.uneven = std::max(loads.uneven, std::min(change, uneven) / size);
     }
+    if (followed_only && !is_followed(tip)) continue;
     const double estimate = may_rule_out && tip.now.path.added.empty() ? estimated_load(tip) : 0;
     if (tip.evaluated_for == surroundings_->version()) {
       ++kept_;

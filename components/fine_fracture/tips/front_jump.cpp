@@ -7,10 +7,10 @@ namespace sprekk::fine_fracture {
 
 /// In the shortest step there is no stable growth, or none that was found: tips advance until they are below their
 /// toughness.
-FrontSearch::Verdict TipsFront::settle_for_less(Tips& there) {
+FrontSearch::Verdict TipsFront::settle_for_less() {
   if (begin_jump()) return Verdict::again;
   note_rest(front_->worst());
-  return finish(there);
+  return Verdict::found;
 }
 
 void TipsFront::note_rest(double worst) {
@@ -52,7 +52,7 @@ bool TipsFront::retreat() {
   return true;
 }
 
-FrontSearch::Verdict TipsFront::end_jump(Tips& there) {
+FrontSearch::Verdict TipsFront::end_jump() {
   bool is_jump = false;
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
     const FrontJump::Record& record = jump_->record(static_cast<int>(i));
@@ -81,7 +81,7 @@ FrontSearch::Verdict TipsFront::end_jump(Tips& there) {
                       drop->before - drop->behind});
   else if (!is_jump)
     note_rest(jump_->worst());
-  return finish(there);
+  return Verdict::found;
 }
 
 }  // namespace sprekk::fine_fracture

@@ -51,7 +51,8 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   /// Throws InputError for jumps on walls where the fine level takes none.
   void accept_surroundings(TipSurroundings& surroundings) override;
 
-  Load examine(const StepTime& step) override;
+  Load examine(const StepTime& step) override { return examine(step, false); }
+  void examine_followed(const StepTime& step) override { examine(step, true); }
   Growth grow(const StepTime& step) override;
   bool may_grow_within_steps() const override;
   void grow_within_steps() override;
@@ -142,6 +143,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
                   std::vector<Quantity>& quantities) const;
   /// Where a step is examined for the first time, also by the models of its trials and repetitions.
   void note_start(const StepTime& step);
+  Load examine(const StepTime& step, bool followed_only);
   void check_size(const Tip& tip) const;      ///< throws InputError where the square is too small for the coarse mesh
   void check_shortest(const Tip& tip) const;  ///< throws InputError where increments are far below the mesh
   void check_longest() const;                 ///< throws InputError where a tip could not grow at all

@@ -98,50 +98,71 @@ double TipsFront::speed(std::size_t i) const {
   return std::max(0.0, length - std::max(at_start_[i].covered, at_start_[i].least)) / dt_;
 }
 
+FrontState TipsFront::state_in_trial(const Tips& there, const Tips::Tip& same, std::size_t i) const {
+  if (is_blocked_[i]) return {{}, 0, false};
+  const FrontState state = state_of(there, same);
+  return scale_[i] > 0 && there.is_viscous(same)
+             ? against_viscosity(state, there.apparent_toughness(same, speed(i)), scale_[i])
+             : state;
+}
+
 FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
   auto& there = dynamic_cast<Tips&>(trial);
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
     states_[i] = {{}, 0, false};
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
-    if (!is_blocked_[i]) states_[i] = state_of(there, *same);
-    if (scale_[i] > 0 && there.is_viscous(*same))
-      states_[i] = against_viscosity(states_[i], there.apparent_toughness(*same, speed(i)), scale_[i]);
-    // A tip that has grown on the fine level in this trial is followed from now on.
-    if (!same->now.path.added.empty()) {
-      const Point way = there.position(*same, same->now.path) - there.position(*same, {});
-      front_->begin_with(static_cast<int>(i), way.norm(), angle_of(way));
-    }
+    states_[i] = state_in_trial(there, *same, i);
     tips_.tips_[i].pattern = same->pattern;
   }
   if (jump_) {
     jump_->learn(states_);
-    if (jump_->verdict() != Front::Verdict::again) return end_jump(there);
+    if (jump_->verdict() != Front::Verdict::again) return end_jump();
     propose();
     return Verdict::again;
   }
   TopologyHash topology;
   topology.add(topology_hash(there.mesh_));
-  // The factors of others do not count in the search, and where they still grow their meshes differ from trial to
-  // trial.
+  // The factors of other tips do not count in the search.
   for (const Tips::Tip& tip : there.tips_)
     if (there.is_followed(tip)) topology.add(tip.topology);
   if (topology_ && *topology_ != topology.value()) front_->change_mesh();
   topology_ = topology.value();
   if (front_->verdict() == Front::Verdict::again) front_->learn(states_);
+  return follow();
+}
+
+/// What follows from the verdict of the front.
+FrontSearch::Verdict TipsFront::follow() {
   switch (front_->verdict()) {
     case Front::Verdict::again:
       propose();
       return Verdict::again;
     case Front::Verdict::found:
-      if (front_->is_rough()) note_rough_front();
-      return finish(there);
+      return Verdict::found;
     case Front::Verdict::too_far:
     case Front::Verdict::failed:
       break;
   }
   reason_ = front_->reason();
-  return may_shrink_ ? Verdict::refused : settle_for_less(there);
+  return may_shrink_ ? Verdict::refused : settle_for_less();
+}
+
+/// A tip that has grown on the fine level in this trial, so far that the mesh can follow it, is followed from now on.
+FrontSearch::Verdict TipsFront::conclude(Growing& trial, const StepTime&) {
+  auto& there = dynamic_cast<Tips&>(trial);
+  for (std::size_t i = 0; i < at_start_.size(); ++i) {
+    Tips::Tip* same = same_tip(there, static_cast<int>(i));
+    if (!same || same->now.path.added.empty()) continue;
+    states_[i] = state_in_trial(there, *same, i);
+    const Point way = there.position(*same, same->now.path) - there.position(*same, {});
+    front_->begin_with(static_cast<int>(i), way.norm(), angle_of(way));
+  }
+  if (!jump_ && front_->verdict() == Front::Verdict::found) {
+    front_->learn_of_others(states_);
+    if (front_->verdict() != Front::Verdict::found) return follow();
+  }
+  return finish(there);
 }
 
 FrontSearch::Verdict TipsFront::finish(Tips& there) {
@@ -165,6 +186,7 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     same->now.has_started = same->now.has_started || (jump_ ? jump_->is_laid(i) : front_->grows(i));
     same->now.is_stopped = same->now.is_stopped || is_blocked_[i];
   }
+  if (!jump_ && front_->is_rough()) note_rough_front();
   there.notes_.insert(there.notes_.end(), notes_.begin(), notes_.end());
   if (!jump_ && front_->trials() > 0) there.slopes_ = front_->slopes();
   return Verdict::found;

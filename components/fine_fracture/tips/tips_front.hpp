@@ -26,6 +26,7 @@ class TipsFront : public FrontSearch {
   bool is_needed() const { return !paths_.empty(); }
   const std::vector<PathExtension>& paths() const override { return paths_; }
   Verdict learn(Growing& trial, const StepTime& step) override;
+  Verdict conclude(Growing& trial, const StepTime& step) override;
   Verdict give_up(int path, const std::string& why) override;
   bool retreat() override;
   /// Tips that are blocked stop; everything else stays.
@@ -49,12 +50,14 @@ class TipsFront : public FrontSearch {
   void propose();
   Tips::Tip* same_tip(Tips& there, int tip) const;
   std::vector<PlaceOnWay> way_to(const Tips& there, const Tips::Tip& tip, const std::vector<PlaceOnWay>& before) const;
+  FrontState state_in_trial(const Tips& there, const Tips::Tip& same, std::size_t tip) const;
+  Verdict follow();
   Verdict finish(Tips& there);
-  Verdict settle_for_less(Tips& there);
+  Verdict settle_for_less();
   bool begin_jump();
   void note_rest(double worst);
   void note_rough_front();
-  Verdict end_jump(Tips& there);
+  Verdict end_jump();
 
   Tips& tips_;
   std::vector<Segment> segments_;

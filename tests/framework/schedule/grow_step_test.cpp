@@ -27,6 +27,7 @@ class Still : public Part {
 class Tips : public Still, public Growing {
  public:
   Load examine(const StepTime&) override { return load; }
+  void examine_followed(const StepTime&) override { ++examined_in_trials; }
   Growth grow(const StepTime&) override {
     ++grown;
     return growth;
@@ -42,7 +43,7 @@ class Tips : public Still, public Growing {
 
   Load load;
   Growth growth;
-  int grown = 0;
+  int grown = 0, examined_in_trials = 0;
   bool may_be_within = false, is_within = false, holds = false, far_above = false;
 };
 
@@ -324,6 +325,24 @@ TEST(GrowStep, HoldsTheStateWhereGrowthIsNotFollowed) {
         EXPECT_EQ(run.step().extensions().size(), 1u);
       }
     }
+}
+
+/// In a trial of a search only the tips that are searched for are examined. Nothing grows, and nothing is refused.
+TEST(GrowStep, ExaminesOnlyFollowedTipsInTrials) {
+  Schedule run("- {grow: tips, settle: [rock], update: within_step}");
+  run.tips.load = {.now = 1.5, .accepted = 1, .onset = 1.5, .onset_accepted = 1};
+  const StepTime step{0, standard, standard};
+  run.step().examine_followed_only(true);
+  EXPECT_TRUE(run.schedule->run(step).converged);
+  EXPECT_TRUE(run.step().was_run(step));
+  EXPECT_EQ(run.tips.examined_in_trials, 1);
+  EXPECT_EQ(run.tips.grown, 0);
+  run.step().examine_followed_only(false);
+  EXPECT_FALSE(run.schedule->run(step).converged);  // the onset is far above the toughness
+  run.tips.load.onset = 1;
+  EXPECT_TRUE(run.schedule->run(step).converged);
+  EXPECT_EQ(run.tips.examined_in_trials, 1);
+  EXPECT_EQ(run.tips.grown, 1);
 }
 
 /// A tip above its toughness that does not grow is not waited for, also where others grow at their toughness.
