@@ -153,6 +153,19 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
   }
 }
 
+namespace {
+
+StepStatus attempt_with_followed_tips(Model& model, GrowStep& grow, const StepTime& step) {
+  struct Only {
+    explicit Only(GrowStep& step) : grow(step) { grow.examine_followed_only(true); }
+    ~Only() { grow.examine_followed_only(false); }
+    GrowStep& grow;
+  } const only(grow);
+  return model.attempt(step);
+}
+
+}  // namespace
+
 StepStatus MeshGrowth::refused(const FrontSearch& search, const StepTime& step) {
   StepStatus status{false, search.reason(), 0, search.retry_dt()};
   shorten(step, status);
@@ -160,27 +173,27 @@ StepStatus MeshGrowth::refused(const FrontSearch& search, const StepTime& step) 
 }
 
 /// Solves the step of a trial and lets the search learn from it. Tips that are not searched for grow in the trial that
-/// is the right one. There is no verdict if growth is left out of the step
-/// or the step is not solved. Paths that come too near to one another on the fine level count as a step that is not
-/// solved.
+/// is the right one. There is no verdict if growth is left out of the step or the step is not solved. Paths that come
+/// too near to one another on the fine level count as a step that is not solved.
 StepStatus MeshGrowth::evaluate(Model& trial, const StepTime& step, std::size_t grow_step, FrontSearch& search,
                                 std::optional<FrontSearch::Verdict>& verdict) {
   GrowStep& grow = *trial.growing()[grow_step];
   try {
-    grow.examine_followed_only(true);
-    StepStatus status = trial.attempt(step);
-    grow.examine_followed_only(false);
+    const StepStatus status = attempt_with_followed_tips(trial, grow, step);
     if (!status.converged || !grow.was_run(step)) return status;
     const FrontSearch::Verdict learnt = search.learn(grow.component(), step);
     if (learnt == FrontSearch::Verdict::found) {
-      status = grow.run(step);
-      if (status.converged) verdict = search.conclude(grow.component(), step);
+      StepStatus others = grow.run(step);
+      if (!others.converged) {
+        others.reason = grow.describe() + ": " + others.reason;
+        return others;
+      }
+      verdict = search.conclude(grow.component(), step);
     } else {
       verdict = learnt;
     }
     return status;
   } catch (const std::invalid_argument& error) {
-    grow.examine_followed_only(false);
     return {false, error.what(), 0};
   }
 }

@@ -194,10 +194,11 @@ void Front::learn(const std::vector<FrontState>& states) {
 void Front::learn_of_others(const std::vector<FrontState>& states) {
   SPREKK_EXPECT(verdict_ == Verdict::found);
   SPREKK_EXPECT(static_cast<int>(states.size()) == count(), states.size(), count());
+  const std::vector<FrontState> before = last_;
   last_ = states;
   const Eigen::VectorXd found = residual(states);
   for (int i = 0; i < count(); ++i) {
-    if (!may_start(i) || load_at_rest(i, found) <= options_.load_tolerance) continue;
+    if (before[i].is_evaluated || !may_start(i) || load_at_rest(i, found) <= options_.load_tolerance) continue;
     verdict_ = Verdict::again;
     is_rough_ = false;
     return step(found);
@@ -231,7 +232,7 @@ bool Front::is_met_but_for_noise(const Eigen::VectorXd& residual) const {
   for (int i = 0; i < count(); ++i)
     if (may_start(i) && load_at_rest(i, residual) > noise) return false;
   const double now = norm(residual);
-  return now <= noise && now >= gain * best_->norm;
+  return now <= noise && now >= gain * best_->norm && now <= much_worse * best_->norm;
 }
 
 /// After a trial that is much worse than the best one, a warm start is dropped, or else the next

@@ -86,8 +86,8 @@ class Front {
   /// The next states are those of a mesh with another topology than the last one: K differs by the error of a mesh.
   void change_mesh() { is_other_mesh_ = true; }
   void learn(const std::vector<FrontState>& states);
-  /// After a front was found: the states of the same trial, with those of tips that are evaluated from now on. If one
-  /// of them has to grow, the search goes on.
+  /// After a front was found: the states of the same trial, with those of tips that were not evaluated before. If one
+  /// of these has to grow, the search goes on.
   void learn_of_others(const std::vector<FrontState>& states);
   Verdict verdict() const { return verdict_; }
   int trials() const { return trials_; }

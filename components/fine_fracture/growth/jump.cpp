@@ -45,7 +45,7 @@ FrontJump::FrontJump(std::vector<FrontTip> tips, const std::vector<FrontState>& 
     const FrontTip& tip = tips_[i];
     now_.length.push_back(tip.covered);
     now_.angle.push_back(tip.angle);
-    now_.load.push_back(without_growth[i].is_evaluated ? without_growth[i].load : 0);
+    now_.load.push_back(counts(i, without_growth) ? without_growth[i].load : 0);
     records_[i].largest_load = now_.load.back();
     if (!(tip.first_length > 0)) continue;
     is_laid_[i] = 1;
@@ -60,12 +60,17 @@ FrontJump::FrontJump(std::vector<FrontTip> tips, const std::vector<FrontState>& 
 void FrontJump::stop(int tip) {
   SPREKK_EXPECT(is_index(tip, count()), tip);
   is_stopped_[tip] = 1;
-  is_laid_[tip] = 0;
+  const bool has_advanced = records_[tip].advance > 0;
+  const double length = has_advanced ? from_.length[tip] : tips_[tip].covered,
+               angle = has_advanced ? from_.angle[tip] : tips_[tip].angle;
+  is_laid_[tip] = has_advanced;
   for (Place* place : {&from_, &to_, &now_}) {
     if (place->length.empty()) continue;
-    place->length[tip] = tips_[tip].covered;
-    place->angle[tip] = tips_[tip].angle;
+    place->length[tip] = length;
+    place->angle[tip] = angle;
   }
+  from_.load[tip] = 0;
+  from_.excess = log_load(*std::ranges::max_element(from_.load));
 }
 
 double FrontJump::largest_load(const std::vector<FrontState>& states) const {

@@ -23,7 +23,8 @@ class FrontJump {
   bool is_laid(int tip) const { return is_laid_[tip]; }
   double length(int tip) const { return now_.length[tip]; }  ///< m, of the last segment, covered part included
   double angle(int tip) const { return now_.angle[tip]; }    ///< rad, from the x axis
-  /// The tip stays where it was at the start of the step, whatever its load.
+  /// The tip stays, whatever its load: where it was in the last trial above the toughness, at first at the start of the
+  /// step.
   void stop(int tip);
   void learn(const std::vector<FrontState>& states);
   /// The last trial could not be solved, or laid: it is made shorter, and turns less. False when it is short already.

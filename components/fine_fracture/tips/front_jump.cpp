@@ -47,6 +47,7 @@ bool TipsFront::begin_jump() {
 bool TipsFront::retreat() {
   if (may_shrink_) return false;
   if (!jump_) return begin_jump();
+  if (jump_->verdict() != Front::Verdict::again) return false;  // other tips could not grow where it has ended
   if (!jump_->retreat()) return false;
   propose();
   return true;

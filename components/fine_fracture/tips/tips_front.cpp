@@ -64,7 +64,7 @@ FrontSearch::Verdict TipsFront::give_up(int path, const std::string& why) {
     if (may_shrink_) return Verdict::refused;
     if (begin_jump()) return Verdict::again;
   }
-  // A jump that leads where the mesh cannot follow begins anew with a shorter trial that turns less.
+  // A jump that leads where the mesh cannot follow is tried with less: nearer to the last trial that was solved.
   if (tip != none && jump_ && jump_->retreat()) {
     propose();
     return Verdict::again;
@@ -160,7 +160,8 @@ FrontSearch::Verdict TipsFront::conclude(Growing& trial, const StepTime&) {
   }
   if (!jump_ && front_->verdict() == Front::Verdict::found) {
     front_->learn_of_others(states_);
-    if (front_->verdict() != Front::Verdict::found) return follow();
+    if (front_->verdict() != Front::Verdict::found)
+      if (const Verdict next = follow(); next != Verdict::found) return next;
   }
   return finish(there);
 }
