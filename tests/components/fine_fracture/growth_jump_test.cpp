@@ -145,6 +145,37 @@ TEST(FrontJump, EqualTipsStayEqual) {
   EXPECT_NEAR(jump.angle(0), 0.5, 0.02);
 }
 
+/// A tip whose path the mesh cannot take any more rests where it was in the last trial that was solved, and at the
+/// start of the step if there was none. The jump of the other one ends at its toughness, although the first is above
+/// its own.
+TEST(FrontJump, AStoppedTipRestsWhereItWasSolved) {
+  const Crack one{{}, 0.4}, other{{}, -0.4};
+  const auto states = [&](double length) {
+    std::vector<FrontState> states(2);
+    states[0].load = 1.3;
+    states[1].load = std::exp(0.1 - 40 * (length - 0.008));
+    for (FrontState& state : states) state.sifs = {toughness * state.load, 0, -1e6};
+    return states;
+  };
+  for (const int solved : {0, 1}) {
+    FrontJump jump({one.tip(), other.tip()}, states(0.008), one.options());
+    double last = 0.008;
+    for (int k = 0; k < solved; ++k) {
+      last = jump.length(0);
+      jump.learn(states(jump.length(1)));
+    }
+    ASSERT_EQ(jump.verdict(), Front::Verdict::again);
+    jump.stop(0);
+    EXPECT_DOUBLE_EQ(jump.length(0), last);
+    EXPECT_EQ(jump.is_laid(0), solved > 0);
+    for (int k = 0; k < 30 && jump.verdict() == Front::Verdict::again; ++k) jump.learn(states(jump.length(1)));
+    ASSERT_EQ(jump.verdict(), Front::Verdict::found);
+    EXPECT_DOUBLE_EQ(jump.length(0), last);
+    EXPECT_NEAR(jump.length(1) - 0.008, 0.1 / 40, 1e-3 / 40);
+    EXPECT_NEAR(jump.record(0).advance, last - 0.008, 1e-15);
+  }
+}
+
 /// A trial that cannot be solved is made shorter, until there is no shorter one.
 TEST(FrontJump, RetreatsFromWhatCannotBeSolved) {
   const Crack crack{[](double a) { return 1.01 * std::sqrt(a / start); }};
