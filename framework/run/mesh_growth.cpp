@@ -11,6 +11,20 @@
 
 namespace sprekk {
 
+namespace {
+
+/// Attempts a step with a trial of a search: of the tips only those that are searched for are examined.
+StepStatus attempt_trial(Model& trial, GrowStep& grow, const StepTime& step) {
+  struct FollowedOnly {
+    explicit FollowedOnly(GrowStep& step) : grow(step) { grow.examine_followed_only(true); }
+    ~FollowedOnly() { grow.examine_followed_only(false); }
+    GrowStep& grow;
+  } const followed_only(grow);
+  return trial.attempt(step);
+}
+
+}  // namespace
+
 MeshGrowth::MeshGrowth(std::unique_ptr<Model>& model, StepController& controller, IterationLog log, Observer retire)
     : model_(model), controller_(controller), log_(std::move(log)), retire_(std::move(retire)) {}
 
@@ -153,19 +167,6 @@ StepStatus MeshGrowth::search_front(std::size_t grow_step, FrontSearch& search, 
   }
 }
 
-namespace {
-
-StepStatus attempt_with_followed_tips(Model& model, GrowStep& grow, const StepTime& step) {
-  struct Only {
-    explicit Only(GrowStep& step) : grow(step) { grow.examine_followed_only(true); }
-    ~Only() { grow.examine_followed_only(false); }
-    GrowStep& grow;
-  } const only(grow);
-  return model.attempt(step);
-}
-
-}  // namespace
-
 StepStatus MeshGrowth::refused(const FrontSearch& search, const StepTime& step) {
   StepStatus status{false, search.reason(), 0, search.retry_dt()};
   shorten(step, status);
@@ -179,7 +180,7 @@ StepStatus MeshGrowth::evaluate(Model& trial, const StepTime& step, std::size_t 
                                 std::optional<FrontSearch::Verdict>& verdict) {
   GrowStep& grow = *trial.growing()[grow_step];
   try {
-    const StepStatus status = attempt_with_followed_tips(trial, grow, step);
+    const StepStatus status = attempt_trial(trial, grow, step);
     if (!status.converged || !grow.was_run(step)) return status;
     const FrontSearch::Verdict learnt = search.learn(grow.component(), step);
     if (learnt == FrontSearch::Verdict::found) {

@@ -129,11 +129,11 @@ FrontSearch::Verdict TipsFront::learn(Growing& trial, const StepTime&) {
   if (topology_ && *topology_ != topology.value()) front_->change_mesh();
   topology_ = topology.value();
   if (front_->verdict() == Front::Verdict::again) front_->learn(states_);
-  return follow();
+  return decide();
 }
 
 /// What follows from the verdict of the front.
-FrontSearch::Verdict TipsFront::follow() {
+FrontSearch::Verdict TipsFront::decide() {
   switch (front_->verdict()) {
     case Front::Verdict::again:
       propose();
@@ -161,7 +161,7 @@ FrontSearch::Verdict TipsFront::conclude(Growing& trial, const StepTime&) {
   if (!jump_ && front_->verdict() == Front::Verdict::found) {
     front_->learn_of_others(states_);
     if (front_->verdict() != Front::Verdict::found)
-      if (const Verdict next = follow(); next != Verdict::found) return next;
+      if (const Verdict next = decide(); next != Verdict::found) return next;
   }
   return finish(there);
 }

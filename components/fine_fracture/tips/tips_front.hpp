@@ -51,7 +51,7 @@ class TipsFront : public FrontSearch {
   Tips::Tip* same_tip(Tips& there, int tip) const;
   std::vector<PlaceOnWay> way_to(const Tips& there, const Tips::Tip& tip, const std::vector<PlaceOnWay>& before) const;
   FrontState state_in_trial(const Tips& there, const Tips::Tip& same, std::size_t tip) const;
-  Verdict follow();
+  Verdict decide();
   Verdict finish(Tips& there);
   Verdict settle_for_less();
   bool begin_jump();
