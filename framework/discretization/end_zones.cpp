@@ -27,20 +27,32 @@ std::vector<int> outer_nodes(const Mesh& mesh) {
   return {nodes.begin(), nodes.end()};
 }
 
+/// A place on the end's own fracture.
+struct Bend {
+  double distance;  ///< m, from the end
+  double straight;  ///< 1 on the line of the end, and smoothly less down to 0 where the fracture has left it
+};
+
 /// How far from an end its field is undisturbed.
 struct Room {
   double free = std::numeric_limits<double>::infinity();       ///< m, to what disturbs it
   double other_tip = std::numeric_limits<double>::infinity();  ///< m, to the tip at the other end of its fracture
+  std::vector<Bend> bends;
+
+  /// How much of the field counts at this distance (m).
+  double weight(double radius, const ZoneLimits& limits) const {
+    double weight =
+        std::min(fading(2 * radius / free, limits.fading_part), fading(2 * radius / other_tip, limits.joining_part));
+    for (const auto& [distance, straight] : bends)
+      weight = std::min(weight, straight + (1 - straight) * fading(2 * radius / distance, limits.fading_part));
+    return weight;
+  }
 };
 
 Room room_around(const Mesh& mesh, int end, const std::vector<int>& outer, const ZoneLimits& limits) {
   const EndFrame frame(mesh, end);
   SPREKK_ASSERT(is_fracture_end(mesh, end), end);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
-  struct Place {
-    double distance, off_line;  ///< m, and the distance from the line of the end over that from the end
-  };
-  std::vector<Place> on_own_fracture;
   Room room;
   for (const int node : outer) {
     if (node == end) continue;
@@ -51,16 +63,10 @@ Room room_around(const Mesh& mesh, int end, const std::vector<int>& outer, const
       room.free = std::min(room.free, distance);
       continue;
     }
-    on_own_fracture.push_back({distance, std::abs(frame.axes().col(1).dot(from_end)) / distance});
+    const double off_line = std::abs(frame.axes().col(1).dot(from_end)) / distance;
+    room.bends.push_back({distance, fading(off_line / limits.off_line, 1)});
     if (is_fracture_end(mesh, node)) room.other_tip = std::min(room.other_tip, distance);
   }
-  constexpr double beyond = 1.25;  // a zone as long as this without bends is limited by other things alone
-  const double without_bends = beyond * std::min(room.free, room.other_tip);
-  for (const auto& [distance, off_line] : on_own_fracture)
-    if (distance < without_bends) {
-      const double straight = std::max(0.0, 1 - off_line / limits.off_line);
-      room.free = std::min(room.free, distance + straight * (without_bends - distance));
-    }
   return room;
 }
 
@@ -77,9 +83,7 @@ std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Room& room, 
   const auto weight = [&](int node) {
     const Point local = frame.axes().transpose() * (mesh.nodes[node] - mesh.nodes[end]);
     const double from_fracture = local.x() < 0 ? std::abs(local.y()) : local.norm();
-    const double radius = local.norm();
-    return std::min(fading(2 * radius / room.free, limits.fading_part),
-                    fading(2 * radius / room.other_tip, limits.joining_part)) *
+    return room.weight(local.norm(), limits) *
            fading(from_fracture / (limits.half_width * frame.size()), limits.fading_part);
   };
   std::vector<Reached> reached{{end, 1}};

@@ -25,10 +25,10 @@ struct ZoneLimits {
 /// both are much alike: there they end within one hundredth of their length.
 ///
 /// A zone reaches half of the way to the nearest other end, side, junction, other fracture, or place where the end's
-/// own fracture leaves its line: so the error at the end of the zone decreases with the cell size. A place that is off
-/// the line by a part of `off_line` shortens the zone by this part of what it would beyond `off_line`: the zone is
-/// continuous in the bend of a path. To both sides of the fracture it reaches eight times the length of the cell at the
-/// end: this limits how many nodes read the same cells.
+/// own fracture leaves its line: so the error at the end of the zone decreases with the cell size. Behind a place that
+/// is off the line by less than `off_line` the field counts in part, smoothly from all of it on the line to nothing: so
+/// weights change with the bend of a path by at most 1.5/off_line per radian. To both sides of the fracture the zone
+/// reaches eight times the length of the cell at the end: this limits how many nodes read the same cells.
 /// All nodes that ends_nearby assigns to the end belong to the zone in any case.
 struct EndZones {
   std::vector<int> end;                   ///< for each node: its end, or none
