@@ -29,28 +29,41 @@ bool differs(const FineMesh& mesh, const FineMesh::Element& element, const FineR
   return false;
 }
 
-/// Where one border crosses each edge of a triangle, from 0 at its first corner to 1; nothing where none does.
-using Crossings = std::array<std::optional<double>, 3>;
+/// Where borders meet the outline of a triangle.
+struct Crossings {
+  std::array<std::optional<double>, 3> edge;  ///< between the corners of each edge, from 0 at its first one to 1
+  std::array<bool, 3> corner = {};            ///< at each corner
+};
 
-/// The crossings, or nothing where an edge has two of them.
+/// The crossings, or nothing where an edge has two of them. A border through a node of the mesh, as where it begins at
+/// a fracture, meets the corners of elements there but for round-off: these are no crossings of edges.
 std::optional<Crossings> crossings_of(const Corners& corners, const std::vector<FineRock::Border>& borders) {
   const Point low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Point high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  constexpr double rounding = 1e-12;  // of a border, and of the sine of an angle
+  constexpr double same = 1e-9;       // of an edge
+  const Point margin = Point::Constant(same * (high - low).maxCoeff());
   Crossings crossings;
-  constexpr double rounding = 1e-12, same = 1e-9;  // of a border, and of an edge
   for (const FineRock::Border& border : borders) {
     const Point from = border[0].cwiseMin(border[1]), to = border[0].cwiseMax(border[1]);
-    if ((from.array() > high.array()).any() || (to.array() < low.array()).any()) continue;
+    if ((from.array() > (high + margin).array()).any() || (to.array() < (low - margin).array()).any()) continue;
     for (int edge = 0; edge < 3; ++edge) {
+      const int next = (edge + 1) % 3;
       const Point& start = corners[edge];
-      const Point along = corners[(edge + 1) % 3] - start, across = border[1] - border[0], way = border[0] - start;
+      const Point along = corners[next] - start, across = border[1] - border[0], way = border[0] - start;
       const double determinant = cross(along, across);
-      if (determinant == 0) continue;
+      if (std::abs(determinant) <= rounding * along.norm() * across.norm()) continue;
       const double on_edge = cross(way, across) / determinant, on_border = cross(way, along) / determinant;
-      if (!(on_edge > 0 && on_edge < 1 && on_border >= -rounding && on_border <= 1 + rounding)) continue;
+      const double past_end = std::max(rounding, same * along.norm() / across.norm());
+      if (!(on_edge >= -same && on_edge <= 1 + same && on_border >= -past_end && on_border <= 1 + past_end)) continue;
+      if (on_edge <= same || on_edge >= 1 - same) {
+        crossings.corner[on_edge < 0.5 ? edge : next] = true;
+        continue;
+      }
       // Where one border ends another one begins.
-      if (crossings[edge] && std::abs(*crossings[edge] - on_edge) > same) return std::nullopt;
-      crossings[edge] = on_edge;
+      std::optional<double>& crossing = crossings.edge[edge];
+      if (crossing && std::abs(*crossing - on_edge) > same) return std::nullopt;
+      crossing = on_edge;
     }
   }
   return crossings;
@@ -66,30 +79,45 @@ void add_triangle(const Corners& corners, int degree, std::vector<TrianglePoint>
   }
 }
 
-/// The rule in the triangle and the quadrangle that are left of an element with two crossings.
-void cut(const Crossings& crossings, int degree, std::vector<TrianglePoint>& rule) {
-  const Corners unit = {Point(0, 0), Point(1, 0), Point(0, 1)};
-  const auto at = [&](int edge) { return Point(unit[edge] + *crossings[edge] * (unit[(edge + 1) % 3] - unit[edge])); };
+Corners unit_triangle() { return {Point(0, 0), Point(1, 0), Point(0, 1)}; }
+
+/// The rule in the triangle and the quadrangle that are left of an element with crossings of two edges.
+void cut_edges(const Crossings& crossings, int degree, std::vector<TrianglePoint>& rule) {
+  const Corners unit = unit_triangle();
+  const auto at = [&](int edge) {
+    return Point(unit[edge] + *crossings.edge[edge] * (unit[(edge + 1) % 3] - unit[edge]));
+  };
   int whole = 0;  // the edge that is not crossed
-  while (crossings[whole]) ++whole;
+  while (crossings.edge[whole]) ++whole;
   const int next = (whole + 1) % 3, last = (whole + 2) % 3;
   const Point& alone = unit[last];
   const Point behind = at(next), ahead = at(last);  // on the edges that end and begin at this corner
-  rule.clear();
   add_triangle({alone, ahead, behind}, degree, rule);
   add_triangle({ahead, unit[whole], unit[next]}, degree, rule);
   add_triangle({ahead, unit[next], behind}, degree, rule);
+}
+
+/// The rule in the two triangles that are left of an element with a crossing of this edge and the opposite corner.
+void cut_corner(const Crossings& crossings, int edge, int degree, std::vector<TrianglePoint>& rule) {
+  const Corners unit = unit_triangle();
+  const int next = (edge + 1) % 3, opposite = (edge + 2) % 3;
+  const Point crossing = unit[edge] + *crossings.edge[edge] * (unit[next] - unit[edge]);
+  add_triangle({unit[opposite], unit[edge], crossing}, degree, rule);
+  add_triangle({unit[opposite], crossing, unit[next]}, degree, rule);
 }
 
 /// nullptr where no border cuts the triangle in two.
 const std::vector<TrianglePoint>* rule_of_both_sides(const Corners& corners, const FineRock& rock, int degree) {
   const auto crossings = crossings_of(corners, rock.borders());
   if (!crossings) return nullptr;
-  const auto count = std::ranges::count_if(*crossings, [](const auto& crossing) { return crossing.has_value(); });
-  if (count != 2) return nullptr;
+  const auto count = std::ranges::count_if(crossings->edge, [](const auto& at) { return at.has_value(); });
   static thread_local std::vector<TrianglePoint> rule;
-  cut(*crossings, degree, rule);
-  return &rule;
+  rule.clear();
+  if (count == 2) cut_edges(*crossings, degree, rule);
+  if (count == 1)
+    for (int edge = 0; edge < 3; ++edge)
+      if (crossings->edge[edge] && crossings->corner[(edge + 2) % 3]) cut_corner(*crossings, edge, degree, rule);
+  return rule.empty() ? nullptr : &rule;
 }
 
 Corners corners_of(const FineMesh& mesh, const FineMesh::Element& element) {
