@@ -17,6 +17,7 @@ struct GrowthOptions {
   double relaxation = 1;               ///< part of the explicit angle that is taken
   double direction_tolerance = 1e-2;   ///< |K_II|/K_I at the end of an increment
   double arrest_tolerance = 1e-2;      ///< |K_eq/K_IC − 1| where growth ends
+  double front_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)| of a tip that grows within a step
   double largest_turn = 1.4;           ///< rad
   double smallest = 0.01;              ///< shortest increment over `increment`
   std::optional<double> longest;       ///< m, added by a tip in one call

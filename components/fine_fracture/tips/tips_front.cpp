@@ -12,6 +12,8 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double shorter_step = 0.5;  ///< the next attempt at a step that is too long
+constexpr double direction_over_load =
+    10;  ///< the tolerance of K_II/K_I over that of ln K_eq, which its square changes
 
 }  // namespace
 
@@ -28,6 +30,8 @@ TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goe
   find_joinings();
   options_.increment = tips_.options_.growth.increment;
   options_.shortest = tips_.options_.growth.smallest_length();
+  options_.load_tolerance = tips_.options_.growth.front_tolerance;
+  options_.direction_tolerance = direction_over_load * options_.load_tolerance;
   for (std::size_t i = 0; i < tips_.tips_.size(); ++i) {
     const Tips::Tip& tip = tips_.tips_[i];
     const double expected = at_start_[i].speed > 0 ? at_start_[i].speed : options_.increment / dt_;
