@@ -5,7 +5,7 @@ largest of the three, from the first step to the last and over every growth; and
 loads press from the rock into its fluid, which the three do not show, since nothing leaves.
 Pressures: twice what was given, the loads, the weight of the rock, what opens a fracture against its toughness, and what the
 fluid injected until then makes of a fracture that it opens. Fluid that is drawn out, or that slip with dilation asks for,
-may lower a pressure by as much.
+may lower a pressure by as much; and from a closed fracture, whose walls do not yield, by what its fluid expands.
 """
 
 import math
@@ -50,15 +50,23 @@ def reach(p, time):
     return 2 * (p["initial"] + loads + weight + toughness + opened)
 
 
+def drawn(p, time):
+    """Pa, by which the fluid of a closed fracture falls, whose volume is at least that at the initial aperture."""
+    volume = sum(max(0.0, -rate) * max(0.0, min(time, last) - first) for rate, first, last in p["source"])
+    held = p["aperture"] * min(math.dist(*line) for line in p["lines"].values()) * p["compressibility"]
+    return 0.0 if volume == 0 else volume / held if held > 0 else math.inf
+
+
 def pressures(p, instants):
     found = []
     for instant in instants:
-        limit = reach(p, instant.time)
+        most = reach(p, instant.time)
+        least = most + drawn(p, instant.time)
         for name, values in (("rock", instant.cell("pore.pressure[Pa]")),
                              ("fractures", instant.on_fractures("conduit.pressure", "Pa"))):
-            worst = values[np.argmax(np.abs(values))]
-            if abs(worst) > limit:
-                found.append(f"pressure: {worst:.4g} Pa in the {name}, beyond {limit:.4g} Pa, at t = {instant.time:.6g} s")
+            for worst, limit in ((values.max(), most), (values.min(), -least)):
+                if abs(worst) > abs(limit) and worst * limit > 0:
+                    found.append(f"pressure: {worst:.4g} Pa in the {name}, beyond {limit:.4g} Pa, at t = {instant.time:.6g} s")
     return found
 
 

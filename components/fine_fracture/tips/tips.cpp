@@ -63,6 +63,16 @@ Point Tips::end_direction(const Tip& tip) const {
   return middle ? Point((position(tip, {}) - *middle).normalized()) : direction(tip);
 }
 
+BesideArcs Tips::arcs_of_last_segments() const {
+  BesideArcs arcs;
+  for (const Tip& tip : tips_)
+    if (const std::optional<Point> middle = middle_of_last_segment(tip)) {
+      const Point end = position(tip, {});
+      arcs.add(end - last_cell(tip.end).measure * direction(tip), *middle, end);
+    }
+  return arcs;
+}
+
 std::vector<TipPath> Tips::paths_now() const {
   std::vector<TipPath> paths;
   for (const Tip& tip : tips_) paths.push_back(tip.now.path);

@@ -10,6 +10,7 @@
 #include "components/fine_fracture/fine_level/fine_level.hpp"
 #include "components/fine_fracture/growth/grow_tips.hpp"
 #include "components/fine_fracture/growth/way_of_tip.hpp"
+#include "components/fine_fracture/tips/beside_arcs.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/growing.hpp"
@@ -155,6 +156,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
       const Tip& tip) const;  ///< of the path in the fine level that the mesh has taken over, at its end
   std::optional<Point> middle_of_last_segment(
       const Tip& tip) const;  ///< m, where the fine level has an arc in its place
+  BesideArcs arcs_of_last_segments() const;
   std::vector<FracturePath> paths_with(const std::vector<TipPath>& added) const;
   std::vector<TipPath> paths_now() const;
   FineRock rock_around(const Point& center) const;
