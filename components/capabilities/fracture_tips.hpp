@@ -39,9 +39,10 @@ class TipSurroundings {
   virtual Point displacement(const Point& x, const Point& inside) const = 0;
   /// A function that gives the stress without strain (of the pore pressure and the initial stress) at the last update:
   /// (xx, yy, xy) in Pa, a column for each place. The places are located once. The function must not outlive this
-  /// object.
+  /// object. `pores`: where the pressure of the pores is taken for each place (m): another place beside an arc of the
+  /// fine level, whose segment is straight in the rock.
   using StressOffsets = std::function<Eigen::Matrix<double, symmetric_components, Eigen::Dynamic>()>;
-  virtual StressOffsets stress_offsets(const std::vector<Point>& places) const = 0;
+  virtual StressOffsets stress_offsets(const std::vector<Point>& places, const std::vector<Point>& pores) const = 0;
   /// A function that gives the weight of the rock and the body force at the last update: (x, y) in N/m^3, a column for
   /// each place. Empty where there is none. As for stress_offsets.
   using BodyForces = std::function<Eigen::Matrix<double, dimension, Eigen::Dynamic>()>;

@@ -185,16 +185,18 @@ class TwoLevel : public Coupler, public TipSurroundings {
     return displacement_.at<dimension>(cell_at(inside), x);
   }
 
-  StressOffsets stress_offsets(const std::vector<Point>& places) const override {
+  StressOffsets stress_offsets(const std::vector<Point>& places, const std::vector<Point>& pores) const override {
+    SPREKK_EXPECT(places.size() == pores.size(), places.size(), pores.size());
     std::vector<NodalValues::Place> found;
     found.reserve(places.size());
     std::vector<int> cells;
     std::vector<std::pair<std::size_t, PressureNearTips::Place>> near;
-    for (const Point& x : places) {
-      cells.push_back(cell_at(x));
-      found.push_back(pore_stress_.place(cells.back(), x));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      cells.push_back(cell_at(places[i]));
+      const int cell = pores[i] == places[i] ? cells.back() : cell_at(pores[i]);
+      found.push_back(pore_stress_.place(cell, pores[i]));
       if (!near_tips_) continue;
-      if (const auto place = near_tips_->place(cells.back(), x)) near.emplace_back(found.size() - 1, *place);
+      if (const auto place = near_tips_->place(cell, pores[i])) near.emplace_back(i, *place);
     }
     const auto initial_stress = [this, places, cells = std::move(cells)] {
       Eigen::Matrix<double, symmetric_components, Eigen::Dynamic> initial(symmetric_components, places.size());

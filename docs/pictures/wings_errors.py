@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """docs/pictures/wings_errors.py: draws wings_errors.png from wings_errors.csv, times and costs of section 5.2 of the paper: its errors, with
 growth within steps and after them, over processor seconds. The first row is the reference. Growth after steps has two times: that at
-which the tip has its load before it jumps to a length, and that at which it is there after the jump. Of the program of 17c0e18, before there
-was growth within steps, only the first is known."""
+which the tip has its load before it jumps to a length, and that at which it is there after the jump. "cfb2fba" is the program
+before there was growth within steps."""
 
 import csv
 from pathlib import Path
@@ -13,7 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 HERE = Path(__file__).resolve().parent
-COLOURS = {"within steps": "#1b6ca8", "after steps": "#c8553d", "after steps, 17c0e18": "#777777"}
+COLOURS = {"within steps": "#1b6ca8", "after steps": "#c8553d", "after steps, cfb2fba": "#777777"}
 
 with open(HERE / "wings_errors.csv", newline="") as file:
     reference, *rows = csv.DictReader(file)

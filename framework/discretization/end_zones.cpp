@@ -58,7 +58,7 @@ Room room_around(const Mesh& mesh, int end, const std::vector<int>& outer, const
     if (node == end) continue;
     const Point from_end = mesh.nodes[node] - mesh.nodes[end];
     const double distance = from_end.norm();
-    if (distance >= room.free) continue;
+    if (distance >= room.free) continue;  // up to there the field fades out earlier than on the way to this node
     if (!is_field_undisturbed(mesh, node, last)) {
       room.free = std::min(room.free, distance);
       continue;

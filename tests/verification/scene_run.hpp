@@ -32,6 +32,7 @@ class SceneRun {
   /// One accepted step; fails the test with the reason when it does not converge.
   bool step();
   long mesh_changes() const { return growth_->changes(); }
+  long trials() const { return growth_->trials(); }  ///< of growth within steps
   /// Steps until the time (s) is reached; `after_step` may be empty.
   void run_until(double time, const std::function<void()>& after_step = {});
   void run() { run_until(model_->scene().time.end); }

@@ -58,6 +58,7 @@ class BoundaryLevels : public FineLevelMaker {
   double room(double coarse_size) const override { return 0.5 * coarse_size; }
   bool takes_jumps() const override { return false; }
   bool needs_one_stiffness() const override { return true; }
+  bool has_offsets_on_walls() const override { return true; }
   bool wants_beyond() const override { return true; }
 
  private:

@@ -88,6 +88,8 @@ class FineLevelMaker {
   virtual bool takes_jumps() const { return true; }
   /// Whether the rock in a domain must have one stiffness.
   virtual bool needs_one_stiffness() const { return false; }
+  /// Whether the stress offset is wanted on walls, which belong to no side.
+  virtual bool has_offsets_on_walls() const { return false; }
   /// Whether domains are to have the fractures beyond their outlines.
   virtual bool wants_beyond() const { return false; }
 };

@@ -47,9 +47,10 @@ Spec GrowthOptions::spec() {
                 {.range = strictly_between(0, 1), .doc = "Largest |K_eq/K_IC − 1| at the end of growth."});
   spec.quantity("front_tolerance", front_tolerance,
                 {.range = {.low = 1e-10, .high = 1e-3},
-                 .doc = "Growth within steps: largest |ln(K_eq/K_IC)| of a tip that grows, and a tenth of the largest "
-                        "|K_II|/K_I. More of it takes fewer trials; lengths then depend on the trials by this much "
-                        "over the slope of ln K_eq."});
+                 .doc = "Growth within steps: largest |ln(K_eq/K_IC)| of a tip that grows alone (of several tips the "
+                        "equations of the front hold to this), and a tenth of the largest |K_II|/K_I. A larger one "
+                        "takes fewer trials; lengths are then known to it over the slope of ln K_eq by the length. Far "
+                        "below 1e-7 the round-off of factors is larger."});
   spec.quantity("largest_turn", largest_turn,
                 {.unit = "rad", .range = between(0.1, 1.55), .doc = "Largest angle between two increments."});
   spec.quantity(

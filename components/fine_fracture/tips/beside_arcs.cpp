@@ -10,6 +10,7 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double reach_over_height = 4;  ///< distances of places change by a third at most
+constexpr double on_the_arc = 1e-9;      ///< of the chord
 
 }  // namespace
 
@@ -27,6 +28,7 @@ Point BesideArcs::moved(const Arc& arc, const Point& x) {
   if (place <= 0 || place >= arc.length || std::abs(across) >= arc.reach) return x;
   const double part = place < arc.middle ? place / arc.middle : (arc.length - place) / (arc.length - arc.middle);
   const double height = part * arc.height;
+  if (std::abs(across - height) <= on_the_arc * arc.length) return x;
   const double room = across > height ? arc.reach - height : arc.reach + height;
   return x + ((across - height) * arc.reach / room - across) * arc.normal;
 }

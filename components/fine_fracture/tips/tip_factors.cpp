@@ -114,13 +114,11 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) try {
   ++solves_;
   FineLoads loads = loads_of(tip);
   if (!tip.offsets) {
-    const BesideArcs arcs = arcs_of_last_segments();
-    const auto there = [&](const std::vector<Point>& places) {
-      return arcs.on_coarse_level(places, tip.domain.geometry.outline);
-    };
-    tip.offsets = surroundings_->stress_offsets(there(tip.level->offset_places()));
+    const std::vector<Point>& places = tip.level->offset_places();
+    tip.offsets = surroundings_->stress_offsets(
+        places, arcs_of_last_segments().on_coarse_level(places, tip.domain.geometry.outline));
     tip.body_forces =
-        surroundings_->body_forces({}) ? surroundings_->body_forces(there(tip.level->body_force_places())) : nullptr;
+        surroundings_->body_forces({}) ? surroundings_->body_forces(tip.level->body_force_places()) : nullptr;
   }
   loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
   if (tip.body_forces) loads.body_force = [&tip](const std::vector<Point>&) { return tip.body_forces(); };

@@ -43,16 +43,11 @@ FineLoads Tips::loads_of(const Tip& tip) const {
   loads.boundary_displacement = [this](const Point& x, const Point& inside) {
     return surroundings_->displacement(x, inside);
   };
-  const auto there = [&domain, beside = arcs_of_last_segments()](const std::vector<Point>& places) {
-    return beside.on_coarse_level(places, domain.geometry.outline);
-  };
-  loads.stress_offset = [this, there](const std::vector<Point>& places) {
-    return surroundings_->stress_offsets(there(places))();
+  loads.stress_offset = [this, &domain, arcs_now = arcs_of_last_segments()](const std::vector<Point>& places) {
+    return surroundings_->stress_offsets(places, arcs_now.on_coarse_level(places, domain.geometry.outline))();
   };
   if (surroundings_->body_forces({}))
-    loads.body_force = [this, there](const std::vector<Point>& places) {
-      return surroundings_->body_forces(there(places))();
-    };
+    loads.body_force = [this](const std::vector<Point>& places) { return surroundings_->body_forces(places)(); };
   loads.wall_traction = [this, &domain, arc, lengths, arcs](int crack, int segment, double s) -> Point {
     const int fracture = domain.sources[crack].fracture;
     const double at = arc(crack, segment, s);

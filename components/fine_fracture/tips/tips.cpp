@@ -65,6 +65,7 @@ Point Tips::end_direction(const Tip& tip) const {
 
 BesideArcs Tips::arcs_of_last_segments() const {
   BesideArcs arcs;
+  if (maker_->has_offsets_on_walls()) return arcs;
   for (const Tip& tip : tips_)
     if (const std::optional<Point> middle = middle_of_last_segment(tip)) {
       const Point end = position(tip, {});

@@ -104,12 +104,17 @@ TEST(Front, ATipThatIsBelowItsToughnessInTheFrontThatWasFoundRests) {
 
 /// A tip that was examined in the trials is not asked a second time.
 TEST(Front, AFrontThatWasFoundStaysWhereAllTipsWereExamined) {
-  const ClosedForm form{{0.3, 0.33}, {tip(0.4), tip(-2.0)}};
+  const ClosedForm form{{0.3, 0.17}, {tip(0.4), tip(-2.0)}};  // the second tip rests
   Front front = form.solved(exact());
   ASSERT_EQ(front.verdict(), Front::Verdict::found);
+  ASSERT_TRUE(front.grows(0));
+  ASSERT_FALSE(front.grows(1));
   const double length = front.length(0);
-  front.learn_of_others(form.states({front.length(0), front.length(1)}, {front.angle(0), front.angle(1)}));
+  std::vector<FrontState> states = form.states({front.length(0), front.length(1)}, {front.angle(0), front.angle(1)});
+  states[1].load = 1.01;
+  front.learn_of_others(states);
   EXPECT_EQ(front.verdict(), Front::Verdict::found);
+  EXPECT_FALSE(front.grows(1));
   EXPECT_EQ(front.length(0), length);
 }
 

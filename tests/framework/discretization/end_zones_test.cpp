@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "framework/discretization/end_surroundings.hpp"
 #include "framework/mesh/build_mesh.hpp"
@@ -61,6 +65,48 @@ TEST(EndZones, AreContinuousInABendOfTheFracture) {
         }
         EXPECT_GT(total, 1) << "turned by " << turn << ", corner " << corner << ", step " << step;
       }
+}
+
+/// The same mesh with its nodes in the reverse order.
+RawMesh reversed(RawMesh raw) {
+  const int count = static_cast<int>(raw.nodes.size());
+  const auto other = [count](int node) { return count - 1 - node; };
+  std::ranges::reverse(raw.nodes);
+  for (Ring& cell : raw.cells)
+    for (int& node : cell) node = other(node);
+  for (RawMesh::BoundaryEdge& edge : raw.boundary_edges)
+    for (int& node : edge.nodes) node = other(node);
+  for (RawMesh::Chain& chain : raw.fractures)
+    for (int& node : chain.nodes) node = other(node);
+  return raw;
+}
+
+// Weights are the same whatever the order of the nodes, also of bends a little farther away than another fracture.
+TEST(EndZones, DoNotDependOnTheOrderOfNodes) {
+  Geometry geometry = box(-4, 4, -4, 4);
+  const Point end(1, 0);
+  geometry.fractures = {fracture("crack", {Point(-1, 0), Point(0.3, 0), end}),
+                        fracture("other", {end + 0.95 * Point(0.5, std::sqrt(0.75)), Point(2, 2)})};
+  const MeshOptions options{.size = 1, .fracture_size = 0.03, .growth = 0.2};
+  RawMesh raw = to_raw_mesh(generate_mesh(geometry, options));
+  constexpr double bend = 5e-3;
+  for (Point& x : raw.nodes) x.y() += bend * std::max(0.0, x.x() - 0.3);
+  const Mesh one = build_mesh(raw), two = build_mesh(reversed(raw));
+  const EndZones before = end_zones(one), after = end_zones(two);
+  const auto weights_at = [](const Mesh& mesh, const EndZones& zones) {
+    std::map<std::pair<double, double>, std::multiset<double>> weights;  // nodes on fractures exist once per side
+    for (int node = 0; node < mesh.node_count(); ++node)
+      weights[{mesh.nodes[node].x(), mesh.nodes[node].y()}].insert(zones.weight[node]);
+    return weights;
+  };
+  const auto here = weights_at(one, before), there = weights_at(two, after);
+  ASSERT_EQ(here.size(), there.size());
+  int partial = 0;
+  for (const auto& [place, weights] : here) {
+    EXPECT_EQ(weights, there.at(place)) << place.first << ' ' << place.second;
+    for (const double weight : weights) partial += weight > 0 && weight < 1;
+  }
+  EXPECT_GT(partial, 20);
 }
 
 TEST(EndZones, OfAStraightCrackMeetInItsMiddle) {

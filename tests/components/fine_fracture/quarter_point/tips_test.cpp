@@ -36,7 +36,7 @@ class Fluid : public TipSurroundings {
   int region(const Point&) const override { return 0; }
   LameParameters stiffness(const Point&) const override { return {2 * shear * poisson / (1 - 2 * poisson), shear}; }
   Point displacement(const Point&, const Point&) const override { return Point::Zero(); }
-  StressOffsets stress_offsets(const std::vector<Point>& places) const override {
+  StressOffsets stress_offsets(const std::vector<Point>& places, const std::vector<Point>&) const override {
     return [count = places.size()] { return Eigen::Matrix3Xd(Eigen::Matrix3Xd::Zero(3, count)); };
   }
   BodyForces body_forces(const std::vector<Point>&) const override { return {}; }

@@ -1,0 +1,57 @@
+// What a scene gains and loses by a larger tolerance of growth within steps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "tests/verification/scene_run.hpp"
+
+namespace sprekk::testing {
+namespace {
+
+constexpr double hour = 3600;  // s
+
+/// The first wings of section 5.2 of the paper.
+struct Wings {
+  double load, shear;  ///< the largest |ln(mean of both K/K_IC)| and |K_II/K_I| after a step
+  double length;       ///< m, of both together in the end
+  double evaluations;  ///< of steps, with an advance
+
+  explicit Wings(const std::string& tolerance) : load(0), shear(0) {
+    SceneRun run("paper/wing_cracks.yaml", {{"components.tips.growth.front_tolerance", tolerance}});
+    const auto of = [&](const std::string& name) {
+      return std::array{run.quantity("tips.main_first." + name), run.quantity("tips.main_last." + name)};
+    };
+    run.run_until(5 * hour, [&] {
+      const auto grows = of("grows"), advance = of("speed"), k1 = of("K_I"), k2 = of("K_II"),
+                 apparent = of("apparent_toughness");
+      if (grows[0] != 1 || grows[1] != 1 || run.time() < hour) return;
+      // Of several tips the mean of their loads is found, each by its advance.
+      double sum = 0;
+      for (int i = 0; i < 2; ++i) {
+        sum += advance[i] * (std::hypot(k1[i], k2[i]) / apparent[i] - 1);
+        shear = std::max(shear, std::abs(k2[i] / k1[i]));
+      }
+      load = std::max(load, std::abs(sum / (advance[0] + advance[1])));
+    });
+    length = of("length")[0] + of("length")[1];
+    evaluations = static_cast<double>(run.trials());
+  }
+};
+
+TEST(FrontTolerance, IsWhatALargerOneAllows) {
+  const Wings tight("1e-7"), loose("1e-4");
+  EXPECT_LT(tight.load, 2e-7);
+  EXPECT_LT(tight.shear, 1e-6);
+  EXPECT_LT(loose.load, 2e-4);
+  EXPECT_LT(loose.shear, 1e-3);
+  EXPECT_GT(loose.load + loose.shear, 1e-6);
+  EXPECT_LT(loose.evaluations, 0.85 * tight.evaluations);
+  // ln K falls by 0.02 per mm of each wing or faster.
+  EXPECT_NEAR(loose.length, tight.length, 2 * 1e-4 / 0.02e3);
+}
+
+}  // namespace
+}  // namespace sprekk::testing
