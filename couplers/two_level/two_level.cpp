@@ -12,6 +12,7 @@
 #include "couplers/two_level/along_fracture.hpp"
 #include "couplers/two_level/nodal_values.hpp"
 #include "couplers/two_level/pressure_near_tips.hpp"
+#include "framework/assert.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/scene/registry.hpp"
 
