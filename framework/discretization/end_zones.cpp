@@ -58,7 +58,7 @@ Room room_around(const Mesh& mesh, int end, const std::vector<int>& outer, const
     if (node == end) continue;
     const Point from_end = mesh.nodes[node] - mesh.nodes[end];
     const double distance = from_end.norm();
-    if (distance >= room.free) continue;  // up to there the field fades out earlier than on the way to this node
+    if (distance >= room.free) continue;  // the field has faded out where a bend there would begin to count
     if (!is_field_undisturbed(mesh, node, last)) {
       room.free = std::min(room.free, distance);
       continue;
@@ -91,8 +91,9 @@ std::vector<Reached> nodes_of_zone(const Mesh& mesh, int end, const Room& room, 
   for (std::size_t i = 0; i < reached.size(); ++i)
     for (const int face : mesh.node_faces[reached[i].node])
       for (const int node : mesh.face_nodes[face])
-        if (const double w = weight(node); w > 0 && seen.insert(node).second && is_field_undisturbed(mesh, node, last))
-          reached.push_back({node, w});
+        if (seen.insert(node).second)
+          if (const double w = weight(node); w > 0 && is_field_undisturbed(mesh, node, last))
+            reached.push_back({node, w});
   return reached;
 }
 

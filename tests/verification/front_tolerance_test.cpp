@@ -19,8 +19,9 @@ struct Wings {
   double length;       ///< m, of both together in the end
   double evaluations;  ///< of steps, with an advance
 
-  explicit Wings(const std::string& tolerance) : load(0), shear(0) {
-    SceneRun run("paper/wing_cracks.yaml", {{"components.tips.growth.front_tolerance", tolerance}});
+  Wings(const std::string& angle, const std::string& tolerance) : load(0), shear(0) {
+    SceneRun run("paper/wing_cracks.yaml",
+                 {{"geometry.fractures.main.angle", angle}, {"components.tips.growth.front_tolerance", tolerance}});
     const auto of = [&](const std::string& name) {
       return std::array{run.quantity("tips.main_first." + name), run.quantity("tips.main_last." + name)};
     };
@@ -41,8 +42,10 @@ struct Wings {
   }
 };
 
-TEST(FrontTolerance, IsWhatALargerOneAllows) {
-  const Wings tight("1e-7"), loose("1e-4");
+class FrontTolerance : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(FrontTolerance, IsWhatALargerOneAllows) {
+  const Wings tight(GetParam(), "1e-7"), loose(GetParam(), "1e-4");
   EXPECT_LT(tight.load, 2e-7);
   EXPECT_LT(tight.shear, 1e-6);
   EXPECT_LT(loose.load, 2e-4);
@@ -52,6 +55,8 @@ TEST(FrontTolerance, IsWhatALargerOneAllows) {
   // ln K falls by 0.02 per mm of each wing or faster.
   EXPECT_NEAR(loose.length, tight.length, 2 * 1e-4 / 0.02e3);
 }
+
+INSTANTIATE_TEST_SUITE_P(Angles, FrontTolerance, ::testing::Values("45 deg", "-45 deg"));
 
 }  // namespace
 }  // namespace sprekk::testing

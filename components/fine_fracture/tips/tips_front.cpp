@@ -11,9 +11,8 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double shorter_step = 0.5;  ///< the next attempt at a step that is too long
-constexpr double direction_over_load =
-    10;  ///< the tolerance of K_II/K_I over that of ln K_eq, which its square changes
+constexpr double shorter_step = 0.5;        ///< the next attempt at a step that is too long
+constexpr double direction_over_load = 10;  ///< tolerance of K_II/K_I, over that of ln K_eq
 
 }  // namespace
 
