@@ -124,26 +124,6 @@ Trial::AtRate FrictionalContact::at_rate(int i, const Trial& t) const {
   return at_rate;
 }
 
-std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
-  if constexpr (dimension != 2) return std::nullopt;
-  if (is_bonded(i) || !is_on_fracture_cell(i)) return std::nullopt;
-  constexpr double at_bound = 1e-6;    // relative: walls with less shear than the bound by more than this stick
-  constexpr double least_slip = 1e-3;  // of the slip that would take all shear from the walls
-  const Trial t = trial(i);
-  const double normal = traction_.now()[dimension * i], shear = traction_.now()[dimension * i + 1],
-               slip = jump_.now()[dimension * i + 1];
-  const bool is_closed = normal < 0 && !t.is_open();
-  const double held = t.strength.cohesion - t.strength.friction * normal;
-  // Walls at rest that have slid keep their slip and opening within the cell: the friction is then the mobilised one.
-  // Otherwise a tiny fall of the pressure would change the walls next to a kink at once.
-  const bool has_slid = std::abs(slip) > least_slip * std::abs(shear) / stiffness()[dimension * i + 1];
-  if (is_closed && !has_slid && std::abs(shear) < (1 - at_bound) * held) return std::nullopt;
-  const double dilation = std::copysign(t.dilation, slip);
-  return SlidingWalls{is_closed ? std::abs(shear / normal) : t.strength.friction,
-                      std::copysign(1.0, is_closed ? shear : slip), dilation,
-                      dilated(i, std::abs(slip)) - dilation * slip - closure(normal)};
-}
-
 Trial FrictionalContact::trial_of_update(int i) const {
   Trial t = trial(i);
   if (back_slip_.empty() || back_slip_[i].taken != BackSlip::Piece::beyond_kink) return t;

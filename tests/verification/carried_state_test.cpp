@@ -163,7 +163,7 @@ TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
       EXPECT_LT(kick->pressure, 1e-4) << run.time() / hour << " h, " << is_anew;
       divided[is_anew] += kick->bend > 0;
       // Other cells around the tips have other means of the pore pressure, which loads the fine level.
-      EXPECT_LT(kick->load, is_anew ? 3.5e-3 : 3e-3) << run.time() / hour << " h, " << is_anew;
+      EXPECT_LT(kick->load, 3e-3) << run.time() / hour << " h, " << is_anew;
     }
   });
   EXPECT_GT(tips, 12);
