@@ -165,6 +165,23 @@ TEST(GrowStep, RefusalsInARowTellHowTheLoadRises) {
   EXPECT_EQ(attempts, 3);
 }
 
+// A load that rises with the logarithm of time, as near a well, from an unknown one at the start: two refusals tell it.
+TEST(GrowStep, RefusalsInARowTellALoadThatRisesWithTheLogarithmOfTime) {
+  Schedule run(usual);
+  double dt = standard;
+  const auto load = [](double time) { return 1.67 + 0.2 * std::log(time / standard); };
+  const double onset = standard * std::exp((1.01 - 1.67) / 0.2);  // in the middle of what is accepted
+  for (int refusals = 0; refusals < 2; ++refusals) {
+    run.tips.load = {.now = load(dt), .accepted = 0, .onset = load(dt), .onset_accepted = 0};
+    const StepStatus status = run.schedule->run({0, dt, dt});
+    ASSERT_FALSE(status.converged) << dt;
+    dt = status.retry_dt;
+  }
+  EXPECT_NEAR(dt, onset, 1e-12 * onset);
+  run.tips.load.now = run.tips.load.onset = load(dt);
+  EXPECT_TRUE(run.schedule->run({0, dt, dt}).converged);
+}
+
 TEST(GrowStep, TipsThatHaveGrownBeforeDoNotRefuseAStepInWhichTheyArrest) {
   Schedule run(usual);
   run.tips.load = {.now = 1.5, .accepted = 1, .onset = 0.7, .onset_accepted = 0.5};
