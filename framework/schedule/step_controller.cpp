@@ -1,6 +1,7 @@
 #include "framework/schedule/step_controller.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "framework/config/units.hpp"
 #include "framework/invariants.hpp"
@@ -145,6 +146,17 @@ StepTime StepController::next() const {
     step.dt = rest / 2;
     step.end = time_ + step.dt;
   }
+  return step;
+}
+
+StepTime StepController::next(double longest) const {
+  SPREKK_EXPECT(longest > 0, longest);
+  StepTime step = next();
+  if (step.dt <= longest * (1 + rounding)) return step;
+  const auto target = std::upper_bound(targets_.begin(), targets_.end(), time_);
+  const double rest = target == targets_.end() ? step.dt : *target - time_;
+  step.dt = rest / std::ceil(rest / longest - rounding);
+  step.end = step.start + step.dt;
   return step;
 }
 

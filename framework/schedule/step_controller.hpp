@@ -70,6 +70,9 @@ class StepController {
   double smallest() const;                   ///< s, of rejected steps
   double wanted() const { return wanted_; }  ///< s, the size of the next step unless a target or a hold comes before
   StepTime next() const;
+  /// The same, but no longer than `longest` (s, positive): then one of equal parts of what is left to the next target,
+  /// so that no tiny step is left before it.
+  StepTime next(double longest) const;
 
   void accepted(const StepTime& step, int iterations);
   /// Makes the next step shorter: `retry` (s), if that is given. Returns false when no shorter step is allowed.

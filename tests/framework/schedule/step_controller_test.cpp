@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -307,6 +308,27 @@ TEST(StepController, AnExpectationIsMetBeforeTheWayToATargetIsHalved) {
   controller.hold(0.01, 1);
   controller.release(0.25);
   EXPECT_NEAR(controller.next().dt, 0.75 * 0.75, 1e-12);
+}
+
+// Steps that something else limits are equal parts of what is left to a target, and a limit that does not bind changes
+// nothing.
+TEST(StepController, ALimitLeavesNoTinyStepBeforeATarget) {
+  StepController controller(hours(10), {3});
+  EXPECT_EQ(controller.next(0.9).end, 0.75);
+  EXPECT_EQ(controller.next(1).end, 1);
+  EXPECT_EQ(controller.next(5).end, 1);
+  EXPECT_EQ(controller.next(std::numeric_limits<double>::infinity()).end, 1);
+  std::vector<double> sizes;
+  while (controller.time() < 3) {
+    const StepTime step = controller.next(0.8);
+    EXPECT_DOUBLE_EQ(step.end, step.start + step.dt);
+    sizes.push_back(step.dt);
+    controller.accepted(step, 1);
+  }
+  ASSERT_EQ(sizes.size(), 4u);
+  for (const double size : sizes) EXPECT_NEAR(size, 0.75, 1e-15);
+  EXPECT_EQ(controller.time(), 3);  // the exact value
+  EXPECT_NEAR(controller.next(0.6).dt, 7 / 12.0, 1e-15);
 }
 
 TEST(StepController, ContinuesWithTheLastPause) {
