@@ -50,7 +50,7 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
   for (int i = 0; i < count(); ++i)
     if (is_warm_ && !is_new(i))
       slopes_.jacobian(2 * i, 2 * i) =
-          slopes(2 * i, 2 * i) * (tips_[i].size > 0 ? options_.increment / tips_[i].size : 1);
+          slopes(2 * i, 2 * i) * (tips_[i].size > 0 ? std::pow(options_.increment / tips_[i].size, by_size) : 1);
   for (int i = 0; i < count(); ++i)
     if (tips_[i].goes_on || tips_[i].first_length > 0 || (without_growth[i].is_evaluated && without_growth[i].load > 1))
       begin(i, without_growth[i]);

@@ -48,11 +48,11 @@ double Front::size_of(int tip) const {
 }
 
 /// An angle changes K by moving the tip sideways, in proportion to the length of its segment, and K_II by the
-/// direction, as at a kink. The effect of an advance is scaled with the length that the fracture has already.
+/// direction, as at a kink. The effect of an advance falls with a power of the length that the fracture has already.
 void Front::scale(Eigen::MatrixXd& jacobian, const std::vector<FrontState>& states, bool inverse) const {
   for (int j = 0; j < count(); ++j) {
     if (const double size = size_of(j); size > 0)
-      jacobian.col(2 * j) *= inverse ? size / options_.increment : options_.increment / size;
+      jacobian.col(2 * j) *= std::pow(size / options_.increment, inverse ? by_size : -by_size);
     if (!(length_[j] > 0)) continue;
     const double across = length_[j] / options_.increment,
                  turn = grows_[j] ? turn_slope_of(j, states[j].sifs, length_[j]) : short_kink_turn_slope;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double longest_advance = 1.5;  ///< of an increment, in one step
 constexpr double carried_on = 0.5;       ///< of a change between the last two steps: it has noise, too
-constexpr double steady = 1.2;  ///< ratio of the speeds of two steps from which they tell no trend; largest one by it
+constexpr double largest_trend = 2;      ///< of the speed in this step over that in the last one
 
 /// Speeds are means over the last two steps, because advances alternate: segments are divided every other step.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
@@ -49,8 +49,7 @@ double length_that_counts(const Mesh& mesh, const TipEnd& end) {
 }  // namespace
 
 /// The speed of all tips together in this step over its mean in the last two. The shares of the tips alternate with the
-/// division of segments; their sum hardly does. Where the sum changed much between the last two steps, no trend is
-/// taken from it.
+/// division of segments; their sum hardly does. It is taken to go on as it changed from one step to the next.
 double TipsFront::trend() const {
   double last = 0, before = 0, part = 0;
   for (const Tips::Tip& tip : tips_.tips_) {
@@ -60,8 +59,8 @@ double TipsFront::trend() const {
     before += now.speed_before;
     part = carried_on * (dt_ + now.lasted) / (now.lasted + now.lasted_before);
   }
-  if (last > steady * before || before > steady * last || last == 0) return 1;
-  return std::clamp((last + part * (last - before)) / (0.5 * (last + before)), 1 / steady, steady);
+  if (last == 0) return 1;
+  return last * std::clamp(std::pow(last / before, part), 1 / largest_trend, largest_trend) / (0.5 * (last + before));
 }
 
 void TipsFront::add(Tips::Tip& tip) {
