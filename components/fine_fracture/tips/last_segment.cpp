@@ -9,7 +9,7 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double full_segment = 1;  ///< of an increment: a longer segment is divided
+constexpr double full_segment = 1;        ///< of an increment: a longer segment is divided
 constexpr double rest_of_segment = 0.5;   ///< of an increment, or of a segment that turns: what may still turn
 constexpr double longest_segment = 1.5;   ///< of an increment: a longer one is divided in a short step, too
 constexpr double turn_of_segment = 0.06;  ///< rad: one that turns further is divided when it is shorter
