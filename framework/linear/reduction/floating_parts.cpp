@@ -14,6 +14,7 @@ namespace sprekk {
 namespace {
 
 constexpr int most_modes = dimension + rigid_rotations;
+constexpr double resists = 1e-8;  ///< over the terms of the balances: half of the digits
 using Modes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
 using OfMode = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_modes>;
 
@@ -24,6 +25,9 @@ struct Part {
   double radius = 0;  ///< largest distance from the centre; 0 where nothing can turn
   int modes = 0;
   Modes triangle;  ///< R^T R = sum of w^T w over the balances, w = residuals of the modes over the size of the terms
+  int balances = 0;
+  bool is_held = false;  ///< the balances so far resist all modes, and further ones cannot change that
+
 };
 
 class Parts {
@@ -43,7 +47,7 @@ class Parts {
     SPREKK_EXPECT(static_cast<int>(preferred.size()) == block_.entities, preferred.size(), block_.entities);
     std::vector<int> chosen;
     for (const Part& part : parts_) {
-      constexpr double resists = 1e-8;        // over the terms of the balances: half of the digits
+      if (part.is_held) continue;
       constexpr double hardly_moves = 1e-6;   // motion that counts as none, over the largest one
       constexpr double much_preferred = 1e3;  // larger than ratios of motions by the shapes of parts
       constexpr double is_fixed = 0.1;        // of the largest singular value of an entity's motions
@@ -136,6 +140,7 @@ class Parts {
       if (entity < 0) continue;
       if (part == nullptr) {
         part = &parts_[part_of_[entity]];
+        if (part->is_held) return;
         w = OfMode::Zero(part->modes);
       }
       const int component = static_cast<int>(entry.col()) - block_.first - entity * block_.components;
@@ -161,6 +166,9 @@ class Parts {
         w[j] = c * lower - s * upper;
       }
     }
+    constexpr int between_looks = 32;
+    if (++part->balances % between_looks == 0)
+      part->is_held = Eigen::JacobiSVD<Modes>(r).singularValues().minCoeff() > resists;
   }
 
   const UnknownBlock& block_;
