@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "framework/assembly/notes.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {
@@ -41,6 +42,20 @@ struct Wings {
     evaluations = static_cast<double>(run.trials());
   }
 };
+
+std::size_t notes_with(const std::string& update, const std::string& parameter) {
+  SceneRun run("paper/wing_cracks.yaml",
+               {{"schedule.1.update", update}, {"components.tips.growth." + parameter, "1e-5"}});
+  Notes notes;
+  for (const Part* part : run.model().parts()) part->note_input(notes);
+  return notes.all().size();
+}
+
+TEST(FrontToleranceAlone, IsSaidToHaveNoEffectAfterSteps) {
+  EXPECT_EQ(notes_with("after_step", "front_tolerance"), 1u);
+  EXPECT_EQ(notes_with("within_step", "front_tolerance"), 0u);
+  EXPECT_EQ(notes_with("after_step", "arrest_tolerance"), 0u);
+}
 
 class FrontTolerance : public ::testing::TestWithParam<const char*> {};
 

@@ -68,6 +68,7 @@ Spec GrowthOptions::spec() {
        .doc = "Evaluations of the fine level for one length of an increment. Then a shorter one is tried, four "
               "times as many in all, or, with whole increments, the best direction so far is taken, and where "
               "that is bad the explicit one."});
+  spec.check([this](const Node& node) { has_front_tolerance = node.find("front_tolerance") != nullptr; });
   return spec;
 }
 

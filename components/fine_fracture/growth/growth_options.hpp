@@ -18,6 +18,7 @@ struct GrowthOptions {
   double direction_tolerance = 1e-2;   ///< |K_II|/K_I at the end of an increment
   double arrest_tolerance = 1e-2;      ///< |K_eq/K_IC − 1| where growth ends
   double front_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)| of a tip that grows within a step
+  bool has_front_tolerance = false;    ///< whether the scene gives it
   double largest_turn = 1.4;           ///< rad
   double smallest = 0.01;              ///< shortest increment over `increment`
   std::optional<double> longest;       ///< m, added by a tip in one call

@@ -1,4 +1,6 @@
 // What a run asks tips that grow within steps, and the search that they start.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -28,6 +30,14 @@ void Tips::grow_within_steps() {
                        "lengths and directions follow from K_eq = K_IC and K_II = 0 at the end of each step",
                        "leave it out, or choose 'update: after_step'");
   grows_within_steps_ = true;
+}
+
+void Tips::note_input(Notes& notes) const {
+  if (!options_.growth.has_front_tolerance || grows_within_steps_) return;
+  notes.add("front_tolerance without effect",
+            fmt::format("'growth.front_tolerance' of {} has no effect (it is for growth within steps, and this scene "
+                        "has none) give 'update: within_step' to 'grow', or leave it out",
+                        name()));
 }
 
 void Tips::prepare(Growing& other) const {

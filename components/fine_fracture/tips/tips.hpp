@@ -47,6 +47,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   void report(std::vector<Quantity>& quantities) const override;
   std::map<std::string, long> counts() const override;
   std::vector<Profile::Entry> efforts() const override;
+  void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
 
   /// Throws InputError for jumps on walls where the fine level takes none.

@@ -27,7 +27,6 @@ struct Part {
   Modes triangle;  ///< R^T R = sum of w^T w over the balances, w = residuals of the modes over the size of the terms
   int balances = 0;
   bool is_held = false;  ///< the balances so far resist all modes, and further ones cannot change that
-
 };
 
 class Parts {
